@@ -1,0 +1,3 @@
+//! World -> plain frames and channels. Behind this border nothing knows the ECS.
+
+pub mod frame;

@@ -1,0 +1,53 @@
+//! How a plugin claims a name of the scene language: a top-level section (`gravity: ..`) or an entry of a section
+//! that takes several kinds (`forces: [Drag(..)]`, `contacts: Penalty(..)`).
+
+use bevy_app::App;
+use serde::de::DeserializeOwned;
+
+use super::outline::Outline;
+use super::report::Report;
+
+/// A top-level section of the scene, `name: value`.
+pub trait Section: DeserializeOwned + Send + Sync + 'static {
+    /// The name as it stands in the scene.
+    const NAME: &'static str;
+    /// One correct use, shown in error messages and in the manual.
+    const EXAMPLE: &'static str;
+
+    /// Tells the outline which names (bodies, walls, materials ...) this section brings.
+    fn declare(&self, _outline: &mut Outline) {}
+
+    /// Reports every mistake that the types alone cannot exclude; paths are relative to the section.
+    fn check(&self, _outline: &Outline, _report: &mut Report) {}
+
+    /// Turns the section into entities, resources and systems. Called only when nothing was reported.
+    fn install(self, outline: &Outline, app: &mut App);
+}
+
+/// One kind of entry of a section that takes several kinds.
+pub trait Entry: DeserializeOwned + Send + Sync + 'static {
+    /// The section it stands in, for example `"forces"`.
+    const SECTION: &'static str;
+    /// Its leading name, for example `"Drag"`; the type's serde name must be the same.
+    const NAME: &'static str;
+    /// One correct use, shown in error messages and in the manual.
+    const EXAMPLE: &'static str;
+
+    /// Tells the outline which names this entry brings.
+    fn declare(&self, _outline: &mut Outline) {}
+
+    /// Reports every mistake that the types alone cannot exclude; paths are relative to the entry.
+    fn check(&self, _outline: &Outline, _report: &mut Report) {}
+
+    /// Installs all entries of this kind at once, in the order of the file. `texts` are the entries as they were
+    /// written. Called only when nothing was reported.
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App);
+}
+
+/// An entry together with its text in the scene.
+pub struct Written<T> {
+    /// The entry.
+    pub value: T,
+    /// Its text as it stands in the file, comments left out at both ends.
+    pub text: String,
+}
