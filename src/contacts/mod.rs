@@ -1,0 +1,52 @@
+//! Contacts: who may touch whom ([`search`]), and what follows from it: one contact law per scene.
+
+pub mod penalty;
+pub mod search;
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
+
+/// The contact law of a run, by name. Present when some law is installed.
+#[derive(Resource, Clone, Debug, PartialEq, Eq)]
+pub struct ContactLaw(pub &'static str);
+
+/// The deepest overlap so far, as a share of the smaller radius.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct DeepestOverlap {
+    /// Overlap in metres.
+    pub overlap: f64,
+    /// The same as a share of the smaller of the two radii.
+    pub share: f64,
+    /// The two bodies or the body and the wall.
+    pub between: Option<(Entity, Entity)>,
+    /// When, in seconds.
+    pub time: f64,
+}
+
+impl DeepestOverlap {
+    /// Takes note of an overlap.
+    #[inline]
+    pub fn note(&mut self, overlap: f64, smaller_radius: f64, time: f64, between: impl FnOnce() -> (Entity, Entity)) {
+        if overlap > self.share * smaller_radius {
+            *self = Self { overlap, share: overlap / smaller_radius, between: Some(between()), time };
+        }
+    }
+}
+
+/// Stiffest response of the contacts that bodies may make.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct StiffestContact {
+    /// Greatest angular frequency of a single contact in rad/s.
+    pub angular_frequency: f64,
+}
+
+/// Force that a wall or body receives through contacts; contact laws fill it when a sensor asks for it.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct ContactForces {
+    /// Force on each body in newtons, in canonical order.
+    pub on_body: Vec<DVec2>,
+    /// Force on each wall in newtons, in canonical order.
+    pub on_wall: Vec<DVec2>,
+}

@@ -1,0 +1,181 @@
+//! The broad phase: who may touch whom. Bounding boxes are swept along x (sort and sweep: Cohen, Lin, Manocha, Ponamgi
+//! 1995), atoms of overlapping boxes are compared one by one.
+//!
+//! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. When the
+//! list is made anew every pair that was in the old one is told its old place, so that whoever keeps history beside
+//! the list can carry it over.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+use crate::bounds::{self, Bounds};
+use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
+use crate::world::Bodies;
+
+/// Marks a pair that was not in the list before.
+pub const NEW: u32 = u32::MAX;
+
+/// A pair of atoms of different bodies that are nearer than the margin. `a` stands before `b` in canonical order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct AtomPair {
+    /// Place of the first atom.
+    pub a: u32,
+    /// Place of the second atom.
+    pub b: u32,
+}
+
+/// An atom that is nearer to a wall than the margin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct WallPair {
+    /// Place of the wall.
+    pub wall: u32,
+    /// Place of the atom.
+    pub atom: u32,
+}
+
+/// Who may touch whom, in canonical order.
+#[derive(Resource, Debug, Default)]
+pub struct CandidatePairs {
+    /// Counts how often the lists were made anew.
+    pub version: u64,
+    /// Pairs of atoms.
+    pub atoms: Vec<AtomPair>,
+    /// Atoms near walls.
+    pub walls: Vec<WallPair>,
+    /// For each item of `atoms` its place in the list before, or [`NEW`].
+    pub atoms_before: Vec<u32>,
+    /// For each item of `walls` its place in the list before, or [`NEW`].
+    pub walls_before: Vec<u32>,
+    bounds_version: u64,
+    generation: u64,
+    /// Body key and number within the body of each atom: what stays the same when places change.
+    identity: Vec<(u64, u32)>,
+    wall_count: usize,
+}
+
+/// Where candidate pairs are found.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FindPairs;
+
+/// Registers the search. Contact laws add it and order themselves after [`FindPairs`]. Adding it twice does nothing.
+pub fn plugin(app: &mut App) {
+    bounds::plugin(app);
+    if !app.world().contains_resource::<CandidatePairs>() {
+        app.init_resource::<CandidatePairs>();
+        let system = find_pairs.in_set(FindPairs).in_set(EvaluateStage::Contacts);
+        app.add_packed_systems(Evaluate, 1, system);
+    }
+}
+
+/// Makes the lists anew when the bounding boxes were.
+pub fn find_pairs(bodies: Res<Bodies>, bounds: Res<Bounds>, mut pairs: ResMut<CandidatePairs>) {
+    if pairs.bounds_version == bounds.version {
+        return;
+    }
+    pairs.bounds_version = bounds.version;
+    pairs.version += 1;
+    let old_atoms = std::mem::take(&mut pairs.atoms);
+    let old_walls = std::mem::take(&mut pairs.walls);
+    pairs.atoms = atom_pairs(&bodies, &bounds);
+    pairs.walls = wall_pairs(&bodies, &bounds);
+    let same = pairs.generation == bodies.generation;
+    let places = if same { None } else { Some(new_places(&pairs.identity, &bodies)) };
+    let place = |old: u32| places.as_ref().map_or(Some(old), |places: &Vec<u32>| {
+        Some(places[old as usize]).filter(|&place| place != NEW)
+    });
+    // Walls do not come and go one by one: when their number changes their history starts anew.
+    let same_walls = same || pairs.wall_count == bodies.walls.len();
+    pairs.atoms_before = carry(&pairs.atoms, &old_atoms, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
+    pairs.walls_before = carry(&pairs.walls, &old_walls, |old| {
+        Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
+    });
+    if !same {
+        pairs.generation = bodies.generation;
+        pairs.wall_count = bodies.walls.len();
+        pairs.identity = identities(&bodies);
+    }
+}
+
+fn identities(bodies: &Bodies) -> Vec<(u64, u32)> {
+    let of_body = |body: usize| {
+        let first = bodies.first_atom[body];
+        bodies.atoms_of(body).map(move |atom| (bodies.key[body], atom as u32 - first))
+    };
+    (0..bodies.len()).flat_map(of_body).collect()
+}
+
+/// For each atom of the old list its new place, or [`NEW`] if it is gone.
+fn new_places(old: &[(u64, u32)], bodies: &Bodies) -> Vec<u32> {
+    let new = identities(bodies);
+    old.iter().map(|identity| new.binary_search(identity).map_or(NEW, |place| place as u32)).collect()
+}
+
+/// For each new pair the place of the same pair in the old list. Both lists are sorted, and stay so when old pairs
+/// are told their new places, because places keep the order of identities.
+fn carry<P: Ord + Copy>(new: &[P], old: &[P], renamed: impl Fn(P) -> Option<P>) -> Vec<u32> {
+    let mut rest = old.iter().enumerate().filter_map(|(place, &pair)| Some((place as u32, renamed(pair)?))).peekable();
+    new.iter()
+        .map(|pair| {
+            while rest.next_if(|(_, old)| old < pair).is_some() {}
+            rest.next_if(|(_, old)| old == pair).map_or(NEW, |(place, _)| place)
+        })
+        .collect()
+}
+
+fn atom_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {
+    let touching = |&body: &usize| bodies.collides[body] && !bodies.atoms_of(body).is_empty();
+    let mut order: Vec<usize> = (0..bodies.len()).filter(touching).collect();
+    order.sort_by(|&a, &b| bounds.low[a].x.total_cmp(&bounds.low[b].x));
+    let mut pairs = Vec::new();
+    for (rank, &first) in order.iter().enumerate() {
+        for &second in &order[rank + 1..] {
+            if bounds.low[second].x > bounds.high[first].x {
+                break;
+            }
+            let apart = bounds.low[second].y > bounds.high[first].y || bounds.low[first].y > bounds.high[second].y;
+            if !apart && (bodies.dynamic[first] || bodies.dynamic[second]) {
+                compare_atoms(bodies, bounds, first.min(second), first.max(second), &mut pairs);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+fn compare_atoms(bodies: &Bodies, bounds: &Bounds, first: usize, second: usize, pairs: &mut Vec<AtomPair>) {
+    for a in bodies.atoms_of(first) {
+        let (position, radius) = (bodies.atom_position[a], bodies.atom_radius[a] + bounds.margin / 2.0);
+        let outside = position.x + radius < bounds.low[second].x
+            || position.x - radius > bounds.high[second].x
+            || position.y + radius < bounds.low[second].y
+            || position.y - radius > bounds.high[second].y;
+        if outside {
+            continue;
+        }
+        for b in bodies.atoms_of(second) {
+            let reach = bodies.atom_radius[a] + bodies.atom_radius[b] + bounds.margin;
+            if bodies.atom_position[b].distance_squared(position) < reach * reach {
+                pairs.push(AtomPair { a: a as u32, b: b as u32 });
+            }
+        }
+    }
+}
+
+fn wall_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<WallPair> {
+    let mut pairs = Vec::new();
+    for (place, wall) in bodies.walls.iter().enumerate() {
+        for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
+            let height = (bodies.position[body] - wall.point).dot(wall.normal);
+            if height > bodies.extent[body] + bounds.margin {
+                continue;
+            }
+            for atom in bodies.atoms_of(body) {
+                let height = (bodies.atom_position[atom] - wall.point).dot(wall.normal);
+                if height < bodies.atom_radius[atom] + bounds.margin {
+                    pairs.push(WallPair { wall: place as u32, atom: atom as u32 });
+                }
+            }
+        }
+    }
+    pairs
+}

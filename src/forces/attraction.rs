@@ -1,0 +1,71 @@
+//! Attraction between all bodies: `F = G m1 m2 / (r^2 + s^2)` along the line of centres for `s = 0`, softened as a
+//! Plummer sphere (Plummer 1911): `F = G m1 m2 r / (r^2 + s^2)^(3/2)`, potential energy `-G m1 m2 / sqrt(r^2 + s^2)`.
+//!
+//! A negative constant repels. Every pair is visited: the cost grows with the square of the number of bodies.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use crate::tick::balance::EnergyTerms;
+use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::world::Bodies;
+
+/// One entry, ready to be applied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttractionForce {
+    /// `G` in N m2/kg2.
+    pub constant: f64,
+    /// Length `s` in metres below which the force stops growing.
+    pub softening: f64,
+}
+
+#[derive(Resource)]
+struct Attractions(Vec<AttractionForce>);
+
+/// Installs attraction.
+pub fn install(attractions: Vec<AttractionForce>, app: &mut App) {
+    app.insert_resource(Attractions(attractions));
+    app.add_packed_force(Dependence::Position, apply_attraction);
+    app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
+}
+
+fn pairs(dynamic: &[bool]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let all = (0..dynamic.len()).flat_map(|a| (a + 1..dynamic.len()).map(move |b| (a, b)));
+    all.filter(|&(a, b)| dynamic[a] || dynamic[b])
+}
+
+fn apply_attraction(attractions: Res<Attractions>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+    let Bodies { dynamic, position, mass, force: sums, .. } = &mut *bodies;
+    for attraction in &attractions.0 {
+        for (a, b) in pairs(dynamic) {
+            let between = position[b] - position[a];
+            let squared = between.length_squared() + attraction.softening * attraction.softening;
+            // Two bodies in one place do not pull each other anywhere.
+            if squared == 0.0 {
+                continue;
+            }
+            let strength = attraction.constant * mass[a] * mass[b];
+            let force = between * (strength / (squared * squared.sqrt()));
+            sums[a] += force;
+            sums[b] -= force;
+            if !dynamic[a] {
+                balance.outside(position[b], -force, 0.0);
+            }
+            if !dynamic[b] {
+                balance.outside(position[a], force, 0.0);
+            }
+        }
+    }
+}
+
+fn potential_energy(world: &World) -> f64 {
+    let (bodies, attractions) = (world.resource::<Bodies>(), world.resource::<Attractions>());
+    let energy = |attraction: &AttractionForce, (a, b): (usize, usize)| {
+        let between: DVec2 = bodies.position[b] - bodies.position[a];
+        let distance = (between.length_squared() + attraction.softening * attraction.softening).sqrt();
+        let strength = attraction.constant * bodies.mass[a] * bodies.mass[b];
+        if distance == 0.0 { 0.0 } else { -strength / distance }
+    };
+    attractions.0.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
+}

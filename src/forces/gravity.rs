@@ -1,0 +1,38 @@
+//! Gravity: a uniform field, `F = m g`, potential energy `-m g . x`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use crate::tick::balance::EnergyTerms;
+use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::world::Bodies;
+
+/// `gravity: (0, -9.81)`: the acceleration of free fall in m/s2. Absent: no gravity.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Gravity(pub DVec2);
+
+/// Installs the field.
+pub fn install(gravity: Gravity, app: &mut App) {
+    app.insert_resource(gravity);
+    app.add_packed_force(Dependence::Position, apply_gravity);
+    app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
+}
+
+fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+    let bodies = &mut *bodies;
+    let (mut mass, mut moment) = (0.0, DVec2::ZERO);
+    for body in (0..bodies.dynamic.len()).filter(|&body| bodies.dynamic[body]) {
+        bodies.force[body] += gravity.0 * bodies.mass[body];
+        mass += bodies.mass[body];
+        moment += bodies.position[body] * bodies.mass[body];
+    }
+    balance.force += gravity.0 * mass;
+    balance.torque += moment.perp_dot(gravity.0);
+}
+
+fn potential_energy(world: &World) -> f64 {
+    let (bodies, gravity) = (world.resource::<Bodies>(), world.resource::<Gravity>());
+    let of = |body: usize| -bodies.mass[body] * gravity.0.dot(bodies.position[body]);
+    (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
+}

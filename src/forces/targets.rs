@@ -1,0 +1,29 @@
+//! Which bodies a force acts on.
+
+use crate::world::Bodies;
+
+/// All dynamic bodies, or those with given keys; places are looked up anew when bodies come or go.
+#[derive(Clone, Debug, Default)]
+pub struct Targets {
+    keys: Option<Vec<u64>>,
+    generation: u64,
+    places: Vec<u32>,
+}
+
+impl Targets {
+    /// The bodies with these keys; `None`: all. Fixed bodies are left out.
+    pub fn new(keys: Option<Vec<u64>>) -> Self {
+        Self { keys, ..Self::default() }
+    }
+
+    /// Places of the bodies in canonical order.
+    pub fn places(&mut self, bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
+        if self.generation != bodies.generation {
+            self.generation = bodies.generation;
+            let wanted = |key: u64| self.keys.as_ref().is_none_or(|keys| keys.contains(&key));
+            let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && wanted(bodies.key[b]));
+            self.places = moved.map(|b| b as u32).collect();
+        }
+        self.places.iter().map(|&place| place as usize)
+    }
+}

@@ -1,0 +1,26 @@
+//! Semi-implicit (symplectic) Euler: `v' = v + a(x) dt`, `x' = x + v' dt`.
+//!
+//! Order 1, symplectic, one evaluation per tick, stable while `omega dt < 2` (Hairer, Lubich, Wanner, *Geometric
+//! Numerical Integration*, 2006, I.1). The method of most games, and of the first recorded trajectories.
+
+use super::{Description, Integrator, Method};
+use crate::tick::Tick;
+
+/// Semi-implicit Euler.
+pub struct SemiImplicitEuler;
+
+pub(super) const DESCRIPTION: Description = Description {
+    name: "SemiImplicitEuler",
+    order: 1,
+    stability_limit: 2.0,
+    make: || Method(Box::new(SemiImplicitEuler)),
+};
+
+impl Integrator for SemiImplicitEuler {
+    fn advance(&mut self, tick: &mut Tick) {
+        let dt = tick.dt;
+        tick.kick(dt);
+        tick.drift(dt);
+        tick.evaluate(dt);
+    }
+}

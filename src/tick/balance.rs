@@ -1,0 +1,188 @@
+//! The accounts: what goes in and out of the bodies, of energy, momentum and angular momentum.
+//!
+//! Forces write the rates of the present evaluation into [`Balance`]; the integrator books them in the [`Ledger`] with
+//! the same weights with which it applies the forces. A momentum residual is then rounding and nothing else, an
+//! energy residual is the error of the integration.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use crate::world::Bodies;
+
+/// Rates of the present evaluation. Cleared before each; every force adds its own.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Balance {
+    /// Force from outside the bodies in newtons: fields, walls, fixed bodies, drag, drives.
+    pub force: DVec2,
+    /// Its torque about the origin in N m.
+    pub torque: f64,
+    /// Power that drag takes, in watts.
+    pub drag: f64,
+    /// Power that drives (thrust, torque, forces of plugins) bring, in watts.
+    pub work: f64,
+}
+
+impl Balance {
+    /// Books a force from outside on a body that stands at `position`, with its torque about the centre of mass.
+    #[inline]
+    pub fn outside(&mut self, position: DVec2, force: DVec2, torque: f64) {
+        self.force += force;
+        self.torque += position.perp_dot(force) + torque;
+    }
+}
+
+/// A sum that keeps what rounding leaves over (Neumaier 1974): a million ticks add up like one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sum {
+    sum: f64,
+    rest: f64,
+}
+
+impl Sum {
+    /// Adds a term.
+    #[inline]
+    pub fn add(&mut self, term: f64) {
+        let sum = self.sum + term;
+        let (large, small) = if self.sum.abs() >= term.abs() { (self.sum, term) } else { (term, self.sum) };
+        self.rest += (large - sum) + small;
+        self.sum = sum;
+    }
+
+    /// The sum.
+    pub fn value(&self) -> f64 {
+        self.sum + self.rest
+    }
+}
+
+/// What has gone in and out since the beginning.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Energy lost to friction in J.
+    pub friction: Sum,
+    /// Energy lost to the inelasticity of contacts in J.
+    pub inelasticity: Sum,
+    /// Energy lost to drag in J.
+    pub drag: Sum,
+    /// Work done by drives in J.
+    pub work: Sum,
+    /// Impulse from outside in N s, per axis.
+    pub impulse: [Sum; 2],
+    /// Angular impulse from outside about the origin in N m s.
+    pub angular_impulse: Sum,
+    /// The state at the beginning.
+    pub start: Option<Totals>,
+}
+
+impl Ledger {
+    /// Books the rates of an evaluation over `dt` seconds.
+    pub fn book(&mut self, balance: &Balance, dt: f64) {
+        self.impulse[0].add(balance.force.x * dt);
+        self.impulse[1].add(balance.force.y * dt);
+        self.angular_impulse.add(balance.torque * dt);
+        self.drag.add(balance.drag * dt);
+        self.work.add(balance.work * dt);
+    }
+
+    /// Books what others changed between two ticks (bodies spawned, velocities set ...) as work and impulse. The first
+    /// state of all becomes the start.
+    pub fn book_exchange(world: &mut World, before: Totals) {
+        let after = Totals::of(world);
+        let mut ledger = world.resource_mut::<Self>();
+        if ledger.start.is_none() {
+            ledger.start = Some(after);
+            return;
+        }
+        ledger.work.add(after.energy() - before.energy());
+        ledger.impulse[0].add(after.momentum.x - before.momentum.x);
+        ledger.impulse[1].add(after.momentum.y - before.momentum.y);
+        ledger.angular_impulse.add(after.angular_momentum - before.angular_momentum);
+    }
+}
+
+/// Energies that depend on the state: each force or contact law that stores energy adds a function.
+#[derive(Resource, Default)]
+pub struct EnergyTerms {
+    /// Energies in fields, in J.
+    pub potential: Vec<fn(&World) -> f64>,
+    /// Energies in springs and contacts, in J.
+    pub elastic: Vec<fn(&World) -> f64>,
+}
+
+/// Energy and momentum of a state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Kinetic energy in J.
+    pub kinetic: f64,
+    /// Energy in fields in J.
+    pub potential: f64,
+    /// Energy in springs and contacts in J.
+    pub elastic: f64,
+    /// Momentum in N s.
+    pub momentum: DVec2,
+    /// Angular momentum about the origin in N m s.
+    pub angular_momentum: f64,
+}
+
+impl Totals {
+    /// The totals of the present state.
+    pub fn of(world: &World) -> Self {
+        let bodies = world.resource::<Bodies>();
+        let sum = |terms: &[fn(&World) -> f64]| terms.iter().map(|term| term(world)).sum();
+        let terms = world.get_resource::<EnergyTerms>();
+        Self {
+            kinetic: kinetic_energy(bodies),
+            potential: terms.map_or(0.0, |terms| sum(&terms.potential)),
+            elastic: terms.map_or(0.0, |terms| sum(&terms.elastic)),
+            momentum: momentum(bodies),
+            angular_momentum: angular_momentum(bodies),
+        }
+    }
+
+    /// Kinetic, potential and elastic energy together, in J.
+    pub fn energy(&self) -> f64 {
+        self.kinetic + self.potential + self.elastic
+    }
+}
+
+/// Momentum of all dynamic bodies in N s.
+pub fn momentum(bodies: &Bodies) -> DVec2 {
+    dynamic(bodies).map(|b| bodies.velocity[b] * bodies.mass[b]).sum()
+}
+
+/// Angular momentum of all dynamic bodies about the origin in N m s.
+pub fn angular_momentum(bodies: &Bodies) -> f64 {
+    let of = |b: usize| {
+        bodies.mass[b] * bodies.position[b].perp_dot(bodies.velocity[b]) + bodies.inertia[b] * bodies.spin[b]
+    };
+    dynamic(bodies).map(of).sum()
+}
+
+/// Kinetic energy of all dynamic bodies in J.
+pub fn kinetic_energy(bodies: &Bodies) -> f64 {
+    let of = |b: usize| {
+        0.5 * (bodies.mass[b] * bodies.velocity[b].length_squared() + bodies.inertia[b] * bodies.spin[b].powi(2))
+    };
+    dynamic(bodies).map(of).sum()
+}
+
+fn dynamic(bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
+    (0..bodies.len()).filter(|&b| bodies.dynamic[b])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sum;
+
+    #[test]
+    fn a_sum_keeps_what_rounding_leaves_over() {
+        let mut sum = Sum::default();
+        let mut plain = 0.0_f64;
+        for _ in 0..10_000_000 {
+            sum.add(0.1);
+            plain += 0.1;
+        }
+        // 0.1 is not representable: the exact sum of the terms is 1e7 x fl(0.1), within half a unit of 1e6.
+        assert!((sum.value() - 1e6).abs() <= 1e6 * f64::EPSILON, "{}", sum.value());
+        assert!((plain - 1e6).abs() > 1e-5, "the plain sum should be visibly off: {plain}");
+    }
+}

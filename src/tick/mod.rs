@@ -1,0 +1,195 @@
+//! One tick, read aloud.
+//!
+//! | schedule | stage | what happens |
+//! |---|---|---|
+//! | [`SimTick`] | [`Stage::Begin`] | plugins look at the state and change it: spawn, despawn, steer |
+//! | | [`Stage::Integrate`] | the integrator advances the state by `dt`; it runs [`Modes`] and [`Evaluate`] as often as its method needs |
+//! | | [`Stage::Observe`] | sensors, expectations and guards look at the new state |
+//! | [`Modes`] | | contacts choose the modes that stay frozen during the step |
+//! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now |
+//! | | [`EvaluateStage::Forces`] | one system per kind of force, in the order of registration |
+//! | | [`EvaluateStage::Contacts`] | candidate pairs, then the contact law |
+//! | | [`EvaluateStage::Joints`] | rows of joints |
+//!
+//! [`Evaluate`] is a pure function of the state: state in, forces out. The forces of the last evaluation stay in
+//! place, so an integrator that ends where the next tick begins evaluates once per tick.
+//!
+//! **Packed systems and ordinary systems.** Built-in systems work on the packed [`Bodies`](crate::world::Bodies) and
+//! are registered with [`TickAppExt::add_packed_systems`]. Any other system in these schedules is an ordinary one: the
+//! engine notices it and keeps the components (`Position`, `Velocity` ...) up to date around it. A scene without
+//! ordinary systems pays nothing for that.
+
+pub mod balance;
+pub mod clock;
+mod drive;
+
+use bevy_app::App;
+use bevy_ecs::intern::Interned;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
+
+pub use balance::{Balance, Ledger};
+pub use clock::{Clock, Evaluation};
+pub use drive::{Failure, Tick, step};
+
+/// The schedule of one tick.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SimTick;
+
+/// The schedule that turns a state into forces. The integrator runs it.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Evaluate;
+
+/// The schedule in which contacts choose the modes (loading or unloading) that stay frozen during the step.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Modes;
+
+/// The stages of [`SimTick`], in order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Plugins look at the state and change it.
+    Begin,
+    /// The state is advanced by `dt`.
+    Integrate,
+    /// Sensors, expectations and guards look at the new state.
+    Observe,
+}
+
+/// The stages of [`Evaluate`], in order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EvaluateStage {
+    /// Bounding boxes are checked against where the bodies stand now.
+    Bounds,
+    /// Forces are summed.
+    Forces,
+    /// Candidate pairs are found and the contact law is applied.
+    Contacts,
+    /// Joints emit their rows.
+    Joints,
+}
+
+/// What a force depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
+/// those who need them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dependence {
+    /// Time and positions only.
+    Position,
+    /// Velocities too.
+    Velocity,
+}
+
+/// Place of a force in the order of sums.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ForceSlot(pub u32);
+
+/// What the engine knows of its systems.
+#[derive(Resource, Debug, Default)]
+pub(crate) struct Census {
+    pub packed_in_tick: usize,
+    pub packed_in_evaluate: usize,
+    pub ordinary_forces: usize,
+    pub force_slots: u32,
+    pub velocity_dependent: bool,
+}
+
+/// How plugins add systems to the tick.
+pub trait TickAppExt {
+    /// Adds the schedules and resources of the tick. Adding it twice does nothing.
+    fn add_tick(&mut self) -> &mut Self;
+
+    /// Adds systems that work on the packed state only. They may not spawn or despawn.
+    ///
+    /// `count` is the number of systems given; it lets the engine tell them from ordinary ones.
+    fn add_packed_systems<M>(
+        &mut self,
+        schedule: impl ScheduleLabel,
+        count: usize,
+        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self;
+
+    /// Adds a force as an ordinary system: it reads `Position`, `Velocity` ... and adds to `Force` and `Torque`.
+    ///
+    /// It gets its own slot after all forces registered before, so the order of the sum does not depend on chance.
+    /// It may depend on velocities; the work it does stands in the ledger as work.
+    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self;
+
+    /// Adds a force that works on the packed state. It keeps its own account in [`Balance`].
+    fn add_packed_force<M>(
+        &mut self,
+        dependence: Dependence,
+        system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self;
+}
+
+impl TickAppExt for App {
+    fn add_tick(&mut self) -> &mut Self {
+        if self.world().contains_resource::<Census>() {
+            return self;
+        }
+        let mut tick = single_threaded(SimTick);
+        tick.configure_sets((Stage::Begin, Stage::Integrate, Stage::Observe).chain());
+        let mut evaluate = single_threaded(Evaluate);
+        use EvaluateStage::{Bounds, Contacts, Forces, Joints};
+        evaluate.configure_sets((Bounds, Forces, Contacts, Joints).chain());
+        self.add_schedule(tick).add_schedule(evaluate).add_schedule(single_threaded(Modes));
+        self.init_resource::<Census>()
+            .init_resource::<Clock>()
+            .init_resource::<Evaluation>()
+            .init_resource::<Balance>()
+            .init_resource::<Ledger>()
+            .init_resource::<drive::Drive>()
+            .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
+        self.add_packed_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))
+    }
+
+    fn add_packed_systems<M>(
+        &mut self,
+        schedule: impl ScheduleLabel,
+        count: usize,
+        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self {
+        let label: Interned<dyn ScheduleLabel> = schedule.intern();
+        let mut census = self.world_mut().get_resource_or_init::<Census>();
+        if label == SimTick.intern() {
+            census.packed_in_tick += count;
+        } else if label == Evaluate.intern() {
+            census.packed_in_evaluate += count;
+        }
+        self.add_systems(label, systems)
+    }
+
+    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self {
+        let slot = next_force_slot(self, Dependence::Velocity);
+        self.world_mut().resource_mut::<Census>().ordinary_forces += 1;
+        self.add_systems(Evaluate, system.in_set(slot))
+    }
+
+    fn add_packed_force<M>(
+        &mut self,
+        dependence: Dependence,
+        system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self {
+        let slot = next_force_slot(self, dependence);
+        self.add_packed_systems(Evaluate, 1, system.in_set(slot))
+    }
+}
+
+fn next_force_slot(app: &mut App, dependence: Dependence) -> ForceSlot {
+    let mut census = app.world_mut().resource_mut::<Census>();
+    census.velocity_dependent |= dependence == Dependence::Velocity;
+    let slot = ForceSlot(census.force_slots);
+    census.force_slots += 1;
+    app.configure_sets(Evaluate, slot.in_set(EvaluateStage::Forces));
+    if let Some(before) = slot.0.checked_sub(1) {
+        app.configure_sets(Evaluate, slot.after(ForceSlot(before)));
+    }
+    slot
+}
+
+/// Parallelism is inside a system, never between systems: with a dozen short systems a thread pool costs a hundred
+/// times the work.
+fn single_threaded(label: impl ScheduleLabel) -> Schedule {
+    let mut schedule = Schedule::new(label);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule
+}

@@ -1,0 +1,17 @@
+//! What a scene consists of: bodies, atoms, walls, materials; as entities, and packed for speed.
+
+pub mod atom;
+pub mod body;
+pub mod finite;
+pub mod hash;
+pub mod material;
+pub mod packed;
+pub mod spawn;
+pub mod wall;
+
+pub use atom::{Atom, AtomOf, Atoms};
+pub use body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
+pub use material::{MaterialIndex, Materials};
+pub use packed::{Bodies, PackedWall, Slot};
+pub use spawn::NewBody;
+pub use wall::Wall;

@@ -1,0 +1,336 @@
+//! The packed state: bodies, atoms and walls in canonical order, one array per quantity.
+//!
+//! The canonical order is the order of keys. It does not depend on the order of spawning, on archetypes or on
+//! threads, and every sum over bodies or contacts runs along it: that is what makes runs repeatable to the last bit.
+//! Atoms stand body by body: those of body `b` are `first_atom[b] .. first_atom[b + 1]`.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::atom::{Atom, Atoms};
+use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
+use super::material::MaterialIndex;
+use super::wall::Wall;
+
+/// Place of a body in the packed state, kept on its entity.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slot(pub u32);
+
+/// A wall as contacts see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PackedWall {
+    /// The wall's entity.
+    pub entity: Entity,
+    /// A point on the line, in metres.
+    pub point: DVec2,
+    /// Unit normal towards the open side.
+    pub normal: DVec2,
+    /// What it is made of.
+    pub material: MaterialIndex,
+}
+
+/// All bodies, atoms and walls, packed.
+///
+/// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`].
+#[derive(Resource, Debug, Default)]
+pub struct Bodies {
+    /// Set when something was spawned, despawned or given another mass: the arrays are rebuilt before the next tick.
+    pub changed: bool,
+    /// Counts the rebuilds: whoever keeps indices compares it.
+    pub generation: u64,
+
+    /// Entity of each body.
+    pub entity: Vec<Entity>,
+    /// Key of each body, ascending.
+    pub key: Vec<u64>,
+    /// Whether the body moves by forces.
+    pub dynamic: Vec<bool>,
+    /// Whether its atoms touch anything.
+    pub collides: Vec<bool>,
+    /// Mass in kg.
+    pub mass: Vec<f64>,
+    /// Moment of inertia about the centre of mass in kg m2.
+    pub inertia: Vec<f64>,
+    /// 1/mass, zero where the body does not move by forces.
+    pub inverse_mass: Vec<f64>,
+    /// 1/inertia, zero where the body does not move by forces.
+    pub inverse_inertia: Vec<f64>,
+    /// Greatest distance of a point of the body from its centre of mass, in metres.
+    pub extent: Vec<f64>,
+    /// First atom of each body, and the number of atoms at the end.
+    pub first_atom: Vec<u32>,
+
+    /// Centre of mass in metres.
+    pub position: Vec<DVec2>,
+    /// What rounding left over of the position (compensated summation, Kahan 1965).
+    pub position_rest: Vec<DVec2>,
+    /// Angle in radians, continuous.
+    pub angle: Vec<f64>,
+    /// What rounding left over of the angle.
+    pub angle_rest: Vec<f64>,
+    /// Velocity in m/s.
+    pub velocity: Vec<DVec2>,
+    /// Angular velocity in rad/s.
+    pub spin: Vec<f64>,
+    /// Displacement since the last accepted state, in metres. Tangential springs follow it.
+    pub drift: Vec<DVec2>,
+    /// Turn since the last accepted state, in radians.
+    pub turn: Vec<f64>,
+    /// Force of the present evaluation in newtons.
+    pub force: Vec<DVec2>,
+    /// Torque of the present evaluation in N m.
+    pub torque: Vec<f64>,
+
+    /// Centre of each atom from its body's centre of mass, in the body's frame, in metres.
+    pub atom_offset: Vec<DVec2>,
+    /// Centre of each atom in the world, in metres.
+    pub atom_position: Vec<DVec2>,
+    /// Radius of each atom in metres.
+    pub atom_radius: Vec<f64>,
+    /// Mass of each atom in kg.
+    pub atom_mass: Vec<f64>,
+    /// Stiffness of each atom in N/m.
+    pub atom_stiffness: Vec<f64>,
+    /// Material of each atom.
+    pub atom_material: Vec<MaterialIndex>,
+    /// Body of each atom.
+    pub atom_body: Vec<u32>,
+
+    /// The walls in canonical order.
+    pub walls: Vec<PackedWall>,
+}
+
+impl Bodies {
+    /// Number of bodies.
+    pub fn len(&self) -> usize {
+        self.entity.len()
+    }
+
+    /// Whether there are no bodies.
+    pub fn is_empty(&self) -> bool {
+        self.entity.is_empty()
+    }
+
+    /// Number of atoms.
+    pub fn atom_count(&self) -> usize {
+        self.atom_offset.len()
+    }
+
+    /// Atoms of body `body`.
+    pub fn atoms_of(&self, body: usize) -> std::ops::Range<usize> {
+        self.first_atom[body] as usize..self.first_atom[body + 1] as usize
+    }
+
+    /// Radius of the smallest atom in metres; infinite without atoms.
+    pub fn smallest_radius(&self) -> f64 {
+        self.atom_radius.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Velocity of a point that moves with body `body`, `arm` metres from its centre of mass.
+    #[inline]
+    pub fn velocity_at(&self, body: usize, arm: DVec2) -> DVec2 {
+        self.velocity[body] + arm.perp() * self.spin[body]
+    }
+
+    /// Displacement since the last accepted state of a point that moves with body `body`.
+    #[inline]
+    pub fn drift_at(&self, body: usize, arm: DVec2) -> DVec2 {
+        self.drift[body] + arm.perp() * self.turn[body]
+    }
+
+    /// Adds a force that acts `arm` metres from the centre of mass of body `body`.
+    #[inline]
+    pub fn push(&mut self, body: usize, arm: DVec2, force: DVec2) {
+        self.force[body] += force;
+        self.torque[body] += arm.perp_dot(force);
+    }
+
+    /// Clears forces and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
+    /// body cannot grow or shrink however long it spins.
+    pub fn pose(&mut self) {
+        for body in 0..self.len() {
+            self.force[body] = DVec2::ZERO;
+            self.torque[body] = 0.0;
+            if self.dynamic[body] {
+                self.pose_atoms(body);
+            }
+        }
+    }
+
+    /// Takes the present state as the one from which drift and turn are counted.
+    pub fn accept(&mut self) {
+        self.drift.fill(DVec2::ZERO);
+        self.turn.fill(0.0);
+    }
+
+    /// Velocities change by the present forces over `dt` seconds.
+    pub fn kick(&mut self, dt: f64) {
+        for body in 0..self.len() {
+            self.velocity[body] += self.force[body] * (self.inverse_mass[body] * dt);
+            self.spin[body] += self.torque[body] * (self.inverse_inertia[body] * dt);
+        }
+    }
+
+    /// Positions and angles of dynamic bodies change by the present velocities over `dt` seconds (compensated
+    /// summation: what rounding drops is added the next time). Returns the greatest travel of any point of a body, and
+    /// the sum over all bodies, in metres.
+    pub fn drift(&mut self, dt: f64) -> (f64, f64) {
+        let (mut greatest, mut sum) = (0.0_f64, 0.0);
+        for body in 0..self.len() {
+            if !self.dynamic[body] {
+                continue;
+            }
+            let drift = self.velocity[body] * dt;
+            let turn = self.spin[body] * dt;
+            self.drift[body] = drift;
+            self.turn[body] = turn;
+            let (before, step) = (self.position[body], drift + self.position_rest[body]);
+            let after = before + step;
+            self.position_rest[body] = step - (after - before);
+            self.position[body] = after;
+            let (before, step) = (self.angle[body], turn + self.angle_rest[body]);
+            let after = before + step;
+            self.angle_rest[body] = step - (after - before);
+            self.angle[body] = after;
+            let travel = drift.length() + turn.abs() * self.extent[body];
+            greatest = greatest.max(travel);
+            sum += travel;
+        }
+        (greatest, sum)
+    }
+
+    fn pose_atoms(&mut self, body: usize) {
+        let atoms = self.atoms_of(body);
+        let position = self.position[body];
+        // A lone disc in its centre of mass needs no angle.
+        if let [offset] = &self.atom_offset[atoms.clone()]
+            && *offset == DVec2::ZERO
+        {
+            self.atom_position[atoms.start] = position;
+            return;
+        }
+        let (sin, cos) = libm::sincos(self.angle[body]);
+        let rotation = DVec2::new(cos, sin);
+        for (offset, place) in self.atom_offset[atoms.clone()].iter().zip(&mut self.atom_position[atoms]) {
+            *place = position + rotation.rotate(*offset);
+        }
+    }
+}
+
+type State = (Entity, &'static Slot, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
+type StateMut =
+    (Entity, &'static Slot, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
+
+/// Whether some component holds another value than the packed state.
+pub fn components_differ(bodies: Res<Bodies>, states: Query<State>) -> bool {
+    states.iter().any(|(_, slot, position, rotation, velocity, spin)| {
+        let body = slot.0 as usize;
+        bodies.position[body] != position.0
+            || bodies.angle[body] != rotation.0
+            || bodies.velocity[body] != velocity.0
+            || bodies.spin[body] != spin.0
+    })
+}
+
+/// Components -> packed state. What rounding left over is kept where a component was not touched.
+pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State>) {
+    let bodies = &mut *bodies;
+    for (_, slot, position, rotation, velocity, spin) in &states {
+        let body = slot.0 as usize;
+        if bodies.position[body] != position.0 {
+            bodies.position[body] = position.0;
+            bodies.position_rest[body] = DVec2::ZERO;
+        }
+        if bodies.angle[body] != rotation.0 {
+            bodies.angle[body] = rotation.0;
+            bodies.angle_rest[body] = 0.0;
+        }
+        bodies.velocity[body] = velocity.0;
+        bodies.spin[body] = spin.0;
+    }
+}
+
+/// Packed state -> components.
+pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut>) {
+    for (entity, slot, mut position, mut rotation, mut velocity, mut spin) in &mut states {
+        let body = slot.0 as usize;
+        // Spawned since the last rebuild: its components are the truth.
+        if bodies.entity.get(body) != Some(&entity) {
+            continue;
+        }
+        position.0 = bodies.position[body];
+        rotation.0 = bodies.angle[body];
+        velocity.0 = bodies.velocity[body];
+        spin.0 = bodies.spin[body];
+    }
+}
+
+/// Clears the components that force systems add to.
+pub fn clear_forces(mut forces: Query<(&mut Force, &mut Torque)>) {
+    for (mut force, mut torque) in &mut forces {
+        force.0 = DVec2::ZERO;
+        torque.0 = 0.0;
+    }
+}
+
+/// Fills the arrays anew from the entities, in the order of keys, and tells every body its place.
+pub fn rebuild(world: &mut World) {
+    let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
+    found.sort_unstable();
+    let previous = world.remove_resource::<Bodies>().unwrap_or_default();
+    let mut bodies = Bodies { generation: previous.generation + 1, ..Default::default() };
+    bodies.first_atom.push(0);
+    for (place, &(key, entity)) in found.iter().enumerate() {
+        world.entity_mut(entity).insert(Slot(place as u32));
+        let body = world.entity(entity);
+        let &Body { motion, collides, .. } = body.get::<Body>().expect("queried with Body");
+        let &Mass { mass, inertia } = body.get::<Mass>().expect("Body requires Mass");
+        let dynamic = motion == Motion::Dynamic;
+        bodies.entity.push(entity);
+        bodies.key.push(key);
+        bodies.dynamic.push(dynamic);
+        bodies.collides.push(collides);
+        bodies.mass.push(mass);
+        bodies.inertia.push(inertia);
+        bodies.inverse_mass.push(if dynamic { 1.0 / mass } else { 0.0 });
+        bodies.inverse_inertia.push(if dynamic { 1.0 / inertia } else { 0.0 });
+        let position = body.get::<Position>().expect("Body requires Position").0;
+        let angle = body.get::<Rotation>().expect("Body requires Rotation").0;
+        let before = previous.key.binary_search(&key).ok();
+        let kept = |same: bool| before.filter(|_| same);
+        let position_kept = kept(before.is_some_and(|b| previous.position[b] == position));
+        let angle_kept = kept(before.is_some_and(|b| previous.angle[b] == angle));
+        bodies.position.push(position);
+        bodies.position_rest.push(position_kept.map_or(DVec2::ZERO, |b| previous.position_rest[b]));
+        bodies.angle.push(angle);
+        bodies.angle_rest.push(angle_kept.map_or(0.0, |b| previous.angle_rest[b]));
+        bodies.velocity.push(body.get::<Velocity>().expect("Body requires Velocity").0);
+        bodies.spin.push(body.get::<Spin>().expect("Body requires Spin").0);
+        bodies.drift.push(DVec2::ZERO);
+        bodies.turn.push(0.0);
+        bodies.force.push(DVec2::ZERO);
+        bodies.torque.push(0.0);
+        let mut extent = 0.0_f64;
+        for &atom in body.get::<Atoms>().map_or(&[][..], Atoms::entities) {
+            let Some(atom) = world.entity(atom).get::<Atom>() else { continue };
+            extent = extent.max(atom.offset.length() + atom.radius);
+            bodies.atom_offset.push(atom.offset);
+            bodies.atom_position.push(DVec2::ZERO);
+            bodies.atom_radius.push(atom.radius);
+            bodies.atom_mass.push(atom.mass);
+            bodies.atom_stiffness.push(atom.stiffness);
+            bodies.atom_material.push(atom.material);
+            bodies.atom_body.push(place as u32);
+        }
+        bodies.extent.push(extent);
+        bodies.first_atom.push(bodies.atom_offset.len() as u32);
+        bodies.pose_atoms(place);
+    }
+    let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
+    walls.sort_unstable_by_key(|(_, wall)| wall.key);
+    bodies.walls = walls
+        .into_iter()
+        .map(|(entity, wall)| PackedWall { entity, point: wall.left, normal: wall.normal(), material: wall.material })
+        .collect();
+    world.insert_resource(bodies);
+}
