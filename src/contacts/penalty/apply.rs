@@ -246,20 +246,19 @@ pub(super) fn choose_modes(
         let law = laws.get(contact.law);
         let (normal, _) = line_of_centres(sink.bodies, pair);
         let parting = (velocity(sink.bodies, pair.b) - velocity(sink.bodies, pair.a)).dot(normal);
-        let before = contact.force(law, normal);
-        if contact.choose_mode(law, parting, &mut losses) {
+        if let Some(before) = contact.choose_mode(law, parting, &mut losses) {
             let point = point_between(sink.bodies, pair, normal, contact.overlap, law.share_a);
-            sink.between_atoms(pair, point, contact.force(law, normal) - before);
+            sink.between_atoms(pair, point, contact.force(law, normal) - before.force(law, normal));
         }
     }
     for &place in &*touching_walls {
         let (pair, contact) = (pairs.walls[place as usize], &mut walls[place as usize]);
         let law = laws.get(contact.law);
         let (normal, height) = wall_height(sink.bodies, pair);
-        let before = contact.force(law, normal);
-        if contact.choose_mode(law, velocity(sink.bodies, pair.atom).dot(normal), &mut losses) {
+        let parting = velocity(sink.bodies, pair.atom).dot(normal);
+        if let Some(before) = contact.choose_mode(law, parting, &mut losses) {
             let point = sink.bodies.atom_position[pair.atom as usize] - normal * height;
-            sink.on_wall(pair, point, contact.force(law, normal) - before);
+            sink.on_wall(pair, point, contact.force(law, normal) - before.force(law, normal));
         }
     }
     ledger.friction.add(losses.friction);

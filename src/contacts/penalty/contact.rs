@@ -87,17 +87,19 @@ impl Contact {
         }
     }
 
-    /// Chooses the mode for a pair that parts with `parting` m/s (negative: approaches). Returns whether it changed.
+    /// Chooses the mode for a pair that parts with `parting` m/s (negative: approaches). Returns what it was before if
+    /// that changed anything.
     #[inline]
-    pub fn choose_mode(&mut self, law: &PairLaw, parting: f64, losses: &mut Losses) -> bool {
+    pub fn choose_mode(&mut self, law: &PairLaw, parting: f64, losses: &mut Losses) -> Option<Self> {
         let chosen = self.mode.chosen(parting);
-        let changed = chosen != self.mode;
-        if changed {
-            self.mode = chosen;
-            // A weaker normal force holds less friction.
-            self.stretch(law, 0.0, losses);
+        if chosen == self.mode {
+            return None;
         }
-        changed
+        let before = *self;
+        self.mode = chosen;
+        // A weaker normal force holds less friction.
+        self.stretch(law, 0.0, losses);
+        Some(before)
     }
 
     #[inline]

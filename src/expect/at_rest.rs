@@ -1,0 +1,70 @@
+//! `AtRest(of: "*", from: 18, speed_below: 1e-6)`: from a time on, every point of the bodies is slower than a speed.
+
+use bevy_app::App;
+use serde::Deserialize;
+
+use super::{Expectations, Sight, Watch, places};
+use crate::scene::units::{Speed, Time};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+
+/// Bodies rest.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AtRest {
+    /// Names, `*` matches.
+    of: String,
+    /// From this time on, in seconds.
+    from: Time,
+    /// No point of a body is as fast as this, in m/s.
+    speed_below: Speed,
+}
+
+impl Entry for AtRest {
+    const SECTION: &'static str = "expect";
+    const NAME: &'static str = "AtRest";
+    const EXAMPLE: &'static str = "AtRest(of: \"*\", from: 18, speed_below: 1e-6)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require_matching(Kind::BODY, &self.of, "of", report);
+        report.positive("speed_below", self.speed_below.si());
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for Written { value, text } in entries {
+            let keys = outline.matching(Kind::BODY, &value.of).into_iter().map(|body| body as u64).collect();
+            let (from, below) = (value.from.si(), value.speed_below.si());
+            Expectations::add(app, text, Watching { keys, from, below, fastest: None });
+        }
+    }
+}
+
+struct Watching {
+    keys: Vec<u64>,
+    from: f64,
+    below: f64,
+    fastest: Option<(f64, f64)>,
+}
+
+impl Watch for Watching {
+    fn observe(&mut self, sight: &Sight) {
+        if sight.time < self.from {
+            return;
+        }
+        let bodies = sight.bodies;
+        for place in places(bodies, &self.keys) {
+            let speed = bodies.velocity[place].length() + bodies.spin[place].abs() * bodies.extent[place];
+            if self.fastest.is_none_or(|(fastest, _)| speed > fastest || speed.is_nan()) {
+                self.fastest = Some((speed, sight.time));
+            }
+        }
+    }
+
+    fn verdict(&self) -> (Option<bool>, String) {
+        let Some((speed, time)) = self.fastest else { return (None, format!("nothing before t = {} s counts", self.from)) };
+        (Some(speed < self.below), format!("fastest {speed:.3e} m/s at t = {time:.4} s"))
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<AtRest>();
+}

@@ -1,0 +1,75 @@
+//! `Channel(name: "energy.residual", below: 1e-6)`: the magnitude of a channel stays below a bound, from `from` on.
+
+use bevy_app::App;
+use serde::Deserialize;
+
+use super::{Expectations, Sight, Watch};
+use crate::scene::units::{Number, Time};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::sensors::{self, Finders};
+
+/// A channel stays small.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Channel {
+    /// Name of the channel.
+    name: String,
+    /// Its magnitude stays below this, in the channel's unit.
+    below: Number,
+    /// From this time on, in seconds. Default: from the beginning.
+    #[serde(default)]
+    from: Time,
+}
+
+impl Entry for Channel {
+    const SECTION: &'static str = "expect";
+    const NAME: &'static str = "Channel";
+    const EXAMPLE: &'static str = "Channel(name: \"energy.residual\", below: 1e-6)";
+
+    fn check(&self, _: &Outline, report: &mut Report) {
+        report.positive("below", self.below.si());
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        for Written { value, text } in entries {
+            let channel = sensors::find(app.world_mut(), &value.name);
+            let quantities: Vec<&str> = app.world().resource::<Finders>().quantities().collect();
+            let watch = Watching {
+                known: format!("no such channel: a name and a dot, then one of {}", quantities.join(", ")),
+                channel,
+                below: value.below.si(),
+                from: value.from.si(),
+                largest: None,
+            };
+            Expectations::add(app, text, watch);
+        }
+    }
+}
+
+struct Watching {
+    channel: Option<sensors::Channel>,
+    known: String,
+    below: f64,
+    from: f64,
+    largest: Option<(f64, f64)>,
+}
+
+impl Watch for Watching {
+    fn observe(&mut self, sight: &Sight) {
+        let Some(channel) = self.channel.as_ref().filter(|_| sight.time >= self.from) else { return };
+        let value = (channel.read)(sight.world).abs();
+        if self.largest.is_none_or(|(largest, _)| value > largest || value.is_nan()) {
+            self.largest = Some((value, sight.time));
+        }
+    }
+
+    fn verdict(&self) -> (Option<bool>, String) {
+        let Some(channel) = &self.channel else { return (Some(false), self.known.clone()) };
+        let Some((value, time)) = self.largest else { return (None, format!("t = {} s was not reached", self.from)) };
+        (Some(value < self.below), format!("largest {value:.3e} {} at t = {time:.4} s", channel.unit))
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Channel>();
+}

@@ -1,0 +1,86 @@
+//! `Inside(of: "*", box: ((0, 0), (6, 6)))`: at every tick the centres of mass are in the box.
+
+use bevy_app::App;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::{Expectations, Sight, Watch, places};
+use crate::scene::units::{Length, Vector};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+
+/// Bodies stay in a box.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Inside {
+    /// Names, `*` matches.
+    of: String,
+    /// Lower left and upper right corner in metres.
+    r#box: (Vector<Length>, Vector<Length>),
+}
+
+impl Entry for Inside {
+    const SECTION: &'static str = "expect";
+    const NAME: &'static str = "Inside";
+    const EXAMPLE: &'static str = "Inside(of: \"*\", box: ((0, 0), (6, 6)))";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require_matching(Kind::BODY, &self.of, "of", report);
+        let (low, high) = (self.r#box.0.si(), self.r#box.1.si());
+        if !low.cmplt(high).all() {
+            report.error("box", "the first corner must be below and to the left of the second");
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for Written { value, text } in entries {
+            let bodies = outline.matching(Kind::BODY, &value.of);
+            let watch = Watching {
+                keys: bodies.iter().map(|&body| body as u64).collect(),
+                names: bodies.iter().map(|&body| outline.names(Kind::BODY)[body].clone()).collect(),
+                low: value.r#box.0.si(),
+                high: value.r#box.1.si(),
+                escaped: None,
+            };
+            Expectations::add(app, text, watch);
+        }
+    }
+}
+
+struct Watching {
+    keys: Vec<u64>,
+    names: Vec<String>,
+    low: DVec2,
+    high: DVec2,
+    escaped: Option<(String, f64, DVec2)>,
+}
+
+impl Watch for Watching {
+    fn observe(&mut self, sight: &Sight) {
+        if self.escaped.is_some() {
+            return;
+        }
+        for place in places(sight.bodies, &self.keys) {
+            let position = sight.bodies.position[place];
+            // Written so that a position that is not finite is outside.
+            if !(position.cmpge(self.low).all() && position.cmple(self.high).all()) {
+                let which = self.keys.iter().position(|&key| key == sight.bodies.key[place]);
+                let name = which.map_or_else(String::new, |which| self.names[which].clone());
+                self.escaped = Some((name, sight.time, position));
+                return;
+            }
+        }
+    }
+
+    fn verdict(&self) -> (Option<bool>, String) {
+        match &self.escaped {
+            None => (Some(true), "never left the box".to_owned()),
+            Some((name, time, at)) => {
+                (Some(false), format!("{name} was at ({:.4}, {:.4}) at t = {time:.4} s", at.x, at.y))
+            }
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Inside>();
+}

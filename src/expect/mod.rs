@@ -1,0 +1,96 @@
+//! Expectations: what a scene claims about its own physics. Each file one kind; checked while the run goes on.
+
+mod at_rest;
+mod channel;
+mod inside;
+mod position;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Serialize;
+
+use crate::scene::{Arity, SceneAppExt};
+use crate::tick::{Clock, SimTick, Stage, TickAppExt};
+use crate::world::Bodies;
+
+/// What an expectation sees.
+pub struct Sight<'a> {
+    /// The world, for channels.
+    pub world: &'a World,
+    /// The state.
+    pub bodies: &'a Bodies,
+    /// Its time in seconds.
+    pub time: f64,
+}
+
+/// Something that watches a run and says in the end whether it held.
+pub trait Watch: Send + Sync + 'static {
+    /// Looks at the state at the beginning and after each tick.
+    fn observe(&mut self, sight: &Sight);
+
+    /// Whether it held, and what was measured. `None` for the first: the run ended before it could be judged.
+    fn verdict(&self) -> (Option<bool>, String);
+}
+
+/// The expectations of the scene, in the order of the file within each kind.
+#[derive(Resource, Default)]
+pub struct Expectations(Vec<(String, Box<dyn Watch>)>);
+
+/// How an expectation went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Outcome {
+    /// The expectation as it stands in the scene.
+    pub text: String,
+    /// Whether it held.
+    pub holds: bool,
+    /// What was measured.
+    pub measured: String,
+}
+
+impl Expectations {
+    /// Adds an expectation; the first one schedules the watching.
+    pub fn add(app: &mut App, text: String, watch: impl Watch) {
+        if !app.world().contains_resource::<Self>() {
+            app.init_resource::<Self>();
+            app.add_packed_systems(SimTick, 1, observe_expectations.in_set(Stage::Observe));
+        }
+        app.world_mut().resource_mut::<Self>().0.push((text, Box::new(watch)));
+    }
+
+    /// How each expectation went so far.
+    pub fn outcomes(&self) -> Vec<Outcome> {
+        let outcome = |(text, watch): &(String, Box<dyn Watch>)| {
+            let (holds, mut measured) = watch.verdict();
+            if holds.is_none() {
+                measured = format!("the run ended before it could be judged; {measured}");
+            }
+            Outcome { text: text.clone(), holds: holds == Some(true), measured }
+        };
+        self.0.iter().map(outcome).collect()
+    }
+}
+
+/// Looks at the present state: after each tick, and once before the first.
+pub fn observe_expectations(world: &mut World) {
+    let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
+    let mut watches = std::mem::take(&mut expectations.0);
+    let sight = Sight { world, bodies: world.resource::<Bodies>(), time: world.resource::<Clock>().time() };
+    for (_, watch) in &mut watches {
+        watch.observe(&sight);
+    }
+    world.resource_mut::<Expectations>().0 = watches;
+}
+
+/// Registers the expectations of this folder.
+pub fn plugin(app: &mut App) {
+    app.register_entry_section("expect", Arity::List, "expect: [Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)]");
+    at_rest::plugin(app);
+    channel::plugin(app);
+    inside::plugin(app);
+    position::plugin(app);
+}
+
+/// Places in the packed state of bodies given by their keys; the gone ones are left out.
+fn places<'a>(bodies: &'a Bodies, keys: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
+    keys.iter().filter_map(|key| bodies.key.binary_search(key).ok())
+}

@@ -1,0 +1,84 @@
+//! `Position(of: "ball", at: 2.0, is: (2, 0.2), within: 1e-3)`: where a body is at a time, between ticks too.
+
+use bevy_app::App;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::{Expectations, Sight, Watch, places};
+use crate::record::between::{Moment, position_between};
+use crate::scene::units::{Length, Time, Vector};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+
+/// A body is somewhere.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Position {
+    /// Name of the body.
+    of: String,
+    /// When, in seconds.
+    at: Time,
+    /// Where its centre of mass should be, in metres.
+    is: Vector<Length>,
+    /// The distance from there that is allowed, in metres.
+    within: Length,
+}
+
+impl Entry for Position {
+    const SECTION: &'static str = "expect";
+    const NAME: &'static str = "Position";
+    const EXAMPLE: &'static str = "Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require(Kind::BODY, &self.of, "of", report);
+        report.not_negative("at", self.at.si());
+        report.positive("within", self.within.si());
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for Written { value, text } in entries {
+            let Some(body) = outline.position(Kind::BODY, &value.of) else { continue };
+            let watch = Watching {
+                key: body as u64,
+                at: value.at.si(),
+                is: value.is.si(),
+                within: value.within.si(),
+                before: None,
+                found: None,
+            };
+            Expectations::add(app, text, watch);
+        }
+    }
+}
+
+struct Watching {
+    key: u64,
+    at: f64,
+    is: DVec2,
+    within: f64,
+    before: Option<Moment>,
+    found: Option<DVec2>,
+}
+
+impl Watch for Watching {
+    fn observe(&mut self, sight: &Sight) {
+        if self.found.is_some() {
+            return;
+        }
+        let Some(place) = places(sight.bodies, &[self.key]).next() else { return };
+        let now = Moment::of(sight.bodies, place, sight.time);
+        if sight.time >= self.at {
+            self.found = Some(self.before.map_or(now.position, |before| position_between(&before, &now, self.at)));
+        }
+        self.before = Some(now);
+    }
+
+    fn verdict(&self) -> (Option<bool>, String) {
+        let Some(found) = self.found else { return (None, format!("t = {} s was not reached", self.at)) };
+        let distance = found.distance(self.is);
+        (Some(distance <= self.within), format!("({:.9}, {:.9}), {distance:.3e} m away", found.x, found.y))
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Position>();
+}

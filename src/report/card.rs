@@ -1,0 +1,320 @@
+//! The error card: it ends every run and says how far to trust it.
+
+use std::fmt;
+
+use bevy_ecs::prelude::*;
+use serde::Serialize;
+
+use super::energy::EnergyLedger;
+use crate::contacts::{DeepestOverlap, StiffestContact};
+use crate::integrate::Methods;
+use crate::tick::balance::Totals;
+use crate::tick::{Clock, Ledger, largest_travel};
+use crate::world::hash::state_hash;
+use crate::world::{Bodies, Name};
+
+/// Notes on every choice the engine made and every limit it applied.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Notes(pub Vec<String>);
+
+/// Name of the method of the run.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct ChosenMethod(pub &'static str);
+
+/// The deepest overlap of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct LargestOverlap {
+    /// In metres.
+    pub meters: f64,
+    /// As a share of the smaller radius.
+    pub share_of_radius: f64,
+    /// The two bodies, or the body and the wall.
+    pub bodies: Vec<String>,
+    /// When, in seconds.
+    pub time: f64,
+}
+
+/// An error and where it comes from; `null` until it is estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ErrorParts {
+    /// From the finite tick.
+    pub discretisation: Option<f64>,
+    /// From finite digits.
+    pub rounding: Option<f64>,
+    /// From the model.
+    pub model: Option<f64>,
+}
+
+/// The estimated error of a run; `null` until it is estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ErrorEstimate {
+    /// Of positions in metres.
+    pub position: ErrorParts,
+    /// Of velocities in m/s.
+    pub velocity: ErrorParts,
+    /// Order of accuracy that was seen.
+    pub observed_order: Option<f64>,
+    /// Time in seconds after which chaos has eaten all digits.
+    pub horizon: Option<f64>,
+}
+
+/// The error card.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Card {
+    /// Integration method.
+    pub method: String,
+    /// Length of a tick in seconds.
+    pub tick: f64,
+    /// Largest stable tick of a single contact in seconds; `null` without contacts.
+    pub critical_tick: Option<f64>,
+    /// Events that were located inside ticks.
+    pub events_located: u64,
+    /// The energy ledger in J.
+    pub energy: EnergyLedger,
+    /// Momentum that is missing, in N s, per axis.
+    pub momentum_residual: [f64; 2],
+    /// Angular momentum about the origin that is missing, in N m s.
+    pub angular_momentum_residual: f64,
+    /// The deepest overlap.
+    pub largest_overlap: LargestOverlap,
+    /// The largest joint drift in metres.
+    pub largest_joint_drift: f64,
+    /// Greatest travel of any point in one tick over the smallest radius.
+    pub largest_travel_share: f64,
+    /// Simulated over spent time.
+    pub real_time_factor: f64,
+    /// Nanoseconds per atom and tick.
+    pub ns_per_atom_tick: f64,
+    /// Hash of the final state.
+    pub hash: String,
+    /// One plain line: how far to trust the result, and what would help.
+    pub verdict: String,
+    /// Every choice the engine made and every limit it applied.
+    pub notes: Vec<String>,
+    /// The estimated error.
+    pub error: ErrorEstimate,
+    #[serde(skip)]
+    ticks: u64,
+    #[serde(skip)]
+    time: f64,
+    #[serde(skip)]
+    seconds_spent: f64,
+    #[serde(skip)]
+    energy_scale: f64,
+}
+
+impl Card {
+    /// The card of the present state, after `seconds_spent` seconds of computing.
+    pub fn of(world: &World, seconds_spent: f64) -> Self {
+        let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
+        let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.0);
+        let limit = world.get_resource::<Methods>().and_then(|methods| methods.named(method)).map(|m| m.stability_limit);
+        let stiffest = world.get_resource::<StiffestContact>().filter(|stiffest| stiffest.angular_frequency > 0.0);
+        let critical_tick = stiffest.zip(limit).map(|(stiffest, limit)| limit / stiffest.angular_frequency);
+        let energy = EnergyLedger::of(world);
+        let ledger = world.resource::<Ledger>();
+        let now = Totals::of(world);
+        let start = ledger.start.unwrap_or(now);
+        let momentum = now.momentum - start.momentum;
+        let atoms = bodies.atom_count().max(1) as f64 * clock.ticks.max(1) as f64;
+        let smallest = bodies.smallest_radius();
+        let share = |length: f64| if smallest.is_finite() { length / smallest } else { 0.0 };
+        let mut card = Self {
+            method: method.to_owned(),
+            tick: clock.dt,
+            critical_tick,
+            events_located: 0,
+            energy,
+            momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
+            angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
+            largest_overlap: largest_overlap(world),
+            largest_joint_drift: 0.0,
+            largest_travel_share: share(largest_travel(world)),
+            real_time_factor: if seconds_spent > 0.0 { clock.time() / seconds_spent } else { 0.0 },
+            ns_per_atom_tick: seconds_spent * 1e9 / atoms,
+            hash: format!("{:016x}", state_hash(bodies)),
+            verdict: String::new(),
+            notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
+            error: ErrorEstimate::default(),
+            ticks: clock.ticks,
+            time: clock.time(),
+            seconds_spent,
+            energy_scale: energy.turned_over(world),
+        };
+        card.verdict = card.judge();
+        card
+    }
+
+    /// Energy residual over the energy that went round.
+    pub fn energy_error(&self) -> f64 {
+        if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
+    }
+
+    fn judge(&self) -> String {
+        let finer = format!("--tick {}", finer_tick(self.tick));
+        let contact_ticks = self.critical_tick.map(|critical| std::f64::consts::PI / 2.0 * critical / self.tick);
+        let overlap = &self.largest_overlap;
+        if contact_ticks.is_some_and(|ticks| ticks < std::f64::consts::PI / 2.0) {
+            return format!("Do not trust it: the tick is longer than the contacts can bear. Use {finer} or finer.");
+        }
+        if self.energy_error() > 0.05 {
+            let percent = self.energy_error() * 100.0;
+            return format!("Do not trust it: {percent:.1} % of the energy is unaccounted for. Use {finer}.");
+        }
+        if overlap.share_of_radius > 1.0 {
+            return format!(
+                "Trust the numbers to about {} of energy, not the model: bodies overlap by {:.0} % of a radius. A \
+                 higher `stiffness` with {finer} would make contacts harder.",
+                percent(self.energy_error()),
+                overlap.share_of_radius * 100.0,
+            );
+        }
+        if contact_ticks.is_some_and(|ticks| ticks < 10.0) {
+            let ticks = contact_ticks.unwrap_or_default();
+            return format!("Trust it roughly: the stiffest contact lasts only {ticks:.1} ticks. Use {finer}.");
+        }
+        if self.largest_travel_share > 1.0 {
+            return format!(
+                "Trust it roughly: something travelled {:.1} radii in one tick and may have missed a contact. Use {finer}.",
+                self.largest_travel_share,
+            );
+        }
+        let error = percent(self.energy_error());
+        if self.energy_error() > 1e-3 {
+            return format!("Trust it to about {error} of energy; {finer} would improve it.");
+        }
+        format!("Trust it: energy is accounted for to {error}; {finer} would show whether anything changes.")
+    }
+}
+
+/// A tick four times as fine, in as few digits as possible.
+fn finer_tick(tick: f64) -> f64 {
+    let quarter = tick / 4.0;
+    let decade = 10f64.powf(quarter.log10().floor());
+    let rounded = (quarter / decade * 4.0).round() / 4.0 * decade;
+    // The shortest decimal that is the same to a few parts in 1e12.
+    format!("{rounded:.12e}").parse().unwrap_or(quarter)
+}
+
+fn percent(share: f64) -> String {
+    if share == 0.0 {
+        "the last digit".to_owned()
+    } else if share >= 1e-4 {
+        format!("{:.2} %", share * 100.0)
+    } else {
+        format!("{share:.0e}")
+    }
+}
+
+fn largest_overlap(world: &World) -> LargestOverlap {
+    let Some(deepest) = world.get_resource::<DeepestOverlap>() else { return LargestOverlap::default() };
+    let name = |entity| world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone());
+    LargestOverlap {
+        meters: deepest.overlap,
+        share_of_radius: deepest.share,
+        bodies: deepest.between.map_or_else(Vec::new, |(a, b)| vec![name(a), name(b)]),
+        time: deepest.time,
+    }
+}
+
+impl fmt::Display for Card {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let energy = &self.energy;
+        let mut row = |label: &str, text: String| writeln!(f, "  {label:<18}{text}");
+        let critical = self.critical_tick.map_or_else(
+            || "no contacts".to_owned(),
+            |critical| format!("critical {} s, used {:.1} %", number(critical), self.tick / critical * 100.0),
+        );
+        row("method", format!("{}, tick {} s ({critical})", self.method, number(self.tick)))?;
+        row(
+            "time",
+            format!(
+                "{} s in {} ticks, {:.3} s spent: {:.0} x real time, {:.1} ns per atom and tick",
+                number(self.time),
+                self.ticks,
+                self.seconds_spent,
+                self.real_time_factor,
+                self.ns_per_atom_tick
+            ),
+        )?;
+        let joules = |value: f64| format!("{value:.6e} J");
+        row(
+            "energy",
+            format!(
+                "kinetic {}, potential {}, elastic {}",
+                joules(energy.kinetic),
+                joules(energy.potential),
+                joules(energy.elastic)
+            ),
+        )?;
+        row(
+            "lost and brought",
+            format!(
+                "friction {}, inelasticity {}, drag {}, work {}",
+                joules(energy.friction),
+                joules(energy.inelasticity),
+                joules(energy.drag),
+                joules(energy.work)
+            ),
+        )?;
+        row(
+            "energy residual",
+            format!("{} ({} of what went round)", joules(energy.residual), percent(self.energy_error())),
+        )?;
+        let [x, y] = self.momentum_residual;
+        row(
+            "momentum residual",
+            format!("({x:.1e}, {y:.1e}) N s, angular {:.1e} N m s", self.angular_momentum_residual),
+        )?;
+        let overlap = &self.largest_overlap;
+        if overlap.meters > 0.0 {
+            row(
+                "largest overlap",
+                format!(
+                    "{} m, {:.1} % of the smaller radius, {} at t = {} s",
+                    number(overlap.meters),
+                    overlap.share_of_radius * 100.0,
+                    overlap.bodies.join(" and "),
+                    number(overlap.time)
+                ),
+            )?;
+        }
+        row("largest travel", format!("{:.1} % of the smallest radius per tick", self.largest_travel_share * 100.0))?;
+        row("state hash", self.hash.clone())?;
+        for note in &self.notes {
+            row("note", note.clone())?;
+        }
+        write!(f, "  {}", self.verdict)
+    }
+}
+
+/// A number in at most five digits, as people write it.
+fn number(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        let digits = (4 - value.abs().max(1e-300).log10().floor() as i32).clamp(0, 8) as usize;
+        let text = format!("{value:.digits$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    } else {
+        format!("{value:.4e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_finer_tick_has_few_digits() {
+        for (tick, finer) in [(1e-3, 2.5e-4), (2e-3, 5e-4), (1e-2, 2.5e-3), (4e-4, 1e-4)] {
+            assert_eq!(finer_tick(tick), finer);
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_as_people_do() {
+        assert_eq!(number(20.0), "20");
+        assert_eq!(number(0.001), "0.001");
+        assert_eq!(number(0.0123456), "0.012346");
+        assert_eq!(number(1.5e-7), "1.5000e-7");
+    }
+}

@@ -1,0 +1,65 @@
+//! `ContactForce(on: "floor")`: the sum of the contact forces on a wall or a body in newtons, `floor.force.x`,
+//! `floor.force.y`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::{Channel, Finders, add_found, entity_named};
+use crate::contacts::ContactForces;
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::world::{Bodies, Body, Slot, Wall};
+
+const QUANTITIES: &[&str] = &["force.x", "force.y"];
+
+/// The contact force on a wall or body.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ContactForce {
+    /// Name of a wall or body.
+    on: String,
+}
+
+impl Entry for ContactForce {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "ContactForce";
+    const EXAMPLE: &'static str = "ContactForce(on: \"floor\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        if outline.position(Kind::WALL, &self.on).is_none() {
+            outline.require(Kind::BODY, &self.on, "on", report);
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        let names = entries.iter().flat_map(|entry| QUANTITIES.iter().map(|q| format!("{}.{q}", entry.value.on)));
+        add_found(app.world_mut(), names);
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let component: fn(DVec2) -> f64 = match quantity {
+        "force.x" => |force| force.x,
+        "force.y" => |force| force.y,
+        _ => return None,
+    };
+    let wall = entity_named::<Wall>(world, owner);
+    let entity = wall.or_else(|| entity_named::<Body>(world, owner))?;
+    world.init_resource::<ContactForces>();
+    let force = move |world: &World| {
+        let (bodies, forces) = (world.resource::<Bodies>(), world.resource::<ContactForces>());
+        if wall.is_some() {
+            let place = bodies.walls.iter().position(|wall| wall.entity == entity)?;
+            return forces.on_wall.get(place).copied();
+        }
+        forces.on_body.get(world.get::<Slot>(entity)?.0 as usize).copied()
+    };
+    let value = move |world: &World| component(force(world).unwrap_or(DVec2::ZERO));
+    Some(Channel::new(format!("{owner}.{quantity}"), "N", value))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.register_entry::<ContactForce>();
+}

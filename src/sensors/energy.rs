@@ -1,0 +1,49 @@
+//! `Energy()`: the energy ledger in J, `energy.kinetic`, `energy.potential`, `energy.elastic`, `energy.total`,
+//! `energy.friction`, `energy.inelasticity`, `energy.drag`, `energy.work`, `energy.residual`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{Channel, Finders, add_found};
+use crate::report::energy::EnergyLedger;
+use crate::scene::{Entry, Outline, SceneAppExt, Written};
+
+const QUANTITIES: &[&str] =
+    &["kinetic", "potential", "elastic", "total", "friction", "inelasticity", "drag", "work", "residual"];
+
+/// The energy ledger.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Energy {}
+
+impl Entry for Energy {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Energy";
+    const EXAMPLE: &'static str = "Energy()";
+
+    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        add_found(app.world_mut(), QUANTITIES.iter().map(|quantity| format!("energy.{quantity}")));
+    }
+}
+
+fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let part: fn(&EnergyLedger) -> f64 = match (owner, quantity) {
+        ("energy", "kinetic") => |ledger| ledger.kinetic,
+        ("energy", "potential") => |ledger| ledger.potential,
+        ("energy", "elastic") => |ledger| ledger.elastic,
+        ("energy", "total") => |ledger| ledger.kinetic + ledger.potential + ledger.elastic,
+        ("energy", "friction") => |ledger| ledger.friction,
+        ("energy", "inelasticity") => |ledger| ledger.inelasticity,
+        ("energy", "drag") => |ledger| ledger.drag,
+        ("energy", "work") => |ledger| ledger.work,
+        ("energy", "residual") => |ledger| ledger.residual,
+        _ => return None,
+    };
+    Some(Channel::new(format!("energy.{quantity}"), "J", move |world| part(&EnergyLedger::of(world))))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.register_entry::<Energy>();
+}

@@ -1,0 +1,41 @@
+//! `Overlap()`: the deepest overlap so far, `overlap.deepest` in metres and `overlap.share` of the smaller radius.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{Channel, Finders, add_found};
+use crate::contacts::DeepestOverlap;
+use crate::scene::{Entry, Outline, SceneAppExt, Written};
+
+const QUANTITIES: &[&str] = &["deepest", "share"];
+
+/// The deepest overlap so far.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Overlap {}
+
+impl Entry for Overlap {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Overlap";
+    const EXAMPLE: &'static str = "Overlap()";
+
+    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        add_found(app.world_mut(), QUANTITIES.iter().map(|quantity| format!("overlap.{quantity}")));
+    }
+}
+
+fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let (part, unit): (fn(&DeepestOverlap) -> f64, _) = match (owner, quantity) {
+        ("overlap", "deepest") => (|deepest| deepest.overlap, "m"),
+        ("overlap", "share") => (|deepest| deepest.share, ""),
+        _ => return None,
+    };
+    let value = move |world: &World| world.get_resource::<DeepestOverlap>().map_or(0.0, part);
+    Some(Channel::new(format!("overlap.{quantity}"), unit, value))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.register_entry::<Overlap>();
+}

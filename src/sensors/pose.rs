@@ -1,0 +1,50 @@
+//! `Pose(of: "T")`: position in metres and angle in radians, `T.position.x`, `T.position.y`, `T.angle`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{Channel, Finders, add_found, of_body};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+
+const QUANTITIES: &[&str] = &["position.x", "position.y", "angle"];
+
+/// Where bodies are and how they are turned.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pose {
+    /// Names, `*` matches.
+    of: String,
+}
+
+impl Entry for Pose {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Pose";
+    const EXAMPLE: &'static str = "Pose(of: \"ball\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require_matching(Kind::BODY, &self.of, "of", report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let names = outline.matching(Kind::BODY, &entry.value.of).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
+            let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
+            add_found(app.world_mut(), channels);
+        }
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    match quantity {
+        "position.x" => of_body(world, owner, quantity, "m", |bodies, body| bodies.position[body].x),
+        "position.y" => of_body(world, owner, quantity, "m", |bodies, body| bodies.position[body].y),
+        "angle" => of_body(world, owner, quantity, "rad", |bodies, body| bodies.angle[body]),
+        _ => None,
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.register_entry::<Pose>();
+}

@@ -1,0 +1,50 @@
+//! `Velocity(of: "T")`: velocity in m/s and angular velocity in rad/s, `T.velocity.x`, `T.velocity.y`, `T.spin`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{Channel, Finders, add_found, of_body};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+
+const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin"];
+
+/// How fast bodies move and turn.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Velocity {
+    /// Names, `*` matches.
+    of: String,
+}
+
+impl Entry for Velocity {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Velocity";
+    const EXAMPLE: &'static str = "Velocity(of: \"ball\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require_matching(Kind::BODY, &self.of, "of", report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let names = outline.matching(Kind::BODY, &entry.value.of).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
+            let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
+            add_found(app.world_mut(), channels);
+        }
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    match quantity {
+        "velocity.x" => of_body(world, owner, quantity, "m/s", |bodies, body| bodies.velocity[body].x),
+        "velocity.y" => of_body(world, owner, quantity, "m/s", |bodies, body| bodies.velocity[body].y),
+        "spin" => of_body(world, owner, quantity, "rad/s", |bodies, body| bodies.spin[body]),
+        _ => None,
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.register_entry::<Velocity>();
+}
