@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
 use crate::scene::units::{Speed, Time};
+use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
 /// Bodies rest.
@@ -12,7 +13,7 @@ use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 #[serde(deny_unknown_fields)]
 struct AtRest {
     /// Names, `*` matches.
-    of: String,
+    of: Names,
     /// From this time on, in seconds.
     from: Time,
     /// No point of a body is as fast as this, in m/s.
@@ -25,13 +26,13 @@ impl Entry for AtRest {
     const EXAMPLE: &'static str = "AtRest(of: \"*\", from: 18, speed_below: 1e-6)";
 
     fn check(&self, outline: &Outline, report: &mut Report) {
-        outline.require_matching(Kind::BODY, &self.of, "of", report);
+        self.of.require(Kind::BODY, outline, "of", report);
         report.positive("speed_below", self.speed_below.si());
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for Written { value, text } in entries {
-            let keys = outline.matching(Kind::BODY, &value.of).into_iter().map(|body| body as u64).collect();
+            let keys = value.of.matching(Kind::BODY, outline).into_iter().map(|body| body as u64).collect();
             let (from, below) = (value.from.si(), value.speed_below.si());
             Expectations::add(app, text, Watching { keys, from, below, fastest: None });
         }

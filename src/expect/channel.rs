@@ -4,9 +4,9 @@ use bevy_app::App;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
-use crate::scene::units::{Number, Time};
+use crate::scene::units::{Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::sensors::{self, Finders};
+use crate::sensors;
 
 /// A channel stays small.
 #[derive(Deserialize)]
@@ -15,7 +15,7 @@ struct Channel {
     /// Name of the channel.
     name: String,
     /// Its magnitude stays below this, in the channel's unit.
-    below: Number,
+    below: Scalar,
     /// From this time on, in seconds. Default: from the beginning.
     #[serde(default)]
     from: Time,
@@ -26,29 +26,22 @@ impl Entry for Channel {
     const NAME: &'static str = "Channel";
     const EXAMPLE: &'static str = "Channel(name: \"energy.residual\", below: 1e-6)";
 
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        sensors::check_channel(&self.name, "name", outline, report);
         report.positive("below", self.below.si());
     }
 
     fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
         for Written { value, text } in entries {
             let channel = sensors::find(app.world_mut(), &value.name);
-            let quantities: Vec<&str> = app.world().resource::<Finders>().quantities().collect();
-            let watch = Watching {
-                known: format!("no such channel: a name and a dot, then one of {}", quantities.join(", ")),
-                channel,
-                below: value.below.si(),
-                from: value.from.si(),
-                largest: None,
-            };
-            Expectations::add(app, text, watch);
+            let (below, from) = (value.below.si(), value.from.si());
+            Expectations::add(app, text, Watching { channel, below, from, largest: None });
         }
     }
 }
 
 struct Watching {
     channel: Option<sensors::Channel>,
-    known: String,
     below: f64,
     from: f64,
     largest: Option<(f64, f64)>,
@@ -64,7 +57,7 @@ impl Watch for Watching {
     }
 
     fn verdict(&self) -> (Option<bool>, String) {
-        let Some(channel) = &self.channel else { return (Some(false), self.known.clone()) };
+        let Some(channel) = &self.channel else { return (Some(false), "there is no such channel".to_owned()) };
         let Some((value, time)) = self.largest else { return (None, format!("t = {} s was not reached", self.from)) };
         (Some(value < self.below), format!("largest {value:.3e} {} at t = {time:.4} s", channel.unit))
     }

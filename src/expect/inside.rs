@@ -5,7 +5,8 @@ use glam::DVec2;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
-use crate::scene::units::{Length, Vector};
+use crate::scene::units::Position as Place;
+use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
 /// Bodies stay in a box.
@@ -13,9 +14,9 @@ use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 #[serde(deny_unknown_fields)]
 struct Inside {
     /// Names, `*` matches.
-    of: String,
+    of: Names,
     /// Lower left and upper right corner in metres.
-    r#box: (Vector<Length>, Vector<Length>),
+    r#box: (Place, Place),
 }
 
 impl Entry for Inside {
@@ -24,7 +25,7 @@ impl Entry for Inside {
     const EXAMPLE: &'static str = "Inside(of: \"*\", box: ((0, 0), (6, 6)))";
 
     fn check(&self, outline: &Outline, report: &mut Report) {
-        outline.require_matching(Kind::BODY, &self.of, "of", report);
+        self.of.require(Kind::BODY, outline, "of", report);
         let (low, high) = (self.r#box.0.si(), self.r#box.1.si());
         if !low.cmplt(high).all() {
             report.error("box", "the first corner must be below and to the left of the second");
@@ -33,7 +34,7 @@ impl Entry for Inside {
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for Written { value, text } in entries {
-            let bodies = outline.matching(Kind::BODY, &value.of);
+            let bodies = value.of.matching(Kind::BODY, outline);
             let watch = Watching {
                 keys: bodies.iter().map(|&body| body as u64).collect(),
                 names: bodies.iter().map(|&body| outline.names(Kind::BODY)[body].clone()).collect(),

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
 use crate::record::between::{Moment, position_between};
-use crate::scene::units::{Length, Time, Vector};
+use crate::scene::units::{Length, Position as Place, Time};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
 /// A body is somewhere.
@@ -18,7 +18,7 @@ struct Position {
     /// When, in seconds.
     at: Time,
     /// Where its centre of mass should be, in metres.
-    is: Vector<Length>,
+    is: Place,
     /// The distance from there that is allowed, in metres.
     within: Length,
 }

@@ -6,10 +6,51 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use serde::Deserialize;
 
+use crate::scene::units::{Dimension, Length, Powers, Quantity};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::balance::EnergyTerms;
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
+
+/// `Attraction(constant: 1.0, softening: 0)`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Attraction {
+    /// `G` in N m2/kg2.
+    constant: Quantity<GravitationalConstant>,
+    /// Length in metres below which the force stops growing. Default 0.
+    #[serde(default)]
+    softening: Length,
+}
+
+/// Dimension of `G`.
+struct GravitationalConstant;
+
+impl Dimension for GravitationalConstant {
+    const NAME: &'static str = "a gravitational constant";
+    const POWERS: Powers = Powers { meter: 3, kilogram: -1, second: -2, radian: 0 };
+    const EXAMPLE: &'static str = "`1.0` or \"6.674e-11 N m2/kg2\"";
+}
+
+impl Entry for Attraction {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Attraction";
+    const EXAMPLE: &'static str = "Attraction(constant: 1.0)";
+
+    fn check(&self, _: &Outline, report: &mut Report) {
+        report.not_negative("softening", self.softening);
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        let attraction = |Written { value, .. }: Written<Self>| AttractionForce {
+            constant: value.constant.si(),
+            softening: value.softening.si(),
+        };
+        install(entries.into_iter().map(attraction).collect(), app);
+    }
+}
 
 /// One entry, ready to be applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +69,10 @@ pub fn install(attractions: Vec<AttractionForce>, app: &mut App) {
     app.insert_resource(Attractions(attractions));
     app.add_packed_force(Dependence::Position, apply_attraction);
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Attraction>();
 }
 
 fn pairs(dynamic: &[bool]) -> impl Iterator<Item = (usize, usize)> + '_ {

@@ -2,10 +2,49 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use serde::Deserialize;
 
-use super::Targets;
+use super::{Targets, check_targets};
+use crate::scene::units::{Damping, QuadraticDamping};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
+
+/// `Drag(linear: 0.1, of: ["ball"])`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Drag {
+    /// Linear coefficient in N s/m. Default 0.
+    #[serde(default)]
+    linear: Damping,
+    /// Quadratic coefficient in N s2/m2. Default 0.
+    #[serde(default)]
+    quadratic: QuadraticDamping,
+    /// Names, `*` matches. Default: all bodies.
+    of: Option<Names>,
+}
+
+impl Entry for Drag {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Drag";
+    const EXAMPLE: &'static str = "Drag(linear: 0.1, of: [\"ball\"])";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        report.not_negative("linear", self.linear);
+        report.not_negative("quadratic", self.quadratic);
+        check_targets(self.of.as_ref(), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let drag = |Written { value, .. }: Written<Self>| DragForce {
+            linear: value.linear.si(),
+            quadratic: value.quadratic.si(),
+            of: Targets::named(value.of.as_ref(), outline),
+        };
+        install(entries.into_iter().map(drag).collect(), app);
+    }
+}
 
 /// One entry, ready to be applied.
 #[derive(Clone, Debug)]
@@ -25,6 +64,10 @@ struct Drags(Vec<DragForce>);
 pub fn install(drags: Vec<DragForce>, app: &mut App) {
     app.insert_resource(Drags(drags));
     app.add_packed_force(Dependence::Velocity, apply_drag);
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Drag>();
 }
 
 fn apply_drag(mut drags: ResMut<Drags>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {

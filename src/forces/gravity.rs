@@ -3,12 +3,29 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use serde::Deserialize;
 
+use crate::scene::units::AccelerationPair;
+use crate::scene::{Outline, SceneAppExt, Section};
 use crate::tick::balance::EnergyTerms;
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
-/// `gravity: (0, -9.81)`: the acceleration of free fall in m/s2. Absent: no gravity.
+/// `gravity: (0, -9.81)`: the acceleration of free fall in m/s2. Absent: no gravity, nothing scheduled.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct GravitySection(AccelerationPair);
+
+impl Section for GravitySection {
+    const NAME: &'static str = "gravity";
+    const EXAMPLE: &'static str = "gravity: (0, -9.81)";
+
+    fn install(self, _: &Outline, app: &mut App) {
+        install(Gravity(self.0.si()), app);
+    }
+}
+
+/// The acceleration of free fall in m/s2.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Gravity(pub DVec2);
 
@@ -17,6 +34,10 @@ pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
     app.add_packed_force(Dependence::Position, apply_gravity);
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_section::<GravitySection>();
 }
 
 fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {

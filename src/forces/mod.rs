@@ -8,4 +8,21 @@ mod targets;
 pub mod thrust;
 pub mod torque;
 
-pub use targets::Targets;
+use bevy_app::App;
+
+pub use targets::{Targets, check_targets};
+
+use crate::scene::{Arity, SceneAppExt};
+
+/// Registers the forces of this folder. The order here is the order of the sums.
+pub fn plugin(app: &mut App) {
+    app.register_entry_section("forces", Arity::List, "forces: [Drag(linear: 0.1)]");
+    app.add_plugins(gravity::plugin)
+        .add_plugins(attraction::plugin)
+        .add_plugins(thrust::plugin)
+        .add_plugins(torque::plugin)
+        .add_plugins(drag::plugin);
+    for later in ["Spring", "Drive", "Aim"] {
+        app.reserve_entry("forces", later);
+    }
+}

@@ -1,6 +1,15 @@
 //! Which bodies a force acts on.
 
+use crate::scene::values::Names;
+use crate::scene::{Kind, Outline, Report};
 use crate::world::Bodies;
+
+/// Reports names of a force's `of` that fit no body.
+pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Report) {
+    if let Some(names) = of {
+        names.require(Kind::BODY, outline, "of", report);
+    }
+}
 
 /// All dynamic bodies, or those with given keys; places are looked up anew when bodies come or go.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +23,12 @@ impl Targets {
     /// The bodies with these keys; `None`: all. Fixed bodies are left out.
     pub fn new(keys: Option<Vec<u64>>) -> Self {
         Self { keys, ..Self::default() }
+    }
+
+    /// The bodies that fit; `None`: all. The keys of a scene's bodies are their places in the outline.
+    pub fn named(of: Option<&Names>, outline: &Outline) -> Self {
+        let keys = |names: &Names| names.matching(Kind::BODY, outline).into_iter().map(|body| body as u64).collect();
+        Self::new(of.map(keys))
     }
 
     /// Places of the bodies in canonical order.

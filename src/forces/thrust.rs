@@ -3,10 +3,70 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use serde::Deserialize;
 
-use super::Targets;
+use super::{Targets, check_targets};
+use crate::scene::units::{ForcePair, Position, Time};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::{Balance, Dependence, Evaluation, TickAppExt};
 use crate::world::Bodies;
+
+/// `Thrust(of: "T", at: (0, 0.1), force: (0, 2), frame: Body, from: 1, to: 1.25)`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Thrust {
+    /// Names, `*` matches.
+    of: Names,
+    /// Where it acts, in the body's frame from its centre of mass, in metres. Default: the centre of mass.
+    #[serde(default)]
+    at: Position,
+    /// Force in newtons.
+    force: ForcePair,
+    /// Whether the force turns with the body. Default: `World`, it does not.
+    #[serde(default)]
+    frame: ThrustFrame,
+    /// It acts from this time on, in seconds. Default: from the beginning.
+    #[serde(default)]
+    from: Time,
+    /// It no longer acts at this time, in seconds. Default: it never ends.
+    to: Option<Time>,
+}
+
+/// The frame in which a force is constant.
+#[derive(Clone, Copy, Default, PartialEq, Deserialize)]
+enum ThrustFrame {
+    /// The force turns with the body.
+    Body,
+    /// It does not.
+    #[default]
+    World,
+}
+
+impl Entry for Thrust {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Thrust";
+    const EXAMPLE: &'static str = "Thrust(of: \"T\", force: (0, 2), frame: Body, from: 1, to: 1.25)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        check_targets(Some(&self.of), outline, report);
+        if self.to.is_some_and(|to| to.si() <= self.from.si()) {
+            report.error("to", format!("must be later than `from`, {} s", self.from.si()));
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let thrust = |Written { value, .. }: Written<Self>| ThrustForce {
+            of: Targets::named(Some(&value.of), outline),
+            at: value.at.si(),
+            force: value.force.si(),
+            turns: value.frame == ThrustFrame::Body,
+            from: value.from.si(),
+            to: value.to.map_or(f64::INFINITY, Time::si),
+        };
+        install(entries.into_iter().map(thrust).collect(), app);
+    }
+}
 
 /// One entry, ready to be applied.
 #[derive(Clone, Debug)]
@@ -32,6 +92,10 @@ struct Thrusts(Vec<ThrustForce>);
 pub fn install(thrusts: Vec<ThrustForce>, app: &mut App) {
     app.insert_resource(Thrusts(thrusts));
     app.add_packed_force(Dependence::Position, apply_thrust);
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Thrust>();
 }
 
 fn apply_thrust(

@@ -2,10 +2,41 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use serde::Deserialize;
 
-use super::Targets;
+use super::{Targets, check_targets};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written, units};
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
+
+/// `Torque(of: "flywheel", value: 0.05)`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Torque {
+    /// Names, `*` matches.
+    of: Names,
+    /// Torque in N m, counter-clockwise.
+    value: units::Torque,
+}
+
+impl Entry for Torque {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Torque";
+    const EXAMPLE: &'static str = "Torque(of: \"flywheel\", value: 0.05)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        check_targets(Some(&self.of), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let torque = |Written { value, .. }: Written<Self>| ConstantTorque {
+            of: Targets::named(Some(&value.of), outline),
+            value: value.value.si(),
+        };
+        install(entries.into_iter().map(torque).collect(), app);
+    }
+}
 
 /// One entry, ready to be applied.
 #[derive(Clone, Debug)]
@@ -23,6 +54,10 @@ struct Torques(Vec<ConstantTorque>);
 pub fn install(torques: Vec<ConstantTorque>, app: &mut App) {
     app.insert_resource(Torques(torques));
     app.add_packed_force(Dependence::Position, apply_torque);
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Torque>();
 }
 
 fn apply_torque(mut torques: ResMut<Torques>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {

@@ -1,3 +1,4 @@
 //! World -> plain frames and channels. Behind this border nothing knows the ECS.
 
+pub mod between;
 pub mod frame;

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use serde::Deserialize;
 
-use super::{Channel, Finders, add_found, entity_named};
+use super::{Channel, SensorAppExt, add_found, entity_named};
 use crate::contacts::ContactForces;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::world::{Bodies, Body, Slot, Wall};
@@ -60,6 +60,6 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
 }
 
 pub(super) fn plugin(app: &mut App) {
-    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.add_quantities(QUANTITIES, find);
     app.register_entry::<ContactForce>();
 }

@@ -5,12 +5,21 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Deserialize;
 
-use super::{Channel, Finders, add_found};
+use super::{Channel, SensorAppExt, add_found};
 use crate::report::energy::EnergyLedger;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
-const QUANTITIES: &[&str] =
-    &["kinetic", "potential", "elastic", "total", "friction", "inelasticity", "drag", "work", "residual"];
+const CHANNELS: &[&str] = &[
+    "energy.kinetic",
+    "energy.potential",
+    "energy.elastic",
+    "energy.total",
+    "energy.friction",
+    "energy.inelasticity",
+    "energy.drag",
+    "energy.work",
+    "energy.residual",
+];
 
 /// The energy ledger.
 #[derive(Deserialize)]
@@ -23,7 +32,7 @@ impl Entry for Energy {
     const EXAMPLE: &'static str = "Energy()";
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        add_found(app.world_mut(), QUANTITIES.iter().map(|quantity| format!("energy.{quantity}")));
+        add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));
     }
 }
 
@@ -44,6 +53,6 @@ fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
 }
 
 pub(super) fn plugin(app: &mut App) {
-    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.add_channels(CHANNELS, find);
     app.register_entry::<Energy>();
 }

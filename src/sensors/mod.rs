@@ -12,7 +12,8 @@ mod velocity;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
-use crate::scene::{Arity, SceneAppExt};
+use crate::scene::values::Word;
+use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt};
 use crate::world::{Bodies, Name};
 
 /// One measured number: its name, its unit and how it is read.
@@ -38,19 +39,58 @@ pub struct Channels(pub Vec<Channel>);
 /// Turns a channel's name into the channel, if it is one of its own.
 pub type Finder = fn(&mut World, owner: &str, quantity: &str) -> Option<Channel>;
 
-/// What can be measured: each sensor adds how its channels are found.
+/// How the channels of each sensor are found.
 #[derive(Resource, Default)]
-pub struct Finders(Vec<(Finder, &'static [&'static str])>);
+struct Finders(Vec<Finder>);
 
-impl Finders {
-    /// Adds a sensor's finder, with the quantities it knows (for messages).
-    pub fn add(&mut self, finder: Finder, quantities: &'static [&'static str]) {
-        self.0.push((finder, quantities));
+/// The open list of what can be measured of a body or wall, such as `position.x`.
+const QUANTITIES: &str = "quantity";
+/// The open list of channels that belong to no body, such as `energy.total`.
+const CHANNELS: &str = "channel";
+
+/// How plugins add something that can be measured.
+pub trait SensorAppExt {
+    /// Adds how the channels `<body or wall>.<quantity>` are found.
+    fn add_quantities(&mut self, quantities: &[&'static str], finder: Finder) -> &mut Self;
+
+    /// Adds how channels of these full names are found.
+    fn add_channels(&mut self, channels: &[&'static str], finder: Finder) -> &mut Self;
+}
+
+impl SensorAppExt for App {
+    fn add_quantities(&mut self, quantities: &[&'static str], finder: Finder) -> &mut Self {
+        add(self, QUANTITIES, quantities, finder)
     }
 
-    /// All quantities that can follow a name and a dot.
-    pub fn quantities(&self) -> impl Iterator<Item = &'static str> {
-        self.0.iter().flat_map(|(_, quantities)| quantities.iter().copied())
+    fn add_channels(&mut self, channels: &[&'static str], finder: Finder) -> &mut Self {
+        add(self, CHANNELS, channels, finder)
+    }
+}
+
+fn add<'a>(app: &'a mut App, list: &'static str, words: &[&'static str], finder: Finder) -> &'a mut App {
+    app.world_mut().get_resource_or_init::<Finders>().0.push(finder);
+    for word in words {
+        app.register_word(list, word);
+    }
+    app
+}
+
+/// Reports a channel name that cannot be right.
+pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Report) {
+    if outline.word(CHANNELS, name).is_some() {
+        return;
+    }
+    let Some((owner, quantity)) = name.split_once('.') else {
+        let help = "a channel is a name, a dot and a quantity, such as \"ball.position.x\" or \"energy.total\"";
+        report.error(path, format!("{name:?} is not a channel")).help(help);
+        return;
+    };
+    if ["energy", "overlap"].contains(&owner) {
+        Word(name.to_owned()).check(outline, CHANNELS, path, report);
+    } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report)
+        && outline.position(Kind::WALL, owner).is_none()
+    {
+        outline.require(Kind::BODY, owner, path, report);
     }
 }
 
@@ -58,13 +98,8 @@ impl Finders {
 /// spawned.
 pub fn find(world: &mut World, name: &str) -> Option<Channel> {
     let (owner, quantity) = name.split_once('.')?;
-    let finders: Vec<Finder> = world.get_resource::<Finders>()?.0.iter().map(|(finder, _)| *finder).collect();
+    let finders: Vec<Finder> = world.get_resource::<Finders>()?.0.clone();
     finders.into_iter().find_map(|finder| finder(world, owner, quantity))
-}
-
-/// Whether a channel name can be right: known quantity behind a dot.
-pub fn is_quantity(finders: &Finders, name: &str) -> bool {
-    name.split_once('.').is_some_and(|(_, quantity)| finders.quantities().any(|known| known == quantity))
 }
 
 fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {

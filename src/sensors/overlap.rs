@@ -4,11 +4,11 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Deserialize;
 
-use super::{Channel, Finders, add_found};
+use super::{Channel, SensorAppExt, add_found};
 use crate::contacts::DeepestOverlap;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
-const QUANTITIES: &[&str] = &["deepest", "share"];
+const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
 
 /// The deepest overlap so far.
 #[derive(Deserialize)]
@@ -21,7 +21,7 @@ impl Entry for Overlap {
     const EXAMPLE: &'static str = "Overlap()";
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        add_found(app.world_mut(), QUANTITIES.iter().map(|quantity| format!("overlap.{quantity}")));
+        add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));
     }
 }
 
@@ -36,6 +36,6 @@ fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
 }
 
 pub(super) fn plugin(app: &mut App) {
-    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.add_channels(CHANNELS, find);
     app.register_entry::<Overlap>();
 }

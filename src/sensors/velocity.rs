@@ -4,7 +4,8 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Deserialize;
 
-use super::{Channel, Finders, add_found, of_body};
+use super::{Channel, SensorAppExt, add_found, of_body};
+use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
 const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin"];
@@ -14,7 +15,7 @@ const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin"];
 #[serde(deny_unknown_fields)]
 struct Velocity {
     /// Names, `*` matches.
-    of: String,
+    of: Names,
 }
 
 impl Entry for Velocity {
@@ -23,12 +24,12 @@ impl Entry for Velocity {
     const EXAMPLE: &'static str = "Velocity(of: \"ball\")";
 
     fn check(&self, outline: &Outline, report: &mut Report) {
-        outline.require_matching(Kind::BODY, &self.of, "of", report);
+        self.of.require(Kind::BODY, outline, "of", report);
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let names = outline.matching(Kind::BODY, &entry.value.of).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
+            let names = entry.value.of.matching(Kind::BODY, outline).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
             let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }
@@ -45,6 +46,6 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
 }
 
 pub(super) fn plugin(app: &mut App) {
-    app.world_mut().resource_mut::<Finders>().add(find, QUANTITIES);
+    app.add_quantities(QUANTITIES, find);
     app.register_entry::<Velocity>();
 }

@@ -1,0 +1,308 @@
+//! The names a scene brings, before anything is built: who there is, in which order, and who was meant.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::report::Report;
+use super::suggest;
+
+/// What a name stands for. Plugins may make kinds of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Kind {
+    noun: &'static str,
+    shared: bool,
+}
+
+impl Kind {
+    /// Bodies, those of `fill` included.
+    pub const BODY: Self = Self::new("body");
+    /// Walls.
+    pub const WALL: Self = Self::new("wall");
+    /// Joints.
+    pub const JOINT: Self = Self::new("joint");
+    /// Sensors.
+    pub const SENSOR: Self = Self::new("sensor");
+    /// Materials. A material may have the name of a body.
+    pub const MATERIAL: Self = Self::apart("material");
+
+    /// A kind whose names must differ from those of bodies, walls, joints and sensors. `noun` is a singular word for
+    /// messages.
+    pub const fn new(noun: &'static str) -> Self {
+        Self { noun, shared: true }
+    }
+
+    /// A kind with names of its own: they may equal names of other kinds.
+    pub const fn apart(noun: &'static str) -> Self {
+        Self { noun, shared: false }
+    }
+
+    /// The word for one of this kind, such as `body`.
+    pub const fn noun(self) -> &'static str {
+        self.noun
+    }
+
+    fn plural(self) -> Cow<'static, str> {
+        match self.noun.strip_suffix('y') {
+            Some(stem) => format!("{stem}ies").into(),
+            None => format!("{}s", self.noun).into(),
+        }
+    }
+}
+
+/// One entry of a section that takes several kinds, as it was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mention {
+    /// The leading name, such as `Drag`.
+    pub name: String,
+    /// Where it stands, such as `forces[0]`.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// Open lists of words; each word with whether it is available yet.
+pub(crate) type Words = BTreeMap<&'static str, BTreeMap<&'static str, bool>>;
+
+#[derive(Clone, Debug, Default)]
+struct Names {
+    ordered: Vec<String>,
+    by_name: BTreeMap<String, (usize, String)>,
+}
+
+/// The names a scene brings, by kind, in the order of the file, which is the canonical order; and which sections and
+/// entries it has.
+#[derive(Clone, Debug, Default)]
+pub struct Outline {
+    kinds: BTreeMap<Kind, Names>,
+    sections: Vec<(String, bool)>,
+    entries: BTreeMap<String, Vec<Mention>>,
+    words: Words,
+    /// Where relative paths begin.
+    pub(crate) scope: String,
+    /// Whether every section could be read. If not, names may be missing, so unknown ones are not reported.
+    pub(crate) complete: bool,
+    pub(crate) report: Report,
+}
+
+impl Outline {
+    /// An outline without names, for tests of a section on its own.
+    pub fn new() -> Self {
+        Self { complete: true, ..Self::default() }
+    }
+
+    /// Adds a name. `path` is where it stands, relative to the section or entry, such as `"[3].name"`. A name that is
+    /// taken, empty, or holds one of `* . , "` or a control character is reported.
+    pub fn declare(&mut self, kind: Kind, name: &str, path: &str) {
+        let path = join(&self.scope, path);
+        if name.is_empty() {
+            self.report.error_at(path, "a name must not be empty".into());
+            return;
+        }
+        if let Some(bad) = name.chars().find(|&c| matches!(c, '*' | '.' | ',' | '"') || c.is_control()) {
+            let why = match bad {
+                '*' => "`*` stands for any letters where bodies are chosen",
+                '.' => "`.` separates a name from its quantity, as in `ball.position.x`",
+                _ => "names become column headers of the CSV file",
+            };
+            let message = format!("the name {name:?} must not contain {bad:?}");
+            self.report.error_at(path, message).help(format!("{why}; use letters, digits and `_`"));
+            return;
+        }
+        if let Some((other, first)) = self.taken(kind, name) {
+            let message = format!("the name \"{name}\" is taken by another {}", other.noun);
+            let (first, label) = (first.to_owned(), format!("this {} has the name too", other.noun));
+            self.report.error_at(path, message).also(first, label).help("give every thing its own name");
+            return;
+        }
+        self.add(kind, name, path);
+    }
+
+    fn add(&mut self, kind: Kind, name: &str, path: String) {
+        let names = self.kinds.entry(kind).or_default();
+        names.by_name.insert(name.to_owned(), (names.ordered.len(), path));
+        names.ordered.push(name.to_owned());
+    }
+
+    /// Adds a name that is there in every scene.
+    pub(crate) fn declare_always(&mut self, kind: Kind, name: &str) {
+        if self.position(kind, name).is_none() {
+            self.add(kind, name, String::new());
+        }
+    }
+
+    fn taken(&self, kind: Kind, name: &str) -> Option<(Kind, &str)> {
+        let rivals = self.kinds.iter().filter(|(other, _)| **other == kind || (kind.shared && other.shared));
+        for (other, names) in rivals {
+            if let Some((_, path)) = names.by_name.get(name) {
+                return Some((*other, path));
+            }
+        }
+        None
+    }
+
+    /// All names of a kind in canonical order.
+    pub fn names(&self, kind: Kind) -> &[String] {
+        self.kinds.get(&kind).map_or(&[], |names| &names.ordered)
+    }
+
+    /// The place of a name in the canonical order of its kind.
+    pub fn position(&self, kind: Kind, name: &str) -> Option<usize> {
+        self.kinds.get(&kind)?.by_name.get(name).map(|(position, _)| *position)
+    }
+
+    /// The places of all names that fit a pattern, in canonical order; `*` stands for any run of characters, also
+    /// none. A pattern without `*` fits the one name it spells.
+    pub fn matching(&self, kind: Kind, pattern: &str) -> Vec<usize> {
+        if !pattern.contains('*') {
+            return self.position(kind, pattern).into_iter().collect();
+        }
+        let names = self.names(kind).iter().enumerate();
+        names.filter(|(_, name)| fits(pattern, name)).map(|(position, _)| position).collect()
+    }
+
+    /// The place of a name; an unknown one is reported at `path` with the nearest known name.
+    pub fn require(&self, kind: Kind, name: &str, path: &str, report: &mut Report) -> Option<usize> {
+        let found = self.position(kind, name);
+        if found.is_none() {
+            self.report_unknown(kind, name, path, report);
+        }
+        found
+    }
+
+    /// The places of all names that fit a pattern; a pattern that fits none is reported at `path`.
+    pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Report) -> Vec<usize> {
+        let found = self.matching(kind, pattern);
+        if found.is_empty() {
+            self.report_unknown(kind, pattern, path, report);
+        }
+        found
+    }
+
+    fn report_unknown(&self, kind: Kind, name: &str, path: &str, report: &mut Report) {
+        if !self.complete {
+            return;
+        }
+        let noun = kind.noun;
+        let message = if name.contains('*') {
+            format!("no {noun} has a name that fits \"{name}\"")
+        } else {
+            format!("there is no {noun} named \"{name}\"")
+        };
+        let names = self.names(kind);
+        let help = if names.is_empty() {
+            format!("this scene has no {}", kind.plural())
+        } else {
+            suggest::among(name, names.iter().map(String::as_str), &kind.plural(), '"')
+        };
+        report.error(path, message).help(help);
+    }
+
+    /// Whether the scene has the section at all, be it `None`.
+    pub fn has_section(&self, name: &str) -> bool {
+        self.sections.iter().any(|(section, _)| section == name)
+    }
+
+    /// Whether the section stands in the scene as `None`.
+    pub fn is_none(&self, name: &str) -> bool {
+        self.sections.iter().any(|(section, none)| section == name && *none)
+    }
+
+    /// The sections in the order of the file.
+    pub fn sections(&self) -> impl Iterator<Item = &str> {
+        self.sections.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// The entries of a section that takes several kinds, in the order of the file.
+    pub fn entries(&self, section: &str) -> &[Mention] {
+        self.entries.get(section).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a word of an open list (such as `"method"`) is available, or only reserved; `None`: there is no such
+    /// word.
+    pub fn word(&self, list: &str, word: &str) -> Option<bool> {
+        self.words.get(list)?.get(word).copied()
+    }
+
+    pub(crate) fn words(&self, list: &str) -> impl Iterator<Item = (&'static str, bool)> {
+        self.words.get(list).into_iter().flatten().map(|(word, here)| (*word, *here))
+    }
+
+    pub(crate) fn with_words(words: Words) -> Self {
+        Self { words, ..Self::default() }
+    }
+
+    pub(crate) fn add_section(&mut self, name: &str, none: bool) {
+        self.sections.push((name.to_owned(), none));
+    }
+
+    pub(crate) fn add_entry(&mut self, section: &str, mention: Mention) {
+        self.entries.entry(section.to_owned()).or_default().push(mention);
+    }
+}
+
+/// Puts a relative path behind a scope: `forces[0]` and `of` give `forces[0].of`, `bodies` and `[1]` give `bodies[1]`.
+pub(crate) fn join(scope: &str, path: &str) -> String {
+    if path.is_empty() {
+        scope.to_owned()
+    } else if scope.is_empty() || path.starts_with('[') {
+        format!("{scope}{path}")
+    } else {
+        format!("{scope}.{path}")
+    }
+}
+
+/// Whether a name fits a pattern in which `*` stands for any run of characters.
+pub(crate) fn fits(pattern: &str, name: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let Some(mut rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };
+    let mut parts = parts.peekable();
+    if parts.peek().is_none() {
+        return rest.is_empty();
+    }
+    while let Some(part) = parts.next() {
+        if parts.peek().is_none() {
+            return rest.ends_with(part);
+        }
+        match rest.find(part) {
+            Some(place) => rest = &rest[place + part.len()..],
+            None => return false,
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_any_run() {
+        for (pattern, name, expected) in [
+            ("gas_*", "gas_0", true),
+            ("gas_*", "gas_", true),
+            ("*", "", true),
+            ("*_1*", "gas_10", true),
+            ("a*a", "a", false),
+            ("a*b*c", "aXbYc", true),
+            ("a*b*c", "aXcYb", false),
+            ("gas", "gas_0", false),
+        ] {
+            assert_eq!(fits(pattern, name), expected, "{pattern} {name}");
+        }
+    }
+
+    #[test]
+    fn order_of_declaration_is_the_order() {
+        let mut outline = Outline::new();
+        for name in ["z", "a", "gas_1", "gas_0"] {
+            outline.declare(Kind::BODY, name, "");
+        }
+        outline.declare(Kind::MATERIAL, "z", "");
+        assert_eq!(outline.position(Kind::BODY, "a"), Some(1));
+        assert_eq!(outline.matching(Kind::BODY, "gas_*"), [2, 3]);
+        assert_eq!(outline.position(Kind::WALL, "a"), None);
+        assert!(outline.report.is_clean());
+        outline.declare(Kind::WALL, "a", "");
+        assert!(!outline.report.is_clean());
+    }
+}

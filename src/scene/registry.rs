@@ -1,0 +1,247 @@
+//! Which plugin reads which name of the scene language.
+
+use std::collections::BTreeMap;
+
+use bevy_app::App;
+use bevy_ecs::resource::Resource;
+
+use super::explain::{self, Fault};
+use super::outline::{Kind, Outline, Words, join};
+use super::report::Report;
+use super::section::{Entry, Section, Written};
+
+/// How many entries a section of entries takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arity {
+    /// Any number, in a list: `forces: [Drag(..), Thrust(..)]`.
+    List,
+    /// Exactly one: `camera: Fit(..)`.
+    One,
+    /// One, or the word `None`: `contacts: None`.
+    OneOrNone,
+}
+
+/// A section that was read, before anything is built from it.
+pub(crate) trait ReadSection: Send + Sync {
+    fn declare(&self, outline: &mut Outline);
+    fn check(&self, outline: &Outline, report: &mut Report);
+    fn install(self: Box<Self>, outline: &Outline, app: &mut App);
+}
+
+impl<S: Section> ReadSection for S {
+    fn declare(&self, outline: &mut Outline) {
+        Section::declare(self, outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Section::check(self, outline, report);
+    }
+
+    fn install(self: Box<Self>, outline: &Outline, app: &mut App) {
+        Section::install(*self, outline, app);
+    }
+}
+
+/// All entries of one kind that were read, in the order of the file.
+pub(crate) trait ReadEntries: Send + Sync {
+    fn push(&mut self, text: &str) -> Result<usize, Fault>;
+    fn declare(&self, which: usize, outline: &mut Outline);
+    fn check(&self, which: usize, outline: &Outline, report: &mut Report);
+    fn install(self: Box<Self>, outline: &Outline, app: &mut App);
+}
+
+struct Entries<E>(Vec<Written<E>>);
+
+impl<E: Entry> ReadEntries for Entries<E> {
+    fn push(&mut self, text: &str) -> Result<usize, Fault> {
+        let value = explain::read(text)?;
+        self.0.push(Written { value, text: text.to_owned() });
+        Ok(self.0.len() - 1)
+    }
+
+    fn declare(&self, which: usize, outline: &mut Outline) {
+        self.0[which].value.declare(outline);
+    }
+
+    fn check(&self, which: usize, outline: &Outline, report: &mut Report) {
+        self.0[which].value.check(outline, report);
+    }
+
+    fn install(self: Box<Self>, outline: &Outline, app: &mut App) {
+        E::install(self.0, outline, app);
+    }
+}
+
+type ReadOneSection = fn(&str) -> Result<Box<dyn ReadSection>, Fault>;
+
+#[derive(Clone)]
+pub(crate) enum Reader {
+    Section(ReadOneSection),
+    Entries(Arity, BTreeMap<&'static str, EntryReader>),
+    Reserved,
+}
+
+#[derive(Clone)]
+pub(crate) struct SectionReader {
+    pub(crate) reader: Reader,
+    pub(crate) example: &'static str,
+    pub(crate) order: usize,
+}
+
+#[derive(Clone)]
+pub(crate) struct EntryReader {
+    /// Makes an empty store; none for a reserved name.
+    pub(crate) make: Option<fn() -> Box<dyn ReadEntries>>,
+    pub(crate) example: &'static str,
+    pub(crate) order: usize,
+}
+
+/// The names of the scene language and who reads them. Filled by plugins through [`SceneAppExt`] before a scene is
+/// loaded.
+#[derive(Resource, Clone, Default)]
+pub struct SceneRegistry {
+    pub(crate) sections: BTreeMap<&'static str, SectionReader>,
+    pub(crate) words: Words,
+    pub(crate) always: Vec<(Kind, &'static str)>,
+    count: usize,
+}
+
+impl SceneRegistry {
+    fn next(&mut self) -> usize {
+        self.count += 1;
+        self.count
+    }
+
+    fn claim(&mut self, name: &'static str, example: &'static str, reader: Reader) {
+        let order = self.next();
+        if let Some(before) = self.sections.get(name) {
+            let claimed = !matches!(before.reader, Reader::Reserved);
+            // Two plugins with one name cannot both be right, and the scene is not to blame.
+            assert!(!claimed, "the scene section `{name}` is registered twice");
+        }
+        self.sections.insert(name, SectionReader { reader, example, order });
+    }
+
+    fn claim_entry(&mut self, section: &'static str, name: &'static str, entry: EntryReader) {
+        let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get_mut(section) else {
+            panic!("the entry `{name}` needs `register_entry_section(\"{section}\", ..)` first");
+        };
+        let before = entries.insert(name, entry);
+        let claimed = before.is_some_and(|before| before.make.is_some());
+        assert!(!claimed, "the entry `{name}` of `{section}` is registered twice");
+    }
+
+    /// The registered sections with one correct use each, in the order of registration; reserved ones have none.
+    pub fn sections(&self) -> Vec<(&'static str, &'static str)> {
+        let mut list: Vec<_> =
+            self.sections.iter().map(|(name, section)| (section.order, *name, section.example)).collect();
+        list.sort_unstable();
+        list.into_iter().map(|(_, name, example)| (name, example)).collect()
+    }
+
+    /// The entries of a section with one correct use each, in the order of registration; reserved ones are left out.
+    pub fn entries(&self, section: &str) -> Vec<(&'static str, &'static str)> {
+        let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get(section) else {
+            return Vec::new();
+        };
+        let real = entries.iter().filter(|(_, entry)| entry.make.is_some());
+        let mut list: Vec<_> = real.map(|(name, entry)| (entry.order, *name, entry.example)).collect();
+        list.sort_unstable();
+        list.into_iter().map(|(_, name, example)| (name, example)).collect()
+    }
+}
+
+/// How plugins take part in the scene language. Everything here is called from `Plugin::build`.
+///
+/// # Panics
+/// A name that is registered twice, or an entry whose section is not registered, is a mistake of the program and
+/// panics when it starts. A reserved name may be registered later.
+pub trait SceneAppExt {
+    /// Lets a type read a top-level section.
+    fn register_section<S: Section>(&mut self) -> &mut Self;
+
+    /// Makes a top-level section that takes entries by their leading names. `example` is one correct use.
+    fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self;
+
+    /// Lets a type read one kind of entry of such a section.
+    fn register_entry<E: Entry>(&mut self) -> &mut Self;
+
+    /// Keeps a section's name for later: using it is the error "not available yet".
+    fn reserve_section(&mut self, name: &'static str) -> &mut Self;
+
+    /// Keeps an entry's name for later: using it is the error "not available yet".
+    fn reserve_entry(&mut self, section: &'static str, name: &'static str) -> &mut Self;
+
+    /// Adds a word to an open list of words, such as an integrator's name to the list `"method"`.
+    fn register_word(&mut self, list: &'static str, word: &'static str) -> &mut Self;
+
+    /// Keeps a word for later: using it is the error "not available yet".
+    fn reserve_word(&mut self, list: &'static str, word: &'static str) -> &mut Self;
+
+    /// Makes a name known in every scene, such as the material `default`; it comes first in its kind.
+    fn declare_always(&mut self, kind: Kind, name: &'static str) -> &mut Self;
+}
+
+fn registry(app: &mut App) -> &mut SceneRegistry {
+    app.init_resource::<SceneRegistry>();
+    app.world_mut().resource_mut::<SceneRegistry>().into_inner()
+}
+
+impl SceneAppExt for App {
+    fn register_section<S: Section>(&mut self) -> &mut Self {
+        let read: ReadOneSection = |text| Ok(Box::new(explain::read::<S>(text)?));
+        registry(self).claim(S::NAME, S::EXAMPLE, Reader::Section(read));
+        self
+    }
+
+    fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self {
+        registry(self).claim(name, example, Reader::Entries(arity, BTreeMap::new()));
+        self
+    }
+
+    fn register_entry<E: Entry>(&mut self) -> &mut Self {
+        let registry = registry(self);
+        let make: fn() -> Box<dyn ReadEntries> = || Box::new(Entries::<E>(Vec::new()));
+        let order = registry.next();
+        registry.claim_entry(E::SECTION, E::NAME, EntryReader { make: Some(make), example: E::EXAMPLE, order });
+        self
+    }
+
+    fn reserve_section(&mut self, name: &'static str) -> &mut Self {
+        let registry = registry(self);
+        if !registry.sections.contains_key(name) {
+            registry.claim(name, "", Reader::Reserved);
+        }
+        self
+    }
+
+    fn reserve_entry(&mut self, section: &'static str, name: &'static str) -> &mut Self {
+        let registry = registry(self);
+        let order = registry.next();
+        registry.claim_entry(section, name, EntryReader { make: None, example: "", order });
+        self
+    }
+
+    fn register_word(&mut self, list: &'static str, word: &'static str) -> &mut Self {
+        registry(self).words.entry(list).or_default().insert(word, true);
+        self
+    }
+
+    fn reserve_word(&mut self, list: &'static str, word: &'static str) -> &mut Self {
+        registry(self).words.entry(list).or_default().entry(word).or_insert(false);
+        self
+    }
+
+    fn declare_always(&mut self, kind: Kind, name: &'static str) -> &mut Self {
+        registry(self).always.push((kind, name));
+        self
+    }
+}
+
+/// Where an entry's relative paths begin.
+pub(crate) fn entry_scope(section: &str, arity: Arity, index: usize) -> String {
+    match arity {
+        Arity::List => join(section, &format!("[{index}]")),
+        Arity::One | Arity::OneOrNone => section.to_owned(),
+    }
+}

@@ -1,0 +1,128 @@
+//! Where checks write down what is wrong, and the checks that every section needs.
+
+use super::outline::join;
+
+/// A mistake found by a check. Its place in the text is looked up only when it is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Where, such as `bodies[0].mass`.
+    pub path: String,
+    /// What is wrong and what was found.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// A second path and what it has to do with the mistake.
+    pub also: Option<(String, String)>,
+}
+
+impl Problem {
+    /// Adds what to do about it.
+    pub fn help(&mut self, help: impl Into<String>) -> &mut Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds a second place. `path` is counted from the whole scene.
+    pub fn also(&mut self, path: impl Into<String>, label: impl Into<String>) -> &mut Self {
+        self.also = Some((path.into(), label.into()));
+        self
+    }
+}
+
+/// Collects mistakes and notes. Paths are relative to the section or entry that is checked.
+///
+/// ```
+/// # use jostle::scene::Report;
+/// let mut report = Report::new();
+/// report.within("[3]", |report| {
+///     report.positive("mass", -1.5);
+/// });
+/// assert_eq!(report.problems()[0].path, "[3].mass");
+/// assert_eq!(report.problems()[0].message, "must be a finite number above zero, got -1.5");
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    scope: String,
+    problems: Vec<Problem>,
+    notes: Vec<String>,
+}
+
+impl Report {
+    /// A report without mistakes, whose paths begin at the scene.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Writes down a mistake at a path (`""`: the scope itself).
+    pub fn error(&mut self, path: &str, message: impl Into<String>) -> &mut Problem {
+        let path = join(&self.scope, path);
+        self.error_at(path, message.into())
+    }
+
+    pub(crate) fn error_at(&mut self, path: String, message: String) -> &mut Problem {
+        // Handing out a reference to what was just pushed, without a way to fail.
+        self.problems.push(Problem { path, message, help: None, also: None });
+        let last = self.problems.len() - 1;
+        &mut self.problems[last]
+    }
+
+    /// Writes down something the author should know though it is no mistake; it ends on the run's error card.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.notes.push(text.into());
+    }
+
+    /// Runs checks whose paths begin at `scope`, such as `"[3]"` or `"atoms"`.
+    pub fn within<R>(&mut self, scope: &str, checks: impl FnOnce(&mut Self) -> R) -> R {
+        let inner = join(&self.scope, scope);
+        let outer = std::mem::replace(&mut self.scope, inner);
+        let result = checks(self);
+        self.scope = outer;
+        result
+    }
+
+    /// A number must be finite. Returns whether it is.
+    pub fn finite(&mut self, path: &str, value: impl Into<f64>) -> bool {
+        let value = value.into();
+        self.must(path, value.is_finite(), "must be a finite number", value)
+    }
+
+    /// A number must be finite and above zero. Returns whether it is.
+    pub fn positive(&mut self, path: &str, value: impl Into<f64>) -> bool {
+        let value = value.into();
+        self.must(path, value.is_finite() && value > 0.0, "must be a finite number above zero", value)
+    }
+
+    /// A number must be finite and not below zero. Returns whether it is.
+    pub fn not_negative(&mut self, path: &str, value: impl Into<f64>) -> bool {
+        let value = value.into();
+        self.must(path, value.is_finite() && value >= 0.0, "must be a finite number, zero or above", value)
+    }
+
+    /// A number must lie from `low` to `high`, both included. Returns whether it does.
+    pub fn between(&mut self, path: &str, value: impl Into<f64>, low: f64, high: f64) -> bool {
+        let value = value.into();
+        self.must(path, value >= low && value <= high, &format!("must be from {low} to {high}"), value)
+    }
+
+    fn must(&mut self, path: &str, holds: bool, rule: &str, value: f64) -> bool {
+        if !holds {
+            self.error(path, format!("{rule}, got {value}"));
+        }
+        holds
+    }
+
+    /// Whether no mistake was written down.
+    pub fn is_clean(&self) -> bool {
+        self.problems.is_empty()
+    }
+
+    /// The mistakes so far.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+
+    /// The notes so far.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+}

@@ -1,0 +1,185 @@
+//! The text of a scene and where in it something stands.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::error::{SceneError, SceneErrors};
+
+/// The largest scene the reader takes, in bytes (64 MiB).
+///
+/// A hundred thousand atoms written out need about 6 MiB; beyond this limit a file is most likely not a scene.
+pub const LARGEST_SCENE: usize = 64 << 20;
+
+/// A scene's text together with the name under which messages speak of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Source {
+    /// The file name, or any name for a text that is in no file.
+    pub name: String,
+    /// The text.
+    pub text: String,
+}
+
+impl Source {
+    /// A scene's text that is already in memory.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// When the file is missing, a folder, not readable, larger than [`LARGEST_SCENE`], empty or not UTF-8 text. The
+    /// message says what to do.
+    pub fn read(path: &Path) -> Result<Self, SceneErrors> {
+        let name = path.display().to_string();
+        let fail = |message: String, help: &str| {
+            let error = SceneError::new("", message).with_help(help);
+            SceneErrors::new(Source::new(name.clone(), ""), vec![error], Vec::new())
+        };
+        let details = match std::fs::metadata(path) {
+            Ok(details) => details,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Err(fail(format!("there is no file `{name}`"), "check the spelling and the folder you are in"));
+            }
+            Err(error) => {
+                return Err(fail(format!("cannot read `{name}`: {error}"), "check the path and its permissions"));
+            }
+        };
+        if details.is_dir() {
+            return Err(fail(format!("`{name}` is a folder"), "name a scene file, such as `scenes/first.ron`"));
+        }
+        let too_large = |length: u64| {
+            let found = length as f64 / f64::from(1 << 20);
+            fail(
+                format!("`{name}` is too large for a scene: {found:.0} MiB, the limit is {} MiB", LARGEST_SCENE >> 20),
+                "check that it is a scene; many bodies are shorter with `fill`",
+            )
+        };
+        if details.len() > LARGEST_SCENE as u64 {
+            return Err(too_large(details.len()));
+        }
+        let bytes = match read_at_most(path, LARGEST_SCENE + 1) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                return Err(fail(format!("cannot read `{name}`: {error}"), "check the path and its permissions"));
+            }
+        };
+        // A pipe has no length beforehand.
+        if bytes.len() > LARGEST_SCENE {
+            return Err(too_large(bytes.len() as u64));
+        }
+        Self::from_bytes(&name, bytes).map_err(|(message, help)| fail(message, help))
+    }
+
+    /// Takes a file's bytes as UTF-8 text, without the mark some editors put in front.
+    fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, (String, &'static str)> {
+        if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+            return Err((format!("`{name}` is UTF-16 text, not UTF-8"), "save it as UTF-8 in your editor"));
+        }
+        if let Some(place) = bytes.iter().position(|&byte| byte == 0) {
+            return Err((
+                format!("`{name}` is not a text file: a zero byte at position {place}"),
+                "a scene is a text file in RON; check that this is the right file",
+            ));
+        }
+        let text = match String::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => {
+                let good = error.utf8_error().valid_up_to();
+                let line = 1 + error.as_bytes()[..good].iter().filter(|&&byte| byte == b'\n').count();
+                return Err((
+                    format!("`{name}` is not UTF-8 text: the first bad byte is on line {line}"),
+                    "save it as UTF-8 in your editor, or check that it is a text file",
+                ));
+            }
+        };
+        let text = match text.strip_prefix('\u{feff}') {
+            Some(rest) => rest.to_owned(),
+            None => text,
+        };
+        Ok(Self::new(name, text))
+    }
+}
+
+fn read_at_most(path: &Path, limit: usize) -> std::io::Result<Vec<u8>> {
+    use std::io::Read;
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(limit as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Where each line of a text begins, so that many places can be turned into line and column.
+pub(crate) struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    pub(crate) fn new(text: &'a str) -> Self {
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(place, _)| place + 1)).collect();
+        Self { text, starts }
+    }
+
+    /// Line and column, both from one; the column counts characters.
+    pub(crate) fn place(&self, offset: usize) -> (usize, usize) {
+        let line = self.starts.partition_point(|&start| start <= offset).max(1);
+        let start = self.starts[line - 1];
+        let column = self.text.get(start..offset).map_or(1, |before| before.chars().count() + 1);
+        (line, column)
+    }
+
+    /// The bytes of the lines from `first` to `last` (counted from one), without the last line's end.
+    pub(crate) fn span(&self, first: usize, last: usize) -> Range<usize> {
+        let start = self.starts.get(first.saturating_sub(1)).copied().unwrap_or(self.text.len());
+        let end = self.starts.get(last).map_or(self.text.len(), |&next| next - 1);
+        start..end.max(start)
+    }
+
+    /// How many lines there are.
+    pub(crate) fn count(&self) -> usize {
+        self.starts.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(bytes: &[u8]) -> String {
+        match Source::from_bytes("a.ron", bytes.to_vec()) {
+            Ok(source) => panic!("read as {source:?}"),
+            Err((message, _)) => message,
+        }
+    }
+
+    #[test]
+    fn places_count_characters_from_one() {
+        let lines = Lines::new("ä b\nc");
+        assert_eq!(lines.place(0), (1, 1));
+        assert_eq!(lines.place(3), (1, 3));
+        assert_eq!(lines.place(5), (2, 1));
+        assert_eq!(lines.place(6), (2, 2));
+        assert_eq!(lines.span(1, 1), 0..4);
+        assert_eq!(lines.span(2, 9), 5..6);
+    }
+
+    #[test]
+    fn what_is_no_text_is_named() {
+        assert_eq!(refused(b"\xff\xfeS\0"), "`a.ron` is UTF-16 text, not UTF-8");
+        assert_eq!(refused(b"GIF89a\0"), "`a.ron` is not a text file: a zero byte at position 6");
+        assert_eq!(refused(b"Scene(\n\xe4)"), "`a.ron` is not UTF-8 text: the first bad byte is on line 2");
+        assert_eq!(Source::from_bytes("a", b"\xef\xbb\xbfx".to_vec()).map(|source| source.text), Ok("x".into()));
+    }
+
+    #[test]
+    fn missing_files_and_folders_are_named() {
+        let missing = Source::read(Path::new("no/such.ron")).map_err(|errors| errors.to_string());
+        assert_eq!(
+            missing,
+            Err("error: there is no file `no/such.ron`\n |\n = help: check the spelling and the folder you are in\n"
+                .into())
+        );
+        let folder = Source::read(Path::new(".")).map_err(|errors| errors.errors()[0].message.clone());
+        assert_eq!(folder, Err("`.` is a folder".into()));
+    }
+}
