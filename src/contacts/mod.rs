@@ -3,8 +3,12 @@
 pub mod penalty;
 pub mod search;
 
+use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+
+use crate::scene::{Arity, Outline, SceneAppExt};
+use crate::world::{Atom, Body, Wall};
 
 pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
 
@@ -49,4 +53,25 @@ pub struct ContactForces {
     pub on_body: Vec<DVec2>,
     /// Force on each wall in newtons, in canonical order.
     pub on_wall: Vec<DVec2>,
+}
+
+/// Registers the contact laws of this folder.
+pub fn plugin(app: &mut App) {
+    app.register_entry_section("contacts", Arity::OneOrNone, "contacts: Penalty(tangential: Spring(ratio: 0.8))");
+    penalty::plugin(app);
+    app.reserve_entry("contacts", "Rigid");
+}
+
+/// A scene without the section gets penalty contacts with their defaults when there is something to touch.
+pub fn install_default(outline: &Outline, app: &mut App) {
+    if outline.has_section("contacts") {
+        return;
+    }
+    let world = app.world_mut();
+    let colliding = world.query::<&Body>().iter(world).filter(|body| body.collides).count();
+    let walls = world.query::<&Wall>().iter(world).count();
+    let atoms = world.query::<&Atom>().iter(world).count();
+    if atoms > 0 && (colliding > 1 || (colliding > 0 && walls > 0)) {
+        penalty::install(penalty::Penalty::default(), app);
+    }
 }

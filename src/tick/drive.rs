@@ -203,6 +203,11 @@ fn note_failure(world: &mut World) {
     world.resource_mut::<Drive>().failure = Some(failure);
 }
 
+/// Sets the integrator.
+pub fn set_method(world: &mut World, method: Method) {
+    world.resource_mut::<Drive>().method = Some(method);
+}
+
 /// Greatest distance that any point of a body travelled in one tick so far, in metres.
 pub fn largest_travel(world: &World) -> f64 {
     world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)

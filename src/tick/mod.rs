@@ -30,7 +30,7 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation};
-pub use drive::{Failure, Tick, largest_travel, step};
+pub use drive::{Failure, Tick, largest_travel, set_method, step};
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]

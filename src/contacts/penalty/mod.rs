@@ -14,6 +14,8 @@ pub use apply::PenaltyContacts;
 
 use super::search::{self, FindPairs};
 use super::{ContactLaw, DeepestOverlap, StiffestContact};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
 use crate::tick::{Evaluate, EvaluateStage, Modes, TickAppExt};
 use crate::world::{Bodies, Materials};
@@ -90,6 +92,34 @@ pub fn install(settings: Penalty, app: &mut App) {
     app.add_packed_systems(Evaluate, 2, systems.in_set(EvaluateStage::Contacts));
     app.add_systems(Modes, apply::choose_modes);
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
+    app.world_mut().get_resource_or_init::<Finishers>().0.push(note_stiffest_contact);
+}
+
+impl Entry for Penalty {
+    const SECTION: &'static str = "contacts";
+    const NAME: &'static str = "Penalty";
+    const EXAMPLE: &'static str = "Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)";
+
+    fn check(&self, _: &Outline, report: &mut Report) {
+        if let TangentialLaw::Spring { ratio } = self.tangential {
+            report.positive("tangential.ratio", ratio);
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        for entry in entries {
+            install(entry.value, app);
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Penalty>();
+}
+
+fn note_stiffest_contact(world: &mut World) {
+    let stiffest = stiffest_contact(world.resource(), world.resource(), world.resource());
+    world.insert_resource(stiffest);
 }
 
 fn elastic_energy(world: &World) -> f64 {
