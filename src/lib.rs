@@ -1,5 +1,5 @@
 //! draft
 #![allow(missing_docs)]
-pub mod record;
-pub mod raster;
 pub mod output;
+pub mod raster;
+pub mod record;
