@@ -17,7 +17,7 @@ use tiny_skia::Pixmap;
 pub use camera::{Bounds, Camera};
 pub use theme::{Swatch, Theme, Tint};
 
-use crate::record::frame::{Cast, Frame, Rgb};
+use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
 use canvas::Canvas;
 use layers::bodies::Figure;
 use layers::clock::Clock;
@@ -88,8 +88,9 @@ impl Painter {
 
         let mut figures = Vec::new();
         let mut field = Field::default();
+        let colors = fills(cast, theme);
         for (place, (look, pose)) in cast.bodies.iter().zip(&frame.poses).enumerate() {
-            let figure = Figure::new(look, place, camera, theme, weights.line);
+            let figure = Figure::new(look, colors[place], camera, theme, weights.line);
             if look.fixed {
                 figure.draw(pose, camera, &mut Canvas::new(&mut picture), &mut field);
             } else {
@@ -102,7 +103,8 @@ impl Painter {
         let column = Column::beside_or_in(room, weights.band, clock.width(), weights.pad);
         let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
         let used = title::draw(&mut picture, &cast.title, &lettering, &column, theme);
-        let clock_place = (column.left, column.top + used, column.in_room);
+        let gap = if used > 0.0 { 0.2 * weights.title } else { 0.0 };
+        let clock_place = (column.left, column.top + used + gap, column.in_room);
         Ok(Painter { view: view.clone(), cast: cast.clone(), figures, clock, clock_place, backdrop: picture })
     }
 
@@ -143,8 +145,7 @@ impl Painter {
             let own = wall.color.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.wall);
             colors.extend([own, theme.outline.of(own)]);
         }
-        for (place, body) in self.cast.bodies.iter().enumerate() {
-            let own = theme.body(body.color.as_deref(), body.fixed, place);
+        for own in fills(&self.cast, theme) {
             colors.extend([own, theme.outline.of(own), theme.mark.of(own)]);
         }
         let mut once = Vec::new();
@@ -155,6 +156,18 @@ impl Painter {
         }
         once
     }
+}
+
+/// The fill of each body. Only moving bodies take turns with the theme's colours, so that the first one always gets
+/// the first colour.
+fn fills(cast: &Cast, theme: &Theme) -> Vec<Rgb> {
+    let mut turn = 0;
+    let fill = |body: &BodyLook| {
+        let fill = theme.body(body.color.as_deref(), body.fixed, turn);
+        turn += usize::from(!body.fixed);
+        fill
+    };
+    cast.bodies.iter().map(fill).collect()
 }
 
 /// Widths of lines and sizes of letters, in pixels: right for 1280 x 720, scaled with the picture.

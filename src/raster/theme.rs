@@ -95,16 +95,16 @@ impl Theme {
         self.palette.iter().map(|swatch| swatch.name.as_str())
     }
 
-    /// The fill of a body: the colour asked for; else grey if it is fixed; else by its place in the scene. A name the
-    /// theme does not know counts as none: whoever reads the scene has said so already.
-    pub fn body(&self, asked: Option<&str>, fixed: bool, place: usize) -> Rgb {
+    /// The fill of a body: the colour asked for; else grey if it is fixed; else the one whose turn it is, counted
+    /// from 0. A name the theme does not know counts as none: whoever reads the scene has said so already.
+    pub fn body(&self, asked: Option<&str>, fixed: bool, turn: usize) -> Rgb {
         let own = asked.and_then(|name| self.color(name));
-        let by_place = || {
-            let turn = place.checked_rem(self.cycle.len())?;
+        let by_turn = || {
+            let turn = turn.checked_rem(self.cycle.len())?;
             let name = if fixed { &self.fixed } else { &self.cycle[turn] };
             self.color(name)
         };
-        own.or_else(by_place).unwrap_or(self.ink)
+        own.or_else(by_turn).unwrap_or(self.ink)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::raster::camera::Camera;
 use crate::raster::canvas::{Canvas, Ink};
 use crate::raster::silhouette::{Field, Silhouette, Stand};
 use crate::raster::theme::Theme;
-use crate::record::frame::{BodyLook, Disc, Pose};
+use crate::record::frame::{BodyLook, Disc, Pose, Rgb};
 
 /// Atoms with a smaller radius than this, in pixels, are not marked: the marks would be noise.
 const SMALLEST_MARKED: f64 = 5.0;
@@ -28,10 +28,9 @@ struct Mark {
 }
 
 impl Figure {
-    /// The figure of the body at a place in the scene; `line` is the width of outlines in pixels.
-    pub(in crate::raster) fn new(look: &BodyLook, place: usize, camera: &Camera, theme: &Theme, line: f32) -> Figure {
+    /// The figure of a body with that fill; `line` is the width of outlines in pixels.
+    pub(in crate::raster) fn new(look: &BodyLook, fill: Rgb, camera: &Camera, theme: &Theme, line: f32) -> Figure {
         let scale = camera.pixels_per_meter();
-        let fill = theme.body(look.color.as_deref(), look.fixed, place);
         let outline = theme.outline.of(fill);
         let smallest = look.discs.iter().map(|disc| disc.radius * scale).fold(f64::INFINITY, f64::min);
         let mark = if look.fixed { outline } else { theme.mark.of(fill) };
