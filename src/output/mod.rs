@@ -1,1 +1,127 @@
-//! draft
+//! Frames -> files: films as GIF, pictures as PNG. One format, one file.
+//!
+//! Frames stream: they are drawn and packed in small groups, several at once, and written in order, so the memory
+//! needed does not grow with the length of the film, and the bytes do not depend on the number of threads. A file is
+//! written beside its target as `<name>.part` and takes the target's name when it is complete.
+
+mod crew;
+mod delta;
+mod error;
+mod gif;
+mod lzw;
+mod palette;
+mod part;
+mod png;
+mod studio;
+
+use std::path::{Path, PathBuf};
+
+pub use error::OutputError;
+
+use crate::raster::View;
+use crate::record::frame::Frame;
+
+/// How a film is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmSettings {
+    /// Frames per second of film.
+    pub frames_per_second: f64,
+    /// How many threads draw and pack; 0 counts as 1. The bytes do not depend on it.
+    pub threads: usize,
+}
+
+/// A film in the making.
+///
+/// A film that is dropped before [`Film::finish`] leaves the frames written so far in `<name>.part`.
+pub trait Film {
+    /// Adds the next frame.
+    ///
+    /// # Errors
+    /// If the frame has not one pose for each body, or the system refuses to write. After an error of the system the
+    /// film is lost beyond the frames written so far.
+    fn push(&mut self, frame: Frame) -> Result<(), OutputError>;
+
+    /// Writes what is left and gives the file its name. May be called at any time: the film then ends with the last
+    /// frame pushed.
+    ///
+    /// # Errors
+    /// If there is no frame, or the system refuses to write.
+    fn finish(self: Box<Self>) -> Result<Written, OutputError>;
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The file, or the directory of a sequence.
+    pub path: PathBuf,
+    /// How many frames.
+    pub frames: u64,
+    /// How many bytes, all files together.
+    pub bytes: u64,
+    /// How long the film lasts, in seconds.
+    pub seconds: f64,
+    /// Pictures of an earlier, longer sequence that still lie in the directory, after the last frame of this one.
+    pub left_over: u64,
+}
+
+/// A format of films.
+#[derive(Debug)]
+struct Format {
+    /// The ending of its files, as it is to be written.
+    ending: &'static str,
+    open: fn(&Path, &FilmSettings, View) -> Result<Box<dyn Film>, OutputError>,
+}
+
+/// Every format, the directory of a sequence last.
+const FORMATS: [&Format; 3] = [&gif::FORMAT, &png::STILL, &png::SEQUENCE];
+
+/// Where a film goes, and in which format.
+#[derive(Clone, Debug)]
+pub struct Target {
+    path: PathBuf,
+    format: &'static Format,
+}
+
+impl Target {
+    /// The target at a path; its ending tells the format. `film.gif` is a film; `picture.png` is the last frame
+    /// pushed; a path that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
+    ///
+    /// # Errors
+    /// [`OutputError::UnknownFormat`] names the known endings.
+    pub fn new(path: impl Into<PathBuf>) -> Result<Target, OutputError> {
+        let path: PathBuf = path.into();
+        let name = path.to_string_lossy().to_lowercase();
+        let known = FORMATS.into_iter().find(|format| name.ends_with(format.ending));
+        match known {
+            _ if path.is_dir() => Ok(Target { path, format: &png::SEQUENCE }),
+            Some(format) => Ok(Target { path, format }),
+            None => Err(OutputError::UnknownFormat { path, known: Target::endings() }),
+        }
+    }
+
+    /// The known endings: `.gif`, `.png`, and `/` for a sequence of pictures.
+    pub fn endings() -> Vec<&'static str> {
+        FORMATS.iter().map(|format| format.ending).collect()
+    }
+
+    /// The path of the file or directory.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `<name>.part`, so that a
+/// target that cannot be written is known before the run.
+///
+/// # Errors
+/// If the format does not allow the size or the rate, or the file cannot be created.
+pub fn open(target: &Target, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+    let (width, height) = view.camera.size();
+    if width == 0 || height == 0 {
+        return Err(OutputError::Size { width, height, longest: 0 });
+    }
+    (target.format.open)(&target.path, settings, view)
+}
+
+#[cfg(test)]
+mod tests;

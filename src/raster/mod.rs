@@ -1,1 +1,198 @@
-//! draft
+//! A frame, a camera and a theme -> a picture. A pure function: the same frame gives the same bytes, whoever draws it.
+//!
+//! What never moves (background, grid, walls, fixed bodies, title) is drawn once and copied into each frame. One
+//! thread draws a whole frame; several frames may be drawn at once.
+
+mod camera;
+mod canvas;
+mod layers;
+mod silhouette;
+mod text;
+mod theme;
+
+use std::sync::Arc;
+
+use tiny_skia::Pixmap;
+
+pub use camera::{Bounds, Camera};
+pub use theme::{Swatch, Theme, Tint};
+
+use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
+use canvas::Canvas;
+use layers::bodies::Figure;
+use layers::clock::Clock;
+use layers::labels::Column;
+use layers::{backdrop, clock, title, walls};
+use silhouette::Field;
+use text::{Lettering, Weight};
+
+/// How a film looks at the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// Where the camera stands, and the size of the picture.
+    pub camera: Camera,
+    /// The colours.
+    pub theme: Theme,
+    /// The time from frame to frame in seconds of physics: the clock shows enough decimals to tell frames apart.
+    pub frame_step: f64,
+}
+
+/// A picture of that size cannot be made: a side is zero, or there is no memory for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SizeError {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+}
+
+impl std::fmt::Display for SizeError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a picture of {} x {} pixels cannot be made", self.width, self.height)
+    }
+}
+
+impl std::error::Error for SizeError {}
+
+/// What drawing one frame needs beside the picture: one for each thread, kept from frame to frame.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    field: Field,
+}
+
+/// Draws the frames of one cast.
+#[derive(Clone, Debug)]
+pub struct Painter {
+    view: View,
+    cast: Arc<Cast>,
+    /// The moving bodies, by their place in the cast.
+    figures: Vec<(usize, Figure)>,
+    clock: Clock,
+    /// Upper left corner of the clock, in pixels, and whether bodies may pass behind it.
+    clock_place: (f32, f32, bool),
+    backdrop: Pixmap,
+}
+
+impl Painter {
+    /// A painter for the cast of `frame`, whose poses place the fixed bodies.
+    ///
+    /// # Errors
+    /// A [`SizeError`] if there is no picture of the camera's size.
+    pub fn new(view: &View, frame: &Frame) -> Result<Painter, SizeError> {
+        let (camera, theme, cast) = (&view.camera, &view.theme, &frame.cast);
+        let (width, height) = camera.size();
+        let mut picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
+        let weights = Weights::of(camera);
+        backdrop::draw(&mut picture, camera, theme);
+        walls::draw(&mut picture, &cast.walls, camera, theme, weights.band, weights.line);
+
+        let mut figures = Vec::new();
+        let mut field = Field::default();
+        let colors = fills(cast, theme);
+        for (place, (look, pose)) in cast.bodies.iter().zip(&frame.poses).enumerate() {
+            let figure = Figure::new(look, colors[place], camera, theme, weights.line);
+            if look.fixed {
+                figure.draw(pose, camera, &mut Canvas::new(&mut picture), &mut field);
+            } else {
+                figures.push((place, figure));
+            }
+        }
+
+        let clock = Clock::new(weights.clock, clock::decimals(view.frame_step));
+        let room = walls::room(&cast.walls, camera, theme);
+        let column = Column::beside_or_in(room, weights.band, clock.width(), weights.pad);
+        let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
+        let used = title::draw(&mut picture, &cast.title, &lettering, &column, theme);
+        let gap = if used > 0.0 { 0.2 * weights.title } else { 0.0 };
+        let clock_place = (column.left, column.top + used + gap, column.in_room);
+        Ok(Painter { view: view.clone(), cast: cast.clone(), figures, clock, clock_place, backdrop: picture })
+    }
+
+    /// Whether this painter can draw that frame: it has the same cast.
+    pub fn suits(&self, frame: &Frame) -> bool {
+        Arc::ptr_eq(&self.cast, &frame.cast)
+    }
+
+    /// What never moves, drawn once.
+    pub fn backdrop(&self) -> &Pixmap {
+        &self.backdrop
+    }
+
+    /// Draws a frame over whatever the picture held. The picture must have the camera's size: see
+    /// [`Painter::backdrop`]; one of another size is replaced.
+    pub fn paint(&self, frame: &Frame, picture: &mut Pixmap, scratch: &mut Scratch) {
+        if (picture.width(), picture.height()) == (self.backdrop.width(), self.backdrop.height()) {
+            picture.data_mut().copy_from_slice(self.backdrop.data());
+        } else {
+            *picture = self.backdrop.clone();
+        }
+        let mut canvas = Canvas::new(picture);
+        for (place, figure) in &self.figures {
+            if let Some(pose) = frame.poses.get(*place) {
+                figure.draw(pose, &self.view.camera, &mut canvas, &mut scratch.field);
+            }
+        }
+        let (left, top, halo) = self.clock_place;
+        self.clock.draw(picture, frame.time, left, top, halo, &self.view.theme);
+    }
+
+    /// The flat colours of the film, each once: an encoder with few colours keeps these exact.
+    pub fn flat_colors(&self) -> Vec<Rgb> {
+        let theme = &self.view.theme;
+        let mut colors = vec![theme.background, theme.grid, theme.ground, theme.wall, theme.ink, theme.quiet_ink];
+        colors.push(theme.outline.of(theme.wall));
+        for wall in &self.cast.walls {
+            let own = wall.color.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.wall);
+            colors.extend([own, theme.outline.of(own)]);
+        }
+        for own in fills(&self.cast, theme) {
+            colors.extend([own, theme.outline.of(own), theme.mark.of(own)]);
+        }
+        let mut once = Vec::new();
+        for color in colors {
+            if !once.contains(&color) {
+                once.push(color);
+            }
+        }
+        once
+    }
+}
+
+/// The fill of each body. Only moving bodies take turns with the theme's colours, so that the first one always gets
+/// the first colour.
+fn fills(cast: &Cast, theme: &Theme) -> Vec<Rgb> {
+    let mut turn = 0;
+    let fill = |body: &BodyLook| {
+        let fill = theme.body(body.color.as_deref(), body.fixed, turn);
+        turn += usize::from(!body.fixed);
+        fill
+    };
+    cast.bodies.iter().map(fill).collect()
+}
+
+/// Widths of lines and sizes of letters, in pixels: right for 1280 x 720, scaled with the picture.
+struct Weights {
+    line: f32,
+    band: f32,
+    pad: f32,
+    title: f32,
+    clock: f32,
+}
+
+impl Weights {
+    fn of(camera: &Camera) -> Weights {
+        let area = camera.size().0 as f32 * camera.size().1 as f32;
+        let unit = (area / (1280.0 * 720.0)).sqrt();
+        Weights {
+            line: (2.2 * unit).max(1.0),
+            band: (12.0 * unit).max(3.0),
+            pad: (24.0 * unit).max(6.0),
+            // Smaller letters than these cannot be read.
+            title: (24.0 * unit).max(13.0),
+            clock: (20.0 * unit).max(12.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

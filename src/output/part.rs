@@ -1,0 +1,76 @@
+//! A file that gets its name when it is complete.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+
+/// A file in the making, `<name>.part` beside its target. Dropped unfinished, it stays where it is if anything was
+/// written, and goes if not.
+#[derive(Debug)]
+pub(super) struct PartFile {
+    target: PathBuf,
+    part: PathBuf,
+    /// None once complete.
+    file: Option<BufWriter<File>>,
+    bytes: u64,
+}
+
+impl PartFile {
+    /// Creates the temporary file for a target.
+    pub(super) fn create(target: &Path) -> Result<PartFile, OutputError> {
+        let mut name = target.file_name().unwrap_or_default().to_os_string();
+        name.push(".part");
+        let part = target.with_file_name(name);
+        if target.is_dir() {
+            return Err(OutputError::io(target, io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        let file = File::create(&part).map_err(|cause| OutputError::io(target, cause))?;
+        Ok(PartFile {
+            target: target.to_path_buf(),
+            part,
+            file: Some(BufWriter::with_capacity(1 << 16, file)),
+            bytes: 0,
+        })
+    }
+
+    /// Where the file is until it is complete.
+    pub(super) fn part(&self) -> &Path {
+        &self.part
+    }
+
+    /// Gives the file its name; returns its length in bytes.
+    pub(super) fn complete(mut self) -> Result<u64, OutputError> {
+        let renamed = self.flush().and_then(|()| fs::rename(&self.part, &self.target));
+        renamed.map_err(|cause| OutputError::Io {
+            path: self.target.clone(),
+            cause,
+            kept: (self.bytes > 0).then(|| self.part.clone()),
+        })?;
+        self.file = None;
+        Ok(self.bytes)
+    }
+}
+
+impl Write for PartFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let Some(file) = &mut self.file else { return Ok(0) };
+        let count = file.write(bytes)?;
+        self.bytes += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.as_mut().map_or(Ok(()), Write::flush)
+    }
+}
+
+impl Drop for PartFile {
+    fn drop(&mut self) {
+        if self.file.is_some() && self.bytes == 0 {
+            // Nobody is left to be told if this fails, and an empty file does no harm.
+            let _ = fs::remove_file(&self.part);
+        }
+    }
+}

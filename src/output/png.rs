@@ -1,0 +1,156 @@
+//! PNG: one still, or a sequence `frame_00000.png`, `frame_00001.png` ... in a directory. True colours, lossless.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::part::PartFile;
+use super::studio::{Easel, Studio};
+use super::{Film, FilmSettings, Format, OutputError, Written, crew};
+use crate::raster::{Painter, View};
+use crate::record::frame::Frame;
+
+/// A single picture: the last frame pushed.
+pub(super) const STILL: Format = Format { ending: ".png", open: open_still };
+
+/// A directory of pictures, one for each frame.
+pub(super) const SEQUENCE: Format = Format { ending: "/", open: open_sequence };
+
+/// Frames drawn at once, for each thread.
+const FRAMES_PER_THREAD: usize = 4;
+
+fn open_still(path: &Path, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+    let file = PartFile::create(path)?;
+    let seconds = 1.0 / settings.frames_per_second;
+    Ok(Box::new(Still { path: path.to_path_buf(), file, studio: Studio::new(view), seconds, last: None }))
+}
+
+struct Still {
+    path: PathBuf,
+    file: PartFile,
+    studio: Studio,
+    seconds: f64,
+    last: Option<Frame>,
+}
+
+impl Film for Still {
+    fn push(&mut self, frame: Frame) -> Result<(), OutputError> {
+        Studio::check(&frame)?;
+        self.last = Some(frame);
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+        let Some(frame) = self.last.take() else { return Err(OutputError::NoFrames { path: self.path }) };
+        let painter = self.studio.painter(&frame)?;
+        let mut easel = self.studio.easel()?;
+        easel.paint(&painter, &frame);
+        let packed = pack(&easel, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
+        self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
+        let bytes = self.file.complete()?;
+        Ok(Written { path: self.path, frames: 1, bytes, seconds: self.seconds, left_over: 0 })
+    }
+}
+
+fn open_sequence(path: &Path, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+    fs::create_dir_all(path).map_err(|cause| OutputError::io(path, cause))?;
+    let studio = Studio::new(view);
+    let workers = (0..settings.threads.max(1)).map(|_| Ok(Worker { easel: studio.easel()?, rgb: Vec::new() }));
+    Ok(Box::new(Sequence {
+        path: path.to_path_buf(),
+        workers: workers.collect::<Result<_, OutputError>>()?,
+        studio,
+        frames_per_second: settings.frames_per_second,
+        waiting: Vec::new(),
+        frames: 0,
+        bytes: 0,
+    }))
+}
+
+struct Sequence {
+    path: PathBuf,
+    studio: Studio,
+    workers: Vec<Worker>,
+    frames_per_second: f64,
+    waiting: Vec<Job>,
+    frames: u64,
+    bytes: u64,
+}
+
+struct Worker {
+    easel: Easel,
+    rgb: Vec<u8>,
+}
+
+/// One frame to be written.
+struct Job {
+    frame: Frame,
+    painter: Arc<Painter>,
+    path: PathBuf,
+    written: Result<u64, OutputError>,
+}
+
+impl Job {
+    fn write(&self, worker: &mut Worker) -> Result<u64, OutputError> {
+        worker.easel.paint(&self.painter, &self.frame);
+        let packed = pack(&worker.easel, &mut worker.rgb).map_err(|cause| OutputError::io(&self.path, cause))?;
+        let mut file = PartFile::create(&self.path)?;
+        file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
+        file.complete()
+    }
+}
+
+impl Sequence {
+    fn file(&self, place: u64) -> PathBuf {
+        self.path.join(format!("frame_{place:05}.png"))
+    }
+
+    fn write_waiting(&mut self) -> Result<(), OutputError> {
+        let mut jobs = std::mem::take(&mut self.waiting);
+        crew::share_out(&mut self.workers, &mut jobs, |worker, job| job.written = job.write(worker));
+        for job in jobs {
+            self.bytes += job.written?;
+            self.frames += 1;
+        }
+        Ok(())
+    }
+}
+
+impl Film for Sequence {
+    fn push(&mut self, frame: Frame) -> Result<(), OutputError> {
+        Studio::check(&frame)?;
+        let painter = self.studio.painter(&frame)?;
+        let path = self.file(self.frames + self.waiting.len() as u64);
+        self.waiting.push(Job { frame, painter, path, written: Ok(0) });
+        if self.waiting.len() < FRAMES_PER_THREAD * self.workers.len() { Ok(()) } else { self.write_waiting() }
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+        self.write_waiting()?;
+        if self.frames == 0 {
+            return Err(OutputError::NoFrames { path: self.path });
+        }
+        let left_over = (self.frames..).take_while(|place| self.file(*place).exists()).count() as u64;
+        let seconds = self.frames as f64 / self.frames_per_second;
+        Ok(Written { path: self.path, frames: self.frames, bytes: self.bytes, seconds, left_over })
+    }
+}
+
+/// A picture as the bytes of a PNG file. `rgb` is room for its pixels, kept to spare allocations.
+///
+/// Fast compression wants the Paeth filter: without a filter it would store the picture nearly as it is.
+fn pack(easel: &Easel, rgb: &mut Vec<u8>) -> Result<Vec<u8>, png::EncodingError> {
+    rgb.clear();
+    rgb.extend(easel.picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]));
+    let mut packed = Vec::with_capacity(rgb.len() / 8);
+    let mut encoder = png::Encoder::new(&mut packed, easel.picture.width(), easel.picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Paeth);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(rgb)?;
+    writer.finish()?;
+    Ok(packed)
+}

@@ -1,0 +1,76 @@
+//! Where the labels stand: beside the room if there is space, else in its upper left corner.
+
+use glam::DVec2;
+
+use crate::raster::text::Lettering;
+
+/// The part of the picture that no wall covers, as an upright box in pixels, y down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::raster) struct Room {
+    pub(in crate::raster) low: DVec2,
+    pub(in crate::raster) high: DVec2,
+}
+
+/// The column the labels are set in, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::raster) struct Column {
+    /// Left edge of the text.
+    pub(in crate::raster) left: f32,
+    /// Upper edge of the first line.
+    pub(in crate::raster) top: f32,
+    /// The longest line that fits.
+    pub(in crate::raster) width: f32,
+    /// Whether bodies may pass behind.
+    pub(in crate::raster) in_room: bool,
+}
+
+impl Column {
+    /// The column for a room whose walls have a band `band` pixels wide. `needed` is the width of the widest label
+    /// that cannot be broken, `pad` the distance to keep from borders.
+    pub(in crate::raster) fn beside_or_in(room: Room, band: f32, needed: f32, pad: f32) -> Column {
+        let beside = room.low.x as f32 - band - 2.0 * pad;
+        if beside >= needed {
+            return Column { left: pad, top: pad, width: beside, in_room: false };
+        }
+        let width = (room.high.x - room.low.x) as f32 - 2.0 * pad;
+        Column { left: room.low.x as f32 + pad, top: room.low.y as f32 + pad, width: width.max(needed), in_room: true }
+    }
+}
+
+/// Breaks a text into lines no wider than `width`; a word that is wider stands alone and runs over.
+pub(in crate::raster) fn break_lines(text: &str, lettering: &Lettering, width: f32) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let longer = lines.last().map(|line| format!("{line} {word}"));
+        match (longer, lines.last_mut()) {
+            (Some(longer), Some(line)) if lettering.width(&longer) <= width => *line = longer,
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::text::Weight;
+
+    #[test]
+    fn a_square_room_in_a_wide_picture_has_its_labels_beside_it() {
+        let room = Room { low: DVec2::new(310.0, 36.0), high: DVec2::new(970.0, 684.0) };
+        let column = Column::beside_or_in(room, 14.0, 150.0, 24.0);
+        assert_eq!(column, Column { left: 24.0, top: 24.0, width: 248.0, in_room: false });
+        let wide = Room { low: DVec2::new(36.0, 36.0), high: DVec2::new(1244.0, 684.0) };
+        let column = Column::beside_or_in(wide, 14.0, 150.0, 24.0);
+        assert_eq!(column, Column { left: 60.0, top: 60.0, width: 1160.0, in_room: true });
+    }
+
+    #[test]
+    fn titles_break_between_words() {
+        let lettering = Lettering::new(Weight::SemiBold, 20.0, "abcdefghij ");
+        let width = lettering.width("abc def");
+        assert_eq!(break_lines("abc def ghi", &lettering, width), ["abc def", "ghi"]);
+        assert_eq!(break_lines("abcdefghij a", &lettering, 10.0), ["abcdefghij", "a"]);
+        assert!(break_lines(" ", &lettering, 10.0).is_empty());
+    }
+}

@@ -1,0 +1,19 @@
+//! What is drawn, one file per thing, from back to front.
+
+pub(super) mod backdrop;
+pub(super) mod bodies;
+pub(super) mod clock;
+pub(super) mod labels;
+pub(super) mod title;
+pub(super) mod walls;
+
+use tiny_skia::{Color, Paint};
+
+use crate::record::frame::Rgb;
+
+/// A colour as tiny-skia paints it.
+fn paint(Rgb(red, green, blue): Rgb) -> Paint<'static> {
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color(Color::from_rgba8(red, green, blue, 255));
+    paint
+}
