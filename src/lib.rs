@@ -1,14 +1,64 @@
-//! draft
+//! **Jostle**: a 2D physics engine without a window. A scene is a RON file; out come films, numbers and a statement
+//! of how wrong they are.
+//!
+//! ```text
+//!  scenes/*.ron                                                *.gif *.png *.csv
+//!       |                                                              ^
+//!       v                                                              |
+//!     scene --> world --> tick --> record --> raster --------------> output
+//!                          |         ^
+//!                          v         | frames, readings
+//!    +-> forces -> contacts -> joints -> integrate -> bounds -> sensors -+
+//!    +------------------------------ next tick <-------------------------+
+//! ```
+//!
+//! The modules stand in this order. Nothing points back: [`raster`] and [`output`] know no ECS type, and a physical
+//! model knows nothing of pictures.
+//!
+//! ```
+//! use jostle::{Simulation, scene::Source};
+//!
+//! let scene = r#"Scene(
+//!     format: 1,
+//!     clock: (duration: 1, tick: "1 ms", method: VelocityVerlet),
+//!     gravity: (0, -10),
+//!     bodies: [(name: "ball", at: (0, 5), velocity: (2, 0), atoms: Disc(radius: 0.1))],
+//! )"#;
+//! let mut simulation = Simulation::load(&Source::new("throw.ron", scene))?;
+//! simulation.run_to_end()?;
+//! assert!((simulation.bodies().position[0].x - 2.0).abs() < 1e-12);
+//! println!("{}", simulation.card());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod cli;
+pub mod plugins;
+pub mod simulation;
+
 pub mod scene;
+pub mod shapes;
 pub mod world;
+
 pub mod tick;
+
 pub mod forces;
+
 pub mod contacts;
+
 pub mod integrate;
+
 pub mod bounds;
+
 pub mod sensors;
+
 pub mod expect;
+
 pub mod record;
+
 pub mod raster;
+
 pub mod output;
+
 pub mod report;
+
+pub use simulation::Simulation;

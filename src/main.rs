@@ -1,2 +1,10 @@
-//! draft
-fn main() {}
+//! The command line program: parse, call, report.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use jostle::cli::CommandLine;
+
+fn main() -> ExitCode {
+    CommandLine::parse().execute().into()
+}

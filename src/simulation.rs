@@ -13,7 +13,7 @@ use crate::report::card::{ChosenMethod, Notes};
 use crate::scene::sections::{ClockSection, FilmSection};
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::tick::{Clock, Failure, TickAppExt, step};
-use crate::world::packed;
+use crate::world::{Name, packed};
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -155,6 +155,22 @@ impl Simulation {
     /// The error card of the present state.
     pub fn card(&self) -> Card {
         Card::of(self.world(), self.spent.as_secs_f64())
+    }
+
+    /// Seconds spent computing so far.
+    pub fn seconds_spent(&self) -> f64 {
+        self.spent.as_secs_f64()
+    }
+
+    /// Name of the body at `place`; empty for a body spawned without one.
+    pub fn name(&self, place: usize) -> &str {
+        let entity = self.bodies().entity[place];
+        self.world().get::<Name>(entity).map_or("", |name| &name.0)
+    }
+
+    /// Seconds of physics from frame to frame of the film, by default 1/30.
+    pub fn frame_step(&self) -> f64 {
+        self.film.speed() / self.film.frames_per_second()
     }
 
     /// How the scene's expectations went so far.

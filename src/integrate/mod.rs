@@ -12,6 +12,8 @@ use bevy_ecs::prelude::*;
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use velocity_verlet::VelocityVerlet;
 
+use crate::scene::SceneAppExt;
+use crate::scene::sections::ClockSection;
 use crate::tick::Tick;
 
 /// A method that advances the state by one tick.
@@ -55,8 +57,20 @@ impl Methods {
 
 /// Registers the methods of this folder.
 pub fn plugin(app: &mut App) {
-    app.world_mut()
-        .get_resource_or_init::<Methods>()
-        .0
-        .extend([semi_implicit_euler::DESCRIPTION, velocity_verlet::DESCRIPTION]);
+    for description in [semi_implicit_euler::DESCRIPTION, velocity_verlet::DESCRIPTION] {
+        app.register_method(description);
+    }
+}
+
+/// How plugins add an integrator.
+pub trait MethodAppExt {
+    /// Makes a method known by its name.
+    fn register_method(&mut self, description: Description) -> &mut Self;
+}
+
+impl MethodAppExt for App {
+    fn register_method(&mut self, description: Description) -> &mut Self {
+        self.world_mut().get_resource_or_init::<Methods>().0.push(description);
+        self.register_word(ClockSection::METHODS, description.name)
+    }
 }

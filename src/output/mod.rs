@@ -5,6 +5,7 @@
 //! written beside its target as `<name>.part` and takes the target's name when it is complete.
 
 mod crew;
+pub mod csv;
 mod delta;
 mod error;
 mod gif;

@@ -2,3 +2,6 @@
 
 pub mod between;
 pub mod frame;
+mod recorder;
+
+pub use recorder::{Recorder, Schedule};

@@ -198,7 +198,7 @@ fn finer_tick(tick: f64) -> f64 {
 
 fn percent(share: f64) -> String {
     if share == 0.0 {
-        "the last digit".to_owned()
+        "nothing".to_owned()
     } else if share >= 1e-4 {
         format!("{:.2} %", share * 100.0)
     } else {
@@ -237,29 +237,13 @@ impl fmt::Display for Card {
                 self.ns_per_atom_tick
             ),
         )?;
-        let joules = |value: f64| format!("{value:.6e} J");
-        row(
-            "energy",
-            format!(
-                "kinetic {}, potential {}, elastic {}",
-                joules(energy.kinetic),
-                joules(energy.potential),
-                joules(energy.elastic)
-            ),
-        )?;
-        row(
-            "lost and brought",
-            format!(
-                "friction {}, inelasticity {}, drag {}, work {}",
-                joules(energy.friction),
-                joules(energy.inelasticity),
-                joules(energy.drag),
-                joules(energy.work)
-            ),
-        )?;
+        row("energy", parts(&[("kinetic", energy.kinetic), ("potential", energy.potential), ("elastic", energy.elastic)]))?;
+        let lost = [("friction", energy.friction), ("inelasticity", energy.inelasticity), ("drag", energy.drag)];
+        row("energy lost", parts(&lost))?;
+        row("work of drives", parts(&[("", energy.work)]))?;
         row(
             "energy residual",
-            format!("{} ({} of what went round)", joules(energy.residual), percent(self.energy_error())),
+            format!("{} J, {} of what went round", number(energy.residual), percent(self.energy_error())),
         )?;
         let [x, y] = self.momentum_residual;
         row(
@@ -286,6 +270,13 @@ impl fmt::Display for Card {
         }
         write!(f, "  {}", self.verdict)
     }
+}
+
+/// Energies with their names; those that are zero are left out, and nothing at all is `0 J`.
+fn parts(parts: &[(&str, f64)]) -> String {
+    let there: Vec<String> =
+        parts.iter().filter(|(_, value)| *value != 0.0).map(|(name, value)| format!("{name} {} J", number(*value))).collect();
+    if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
 }
 
 /// A number in at most five digits, as people write it.

@@ -127,7 +127,7 @@ impl Totals {
     /// The totals of the present state.
     pub fn of(world: &World) -> Self {
         let bodies = world.resource::<Bodies>();
-        let sum = |terms: &[fn(&World) -> f64]| terms.iter().map(|term| term(world)).sum();
+        let sum = |terms: &[fn(&World) -> f64]| terms.iter().map(|term| term(world)).fold(0.0, |sum, term| sum + term);
         let terms = world.get_resource::<EnergyTerms>();
         Self {
             kinetic: kinetic_energy(bodies),
@@ -154,7 +154,7 @@ pub fn angular_momentum(bodies: &Bodies) -> f64 {
     let of = |b: usize| {
         bodies.mass[b] * bodies.position[b].perp_dot(bodies.velocity[b]) + bodies.inertia[b] * bodies.spin[b]
     };
-    dynamic(bodies).map(of).sum()
+    dynamic(bodies).map(of).fold(0.0, |sum, term| sum + term)
 }
 
 /// Kinetic energy of all dynamic bodies in J.
@@ -162,7 +162,7 @@ pub fn kinetic_energy(bodies: &Bodies) -> f64 {
     let of = |b: usize| {
         0.5 * (bodies.mass[b] * bodies.velocity[b].length_squared() + bodies.inertia[b] * bodies.spin[b].powi(2))
     };
-    dynamic(bodies).map(of).sum()
+    dynamic(bodies).map(of).fold(0.0, |sum, term| sum + term)
 }
 
 fn dynamic(bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {

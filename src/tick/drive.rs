@@ -177,7 +177,8 @@ pub(super) fn integrate(world: &mut World) {
 /// anything changed.
 fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
     let changed = world.resource::<Bodies>().changed;
-    let differs = changed || world.run_system_cached(packed::components_differ).unwrap_or(false);
+    let beginning = world.resource::<Ledger>().start.is_none();
+    let differs = changed || beginning || world.run_system_cached(packed::components_differ).unwrap_or(false);
     if !differs {
         return None;
     }

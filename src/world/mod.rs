@@ -6,6 +6,7 @@ pub mod finite;
 pub mod hash;
 pub mod material;
 pub mod packed;
+mod sections;
 pub mod spawn;
 pub mod wall;
 
@@ -13,5 +14,6 @@ pub use atom::{Atom, AtomOf, Atoms};
 pub use body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
 pub use material::{MaterialIndex, Materials};
 pub use packed::{Bodies, PackedWall, Slot};
+pub use sections::plugin;
 pub use spawn::NewBody;
 pub use wall::Wall;

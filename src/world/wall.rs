@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn the_open_side_is_where_left_is_left() {
-        let wall = |left, right| Wall { key: 0, left, right, material: MaterialIndex(0) };
+        let wall = |left, right| Wall { key: 0, left, right, material: MaterialIndex::default() };
         let normal = |l: (f64, f64), r: (f64, f64)| wall(DVec2::new(l.0, l.1), DVec2::new(r.0, r.1)).normal();
         assert_eq!(normal((6.0, 0.0), (0.0, 0.0)), DVec2::Y);
         assert_eq!(normal((0.0, 6.0), (1.0, 6.0)), DVec2::NEG_Y);

@@ -66,7 +66,7 @@ impl LawTable {
 
 fn pair_law(a: Side, b: Side, materials: &Materials, settings: &Penalty) -> PairLaw {
     let stiffness = 1.0 / (1.0 / a.stiffness + 1.0 / b.stiffness);
-    let pair = materials.pair(a.material, b.material);
+    let pair = materials.pair(a.material.place(), b.material.place());
     let ratio = settings.tangential.ratio();
     let friction = |coefficient: f64| if ratio.is_some() { coefficient } else { 0.0 };
     PairLaw {

@@ -1,0 +1,28 @@
+//! The scenes that come with the program, `example:NAME`.
+
+/// Name and text of each scene in `scenes/`.
+pub(super) const SCENES: &[(&str, &str)] = &[
+    ("billiards", include_str!("../../scenes/billiards.ron")),
+    ("bounce", include_str!("../../scenes/bounce.ron")),
+    ("incline", include_str!("../../scenes/incline.ron")),
+    ("kepler", include_str!("../../scenes/kepler.ron")),
+    ("projectile", include_str!("../../scenes/projectile.ron")),
+    ("tetris", include_str!("../../scenes/tetris.ron")),
+    ("tetris_weightless", include_str!("../../scenes/tetris_weightless.ron")),
+];
+
+#[cfg(test)]
+mod tests {
+    /// A scene that is not listed would be missing from an installed program.
+    #[test]
+    fn every_scene_of_the_folder_is_listed() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .filter_map(|entry| entry.unwrap().file_name().to_str().unwrap().strip_suffix(".ron").map(str::to_owned))
+            .collect();
+        files.sort();
+        let listed: Vec<&str> = super::SCENES.iter().map(|(name, _)| *name).collect();
+        assert_eq!(files, listed);
+    }
+}

@@ -1,0 +1,75 @@
+//! The command line: one file per command.
+
+mod check;
+mod examples;
+mod progress;
+mod render;
+mod run;
+mod shared;
+
+use clap::{Parser, Subcommand};
+
+/// How a command ended. The exit codes are documented in the manual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// 0: good.
+    Good,
+    /// 1: the scene is wrong, or an expectation is broken.
+    SceneWrong,
+    /// 2: the command line is wrong, or a file cannot be written.
+    Usage,
+    /// 3: the run went wrong; frames so far are kept.
+    RunWrong,
+}
+
+impl From<Exit> for std::process::ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+impl Exit {
+    /// The graver of two.
+    fn worse(self, other: Self) -> Self {
+        if other as u8 > self as u8 { other } else { self }
+    }
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle render example:tetris                      the film tetris.gif, and the error card
+  jostle render scenes/bounce.ron -o bounce.png --at 1.5
+  jostle render scenes/*.ron -o films/              a GIF of each scene
+  jostle run scenes/projectile.ron -o channels.csv  numbers instead of pictures
+  jostle check my_scene.ron                         read it and say what is wrong
+
+Exit codes: 0 good, 1 scene or expectation wrong, 2 usage or a file cannot be written, 3 the run went wrong.";
+
+/// 2D physics without a window: a scene in a RON file -> films, numbers, and a statement of how wrong they are.
+#[derive(Parser, Debug)]
+#[command(name = "jostle", version, after_help = EXAMPLES)]
+pub struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Run a scene and print its error card; with -o also its channels as CSV
+    Run(run::Run),
+    /// Run scenes and draw them: GIF, PNG, PNG sequences
+    Render(render::Render),
+    /// Read scenes and say what is wrong with them, without running them
+    Check(check::Check),
+}
+
+impl CommandLine {
+    /// Does what was asked for; messages go to standard error, results to standard output.
+    pub fn execute(self) -> Exit {
+        match self.command {
+            Command::Run(run) => run.execute(),
+            Command::Render(render) => render.execute(),
+            Command::Check(check) => check.execute(),
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Channels as comma-separated values: a header with names and units, then a row per sample. Numbers are written so
+//! that they read back to the same bits.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+use super::part::PartFile;
+
+/// A table in the making: `<name>.part` until it is complete.
+pub struct Table {
+    path: PathBuf,
+    part: PartFile,
+    columns: usize,
+}
+
+impl Table {
+    /// Begins a table with a column `time [s]` and one for each name and unit.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
+    pub fn create<'a>(
+        path: &Path,
+        columns: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Result<Self, OutputError> {
+        let part = PartFile::create(path)?;
+        let mut table = Self { path: path.to_owned(), part, columns: 0 };
+        let mut header = "time [s]".to_owned();
+        for (name, unit) in columns {
+            table.columns += 1;
+            header.push(',');
+            header.push_str(name);
+            if !unit.is_empty() {
+                header.push_str(&format!(" [{unit}]"));
+            }
+        }
+        table.line(&header)?;
+        Ok(table)
+    }
+
+    /// Adds a row. Values beyond the columns are left out.
+    ///
+    /// # Errors
+    /// If the system refuses to write.
+    pub fn row(&mut self, time: f64, values: impl IntoIterator<Item = f64>) -> Result<(), OutputError> {
+        let mut line = time.to_string();
+        for value in values.into_iter().take(self.columns) {
+            line.push(',');
+            line.push_str(&value.to_string());
+        }
+        self.line(&line)
+    }
+
+    fn line(&mut self, line: &str) -> Result<(), OutputError> {
+        writeln!(self.part, "{line}").map_err(|cause: io::Error| OutputError::io(&self.path, cause))
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// If the system refuses to write.
+    pub fn finish(self) -> Result<(), OutputError> {
+        self.part.complete().map(|_| ())
+    }
+}

@@ -1,0 +1,117 @@
+//! Takes frames of a running simulation: frame k shows its time exactly, between two ticks if need be.
+
+use std::sync::Arc;
+
+use bevy_ecs::prelude::*;
+
+use super::between::{Moment, angle_between, position_between};
+use super::frame::{BodyLook, Cast, Disc, Frame, Pose, WallLook};
+use crate::simulation::Simulation;
+use crate::tick::Failure;
+use crate::world::{Bodies, Materials, Motion, Name, Wall};
+
+/// The times of a film's frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schedule {
+    /// First moment in seconds of physics.
+    pub from: f64,
+    /// Seconds of physics from frame to frame.
+    pub step: f64,
+    /// Number of frames.
+    pub frames: u64,
+}
+
+impl Schedule {
+    /// The frames of the physics between `from` and `to` seconds, at `speed` seconds of physics per second of film.
+    /// Their number is that which gives the film its exact length; there is at least one.
+    pub fn new(from: f64, to: f64, speed: f64, frames_per_second: f64) -> Self {
+        let step = speed / frames_per_second;
+        let frames = ((to - from) / step).round().max(1.0) as u64;
+        Self { from, step, frames }
+    }
+
+    /// Time of frame `k` in seconds of physics: a product, so that rounding does not add up.
+    pub fn time(&self, frame: u64) -> f64 {
+        self.from + frame as f64 * self.step
+    }
+}
+
+/// Takes frames of a running simulation.
+#[derive(Default)]
+pub struct Recorder {
+    cast: Arc<Cast>,
+    generation: Option<u64>,
+    before: Vec<(u64, Moment)>,
+}
+
+impl Recorder {
+    /// Runs to `time` seconds and takes the frame. Times may not go back by more than a tick.
+    ///
+    /// # Errors
+    /// When the run goes wrong.
+    pub fn frame(&mut self, simulation: &mut Simulation, time: f64) -> Result<Frame, Failure> {
+        let dt = simulation.clock().dt;
+        // A time that is a tick but for rounding is that tick.
+        let exact = time / dt;
+        let on_tick = (exact - exact.round()).abs() < 1e-6;
+        let tick = if on_tick { exact.round() } else { exact.floor() } as u64;
+        simulation.run_to_tick(tick)?;
+        if !on_tick && simulation.clock().ticks == tick {
+            self.before = moments(simulation.bodies(), simulation.clock().time());
+            simulation.run_to_tick(tick + 1)?;
+        }
+        self.refresh_cast(simulation);
+        let after = moments(simulation.bodies(), simulation.clock().time());
+        let pose = |&(key, after): &(u64, Moment)| {
+            let before = self.before.binary_search_by_key(&key, |(key, _)| *key).ok().map(|place| self.before[place].1);
+            let before = before.filter(|before| !on_tick && before.time <= time).unwrap_or(after);
+            Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
+        };
+        Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect() })
+    }
+
+    fn refresh_cast(&mut self, simulation: &Simulation) {
+        let generation = simulation.bodies().generation;
+        if self.generation != Some(generation) {
+            self.generation = Some(generation);
+            self.cast = Arc::new(cast_of(simulation));
+        }
+    }
+}
+
+fn moments(bodies: &Bodies, time: f64) -> Vec<(u64, Moment)> {
+    (0..bodies.len()).map(|place| (bodies.key[place], Moment::of(bodies, place, time))).collect()
+}
+
+/// What a film shows of the present bodies and walls.
+fn cast_of(simulation: &Simulation) -> Cast {
+    let (world, bodies) = (simulation.world(), simulation.bodies());
+    let materials = world.get_resource::<Materials>();
+    let color = |material: crate::world::MaterialIndex| {
+        materials.and_then(|materials| materials.by_index.get(material.place())?.color.clone())
+    };
+    let name = |entity: Entity| world.get::<Name>(entity).map(|name| name.0.clone()).unwrap_or_default();
+    let body = |place: usize| {
+        let atoms = bodies.atoms_of(place);
+        let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset[a], radius: bodies.atom_radius[a] });
+        let fixed = world
+            .get::<crate::world::Body>(bodies.entity[place])
+            .is_some_and(|body| body.motion == Motion::Fixed);
+        BodyLook {
+            name: name(bodies.entity[place]),
+            color: atoms.clone().next().and_then(|first| color(bodies.atom_material[first])),
+            discs: discs.collect(),
+            fixed,
+        }
+    };
+    let wall = |packed: &crate::world::PackedWall| {
+        let wall = world.get::<Wall>(packed.entity)?;
+        let (left, right) = (wall.left, wall.right);
+        Some(WallLook { name: name(packed.entity), left, right, color: color(wall.material) })
+    };
+    Cast {
+        title: simulation.header().title.clone().unwrap_or_default(),
+        bodies: (0..bodies.len()).map(body).collect(),
+        walls: bodies.walls.iter().filter_map(wall).collect(),
+    }
+}

@@ -1,0 +1,185 @@
+//! From the scene's `materials`, `pairs`, `walls`, `bodies` and `fill` to entities.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
+use super::spawn::NextKey;
+use super::{Atom, Motion, Name, NewBody, Wall};
+use crate::scene::sections::{BodiesSection, FillSection, InertiaRule, WallsSection};
+use crate::scene::{Kind, Outline, Report, SceneAppExt, Section};
+use crate::shapes::mass_properties::{self, MassProperties};
+use crate::shapes::{AtomSpec, Atoms};
+
+/// Registers the sections. Materials come first: the others name them.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<Materials>();
+    app.register_section::<MaterialsSection>();
+    app.register_section::<PairsSection>();
+    app.register_section::<WallsSection>();
+    app.register_section::<BodiesSection>();
+    app.register_section::<FillSection>();
+}
+
+impl Section for MaterialsSection {
+    const NAME: &'static str = Self::NAME;
+    const EXAMPLE: &'static str = Self::EXAMPLE;
+
+    fn declare(&self, outline: &mut Outline) {
+        self.declare(outline);
+    }
+
+    fn check(&self, _: &Outline, report: &mut Report) {
+        self.check(report);
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.insert_resource(Materials::new(Some(&self), None));
+    }
+}
+
+impl Section for PairsSection {
+    const NAME: &'static str = Self::NAME;
+    const EXAMPLE: &'static str = Self::EXAMPLE;
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.check(outline, report);
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.world_mut().resource_mut::<Materials>().set_pairs(&self);
+    }
+}
+
+impl Section for WallsSection {
+    const NAME: &'static str = Self::NAME;
+    const EXAMPLE: &'static str = Self::EXAMPLE;
+
+    fn declare(&self, outline: &mut Outline) {
+        self.declare(outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.check(outline, report);
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        let world = app.world_mut();
+        for wall in self.0 {
+            let material = material(world, wall.material.as_deref());
+            let mut next = world.get_resource_or_init::<NextKey>();
+            let key = next.wall;
+            next.wall += 1;
+            let (left, right) = (wall.left.si(), wall.right.si());
+            world.spawn((Wall { key, left, right, material }, Name(wall.name)));
+        }
+    }
+}
+
+impl Section for BodiesSection {
+    const NAME: &'static str = Self::NAME;
+    const EXAMPLE: &'static str = Self::EXAMPLE;
+
+    fn declare(&self, outline: &mut Outline) {
+        self.declare(outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.check(outline, report);
+    }
+
+    fn install(self, outline: &Outline, app: &mut App) {
+        for entry in self.0 {
+            let world = app.world_mut();
+            let template = Template::of(world, &entry.atoms, entry.material.as_deref());
+            let properties = entry.mass_properties(template.density);
+            let body = NewBody {
+                position: entry.start(&properties),
+                motion: if entry.fixed { Motion::Fixed } else { Motion::Dynamic },
+                collides: entry.collides,
+                angle: entry.angle.si(),
+                velocity: entry.velocity.si(),
+                spin: entry.spin.si(),
+                name: entry.name,
+                ..template.body(&properties)
+            };
+            spawn(body, outline, world);
+        }
+    }
+}
+
+impl Section for FillSection {
+    const NAME: &'static str = Self::NAME;
+    const EXAMPLE: &'static str = Self::EXAMPLE;
+
+    fn declare(&self, outline: &mut Outline) {
+        self.declare(outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.check(outline, report);
+    }
+
+    fn install(self, outline: &Outline, app: &mut App) {
+        let world = app.world_mut();
+        for (entry, placed) in self.0.iter().zip(self.place(outline)) {
+            let template = Template::of(world, &entry.atoms, entry.material.as_deref());
+            let properties = mass_properties::of(&template.specs, None, InertiaRule::default(), template.density);
+            for (number, place) in placed.into_iter().enumerate() {
+                let body = NewBody {
+                    name: entry.body_name(number as u64),
+                    position: place.position,
+                    angle: place.angle,
+                    velocity: place.velocity,
+                    ..template.body(&properties)
+                };
+                spawn(body, outline, world);
+            }
+        }
+    }
+}
+
+fn material(world: &World, name: Option<&str>) -> MaterialIndex {
+    MaterialIndex::new(world.resource::<Materials>().index(name))
+}
+
+/// Spawns a body at its place in the outline: names are looked up there, and its keys are the canonical order.
+fn spawn(body: NewBody, outline: &Outline, world: &mut World) {
+    match outline.position(Kind::BODY, &body.name) {
+        Some(place) => body.spawn_with_key(world, place as u64),
+        None => body.spawn(world),
+    };
+}
+
+/// What bodies of one shape and material share.
+struct Template {
+    specs: Vec<AtomSpec>,
+    material: MaterialIndex,
+    density: f64,
+    stiffness: f64,
+}
+
+impl Template {
+    fn of(world: &World, atoms: &Atoms, name: Option<&str>) -> Self {
+        let material = material(world, name);
+        let made_of = &world.resource::<Materials>().by_index[material.place()];
+        Self { specs: atoms.specs(), material, density: made_of.density, stiffness: made_of.stiffness }
+    }
+
+    /// A body at rest in the origin. Atoms without a stiffness of their own have the material's.
+    fn body(&self, properties: &MassProperties) -> NewBody {
+        let atom = |spec: &AtomSpec| Atom {
+            offset: spec.offset,
+            radius: spec.radius,
+            mass: spec.mass.unwrap_or_default(),
+            stiffness: spec.stiffness.unwrap_or(self.stiffness),
+            material: self.material,
+        };
+        NewBody {
+            mass: properties.mass,
+            inertia: properties.inertia,
+            atoms: properties.atoms.iter().map(atom).collect(),
+            ..NewBody::default()
+        }
+    }
+}
