@@ -4,3 +4,5 @@ pub mod output;
 pub mod raster;
 pub mod record;
 pub mod scene;
+pub mod shapes;
+pub mod world;

@@ -1,5 +1,6 @@
 //! What is wrong with a scene, and how it is told: every mistake with its place, path, source line and remedy.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
@@ -32,6 +33,9 @@ pub struct SceneError {
     /// The bytes the caret stands under.
     #[serde(skip)]
     pub(crate) span: Option<Range<usize>>,
+    /// Whether the walk over the text found it, before anything was read.
+    #[serde(skip)]
+    pub(crate) by_walk: bool,
     /// A second place and what it has to do with the mistake.
     #[serde(skip)]
     pub(crate) also: Option<(Range<usize>, String)>,
@@ -78,17 +82,10 @@ impl SceneErrors {
     /// Puts mistakes in the order of the file and gives them line and column.
     pub(crate) fn new(source: Source, mut errors: Vec<SceneError>, notes: Vec<String>) -> Self {
         errors.sort_by_key(|error| error.span.as_ref().map_or(0, |span| span.start));
-        // Two checks may find the same value wrong; one message about it is enough.
-        let mut seen = Vec::new();
-        errors.retain(|error| {
-            let Some(span) = &error.span else { return true };
-            if span.is_empty() || error.label.is_empty() {
-                return true;
-            }
-            let new = seen.last() != Some(span);
-            seen.push(span.clone());
-            new
-        });
+        // What the walk over the text found wrong with a value, the checks need not repeat.
+        let walked: BTreeSet<String> =
+            errors.iter().filter(|error| error.by_walk).map(|error| error.path.clone()).collect();
+        errors.retain(|error| error.by_walk || !walked.contains(&error.path));
         let lines = Lines::new(&source.text);
         for error in &mut errors {
             if let Some(span) = &error.span {

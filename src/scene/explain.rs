@@ -103,6 +103,12 @@ impl Walked<'_> {
                     .at(self.tree.span(behind).start..offset, "remove this name")
                     .with_help(for_example)
             }
+            Error::InvalidValueForType { .. } if self.tree.key(behind).end == offset && offset > 0 => {
+                let key = self.tree.key(behind);
+                let message = format!("the values in here have no names, found `{}: ..`", &self.text[key.clone()]);
+                let parent = self.tree.node(behind).parent;
+                SceneError::new(self.path(parent), message).at(key, "no name here").with_help(for_example)
+            }
             Error::InvalidValueForType { expected, .. } => wrong(behind, expected),
             Error::ExpectedDifferentLength { expected, .. } => wrong(at, expected),
             Error::Message(message) => {
@@ -177,7 +183,7 @@ impl Tree {
 
 /// The first words of an expectation, short enough to stand beside a caret.
 fn article(expected: &str) -> String {
-    let end = [" such as", ", "].iter().filter_map(|stop| expected.find(stop)).min().unwrap_or(expected.len());
+    let end = [" such as", ", each"].iter().filter_map(|stop| expected.find(stop)).min().unwrap_or(expected.len());
     expected[..end].to_owned()
 }
 

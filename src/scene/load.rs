@@ -9,7 +9,7 @@ use super::explain::{self, Walked};
 use super::outline::{Kind, Mention, Outline};
 use super::registry::{Arity, ReadEntries, ReadSection, Reader, SceneRegistry, entry_scope};
 use super::report::{Problem, Report};
-use super::scan::scan;
+use super::scan::{scan, skip_blank};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id};
@@ -119,8 +119,8 @@ impl Loading<'_> {
                     format = true;
                     self.format(id);
                 }
-                "title" => self.header.title = self.read(id, "title: \"Five balls\"", "title"),
-                "notes" => self.header.notes = self.read(id, "notes: \"What to look for.\"", "notes"),
+                "title" => self.header.title = self.read(id, "title: \"Five balls\""),
+                "notes" => self.header.notes = self.read(id, "notes: \"What to look for.\""),
                 name => {
                     clock |= name == "clock";
                     self.section(name, id);
@@ -138,9 +138,8 @@ impl Loading<'_> {
         }
     }
 
-    fn read<T: serde::de::DeserializeOwned>(&mut self, id: Id, example: &str, name: &str) -> Option<T> {
+    fn read<T: serde::de::DeserializeOwned>(&mut self, id: Id, example: &str) -> Option<T> {
         let Walked { text, tree } = self.walked;
-        let _ = name;
         let span = tree.span(id);
         match explain::read(&text[span.clone()]) {
             Ok(value) => Some(value),
@@ -152,7 +151,7 @@ impl Loading<'_> {
     }
 
     fn format(&mut self, id: Id) {
-        let Some(format) = self.read::<u32>(id, "format: 1", "format") else { return };
+        let Some(format) = self.read::<u32>(id, "format: 1") else { return };
         self.header.format = format;
         if format != 1 {
             let error = SceneError::new("format", format!("must be 1, got {format}"));
@@ -266,8 +265,10 @@ impl Loading<'_> {
             return;
         }
         let written = &text[span.clone()];
+        // Only what stands in the brackets is read: the type's own name does not matter.
+        let bracket = skip_blank(text, head.end).map_or(0, |at| at - span.start);
         let store = self.entries.entry((entry.order, key)).or_insert_with(make);
-        match store.push(written) {
+        match store.push(written, bracket) {
             Ok(which) => {
                 let mention = Mention { name: name.to_owned(), path: scope.clone(), text: written.to_owned() };
                 self.header.outline.add_entry(section, mention);
@@ -283,9 +284,6 @@ impl Loading<'_> {
     fn check_all(&mut self) -> Report {
         let outline = &mut self.header.outline;
         outline.complete = self.errors.iter().all(|error| error.label == "not finite");
-        for (kind, name) in &self.registry.always {
-            outline.declare_always(*kind, name);
-        }
         for item in &self.order {
             match item {
                 Item::Section(index) => {
@@ -328,10 +326,11 @@ impl Loading<'_> {
             let mut error = SceneError::new(problem.path.clone(), problem.message.clone());
             error.help.clone_from(&problem.help);
             if let Some(place) = tree.find(&problem.path, text) {
-                let (span, label) = if place.whole && place.node != 0 {
-                    (tree.head_or_value(place.node), "this value")
-                } else {
-                    (tree.head(place.node), "in here")
+                let (span, label) = match &problem.missing {
+                    Some(field) => (tree.head(place.node), format!("`{field}: ..` is missing in here")),
+                    None if !place.whole || place.node == 0 => (tree.head(place.node), "in here".to_owned()),
+                    None if problem.also.is_some() => (tree.head_or_value(place.node), "here again".to_owned()),
+                    None => (tree.head_or_value(place.node), "this value".to_owned()),
                 };
                 error = error.at(span, label);
             }

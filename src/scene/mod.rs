@@ -20,6 +20,7 @@ mod registry;
 mod report;
 mod scan;
 mod section;
+pub mod sections;
 mod source;
 mod suggest;
 mod tree;
@@ -28,7 +29,7 @@ pub mod values;
 
 pub use error::{SceneError, SceneErrors};
 pub use load::{SceneHeader, load};
-pub use outline::{Kind, Mention, Outline};
+pub use outline::{Kind, Mention, Obstacle, Outline};
 pub use registry::{Arity, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};

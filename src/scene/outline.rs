@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use glam::DVec2;
+
 use super::report::Report;
 use super::suggest;
 
@@ -60,6 +62,25 @@ pub struct Mention {
     pub text: String,
 }
 
+/// A place that is taken at the start of the run, so that `fill` puts nothing there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstacle {
+    /// A disc.
+    Disc {
+        /// Its centre, in m.
+        center: DVec2,
+        /// Its radius, in m.
+        radius: f64,
+    },
+    /// The half-plane behind the line through two points.
+    Wall {
+        /// Seen from the open side, the left point, in m.
+        left: DVec2,
+        /// Seen from the open side, the right point, in m.
+        right: DVec2,
+    },
+}
+
 /// Open lists of words; each word with whether it is available yet.
 pub(crate) type Words = BTreeMap<&'static str, BTreeMap<&'static str, bool>>;
 
@@ -77,6 +98,7 @@ pub struct Outline {
     sections: Vec<(String, bool)>,
     entries: BTreeMap<String, Vec<Mention>>,
     words: Words,
+    obstacles: Vec<Obstacle>,
     /// Where relative paths begin.
     pub(crate) scope: String,
     /// Whether every section could be read. If not, names may be missing, so unknown ones are not reported.
@@ -109,7 +131,8 @@ impl Outline {
             return;
         }
         if let Some((other, first)) = self.taken(kind, name) {
-            let message = format!("the name \"{name}\" is taken by another {}", other.noun);
+            let which = if other == kind { "another" } else { "a" };
+            let message = format!("the name \"{name}\" is taken by {which} {}", other.noun);
             let (first, label) = (first.to_owned(), format!("this {} has the name too", other.noun));
             self.report.error_at(path, message).also(first, label).help("give every thing its own name");
             return;
@@ -123,13 +146,6 @@ impl Outline {
         names.ordered.push(name.to_owned());
     }
 
-    /// Adds a name that is there in every scene.
-    pub(crate) fn declare_always(&mut self, kind: Kind, name: &str) {
-        if self.position(kind, name).is_none() {
-            self.add(kind, name, String::new());
-        }
-    }
-
     fn taken(&self, kind: Kind, name: &str) -> Option<(Kind, &str)> {
         let rivals = self.kinds.iter().filter(|(other, _)| **other == kind || (kind.shared && other.shared));
         for (other, names) in rivals {
@@ -138,6 +154,16 @@ impl Outline {
             }
         }
         None
+    }
+
+    /// Marks a place as taken at the start of the run.
+    pub fn occupy(&mut self, obstacle: Obstacle) {
+        self.obstacles.push(obstacle);
+    }
+
+    /// The places that are taken at the start of the run.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
     }
 
     /// All names of a kind in canonical order.

@@ -6,7 +6,7 @@ use bevy_app::App;
 use bevy_ecs::resource::Resource;
 
 use super::explain::{self, Fault};
-use super::outline::{Kind, Outline, Words, join};
+use super::outline::{Outline, Words, join};
 use super::report::Report;
 use super::section::{Entry, Section, Written};
 
@@ -44,7 +44,8 @@ impl<S: Section> ReadSection for S {
 
 /// All entries of one kind that were read, in the order of the file.
 pub(crate) trait ReadEntries: Send + Sync {
-    fn push(&mut self, text: &str) -> Result<usize, Fault>;
+    /// `text` is the whole entry, `bracket` where its bracket opens.
+    fn push(&mut self, text: &str, bracket: usize) -> Result<usize, Fault>;
     fn declare(&self, which: usize, outline: &mut Outline);
     fn check(&self, which: usize, outline: &Outline, report: &mut Report);
     fn install(self: Box<Self>, outline: &Outline, app: &mut App);
@@ -53,8 +54,9 @@ pub(crate) trait ReadEntries: Send + Sync {
 struct Entries<E>(Vec<Written<E>>);
 
 impl<E: Entry> ReadEntries for Entries<E> {
-    fn push(&mut self, text: &str) -> Result<usize, Fault> {
-        let value = explain::read(text)?;
+    fn push(&mut self, text: &str, bracket: usize) -> Result<usize, Fault> {
+        let value = explain::read(&text[bracket..])
+            .map_err(|fault| Fault { offset: fault.offset + bracket, code: fault.code })?;
         self.0.push(Written { value, text: text.to_owned() });
         Ok(self.0.len() - 1)
     }
@@ -102,7 +104,6 @@ pub(crate) struct EntryReader {
 pub struct SceneRegistry {
     pub(crate) sections: BTreeMap<&'static str, SectionReader>,
     pub(crate) words: Words,
-    pub(crate) always: Vec<(Kind, &'static str)>,
     count: usize,
 }
 
@@ -177,9 +178,6 @@ pub trait SceneAppExt {
 
     /// Keeps a word for later: using it is the error "not available yet".
     fn reserve_word(&mut self, list: &'static str, word: &'static str) -> &mut Self;
-
-    /// Makes a name known in every scene, such as the material `default`; it comes first in its kind.
-    fn declare_always(&mut self, kind: Kind, name: &'static str) -> &mut Self;
 }
 
 fn registry(app: &mut App) -> &mut SceneRegistry {
@@ -229,11 +227,6 @@ impl SceneAppExt for App {
 
     fn reserve_word(&mut self, list: &'static str, word: &'static str) -> &mut Self {
         registry(self).words.entry(list).or_default().entry(word).or_insert(false);
-        self
-    }
-
-    fn declare_always(&mut self, kind: Kind, name: &'static str) -> &mut Self {
-        registry(self).always.push((kind, name));
         self
     }
 }

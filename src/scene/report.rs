@@ -1,5 +1,7 @@
 //! Where checks write down what is wrong, and the checks that every section needs.
 
+use glam::DVec2;
+
 use super::outline::join;
 
 /// A mistake found by a check. Its place in the text is looked up only when it is shown.
@@ -11,6 +13,8 @@ pub struct Problem {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
+    /// The name of the field that is missing at the path, if that is the mistake.
+    pub missing: Option<String>,
     /// A second path and what it has to do with the mistake.
     pub also: Option<(String, String)>,
 }
@@ -59,9 +63,16 @@ impl Report {
         self.error_at(path, message.into())
     }
 
+    /// Writes down that a field is missing. `help` says what to write.
+    pub fn missing(&mut self, field: &str, help: impl Into<String>) {
+        let problem = self.error("", format!("the field `{field}` is missing"));
+        problem.missing = Some(field.to_owned());
+        problem.help(help);
+    }
+
     pub(crate) fn error_at(&mut self, path: String, message: String) -> &mut Problem {
         // Handing out a reference to what was just pushed, without a way to fail.
-        self.problems.push(Problem { path, message, help: None, also: None });
+        self.problems.push(Problem { path, message, help: None, missing: None, also: None });
         let last = self.problems.len() - 1;
         &mut self.problems[last]
     }
@@ -92,6 +103,18 @@ impl Report {
         self.must(path, value.is_finite() && value > 0.0, "must be a finite number above zero", value)
     }
 
+    /// A number that may be left out must be finite and above zero. Returns whether it is, or is left out.
+    pub fn positive_if_given(&mut self, path: &str, value: Option<impl Into<f64>>) -> bool {
+        value.is_none_or(|value| self.positive(path, value))
+    }
+
+    /// Both parts of a pair must be finite. Returns whether they are.
+    pub fn finite_pair(&mut self, path: &str, value: DVec2) -> bool {
+        let x = self.finite(&format!("{path}[0]"), value.x);
+        let y = self.finite(&format!("{path}[1]"), value.y);
+        x && y
+    }
+
     /// A number must be finite and not below zero. Returns whether it is.
     pub fn not_negative(&mut self, path: &str, value: impl Into<f64>) -> bool {
         let value = value.into();
@@ -119,6 +142,13 @@ impl Report {
     /// The mistakes so far.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// Runs checks and returns whether they found nothing wrong.
+    pub fn all_good(&mut self, checks: impl FnOnce(&mut Self)) -> bool {
+        let before = self.problems.len();
+        checks(self);
+        self.problems.len() == before
     }
 
     /// The notes so far.

@@ -113,6 +113,9 @@ impl Scanner<'_> {
                         Form::Braces => self.map_key()?,
                         _ => self.at..self.at,
                     };
+                    if form == Form::Round {
+                        self.all_named_or_none(&key)?;
+                    }
                     self.value(key)?;
                 }
             }
@@ -188,10 +191,10 @@ impl Scanner<'_> {
                         return self.open(key, start, Form::Round, length);
                     }
                     self.at = start + length;
-                    self.leaf(key.clone(), start, Form::Word);
                     if ["NaN", "inf", "NaNf32", "NaNf64", "inff32", "inff64"].contains(&name) {
                         self.not_finite(start..start + length, &key);
                     }
+                    self.leaf(key, start, Form::Word);
                 }
             },
         }
@@ -202,7 +205,9 @@ impl Scanner<'_> {
         if self.frames.len() >= DEEPEST {
             let message = format!("brackets are nested more than {DEEPEST} deep");
             let span = self.at..self.at + 1;
-            return Err(self.fault(&message, span, "this one is too deep").help("a scene needs about eight levels"));
+            let mut fault = self.fault(&message, span, "this one is too deep");
+            fault.path = String::new();
+            return Err(fault.help("a scene needs about eight levels"));
         }
         let id = self.node(key, start, form);
         self.tree.set_name(id, name);
@@ -290,6 +295,11 @@ impl Scanner<'_> {
                     .help(format!("write `{bare}: ..`")));
             }
         }
+        if frame.form == Form::Round && before_form == Some(Form::Word) && found != ';' {
+            let name = word.to_owned();
+            let fault = self.fault(&format!("`:` is missing after `{name}`"), before, "`:` expected after this");
+            return Err(fault.help(format!("write `{name}: ..`")));
+        }
         if found == ';' {
             return Err(self
                 .fault("fields and items are separated by `,`, not `;`", here, "expected `,`")
@@ -301,16 +311,21 @@ impl Scanner<'_> {
                 self.text[self.at..].find([',', ')', ']', '}', '\n']).map_or(self.text.len(), |n| self.at + n);
             let whole = self.text[before.start..line_end].trim_end().to_owned();
             let span = before.start..before.start + whole.len();
-            return Err(self
-                .fault("a number with a unit stands in quotes", span, "needs quotes")
-                .help(format!("write `\"{whole}\"`")));
+            let fault = self.fault("a number with a unit stands in quotes", span, "needs quotes");
+            return Err(self.about_last(fault).help(format!("write `\"{whole}\"`")));
         }
         // The place to mend is the end of the last word, not the beginning of the next, which may be lines below.
         let end = self.last_end;
         let start = self.text[..end].char_indices().next_back().map_or(end, |(place, _)| place);
-        Err(self
-            .fault("a comma is missing", start..end, "`,` expected after this")
-            .help("separate fields and list items with `,`"))
+        let fault = self.fault("a comma is missing after this value", start..end, "`,` expected after this");
+        Err(self.about_last(fault).help("separate fields and list items with `,`"))
+    }
+
+    fn about_last(&self, fault: Box<SceneError>) -> Box<SceneError> {
+        match self.frames.last().and_then(|frame| frame.children.last()) {
+            Some(&last) => self.about(last, fault),
+            None => fault,
+        }
     }
 
     /// `name:` in front of a value, or nothing.
@@ -332,6 +347,36 @@ impl Scanner<'_> {
             self.at = start;
             Ok(start..start)
         }
+    }
+
+    /// Round brackets hold fields with names or values without, never both.
+    fn all_named_or_none(&self, key: &Range<usize>) -> Step {
+        let Some(&before) = self.frames.last().and_then(|frame| frame.children.last()) else { return Ok(()) };
+        let named = !self.tree.key(before).is_empty();
+        if named != key.is_empty() || self.peek() == Some(',') {
+            return Ok(());
+        }
+        if !named {
+            let name = self.text[key.clone()].to_owned();
+            let message = format!("`{name}: ..` has a name, the value before it has none");
+            return Err(self.fault(&message, key.clone(), "a name").help("give all of them names, or none"));
+        }
+        let digits = self.text[self.at..].bytes().take_while(u8::is_ascii_digit).count();
+        let number = &self.text[self.tree.span(before)];
+        if digits > 0 && self.tree.node(before).form == Form::Number {
+            let decimals = &self.text[self.at..self.at + digits];
+            let span = self.tree.span(before).start..self.at + digits;
+            let fault = self.fault("decimals take a point, not a comma", span, "two numbers");
+            return Err(self.about(before, fault).help(format!("write `{number}.{decimals}`")));
+        }
+        let fault = self.fault("expected a field name and `:`", self.token(), "no field name");
+        Err(fault.help("every field here has a name, as in `name: value`"))
+    }
+
+    /// Names the last value in a fault, in place of what it stands in.
+    fn about(&self, value: Id, mut fault: Box<SceneError>) -> Box<SceneError> {
+        fault.path = self.tree.path(value, self.text);
+        fault
     }
 
     /// `key:` in front of a value of a map.
@@ -414,7 +459,7 @@ impl Scanner<'_> {
 
     fn number(&mut self, key: &Range<usize>) -> Step {
         let start = self.at;
-        let rest = self.text[start..].as_bytes();
+        let rest = &self.text.as_bytes()[start..];
         let mut length = 0;
         while let Some(&byte) = rest.get(length) {
             let exponent = length > 0 && matches!(rest[length - 1], b'e' | b'E');
@@ -452,7 +497,8 @@ impl Scanner<'_> {
     fn not_finite(&mut self, span: Range<usize>, key: &Range<usize>) {
         let written = self.text[span.clone()].to_owned();
         let error = SceneError::new(self.path(key), format!("must be a finite number, got {written}"));
-        self.errors.push(error.at(span, "not finite"));
+        let error = error.at(span, "not finite");
+        self.errors.push(SceneError { by_walk: true, ..error });
     }
 
     /// The path of the value being read.
@@ -460,12 +506,12 @@ impl Scanner<'_> {
         let Some(frame) = self.frames.last() else { return String::new() };
         let parent = self.tree.path(frame.id, self.text);
         let name = &self.text[key.clone()];
-        let closed = frame.children.last().map_or(0, |&id| self.tree.node(id).index as usize);
+        let index = frame.children.len();
         match frame.form {
             Form::Round if !name.is_empty() && parent.is_empty() => name.to_owned(),
             Form::Round if !name.is_empty() => format!("{parent}.{name}"),
             Form::Braces => format!("{parent}[{name}]"),
-            _ => format!("{parent}[{closed}]"),
+            _ => format!("{parent}[{index}]"),
         }
     }
 
@@ -486,7 +532,7 @@ impl Scanner<'_> {
                     .at(key, "the second time")
                     .also(self.tree.key(before), "the first time")
                     .with_help("keep one of the two");
-                self.errors.push(error);
+                self.errors.push(SceneError { by_walk: true, ..error });
             } else {
                 first.insert(name, child);
             }

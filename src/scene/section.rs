@@ -8,19 +8,25 @@ use super::outline::Outline;
 use super::report::Report;
 
 /// A top-level section of the scene, `name: value`.
+///
+/// The type says how the value is written: a struct with named fields as `(a: 1, b: 2)`, a newtype of a `Vec` as
+/// `[..]`. Give every struct and enum in it `#[serde(deny_unknown_fields)]`, and use the quantities of
+/// [`units`](super::units) where a number has a unit. Do not use `flatten` or `untagged`: they lose places and words.
 pub trait Section: DeserializeOwned + Send + Sync + 'static {
     /// The name as it stands in the scene.
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
 
-    /// Tells the outline which names (bodies, walls, materials ...) this section brings.
+    /// Tells the outline which names (bodies, walls, materials ...) this section brings. Sections declare in the order
+    /// of the file. Paths are relative to the section.
     fn declare(&self, _outline: &mut Outline) {}
 
     /// Reports every mistake that the types alone cannot exclude; paths are relative to the section.
     fn check(&self, _outline: &Outline, _report: &mut Report) {}
 
-    /// Turns the section into entities, resources and systems. Called only when nothing was reported.
+    /// Turns the section into entities, resources and systems. Called only when nothing was reported; sections and
+    /// entries are installed in the order of their registration.
     fn install(self, outline: &Outline, app: &mut App);
 }
 
@@ -28,7 +34,7 @@ pub trait Section: DeserializeOwned + Send + Sync + 'static {
 pub trait Entry: DeserializeOwned + Send + Sync + 'static {
     /// The section it stands in, for example `"forces"`.
     const SECTION: &'static str;
-    /// Its leading name, for example `"Drag"`; the type's serde name must be the same.
+    /// Its leading name, for example `"Drag"`. The type reads what stands in the brackets after it.
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;

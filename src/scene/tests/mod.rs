@@ -2,6 +2,11 @@
 
 mod plugins;
 mod reading;
+mod wrong_fields;
+mod wrong_kinds;
+mod wrong_names;
+mod wrong_text;
+mod wrong_values;
 
 use bevy_app::App;
 
@@ -14,6 +19,14 @@ fn messages(text: &str) -> String {
         Ok(_) => panic!("the scene was taken as good:\n{text}"),
         Err(errors) => errors.to_string(),
     }
+}
+
+/// A scene is wrong with exactly these messages. The first line break of both texts is for looks.
+#[track_caller]
+fn wrong(scene: &str, expected: &str) {
+    let found = messages(scene.strip_prefix('\n').unwrap_or(scene));
+    let expected = expected.strip_prefix('\n').unwrap_or(expected);
+    assert!(found == expected, "\n--- expected\n{expected}\n--- found\n{found}");
 }
 
 fn loaded(text: &str) -> App {

@@ -1,12 +1,17 @@
-//! Small plugins to read scenes with; they only write down what was installed.
+//! The engine's sections, a section and some entries of a plugin, to read scenes with. Nothing is built; they only
+//! write down what was installed.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
-use crate::scene::units::{Length, Mass, Position, QuadraticDamping, Speed};
+use crate::scene::sections::{
+    BodiesSection, ClockSection, FillSection, FilmSection, FitCamera, LookCamera, WallsSection, camera,
+};
+use crate::scene::units::{Position, QuadraticDamping, Speed};
 use crate::scene::values::Names;
 use crate::scene::{Arity, Entry, Kind, Outline, Report, SceneAppExt, Section, Written};
+use crate::world::material::{MaterialsSection, PairsSection};
 
 #[derive(Resource, Default)]
 pub(super) struct Log(pub(super) Vec<String>);
@@ -15,62 +20,86 @@ fn log(app: &mut App, line: String) {
     app.world_mut().get_resource_or_init::<Log>().0.push(line);
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Point {
-    name: String,
-    at: Position,
-    #[serde(default)]
-    mass: Option<Mass>,
+// The models install these sections; here they are only read and checked.
+macro_rules! section {
+    ($name:ident, $data:ty, |$it:ident, $outline:ident| $declare:expr, |$report:ident| $check:expr) => {
+        struct $name($data);
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+                <$data>::deserialize(reader).map(Self)
+            }
+        }
+
+        impl Section for $name {
+            const NAME: &'static str = <$data>::NAME;
+            const EXAMPLE: &'static str = <$data>::EXAMPLE;
+
+            #[allow(unused_variables)]
+            fn declare(&self, $outline: &mut Outline) {
+                let $it = &self.0;
+                $declare
+            }
+
+            #[allow(unused_variables)]
+            fn check(&self, $outline: &Outline, $report: &mut Report) {
+                let $it = &self.0;
+                $check
+            }
+
+            fn install(self, _outline: &Outline, app: &mut App) {
+                log(app, Self::NAME.to_owned());
+            }
+        }
+    };
 }
 
-/// Bodies without shape.
+section!(Clock, ClockSection, |it, outline| {}, |report| it.check(outline, report));
+section!(Film, FilmSection, |it, outline| {}, |report| it.check(report));
+section!(Walls, WallsSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
+section!(Bodies, BodiesSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
+section!(Fill, FillSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
+section!(Materials, MaterialsSection, |it, outline| it.declare(outline), |report| it.check(report));
+section!(Pairs, PairsSection, |it, outline| {}, |report| it.check(outline, report));
+
+macro_rules! camera {
+    ($name:ident, $data:ty) => {
+        struct $name($data);
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+                <$data>::deserialize(reader).map(Self)
+            }
+        }
+
+        impl Entry for $name {
+            const SECTION: &'static str = camera::SECTION;
+            const NAME: &'static str = <$data>::NAME;
+            const EXAMPLE: &'static str = <$data>::EXAMPLE;
+
+            fn check(&self, _outline: &Outline, report: &mut Report) {
+                self.0.check(report);
+            }
+
+            fn install(entries: Vec<Written<Self>>, _outline: &Outline, app: &mut App) {
+                log(app, format!("camera {}", entries[0].text));
+            }
+        }
+    };
+}
+
+camera!(Fit, FitCamera);
+camera!(Look, LookCamera);
+
 #[derive(Deserialize)]
-struct Points(Vec<Point>);
+struct Gravity(Position);
 
-impl Section for Points {
-    const NAME: &'static str = "points";
-    const EXAMPLE: &'static str = "points: [(name: \"p\", at: (0, 0), mass: 1)]";
-
-    fn declare(&self, outline: &mut Outline) {
-        for (index, point) in self.0.iter().enumerate() {
-            outline.declare(Kind::BODY, &point.name, &format!("[{index}].name"));
-        }
-    }
-
-    fn check(&self, _outline: &Outline, report: &mut Report) {
-        for (index, point) in self.0.iter().enumerate() {
-            report.within(&format!("[{index}]"), |report| {
-                let at = point.at.si();
-                let finite = report.finite("at", at.x) && report.finite("at", at.y);
-                if let Some(mass) = point.mass {
-                    report.positive("mass", mass);
-                } else if finite {
-                    report.note(format!("\"{}\" has mass 1 kg", point.name));
-                }
-            });
-        }
-    }
+impl Section for Gravity {
+    const NAME: &'static str = "gravity";
+    const EXAMPLE: &'static str = "gravity: (0, -9.81)";
 
     fn install(self, _outline: &Outline, app: &mut App) {
-        for point in self.0 {
-            log(app, format!("point {}", point.name));
-        }
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Clock {
-    duration: f64,
-}
-
-impl Section for Clock {
-    const NAME: &'static str = "clock";
-    const EXAMPLE: &'static str = "clock: (duration: 20)";
-
-    fn install(self, _outline: &Outline, app: &mut App) {
-        log(app, format!("clock {}", self.duration));
+        log(app, format!("gravity {}", self.0.si()));
     }
 }
 
@@ -110,6 +139,9 @@ impl Section for Wind {
                 }
             });
         }
+        if self.gusts.is_empty() {
+            report.note("the wind has no gusts");
+        }
     }
 
     fn install(self, _outline: &Outline, app: &mut App) {
@@ -129,7 +161,7 @@ struct Drag {
 impl Entry for Drag {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Drag";
-    const EXAMPLE: &'static str = "Drag(quadratic: 0.02, of: [\"p\"])";
+    const EXAMPLE: &'static str = "Drag(quadratic: 0.02, of: [\"ball\"])";
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.not_negative("quadratic", self.quadratic);
@@ -144,35 +176,32 @@ impl Entry for Drag {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Fit {
-    #[serde(default)]
-    margin: Length,
-}
-
-impl Entry for Fit {
-    const SECTION: &'static str = "camera";
-    const NAME: &'static str = "Fit";
-    const EXAMPLE: &'static str = "Fit(margin: 0.05)";
-
-    fn install(entries: Vec<Written<Self>>, _outline: &Outline, app: &mut App) {
-        log(app, format!("fit {:?} {}", entries[0].value.margin, entries.len()));
-    }
-}
-
-/// An app that reads a small language: clock, points, wind; forces, camera, contacts; some reserved names.
+/// An app that reads the engine's sections, a plugin's `wind` and `forces: [Drag(..)]`, and knows reserved names.
 pub(super) fn app() -> App {
     let mut app = App::empty();
-    app.register_entry_section("camera", Arity::One, "camera: Fit(margin: 0.05)")
+    app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE)
         .register_entry::<Fit>()
-        .reserve_entry("camera", "Follow")
+        .register_entry::<Look>()
+        .reserve_entry(camera::SECTION, "Follow")
         .register_section::<Clock>()
-        .register_section::<Points>()
+        .register_section::<Film>()
+        .register_section::<Gravity>()
+        .register_section::<Materials>()
+        .register_section::<Pairs>()
+        .register_section::<Walls>()
+        .register_section::<Bodies>()
+        .register_section::<Fill>()
         .register_section::<Wind>()
         .register_entry_section("forces", Arity::List, "forces: [Drag(quadratic: 0.02)]")
         .register_entry::<Drag>()
+        .reserve_entry("forces", "Aim")
         .register_entry_section("contacts", Arity::OneOrNone, "contacts: None")
-        .reserve_section("joints");
+        .reserve_section("joints")
+        .register_word("method", "Auto")
+        .register_word("method", "SemiImplicitEuler")
+        .register_word("method", "VelocityVerlet");
+    for method in ClockSection::RESERVED_METHODS {
+        app.reserve_word("method", method);
+    }
     app
 }

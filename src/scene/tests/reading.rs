@@ -4,17 +4,33 @@ use super::super::{Kind, Source, load};
 use super::loaded;
 use super::plugins::{self, Log};
 
-const GOOD: &str = r#"#![type = "Scene"]
+const GOOD: &str = r###"#![type = "Scene"]
 // A comment before the scene.
 Scene(
     format: 1,
-    title: "Two points",
+    title: "Everything once",
     forces: [Drag(quadratic: "0.02 N s2/m2", of: "b"), /* all */ Drag() /* no comma */],
     contacts: None,
-    points: [(name: "a", at: (0, "30 cm"), mass: 1), (name: "b", at: (1, 2))],
-    clock: (duration: 2,), // the last one
-    camera: Fit(),
-) // after"#;
+    bodies: [
+        (name: "a", at: (0, "30 cm"), atoms: Disc(radius: 0.1, mass: "2 g")),
+        (name: "T", at: (4, 5), angle: "10 deg", velocity: (0.2, 0.4), spin: "3 rpm", material: "block",
+         atoms: Picture(spacing: 0.1, mass: 0.01, rows: ["..##..", "##.###"])),
+        (name: "b", fixed: true, datum: Origin, material: "rock", inertia: Union,
+         atoms: List([(at: (0, 0), radius: 0.1), (at: (0.3, 0), radius: 0.2, stiffness: "2 kN/m")])),
+        (name: "c", at: (5, 2), atoms: Disc(radius: 0.3, mass: 1), mass: 1.5, inertia: "2 kg m2", collides: false),
+    ],
+    fill: [(name: "gas", atoms: Disc(radius: 0.02), count: 3, within: ((1, 1), (2, 2)), speed: 1.0, seed: 7)],
+    clock: (duration: 2, tick: "1 ms", method: VelocityVerlet, events: PerTick,), // the last one
+    film: (fps: 30, size: (1280, 720), speed: 0.5, from: 0.5, to: 2),
+    camera: Look(center: (3, 3), height: 6),
+    materials: {
+        "rock": (stiffness: 1000, friction: (static: 0.5, dynamic: 0.4), restitution: 0.8),
+        "block": (friction: 0.25, inelasticity: 0.3, density: 2.5, color: "teal"),
+    },
+    pairs: [(between: ("rock", "block"), friction: 0.1)],
+    walls: [(name: "floor", left: (6, 0), right: (0, 0), material: "rock")],
+    wind: (speed: "3 km/h"),
+) // after"###;
 
 #[test]
 fn sections_are_installed_in_the_order_of_registration() {
@@ -22,12 +38,17 @@ fn sections_are_installed_in_the_order_of_registration() {
     assert_eq!(
         app.world().resource::<Log>().0,
         [
-            "fit 0.0 1",
-            "clock 2",
-            "point a",
-            "point b",
-            "Drag(quadratic: \"0.02 N s2/m2\", of: \"b\") of [1]",
-            "Drag() of [0, 1]",
+            "camera Look(center: (3, 3), height: 6)",
+            "clock",
+            "film",
+            "materials",
+            "pairs",
+            "walls",
+            "bodies",
+            "fill",
+            "wind",
+            "Drag(quadratic: \"0.02 N s2/m2\", of: \"b\") of [2]",
+            "Drag() of [0, 1, 2, 3, 4, 5, 6]",
         ]
     );
 }
@@ -35,12 +56,13 @@ fn sections_are_installed_in_the_order_of_registration() {
 #[test]
 fn the_header_tells_what_the_scene_has() {
     let header = load(&mut plugins::app(), &Source::new("a.ron", GOOD)).unwrap();
-    assert_eq!(header.title.as_deref(), Some("Two points"));
-    assert_eq!(header.remarks, ["\"b\" has mass 1 kg"]);
-    assert_eq!(header.outline.names(Kind::BODY), ["a", "b"]);
+    assert_eq!(header.title.as_deref(), Some("Everything once"));
+    assert_eq!(header.remarks, ["the wind has no gusts"]);
+    assert_eq!(header.outline.names(Kind::BODY), ["a", "T", "b", "c", "gas_0", "gas_1", "gas_2"]);
+    assert_eq!(header.outline.names(Kind::MATERIAL), ["rock", "block"]);
     assert!(header.outline.is_none("contacts"));
     assert!(header.outline.has_section("forces"));
-    assert!(!header.outline.has_section("wind"));
+    assert!(!header.outline.has_section("gravity"));
     assert_eq!(header.outline.entries("forces")[1].path, "forces[1]");
     assert_eq!(header.outline.entries("camera")[0].path, "camera");
 }
@@ -48,7 +70,7 @@ fn the_header_tells_what_the_scene_has() {
 #[test]
 fn nothing_is_installed_when_anything_is_wrong() {
     let mut app = plugins::app();
-    assert!(load(&mut app, &Source::new("a.ron", GOOD.replace("(1, 2)", "(1, NaN)"))).is_err());
+    assert!(load(&mut app, &Source::new("a.ron", GOOD.replace("(4, 5)", "(1, NaN)"))).is_err());
     assert!(!app.world().contains_resource::<Log>());
 }
 

@@ -90,7 +90,7 @@ fn product(text: &str) -> Result<Size, String> {
             rest = explicit.map_or(separator, |c| separator[c.len_utf8()..].trim_start());
             divides = explicit == Some('/');
             if divided && !divides {
-                return Err(format!("`{text}` has a product after `/`, which reads two ways; put products first"));
+                return Err(format!("`{text}` reads two ways (put products before `/`)"));
             }
             divided |= divides;
         }

@@ -1,0 +1,160 @@
+//! `bodies`: everything that moves, or stands fixed.
+
+use glam::DVec2;
+use serde::Deserialize;
+
+use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
+use crate::scene::{Kind, Obstacle, Outline, Report};
+use crate::shapes::Atoms;
+use crate::shapes::mass_properties::{self, MassProperties};
+use crate::world::material;
+
+pub use crate::shapes::mass_properties::{Datum, InertiaRule};
+
+/// One body.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct BodyEntry {
+    /// The name; no other body, wall, joint or sensor has it.
+    pub name: String,
+    /// Its atoms.
+    pub atoms: Atoms,
+    /// Where its centre of mass is at the start, in m; with `datum: Origin`, where the origin of its atoms is.
+    /// Default: (0, 0), which only bodies with `datum: Origin` may leave out.
+    #[serde(default)]
+    pub at: Option<Position>,
+    /// How far its atoms are turned about that point, in rad, counter-clockwise. Default: 0.
+    #[serde(default)]
+    pub angle: Angle,
+    /// The velocity of its centre of mass at the start, in m/s. Default: (0, 0).
+    #[serde(default)]
+    pub velocity: Velocity,
+    /// The spin at the start, in rad/s, counter-clockwise. Default: 0.
+    #[serde(default)]
+    pub spin: Spin,
+    /// The name of its material. Default: `default`.
+    #[serde(default)]
+    pub material: Option<String>,
+    /// Whether it never moves. Default: `false`.
+    #[serde(default)]
+    pub fixed: bool,
+    /// Whether it touches others; without, it still feels forces. Default: `true`.
+    #[serde(default = "yes")]
+    pub collides: bool,
+    /// What the atoms' places are counted from. Default: `CenterOfMass`.
+    #[serde(default)]
+    pub datum: Datum,
+    /// The mass in kg, in place of that of the atoms. Above zero.
+    #[serde(default)]
+    pub mass: Option<Mass>,
+    /// The moment of inertia about the centre of mass in kg m2, or the rule it follows from. Default: `Discs`.
+    #[serde(default)]
+    pub inertia: InertiaRule,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// The section `bodies`.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct BodiesSection(pub Vec<BodyEntry>);
+
+impl BodiesSection {
+    /// The section's name.
+    pub const NAME: &'static str = "bodies";
+    /// One correct use.
+    pub const EXAMPLE: &'static str = "bodies: [(name: \"ball\", at: (2, 3), atoms: Disc(radius: 0.2))]";
+
+    /// Declares the bodies' names.
+    pub fn declare(&self, outline: &mut Outline) {
+        for (index, body) in self.0.iter().enumerate() {
+            outline.declare(Kind::BODY, &body.name, &format!("[{index}].name"));
+            if body.collides {
+                body.occupy(outline);
+            }
+        }
+    }
+
+    /// Reports wrong atoms, masses, places and unknown materials.
+    pub fn check(&self, outline: &Outline, report: &mut Report) {
+        for (index, body) in self.0.iter().enumerate() {
+            report.within(&format!("[{index}]"), |report| body.check(outline, report));
+        }
+    }
+}
+
+impl BodyEntry {
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        report.within("atoms", |report| self.atoms.check(report));
+        match self.at {
+            Some(at) => {
+                report.finite_pair("at", at.si());
+            }
+            None if self.datum == Datum::Origin => {}
+            None => report.missing("at", "say where the centre of mass is: write `at: (0, 1)`"),
+        }
+        report.finite("angle", self.angle);
+        report.finite_pair("velocity", self.velocity.si());
+        report.finite("spin", self.spin);
+        if let Some(mass) = self.mass {
+            report.positive("mass", mass);
+        }
+        if let InertiaRule::Given(inertia) = self.inertia {
+            report.positive("inertia", inertia);
+        }
+        material::require(self.material.as_deref(), outline, report);
+        let specs = self.atoms.specs();
+        if self.inertia == InertiaRule::Points && specs.len() == 1 && !self.fixed {
+            let message = "one atom counted as a point has no moment of inertia";
+            report.error("inertia", message).help("leave `inertia` out, or give a number in kg m2");
+        }
+        if self.inertia == InertiaRule::Union && specs.iter().any(|atom| atom.mass.is_some()) {
+            let message = "with `Union` the mass follows from the covered area, but atoms have masses of their own";
+            report.error("inertia", message).help("remove the atoms' `mass`; the body's own `mass` may stay");
+        }
+        if self.fixed {
+            for (path, moves) in [("velocity", self.velocity.si() != DVec2::ZERO), ("spin", self.spin.si() != 0.0)] {
+                if moves {
+                    let message = "a fixed body does not move";
+                    report.error(path, message).help("remove this, or remove `fixed: true`");
+                }
+            }
+        }
+    }
+
+    /// Mass, centre of mass, inertia and atoms, given the density of its material in kg/m2.
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        mass_properties::of(&self.atoms.specs(), self.mass.map(f64::from), self.inertia, density)
+    }
+
+    /// Where its centre of mass is at the start, in m.
+    pub fn start(&self, properties: &MassProperties) -> DVec2 {
+        let at = self.at.unwrap_or_default().si();
+        match self.datum {
+            Datum::CenterOfMass => at,
+            Datum::Origin => {
+                let (sine, cosine) = libm::sincos(self.angle.si());
+                at + DVec2::new(cosine, sine).rotate(properties.center)
+            }
+        }
+    }
+
+    /// The places that `fill` must keep clear of.
+    fn occupy(&self, outline: &mut Outline) {
+        let specs = self.atoms.specs();
+        if mass_properties::center_depends_on_density(&specs) && self.datum == Datum::CenterOfMass {
+            // The material is not known yet; this circle holds the body wherever its centre of mass is.
+            let center = self.at.unwrap_or_default().si();
+            outline.occupy(Obstacle::Disc { center, radius: mass_properties::reach(&specs) });
+            return;
+        }
+        let properties = self.mass_properties(1.0);
+        let start = self.start(&properties);
+        let (sine, cosine) = libm::sincos(self.angle.si());
+        for atom in &properties.atoms {
+            let center = start + DVec2::new(cosine, sine).rotate(atom.offset);
+            outline.occupy(Obstacle::Disc { center, radius: atom.radius });
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! `camera`: which part of the world the film shows. Entries `Fit` and `Look`; `Follow` is reserved.
+
+use serde::Deserialize;
+
+use crate::scene::Report;
+use crate::scene::units::{Length, Position, Scalar};
+
+/// The name of the section that takes one camera.
+pub const SECTION: &str = "camera";
+/// One correct use of the section.
+pub const EXAMPLE: &str = "camera: Fit(margin: 0.05)";
+/// Cameras of the language that are not available yet.
+pub const RESERVED: [&str; 1] = ["Follow"];
+
+/// `camera: Fit(margin: 0.05)`: everything that moves stays in the picture.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct FitCamera {
+    /// Empty border, as a share of the picture's smaller side, from 0 to 0.45. Default: 0.05.
+    #[serde(default = "margin")]
+    pub margin: Scalar,
+}
+
+fn margin() -> Scalar {
+    Scalar::new(0.05)
+}
+
+impl Default for FitCamera {
+    fn default() -> Self {
+        Self { margin: margin() }
+    }
+}
+
+impl FitCamera {
+    /// The entry's name.
+    pub const NAME: &'static str = "Fit";
+    /// One correct use.
+    pub const EXAMPLE: &'static str = "Fit(margin: 0.05)";
+
+    /// Reports a margin that leaves no picture.
+    pub fn check(&self, report: &mut Report) {
+        report.between("margin", self.margin, 0.0, 0.45);
+    }
+}
+
+/// `camera: Look(center: (3, 3), height: 6)`: a fixed part of the world.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct LookCamera {
+    /// The place in the middle of the picture, in m.
+    pub center: Position,
+    /// The height of the picture, in m. Above zero.
+    pub height: Length,
+}
+
+impl LookCamera {
+    /// The entry's name.
+    pub const NAME: &'static str = "Look";
+    /// One correct use.
+    pub const EXAMPLE: &'static str = "Look(center: (3, 3), height: 6)";
+
+    /// Reports a height that is not above zero.
+    pub fn check(&self, report: &mut Report) {
+        report.finite_pair("center", self.center.si());
+        report.positive("height", self.height);
+    }
+}

@@ -1,0 +1,86 @@
+//! `clock`: how long, in which steps, by which method.
+
+use serde::Deserialize;
+
+use crate::scene::units::{Scalar, Time};
+use crate::scene::values::Word;
+use crate::scene::{Outline, Report};
+
+/// When forces jump (touch, part, stick, slip), inside a tick or at its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum EventTiming {
+    /// The engine chooses, and says so on the card.
+    #[default]
+    Auto,
+    /// At the moment itself; not available yet.
+    Located,
+    /// At the end of the tick in which it happens.
+    PerTick,
+}
+
+/// The section `clock`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct ClockSection {
+    /// Length of the run, in s of physics. Above zero.
+    pub duration: Time,
+    /// Length of one tick, in s. Above zero and not longer than the run. Default: chosen from the scene.
+    #[serde(default)]
+    pub tick: Option<Time>,
+    /// The integration method, one of the registered words of the list [`ClockSection::METHODS`]. Default: `Auto`.
+    #[serde(default = "auto")]
+    pub method: Word,
+    /// The error allowed, instead of `tick`: the engine chooses the tick. Not available yet.
+    #[serde(default)]
+    pub tolerance: Option<Scalar>,
+    /// When jumps of the forces take place. Default: `Auto`.
+    #[serde(default)]
+    pub events: EventTiming,
+}
+
+fn auto() -> Word {
+    Word(ClockSection::AUTO.into())
+}
+
+impl ClockSection {
+    /// The section's name.
+    pub const NAME: &'static str = "clock";
+    /// One correct use.
+    pub const EXAMPLE: &'static str = "clock: (duration: 20, tick: \"1 ms\", method: VelocityVerlet)";
+    /// The open list of words the method is checked against: integrators add their names with
+    /// [`register_word`](crate::scene::SceneAppExt::register_word).
+    pub const METHODS: &'static str = "method";
+    /// The method that leaves the choice to the engine; it must be registered too.
+    pub const AUTO: &'static str = "Auto";
+    /// Methods of the language that are reserved until an integrator registers them.
+    pub const RESERVED_METHODS: [&'static str; 6] =
+        ["ExplicitEuler", "RungeKutta4", "Dop853", "ImplicitMidpoint", "Symplectic4", "Reference"];
+
+    /// Reports lengths of time that are not above zero, a tick longer than the run, unknown methods and what is not
+    /// available yet.
+    pub fn check(&self, outline: &Outline, report: &mut Report) {
+        let long = report.positive("duration", self.duration);
+        if let Some(tick) = self.tick
+            && report.positive("tick", tick)
+            && long
+            && tick.si() > self.duration.si()
+        {
+            let message =
+                format!("the tick of {} s is longer than the whole run of {} s", tick.si(), self.duration.si());
+            report.error("tick", message).help("a tick is some milliseconds: write `tick: \"1 ms\"`, or leave it out");
+        }
+        self.method.check(outline, Self::METHODS, "method", report);
+        if self.tolerance.is_some() {
+            let help = if self.tick.is_some() {
+                "`tick` alone will do"
+            } else {
+                "write `tick: \"1 ms\"` instead, or leave it out"
+            };
+            report.error("tolerance", "`tolerance` is not available yet").help(help);
+        }
+        if self.events == EventTiming::Located {
+            report.error("events", "`Located` is not available yet").help("write `events: Auto`, or leave it out");
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! `fill`: many equal bodies in a box, none touching another, by seeded chance.
+
+use glam::DVec2;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::Deserialize;
+
+use crate::scene::units::{Position, Speed};
+use crate::scene::values::WholeNumber;
+use crate::scene::{Kind, Obstacle, Outline, Report};
+use crate::shapes::Atoms;
+use crate::shapes::mass_properties;
+use crate::world::material;
+
+/// The largest number of bodies of one entry.
+pub const LARGEST_COUNT: u64 = 1_000_000;
+/// How often a place is tried for one body before the box counts as full.
+const TRIES: usize = 20_000;
+/// Cells of the search grid along one side, at most.
+const CELLS: usize = 512;
+
+/// Many equal bodies, named `gas_0`, `gas_1` and so on if the entry's name is `gas`.
+///
+/// Each stands at a random place in the box, turned by a random angle, moving in a random direction. Circles about
+/// the bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the box's
+/// border. The same seed gives the same places on every machine.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct FillEntry {
+    /// The names' beginning.
+    pub name: String,
+    /// The atoms of each.
+    pub atoms: Atoms,
+    /// The name of their material. Default: `default`.
+    #[serde(default)]
+    pub material: Option<String>,
+    /// How many, from 1 to [`LARGEST_COUNT`].
+    pub count: WholeNumber,
+    /// Two opposite corners of the box, in m.
+    pub within: (Position, Position),
+    /// How fast each moves at the start, in m/s. Default: 0.
+    #[serde(default)]
+    pub speed: Speed,
+    /// The seed of chance. Default: 0.
+    #[serde(default)]
+    pub seed: WholeNumber,
+}
+
+/// One body of a fill.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Centre of mass, in m.
+    pub position: DVec2,
+    /// Angle in rad, from 0 to 2 pi.
+    pub angle: f64,
+    /// Velocity, in m/s.
+    pub velocity: DVec2,
+}
+
+/// The section `fill`.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct FillSection(pub Vec<FillEntry>);
+
+impl FillSection {
+    /// The section's name.
+    pub const NAME: &'static str = "fill";
+    /// One correct use.
+    pub const EXAMPLE: &'static str =
+        "fill: [(name: \"gas\", atoms: Disc(radius: 0.02), count: 500, within: ((0, 0), (6, 6)), speed: 1, seed: 7)]";
+
+    /// Declares the bodies' names.
+    pub fn declare(&self, outline: &mut Outline) {
+        for (index, entry) in self.0.iter().enumerate() {
+            for number in 0..entry.count.0.min(LARGEST_COUNT) {
+                outline.declare(Kind::BODY, &entry.body_name(number), &format!("[{index}].name"));
+            }
+        }
+    }
+
+    /// Reports wrong atoms, counts and boxes, unknown materials, and boxes in which not all bodies find room.
+    pub fn check(&self, outline: &Outline, report: &mut Report) {
+        let mut good = true;
+        for (index, entry) in self.0.iter().enumerate() {
+            good &=
+                report.all_good(|report| report.within(&format!("[{index}]"), |report| entry.check(outline, report)));
+        }
+        if !good || !outline.complete {
+            return;
+        }
+        for (index, (entry, placed)) in self.0.iter().zip(self.place(outline)).enumerate() {
+            if (placed.len() as u64) < entry.count.0 {
+                let message = format!(
+                    "only {} of {} bodies find room in the box without touching anything",
+                    placed.len(),
+                    entry.count.0
+                );
+                let help =
+                    "a larger `within`, a smaller `count` or smaller atoms would fit; chance fills about half the area";
+                report.error(&format!("[{index}].count"), message).help(help);
+            }
+        }
+    }
+
+    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the box
+    /// is full, which `check` reports. The outline tells which places are taken.
+    pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
+        let mut taken = outline.obstacles().to_vec();
+        let mut all = Vec::new();
+        for entry in &self.0 {
+            let radius = mass_properties::reach(&entry.atoms.specs());
+            let placed = entry.place(radius, &taken);
+            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
+            all.push(placed);
+        }
+        all
+    }
+}
+
+impl FillEntry {
+    /// The name of one of the bodies, counted from zero.
+    pub fn body_name(&self, number: u64) -> String {
+        format!("{}_{number}", self.name)
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        report.within("atoms", |report| self.atoms.check(report));
+        material::require(self.material.as_deref(), outline, report);
+        if !(1..=LARGEST_COUNT).contains(&self.count.0) {
+            report.error("count", format!("must be from 1 to {LARGEST_COUNT}, got {}", self.count.0));
+        }
+        let (low, high) = self.corners();
+        if report.finite_pair("within[0]", self.within.0.si()) & report.finite_pair("within[1]", self.within.1.si()) {
+            let size = high - low;
+            if !(size.x > 0.0 && size.y > 0.0 && size.is_finite()) {
+                let message = format!("the box must have width and height, got {} m by {} m", size.x, size.y);
+                report.error("within", message).help("give two opposite corners: `within: ((0, 0), (6, 6))`");
+            }
+        }
+        report.not_negative("speed", self.speed);
+    }
+
+    fn corners(&self) -> (DVec2, DVec2) {
+        let (a, b) = (self.within.0.si(), self.within.1.si());
+        (a.min(b), a.max(b))
+    }
+
+    fn place(&self, radius: f64, taken: &[Obstacle]) -> Vec<Placed> {
+        let (low, high) = self.corners();
+        let (low, high) = (low + radius, high - radius);
+        let mut placed = Vec::new();
+        if !(low.x <= high.x && low.y <= high.y) {
+            return placed;
+        }
+        let mut grid = Grid::new(low, high, radius);
+        for obstacle in taken {
+            grid.insert(*obstacle);
+        }
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed.0);
+        // The upper 53 bits: a number from 0 up to, not including, 1, the same on every machine.
+        let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        for _ in 0..self.count.0.min(LARGEST_COUNT) {
+            let free =
+                (0..TRIES).map(|_| low + (high - low) * DVec2::new(chance(), chance())).find(|&at| grid.is_free(at));
+            let Some(position) = free else { break };
+            grid.insert(Obstacle::Disc { center: position, radius });
+            let angle = chance() * std::f64::consts::TAU;
+            let (sine, cosine) = libm::sincos(chance() * std::f64::consts::TAU);
+            placed.push(Placed { position, angle, velocity: self.speed.si() * DVec2::new(cosine, sine) });
+        }
+        placed
+    }
+}
+
+/// Square cells over the box; each knows what is near enough to touch a body whose centre lies in it.
+struct Grid {
+    low: DVec2,
+    high: DVec2,
+    cell: DVec2,
+    columns: usize,
+    rows: usize,
+    radius: f64,
+    near: Vec<Vec<Obstacle>>,
+}
+
+impl Grid {
+    fn new(low: DVec2, high: DVec2, radius: f64) -> Self {
+        let size = high - low;
+        let count = |length: f64| ((length / (2.0 * radius)) as usize).clamp(1, CELLS);
+        let (columns, rows) = (count(size.x), count(size.y));
+        let cell = size / DVec2::new(columns as f64, rows as f64);
+        Self { low, high, cell, columns, rows, radius, near: vec![Vec::new(); columns * rows] }
+    }
+
+    fn column_and_row(&self, at: DVec2) -> (usize, usize) {
+        let place = ((at - self.low) / self.cell).max(DVec2::ZERO);
+        ((place.x as usize).min(self.columns - 1), (place.y as usize).min(self.rows - 1))
+    }
+
+    fn insert(&mut self, obstacle: Obstacle) {
+        let (low, high) = match obstacle {
+            Obstacle::Disc { center, radius } => (center - radius - self.radius, center + radius + self.radius),
+            Obstacle::Wall { .. } => (self.low, self.high),
+        };
+        // A body far outside the box concerns none of its cells.
+        if low.x > self.high.x || low.y > self.high.y || high.x < self.low.x || high.y < self.low.y {
+            return;
+        }
+        let ((first_column, first_row), (last_column, last_row)) =
+            (self.column_and_row(low), self.column_and_row(high));
+        for row in first_row..=last_row {
+            for column in first_column..=last_column {
+                self.near[row * self.columns + column].push(obstacle);
+            }
+        }
+    }
+
+    fn is_free(&self, at: DVec2) -> bool {
+        let (column, row) = self.column_and_row(at);
+        self.near[row * self.columns + column].iter().all(|obstacle| match *obstacle {
+            Obstacle::Disc { center, radius } => center.distance(at) >= radius + self.radius,
+            Obstacle::Wall { left, right } => {
+                // The open side is to the left of one who goes from the right point to the left point.
+                let along = left - right;
+                // A wall without length is reported by its own check; here it stops nobody.
+                along.perp().dot(at - right) >= self.radius * along.length()
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::units::Length;
+    use crate::shapes::disc::OneDisc;
+
+    fn gas(count: u64, radius: f64) -> FillSection {
+        let disc = OneDisc { radius: Length::new(radius), mass: None, stiffness: None };
+        FillSection(vec![FillEntry {
+            name: "gas".into(),
+            atoms: Atoms::Disc(disc),
+            material: None,
+            count: WholeNumber(count),
+            within: (Position::new(0.0, 0.0), Position::new(2.0, 1.0)),
+            speed: Speed::new(3.0),
+            seed: WholeNumber(7),
+        }])
+    }
+
+    #[test]
+    fn nothing_touches_anything() {
+        let mut outline = Outline::new();
+        outline.occupy(Obstacle::Disc { center: DVec2::new(1.0, 0.5), radius: 0.3 });
+        outline.occupy(Obstacle::Wall { left: DVec2::new(2.0, 0.2), right: DVec2::new(0.0, 0.2) });
+        let placed = gas(200, 0.02).place(&outline).remove(0);
+        assert_eq!(placed.len(), 200);
+        for (index, body) in placed.iter().enumerate() {
+            let DVec2 { x, y } = body.position;
+            assert!((0.02..=1.98).contains(&x) && (0.22..=0.98).contains(&y), "{body:?}");
+            assert!(body.position.distance(DVec2::new(1.0, 0.5)) >= 0.32);
+            assert!(placed[..index].iter().all(|other| other.position.distance(body.position) >= 0.04));
+            assert!((body.velocity.length() - 3.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_seed_decides() {
+        let outline = Outline::new();
+        let first = gas(50, 0.02).place(&outline);
+        assert_eq!(first, gas(50, 0.02).place(&outline));
+        let mut other = gas(50, 0.02);
+        other.0[0].seed = WholeNumber(8);
+        assert_ne!(first, other.place(&outline));
+    }
+
+    #[test]
+    fn a_full_box_is_reported() {
+        let mut report = Report::new();
+        gas(100_000, 0.1).check(&Outline::new(), &mut report);
+        let problem = &report.problems()[0];
+        assert_eq!(problem.path, "[0].count");
+        assert!(problem.message.starts_with("only ") && problem.message.contains(" of 100000 bodies find room"));
+        let mut report = Report::new();
+        gas(1, 0.51).check(&Outline::new(), &mut report);
+        assert!(report.problems()[0].message.starts_with("only 0 of 1 bodies"));
+    }
+}

@@ -1,0 +1,172 @@
+//! Mass, centre of mass and moment of inertia of a body made of atoms.
+//!
+//! With masses m_i, radii r_i and distances d_i from the common centre of mass, the moment of inertia is
+//! * `Discs`: the sum of m_i r_i^2 / 2 + m_i d_i^2: each atom a solid disc, overlaps counted twice;
+//! * `Points`: the sum of m_i d_i^2;
+//! * `Union`: that of the area the atoms cover together, uniformly heavy, overlaps counted once; mass and centre too;
+//! * a number in kg m2.
+//!
+//! A given mass wins over the sum: everything that followed from the sum is scaled to it.
+
+use glam::DVec2;
+use serde::Deserialize;
+use serde::de::{self, Deserializer};
+
+use super::{AtomSpec, union};
+use crate::scene::units::Inertia;
+
+/// What the places of a body's atoms are counted from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Datum {
+    /// `at` is the centre of mass, wherever it is in the shape's own frame.
+    #[default]
+    CenterOfMass,
+    /// `at` is the origin of the shape's own frame: the atoms stay where they were put.
+    Origin,
+}
+
+/// Where a body's moment of inertia comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum InertiaRule {
+    /// Each atom is a solid disc.
+    #[default]
+    Discs,
+    /// Each atom is a point.
+    Points,
+    /// The covered area, uniformly heavy.
+    Union,
+    /// A number, in kg m2.
+    Given(f64),
+}
+
+impl<'de> Deserialize<'de> for InertiaRule {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        // A word or a quantity: their readers differ, so the text is kept and looked at.
+        let text = Box::<ron::value::RawValue>::deserialize(reader)?;
+        let text = text.get_ron().trim();
+        match text {
+            "Discs" => return Ok(Self::Discs),
+            "Points" => return Ok(Self::Points),
+            "Union" => return Ok(Self::Union),
+            _ => {}
+        }
+        match ron::from_str::<Inertia>(text) {
+            Ok(inertia) => Ok(Self::Given(inertia.si())),
+            Err(ron::error::SpannedError { code: ron::Error::Message(message), .. }) => Err(de::Error::custom(message)),
+            Err(_) => Err(de::Error::custom(format!(
+                "expected `Discs`, `Points`, `Union` or a moment of inertia such as `0.2`, found `{text}`"
+            ))),
+        }
+    }
+}
+
+/// How heavy a body is and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MassProperties {
+    /// Mass in kg.
+    pub mass: f64,
+    /// Centre of mass in the shape's own frame, in m.
+    pub center: DVec2,
+    /// Moment of inertia about the centre of mass, in kg m2.
+    pub inertia: f64,
+    /// The atoms with their places counted from the centre of mass; their masses add up to `mass`.
+    pub atoms: Vec<AtomSpec>,
+}
+
+/// Works out mass, centre and inertia. `mass` wins over the sum of the atoms; `density` is the material's, in kg/m2.
+pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64) -> MassProperties {
+    let mut atoms: Vec<AtomSpec> = specs.iter().map(|atom| atom.with_density(density)).collect();
+    let sum: f64 = atoms.iter().filter_map(|atom| atom.mass).sum();
+    let (own_mass, center, own_inertia) = match rule {
+        InertiaRule::Union => {
+            let area = union::area_moments(&atoms);
+            (density * area.area, area.centroid, density * area.polar)
+        }
+        _ => {
+            let center = atoms.iter().map(|atom| atom.mass.unwrap_or(0.0) * atom.offset).sum::<DVec2>() / sum;
+            let one = |atom: &AtomSpec| {
+                let own = if rule == InertiaRule::Points { 0.0 } else { atom.radius * atom.radius / 2.0 };
+                atom.mass.unwrap_or(0.0) * (own + (atom.offset - center).length_squared())
+            };
+            (sum, center, atoms.iter().map(one).sum())
+        }
+    };
+    let mass = mass.unwrap_or(own_mass);
+    let inertia = match rule {
+        InertiaRule::Given(inertia) => inertia,
+        _ => own_inertia * (mass / own_mass),
+    };
+    for atom in &mut atoms {
+        atom.offset -= center;
+        atom.mass = atom.mass.map(|own| own * (mass / sum));
+    }
+    MassProperties { mass, center, inertia, atoms }
+}
+
+/// Whether some atoms have masses of their own and others follow the material.
+pub fn center_depends_on_density(specs: &[AtomSpec]) -> bool {
+    let own = specs.iter().filter(|atom| atom.mass.is_some()).count();
+    own != 0 && own != specs.len()
+}
+
+/// The radius of a circle about the centre of mass that holds all atoms, in m; if the centre depends on the density,
+/// of one that holds them wherever it is.
+pub fn reach(specs: &[AtomSpec]) -> f64 {
+    let widest =
+        |center: DVec2| specs.iter().map(|atom| (atom.offset - center).length() + atom.radius).fold(0.0, f64::max);
+    if center_depends_on_density(specs) {
+        let middle = specs.iter().map(|atom| atom.offset).sum::<DVec2>() / specs.len() as f64;
+        // The centre of mass lies among the atoms' centres, none of which is farther than this from the middle.
+        return 2.0 * widest(middle);
+    }
+    widest(of(specs, None, InertiaRule::Discs, 1.0).center)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn atom(x: f64, y: f64, radius: f64, mass: Option<f64>) -> AtomSpec {
+        AtomSpec { offset: DVec2::new(x, y), radius, mass, stiffness: None }
+    }
+
+    #[test]
+    fn a_dumbbell_follows_the_parallel_axis_theorem() {
+        let atoms = [atom(0.0, 0.0, 0.5, Some(1.0)), atom(4.0, 0.0, 1.0, Some(3.0))];
+        let discs = of(&atoms, None, InertiaRule::Discs, 1.0);
+        assert_eq!((discs.mass, discs.center), (4.0, DVec2::new(3.0, 0.0)));
+        assert_eq!(discs.inertia, 9.0 + 3.0 + 0.125 + 1.5);
+        assert_eq!(discs.atoms[1].offset, DVec2::new(1.0, 0.0));
+        assert_eq!(of(&atoms, None, InertiaRule::Points, 1.0).inertia, 12.0);
+    }
+
+    #[test]
+    fn given_mass_and_inertia_win() {
+        let atoms = [atom(0.0, 0.0, 1.0, Some(2.0))];
+        let heavier = of(&atoms, Some(6.0), InertiaRule::Discs, 1.0);
+        assert_eq!((heavier.mass, heavier.inertia, heavier.atoms[0].mass), (6.0, 3.0, Some(6.0)));
+        assert_eq!(of(&atoms, None, InertiaRule::Given(0.2), 1.0).inertia, 0.2);
+    }
+
+    #[test]
+    fn the_union_of_one_disc_is_the_disc() {
+        let disc = [atom(3.0, -2.0, 0.7, None)];
+        let union = of(&disc, None, InertiaRule::Union, 2.5);
+        let discs = of(&disc, None, InertiaRule::Discs, 2.5);
+        // Rounding of a handful of operations on numbers near one.
+        assert!((union.mass - discs.mass).abs() < 1e-14 * discs.mass);
+        assert!((union.inertia - discs.inertia).abs() < 1e-13 * discs.inertia);
+        assert!((union.center - discs.center).length() < 1e-14);
+    }
+
+    #[test]
+    fn a_circle_of_reach_holds_the_body() {
+        let mixed = [atom(0.0, 0.0, 0.5, Some(1.0)), atom(4.0, 0.0, 1.0, None)];
+        for density in [1e-6, 1.0, 1e6] {
+            let properties = of(&mixed, None, InertiaRule::Discs, density);
+            assert!(properties.atoms.iter().all(|atom| atom.offset.length() + atom.radius <= reach(&mixed)));
+        }
+        assert_eq!(reach(&[atom(7.0, 0.0, 0.5, None)]), 0.5);
+    }
+}

@@ -1,0 +1,73 @@
+//! Shapes, and the one form they all turn into: a list of discs, the atoms.
+//!
+//! A shape is one file with its fields, its check and `specs`, and one line in [`Atoms`].
+
+pub mod disc;
+pub mod list;
+pub mod mass_properties;
+pub mod picture;
+mod union;
+
+use glam::DVec2;
+use serde::Deserialize;
+
+use crate::scene::Report;
+
+/// One atom as a shape gives it, in the shape's own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtomSpec {
+    /// The centre, in m from the shape's origin.
+    pub offset: DVec2,
+    /// The radius, in m.
+    pub radius: f64,
+    /// The mass in kg; `None`: the material's density times the disc's area.
+    pub mass: Option<f64>,
+    /// The stiffness in N/m; `None`: the material's.
+    pub stiffness: Option<f64>,
+}
+
+impl AtomSpec {
+    /// The same atom with a mass: its own, or density (kg/m2) times area.
+    #[must_use]
+    pub fn with_density(self, density: f64) -> Self {
+        let area = std::f64::consts::PI * self.radius * self.radius;
+        Self { mass: Some(self.mass.unwrap_or(density * area)), ..self }
+    }
+}
+
+macro_rules! shapes {
+    ($($(#[$about:meta])* $name:ident($fields:ty),)*) => {
+        /// The value of `atoms:`: one of the shapes, by its leading name.
+        #[derive(Clone, Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub enum Atoms {
+            $($(#[$about])* $name($fields),)*
+        }
+
+        impl Atoms {
+            /// Reports what its type cannot exclude; paths are relative to the shape.
+            pub fn check(&self, report: &mut Report) {
+                match self {
+                    $(Self::$name(shape) => shape.check(report),)*
+                }
+            }
+
+            /// Its atoms, in canonical order.
+            pub fn specs(&self) -> Vec<AtomSpec> {
+                match self {
+                    $(Self::$name(shape) => shape.specs(),)*
+                }
+            }
+        }
+    };
+}
+
+// The list of shapes: one line each.
+shapes! {
+    /// `Picture(spacing: 0.1, mass: 0.01, rows: ["##", "#."])`: equal discs on a square grid.
+    Picture(picture::Picture),
+    /// `List([(at: (0, 0), radius: 0.1, mass: 0.02)])`: discs one by one.
+    List(list::DiscList),
+    /// `Disc(radius: 0.2)`: one disc.
+    Disc(disc::OneDisc),
+}

@@ -1,0 +1,430 @@
+//! What bodies and walls are made of, and what two materials do to each other.
+//!
+//! The pair takes the mean of the two materials' friction and inelasticity unless `pairs` says otherwise. Restitution
+//! e (ratio of the speeds after and before) is kept as inelasticity mu_e = (1 - e^2) / (1 + e^2): the normal force is
+//! 1 + mu_e times the spring's while loading and 1 - mu_e times while unloading.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use bevy_ecs::resource::Resource;
+use serde::Deserialize;
+use serde::de::{self, Deserializer, MapAccess, Visitor};
+
+use crate::scene::units::{Density, Scalar, Stiffness};
+use crate::scene::values::OrderedMap;
+use crate::scene::{Kind, Outline, Report};
+
+/// The name of the material of everything that names none. It is always there; a scene may redefine it.
+pub const DEFAULT: &str = "default";
+
+/// One material, all numbers in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Stiffness of an atom in N/m. Default: 1000.
+    pub stiffness: f64,
+    /// Coefficient of static friction. Default: 0.
+    pub friction_static: f64,
+    /// Coefficient of dynamic friction. Default: 0.
+    pub friction_dynamic: f64,
+    /// Inelasticity from 0 (nothing is lost) to 1 (no rebound). Default: 0.
+    pub inelasticity: f64,
+    /// Mass per area in kg/m2, for atoms without a mass. Default: 1.
+    pub density: f64,
+    /// A colour of the theme's palette or `#rrggbb`. Default: the theme chooses.
+    pub color: Option<String>,
+}
+
+impl Default for Material {
+    /// What a scene does not name is not modelled: no friction, nothing lost.
+    fn default() -> Self {
+        Self {
+            stiffness: 1000.0,
+            friction_static: 0.0,
+            friction_dynamic: 0.0,
+            inelasticity: 0.0,
+            density: 1.0,
+            color: None,
+        }
+    }
+}
+
+/// What two touching materials do to each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairCoefficients {
+    /// Coefficient of static friction.
+    pub friction_static: f64,
+    /// Coefficient of dynamic friction.
+    pub friction_dynamic: f64,
+    /// Inelasticity from 0 to 1.
+    pub inelasticity: f64,
+}
+
+/// The inelasticity that gives a restitution.
+pub fn inelasticity_of(restitution: f64) -> f64 {
+    (1.0 - restitution * restitution) / (1.0 + restitution * restitution)
+}
+
+/// The restitution that an inelasticity gives.
+pub fn restitution_of(inelasticity: f64) -> f64 {
+    ((1.0 - inelasticity) / (1.0 + inelasticity)).sqrt()
+}
+
+/// All materials of a scene.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct Materials {
+    /// The names, in the order of `by_index`.
+    pub names: Vec<String>,
+    /// The materials; the first is [`DEFAULT`], the others follow in the order of the scene.
+    pub by_index: Vec<Material>,
+    overrides: BTreeMap<(usize, usize), Override>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Override {
+    friction: Option<Friction>,
+    inelasticity: Option<f64>,
+}
+
+impl Default for Materials {
+    fn default() -> Self {
+        Self { names: vec![DEFAULT.into()], by_index: vec![Material::default()], overrides: BTreeMap::new() }
+    }
+}
+
+impl Materials {
+    /// The materials of a scene from its two sections, either of which may be absent.
+    pub fn new(materials: Option<&MaterialsSection>, pairs: Option<&PairsSection>) -> Self {
+        let mut all = Self::default();
+        for (name, entry) in materials.iter().flat_map(|section| &section.0.0) {
+            if name == DEFAULT {
+                all.by_index[0] = entry.material();
+            } else {
+                all.names.push(name.clone());
+                all.by_index.push(entry.material());
+            }
+        }
+        if let Some(pairs) = pairs {
+            all.set_pairs(pairs);
+        }
+        all
+    }
+
+    /// Lets a `pairs` section override the means. Names that are not materials are passed over; its check reports them.
+    pub fn set_pairs(&mut self, pairs: &PairsSection) {
+        for pair in &pairs.0 {
+            if let (Some(a), Some(b)) = (self.find(&pair.between.0), self.find(&pair.between.1)) {
+                let inelasticity = inelasticity(pair.restitution, pair.inelasticity);
+                self.overrides.insert(ordered(a, b), Override { friction: pair.friction, inelasticity });
+            }
+        }
+    }
+
+    fn find(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|other| other == name)
+    }
+
+    /// The place of a material in `by_index`; that of the default for `None` and for names that are not there.
+    pub fn index(&self, name: Option<&str>) -> usize {
+        name.and_then(|name| self.find(name)).unwrap_or(0)
+    }
+
+    /// What two materials, given by their places, do to each other: the means of the two, unless `pairs` says
+    /// otherwise. A place that is not there counts as the default.
+    pub fn pair(&self, a: usize, b: usize) -> PairCoefficients {
+        let default = &self.by_index[0];
+        let (first, second) = (self.by_index.get(a).unwrap_or(default), self.by_index.get(b).unwrap_or(default));
+        let mean = |of: fn(&Material) -> f64| (of(first) + of(second)) / 2.0;
+        let other = self.overrides.get(&ordered(a, b)).copied().unwrap_or_default();
+        let friction = other.friction.map(|friction| (friction.sticking.si(), friction.sliding.si()));
+        PairCoefficients {
+            friction_static: friction.map_or_else(|| mean(|material| material.friction_static), |both| both.0),
+            friction_dynamic: friction.map_or_else(|| mean(|material| material.friction_dynamic), |both| both.1),
+            inelasticity: other.inelasticity.unwrap_or_else(|| mean(|material| material.inelasticity)),
+        }
+    }
+}
+
+fn ordered(a: usize, b: usize) -> (usize, usize) {
+    (a.min(b), a.max(b))
+}
+
+fn inelasticity(restitution: Option<Scalar>, inelasticity: Option<Scalar>) -> Option<f64> {
+    inelasticity.map(f64::from).or_else(|| restitution.map(|restitution| inelasticity_of(restitution.si())))
+}
+
+/// Friction as it stands in a scene: one number, or `(static: 0.5, dynamic: 0.4)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Friction {
+    /// Coefficient while sticking.
+    pub sticking: Scalar,
+    /// Coefficient while sliding.
+    pub sliding: Scalar,
+    both: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+struct TwoFrictions {
+    #[serde(rename = "static")]
+    sticking: Scalar,
+    #[serde(rename = "dynamic")]
+    sliding: Scalar,
+}
+
+struct FrictionVisitor;
+
+impl<'de> Visitor<'de> for FrictionVisitor {
+    type Value = Friction;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a friction such as `0.25` or `(static: 0.5, dynamic: 0.4)`")
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Friction, E> {
+        Ok(Friction { sticking: Scalar::new(value), sliding: Scalar::new(value), both: false })
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Friction, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Friction, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<Friction, E> {
+        let value = Scalar::parse(text).map_err(E::custom)?;
+        self.visit_f64(value.si())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Friction, A::Error> {
+        let two = TwoFrictions::deserialize(de::value::MapAccessDeserializer::new(map))?;
+        Ok(Friction { sticking: two.sticking, sliding: two.sliding, both: true })
+    }
+}
+
+impl<'de> Deserialize<'de> for Friction {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        reader.deserialize_any(FrictionVisitor)
+    }
+}
+
+impl Friction {
+    fn check(&self, report: &mut Report) {
+        if !self.both {
+            report.not_negative("friction", self.sticking);
+            return;
+        }
+        let sticking = report.not_negative("friction.static", self.sticking);
+        let sliding = report.not_negative("friction.dynamic", self.sliding);
+        if sticking && sliding && self.sliding.si() > self.sticking.si() {
+            let message =
+                format!("must not be above the static friction of {}, got {}", self.sticking.si(), self.sliding.si());
+            report.error("friction.dynamic", message);
+        }
+    }
+}
+
+fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, report: &mut Report) {
+    if let Some(restitution) = restitution {
+        report.between("restitution", restitution, 0.0, 1.0);
+    }
+    if let Some(inelasticity) = inelasticity {
+        report.between("inelasticity", inelasticity, 0.0, 1.0);
+    }
+    if restitution.is_some() && inelasticity.is_some() {
+        let message = "`restitution` and `inelasticity` say the same thing; only one of them may stand";
+        report.error("inelasticity", message).help("remove one of the two");
+    }
+}
+
+/// One material as it stands in a scene. Every field may be left out; see [`Material`] for the defaults.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default, rename = "")]
+pub struct MaterialEntry {
+    /// Stiffness of an atom in N/m. Above zero.
+    pub stiffness: Option<Stiffness>,
+    /// Coefficient of friction, not below zero; the dynamic one not above the static.
+    pub friction: Option<Friction>,
+    /// Ratio of the speeds after and before an impact, from 0 to 1.
+    pub restitution: Option<Scalar>,
+    /// Inelasticity, from 0 to 1; instead of `restitution`.
+    pub inelasticity: Option<Scalar>,
+    /// Mass per area in kg/m2. Above zero.
+    pub density: Option<Density>,
+    /// A colour of the theme's palette or `#rrggbb`.
+    pub color: Option<String>,
+}
+
+impl MaterialEntry {
+    fn material(&self) -> Material {
+        let default = Material::default();
+        Material {
+            stiffness: self.stiffness.map_or(default.stiffness, f64::from),
+            friction_static: self.friction.map_or(default.friction_static, |friction| friction.sticking.si()),
+            friction_dynamic: self.friction.map_or(default.friction_dynamic, |friction| friction.sliding.si()),
+            inelasticity: inelasticity(self.restitution, self.inelasticity).unwrap_or(default.inelasticity),
+            density: self.density.map_or(default.density, f64::from),
+            color: self.color.clone(),
+        }
+    }
+
+    fn check(&self, report: &mut Report) {
+        report.positive_if_given("stiffness", self.stiffness);
+        if let Some(friction) = &self.friction {
+            friction.check(report);
+        }
+        check_rebound(self.restitution, self.inelasticity, report);
+        report.positive_if_given("density", self.density);
+        if let Some(color) = &self.color
+            && let Some(digits) = color.strip_prefix('#')
+            && (digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()))
+        {
+            report
+                .error("color", format!("`{color}` is not a colour"))
+                .help("write `\"#rrggbb\"`, such as `\"#20a0c0\"`");
+        }
+    }
+}
+
+/// The section `materials`.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct MaterialsSection(pub OrderedMap<MaterialEntry>);
+
+impl MaterialsSection {
+    /// The section's name.
+    pub const NAME: &'static str = "materials";
+    /// One correct use.
+    pub const EXAMPLE: &'static str = "materials: { \"rock\": (friction: 0.5, restitution: 0.8, density: 2.5) }";
+
+    /// Declares the materials' names.
+    pub fn declare(&self, outline: &mut Outline) {
+        for (name, _) in &self.0.0 {
+            outline.declare(Kind::MATERIAL, name, &format!("[\"{name}\"]"));
+        }
+    }
+
+    /// Reports numbers out of their range.
+    pub fn check(&self, report: &mut Report) {
+        for (name, entry) in &self.0.0 {
+            report.within(&format!("[\"{name}\"]"), |report| entry.check(report));
+        }
+    }
+}
+
+/// One pair of materials whose coefficients are not the means.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct PairEntry {
+    /// The two materials, in either order; they may be the same.
+    pub between: (String, String),
+    /// Coefficient of friction. Default: the means.
+    #[serde(default)]
+    pub friction: Option<Friction>,
+    /// Ratio of the speeds after and before an impact, from 0 to 1. Default: see `inelasticity`.
+    #[serde(default)]
+    pub restitution: Option<Scalar>,
+    /// Inelasticity, from 0 to 1; instead of `restitution`. Default: the mean.
+    #[serde(default)]
+    pub inelasticity: Option<Scalar>,
+}
+
+/// The section `pairs`.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct PairsSection(pub Vec<PairEntry>);
+
+impl PairsSection {
+    /// The section's name.
+    pub const NAME: &'static str = "pairs";
+    /// One correct use.
+    pub const EXAMPLE: &'static str = "pairs: [(between: (\"block\", \"rock\"), friction: 0.1)]";
+
+    /// Reports unknown materials, pairs that stand twice or say nothing, and numbers out of their range.
+    pub fn check(&self, outline: &Outline, report: &mut Report) {
+        let mut seen: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+        for (index, pair) in self.0.iter().enumerate() {
+            let (a, b) = (pair.between.0.as_str(), pair.between.1.as_str());
+            report.within(&format!("[{index}]"), |report| {
+                for (path, name) in [("between[0]", a), ("between[1]", b)] {
+                    require_at(name, path, outline, report);
+                }
+                if let Some(friction) = &pair.friction {
+                    friction.check(report);
+                }
+                check_rebound(pair.restitution, pair.inelasticity, report);
+                if pair.friction.is_none() && pair.restitution.is_none() && pair.inelasticity.is_none() {
+                    report
+                        .error("", "this pair changes nothing")
+                        .help("give `friction` or `restitution`, or remove it");
+                }
+                if let Some(first) = seen.insert((a.min(b), a.max(b)), index) {
+                    let message = format!("the pair of \"{a}\" and \"{b}\" stands here twice");
+                    report.error("between", message).also(format!("pairs[{first}].between"), "the first time");
+                }
+            });
+        }
+    }
+}
+
+/// Reports a material's name that is unknown, at the path `material`. `None` is the default material.
+pub fn require(name: Option<&str>, outline: &Outline, report: &mut Report) {
+    if let Some(name) = name {
+        require_at(name, "material", outline, report);
+    }
+}
+
+fn require_at(name: &str, path: &str, outline: &Outline, report: &mut Report) {
+    if name != DEFAULT {
+        outline.require(Kind::MATERIAL, name, path, report);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read<T: serde::de::DeserializeOwned>(text: &str) -> T {
+        ron::Options::default()
+            .with_default_extension(
+                ron::extensions::Extensions::IMPLICIT_SOME | ron::extensions::Extensions::UNWRAP_NEWTYPES,
+            )
+            .from_str(text)
+            .unwrap()
+    }
+
+    #[test]
+    fn the_pair_is_the_mean_unless_it_is_given() {
+        let section: MaterialsSection = read(
+            "{\"a\": (friction: 0.2, inelasticity: 0.5), \"b\": (friction: (static: 0.6, dynamic: 0.4), restitution: 1)}",
+        );
+        let mut materials = Materials::new(Some(&section), None);
+        let (a, b) = (materials.index(Some("a")), materials.index(Some("b")));
+        assert_eq!((a, b, materials.index(None)), (1, 2, 0));
+        let pair = PairCoefficients { friction_static: 0.4, friction_dynamic: (0.2 + 0.4) / 2.0, inelasticity: 0.25 };
+        assert_eq!(materials.pair(a, b), pair);
+        assert_eq!(materials.pair(b, a), pair);
+        materials.set_pairs(&read("[(between: (\"b\", \"a\"), friction: 0.1)]"));
+        assert_eq!(
+            materials.pair(a, b),
+            PairCoefficients { friction_static: 0.1, friction_dynamic: 0.1, inelasticity: 0.25 }
+        );
+    }
+
+    #[test]
+    fn the_default_is_first_and_may_be_redefined() {
+        let section: MaterialsSection = read("{\"a\": (), \"default\": (stiffness: 5)}");
+        let materials = Materials::new(Some(&section), None);
+        assert_eq!(materials.names, ["default", "a"]);
+        assert_eq!(materials.by_index[0].stiffness, 5.0);
+        assert_eq!(materials.by_index[1], Material::default());
+    }
+
+    #[test]
+    fn restitution_and_inelasticity_are_one_thing() {
+        for restitution in [0.0, 0.3, 0.8, 1.0] {
+            // Rounding of three operations.
+            assert!((restitution_of(inelasticity_of(restitution)) - restitution).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! What stands in the world.
+
+pub mod material;
