@@ -353,7 +353,7 @@ impl Scanner<'_> {
     fn all_named_or_none(&self, key: &Range<usize>) -> Step {
         let Some(&before) = self.frames.last().and_then(|frame| frame.children.last()) else { return Ok(()) };
         let named = !self.tree.key(before).is_empty();
-        if named == !key.is_empty() || self.peek() == Some(',') {
+        if named != key.is_empty() || self.peek() == Some(',') {
             return Ok(());
         }
         if !named {
@@ -459,7 +459,7 @@ impl Scanner<'_> {
 
     fn number(&mut self, key: &Range<usize>) -> Step {
         let start = self.at;
-        let rest = self.text[start..].as_bytes();
+        let rest = &self.text.as_bytes()[start..];
         let mut length = 0;
         while let Some(&byte) = rest.get(length) {
             let exponent = length > 0 && matches!(rest[length - 1], b'e' | b'E');

@@ -2,6 +2,8 @@
 
 mod plugins;
 mod reading;
+mod wrong_fields;
+mod wrong_kinds;
 mod wrong_names;
 mod wrong_text;
 mod wrong_values;
