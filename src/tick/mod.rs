@@ -107,6 +107,10 @@ pub trait TickAppExt {
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self;
 
+    /// Says that forces depend on velocities: integrators that keep them at half steps then provide whole-step ones.
+    /// For contact laws; forces say so themselves.
+    fn need_velocities(&mut self) -> &mut Self;
+
     /// Adds a force as an ordinary system: it reads `Position`, `Velocity` ... and adds to `Force` and `Torque`.
     ///
     /// It gets its own slot after all forces registered before, so the order of the sum does not depend on chance.
@@ -156,6 +160,11 @@ impl TickAppExt for App {
             census.packed_in_evaluate += count;
         }
         self.add_systems(label, systems)
+    }
+
+    fn need_velocities(&mut self) -> &mut Self {
+        self.world_mut().get_resource_or_init::<Census>().velocity_dependent = true;
+        self
     }
 
     fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self {

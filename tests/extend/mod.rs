@@ -1,0 +1,3 @@
+//! Extension from outside the crate: one of each kind, through the public interface only, one file each.
+
+mod axis_wise;
