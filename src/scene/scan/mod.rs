@@ -4,14 +4,20 @@
 //! open, after which word the comma is missing, where the same field stood before, and which number is not finite.
 //! It keeps its own stack, so that no depth of nesting can overflow it.
 
+mod literal;
+
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::error::SceneError;
 use super::tree::{Form, Id, Tree};
+use literal::{text_prefix, word_length};
 
 /// Brackets may be nested this deep; a scene needs about eight.
 const DEEPEST: usize = 48;
+
+/// More mistakes than this are not kept: the text is no scene.
+const MOST_ERRORS: usize = 1000;
 
 /// What the walk found.
 pub(crate) struct Scan {
@@ -24,20 +30,39 @@ pub(crate) struct Scan {
 
 /// Walks a whole text.
 pub(crate) fn scan(text: &str) -> Scan {
-    let mut scanner =
-        Scanner { text, at: 0, last_end: 0, tree: Tree::default(), frames: Vec::new(), errors: Vec::new() };
-    let fault = scanner.walk().err().map(|fault| *fault);
+    let mut scanner = Scanner {
+        text,
+        at: 0,
+        last_end: 0,
+        tree: Tree::default(),
+        frames: Vec::new(),
+        pending: Vec::new(),
+        errors: Vec::new(),
+    };
+    let mut fault = scanner.walk().err().map(|fault| *fault);
     if fault.is_some() {
         scanner.close_all();
     }
-    Scan { tree: scanner.tree, fault, errors: scanner.errors }
+    // Paths can be told only when every bracket has its end.
+    let Scanner { tree, mut errors, .. } = scanner;
+    for error in errors.iter_mut().chain(&mut fault) {
+        if let Some(node) = error.node {
+            error.path = tree.path(node, text);
+        }
+    }
+    Scan { tree, fault, errors }
 }
 
 /// The byte after blanks and comments; an error only for a block comment that never ends.
 pub(crate) fn skip_blank(text: &str, mut at: usize) -> Result<usize, usize> {
     loop {
+        // Nearly all blanks are ASCII; looking at bytes makes the walk twice as fast.
+        at += text.as_bytes()[at..].iter().take_while(|byte| matches!(byte, b' ' | b'\t'..=b'\r')).count();
+        if matches!(text.as_bytes().get(at), Some(byte) if *byte != b'/' && byte.is_ascii()) {
+            return Ok(at);
+        }
         let rest = &text[at..];
-        let trimmed = rest.trim_start_matches(|c: char| c.is_whitespace() || matches!(c, '\u{200e}' | '\u{200f}'));
+        let trimmed = rest.trim_start_matches(is_blank);
         at += rest.len() - trimmed.len();
         if trimmed.starts_with("//") {
             at += trimmed.find('\n').unwrap_or(trimmed.len());
@@ -47,6 +72,11 @@ pub(crate) fn skip_blank(text: &str, mut at: usize) -> Result<usize, usize> {
             return Ok(at);
         }
     }
+}
+
+/// What RON takes for a blank; other white space, such as the no-break space, it does not.
+fn is_blank(c: char) -> bool {
+    matches!(c, ' ' | '\t'..='\r' | '\u{85}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}')
 }
 
 fn block_comment_end(text: &str, start: usize) -> Option<usize> {
@@ -76,7 +106,8 @@ struct Frame {
     id: Id,
     open: usize,
     form: Form,
-    children: Vec<Id>,
+    /// Where its values begin among the pending ones.
+    first: usize,
     item_done: bool,
 }
 
@@ -87,6 +118,8 @@ struct Scanner<'a> {
     last_end: usize,
     tree: Tree,
     frames: Vec<Frame>,
+    /// The values in all open brackets.
+    pending: Vec<Id>,
     errors: Vec<SceneError>,
 }
 
@@ -166,7 +199,7 @@ impl Scanner<'_> {
                 self.leaf(key, start, Form::Character);
             }
             '0'..='9' | '+' | '-' | '.' => {
-                self.number(&key)?;
+                self.number()?;
                 self.leaf(key, start, Form::Number);
             }
             _ => match text_prefix(rest) {
@@ -192,7 +225,7 @@ impl Scanner<'_> {
                     }
                     self.at = start + length;
                     if ["NaN", "inf", "NaNf32", "NaNf64", "inff32", "inff64"].contains(&name) {
-                        self.not_finite(start..start + length, &key);
+                        self.not_finite(start..start + length);
                     }
                     self.leaf(key, start, Form::Word);
                 }
@@ -206,21 +239,22 @@ impl Scanner<'_> {
             let message = format!("brackets are nested more than {DEEPEST} deep");
             let span = self.at..self.at + 1;
             let mut fault = self.fault(&message, span, "this one is too deep");
-            fault.path = String::new();
+            fault.node = None;
             return Err(fault.help("a scene needs about eight levels"));
         }
         let id = self.node(key, start, form);
         self.tree.set_name(id, name);
-        self.frames.push(Frame { id, open: self.at, form, children: Vec::new(), item_done: false });
+        self.frames.push(Frame { id, open: self.at, form, first: self.pending.len(), item_done: false });
         self.pass(1);
         Ok(())
     }
 
     fn node(&mut self, key: Range<usize>, start: usize, form: Form) -> Id {
-        let (parent, index) = self.frames.last().map_or((0, 0), |frame| (frame.id, frame.children.len() as u32));
+        let (parent, index) =
+            self.frames.last().map_or((0, 0), |frame| (frame.id, (self.pending.len() - frame.first) as u32));
         let id = self.tree.push(parent, index, key, start, form);
         if let Some(frame) = self.frames.last_mut() {
-            frame.children.push(id);
+            self.pending.push(id);
             frame.item_done = true;
         }
         id
@@ -248,8 +282,9 @@ impl Scanner<'_> {
         }
         self.pass(1);
         if let Some(frame) = self.frames.pop() {
-            self.tree.close(frame.id, self.at, &frame.children);
-            self.duplicates(&frame);
+            self.tree.close(frame.id, self.at, &self.pending[frame.first..]);
+            self.pending.truncate(frame.first);
+            self.duplicates(frame.id);
         }
         Ok(())
     }
@@ -257,7 +292,8 @@ impl Scanner<'_> {
     fn close_all(&mut self) {
         let end = self.last_end.max(self.at).min(self.text.len());
         while let Some(frame) = self.frames.pop() {
-            self.tree.close(frame.id, end, &frame.children);
+            self.tree.close(frame.id, end, &self.pending[frame.first..]);
+            self.pending.truncate(frame.first);
         }
     }
 
@@ -272,8 +308,10 @@ impl Scanner<'_> {
             return Ok(());
         }
         let Some(frame) = self.frames.last() else { return Ok(()) };
-        let before = frame.children.last().map_or(0..0, |&id| self.tree.span(id));
-        let before_form = frame.children.last().map(|&id| self.tree.node(id).form);
+        let last = self.last_value();
+        let before = last.map_or(0..0, |id| self.tree.span(id));
+        let before_form = last.map(|id| self.tree.node(id).form);
+        let keyless = last.is_some_and(|id| self.tree.key(id).is_empty());
         let word = &self.text[before.clone()];
         let here = self.token();
         if found == '=' || found == ':' {
@@ -295,7 +333,7 @@ impl Scanner<'_> {
                     .help(format!("write `{bare}: ..`")));
             }
         }
-        if frame.form == Form::Round && before_form == Some(Form::Word) && found != ';' {
+        if frame.form == Form::Round && before_form == Some(Form::Word) && keyless && found != ';' {
             let name = word.to_owned();
             let fault = self.fault(&format!("`:` is missing after `{name}`"), before, "`:` expected after this");
             return Err(fault.help(format!("write `{name}: ..`")));
@@ -304,6 +342,15 @@ impl Scanner<'_> {
             return Err(self
                 .fault("fields and items are separated by `,`, not `;`", here, "expected `,`")
                 .help("write `,`"));
+        }
+        if before_form == Some(Form::Text) && word.contains('\n') {
+            let line = word.find('\n').map_or(before.end, |length| before.start + length);
+            let fault = self.fault(
+                "a text begins here and ends only lines below",
+                before.start..line,
+                "no closing `\"` on this line",
+            );
+            return Err(self.about_last(fault).help("close the text with `\"`"));
         }
         let same_line = !self.text[before.end..self.at].contains('\n');
         if before_form == Some(Form::Number) && same_line && (found.is_alphabetic() || matches!(found, '%' | '°')) {
@@ -318,12 +365,21 @@ impl Scanner<'_> {
         let end = self.last_end;
         let start = self.text[..end].char_indices().next_back().map_or(end, |(place, _)| place);
         let fault = self.fault("a comma is missing after this value", start..end, "`,` expected after this");
-        Err(self.about_last(fault).help("separate fields and list items with `,`"))
+        let help = match before_form {
+            Some(Form::Text) => "separate fields and list items with `,`; or is a closing `\"` missing before?",
+            _ => "separate fields and list items with `,`",
+        };
+        Err(self.about_last(fault).help(help))
+    }
+
+    /// The last value in the innermost open bracket.
+    fn last_value(&self) -> Option<Id> {
+        self.pending[self.frames.last()?.first..].last().copied()
     }
 
     fn about_last(&self, fault: Box<SceneError>) -> Box<SceneError> {
-        match self.frames.last().and_then(|frame| frame.children.last()) {
-            Some(&last) => self.about(last, fault),
+        match self.last_value() {
+            Some(last) => self.about(last, fault),
             None => fault,
         }
     }
@@ -351,7 +407,7 @@ impl Scanner<'_> {
 
     /// Round brackets hold fields with names or values without, never both.
     fn all_named_or_none(&self, key: &Range<usize>) -> Step {
-        let Some(&before) = self.frames.last().and_then(|frame| frame.children.last()) else { return Ok(()) };
+        let Some(before) = self.last_value() else { return Ok(()) };
         let named = !self.tree.key(before).is_empty();
         if named != key.is_empty() || self.peek() == Some(',') {
             return Ok(());
@@ -375,7 +431,7 @@ impl Scanner<'_> {
 
     /// Names the last value in a fault, in place of what it stands in.
     fn about(&self, value: Id, mut fault: Box<SceneError>) -> Box<SceneError> {
-        fault.path = self.tree.path(value, self.text);
+        fault.node = Some(value);
         fault
     }
 
@@ -408,133 +464,44 @@ impl Scanner<'_> {
         Ok(key)
     }
 
-    fn text_literal(&mut self, start: usize) -> Step {
-        let mut escaped = false;
-        let body = self.at + 1;
-        for (place, c) in self.text[body..].char_indices() {
-            match c {
-                _ if escaped => escaped = false,
-                '\\' => escaped = true,
-                '"' => {
-                    self.at = body + place + 1;
-                    return Ok(());
-                }
-                _ => {}
-            }
-        }
-        Err(self.open_text(start))
-    }
-
-    fn raw_literal(&mut self, start: usize, hashes: usize) -> Step {
-        let end = format!("\"{}", "#".repeat(hashes));
-        let body = self.at + 1;
-        match self.text[body..].find(&end) {
-            Some(place) => {
-                self.at = body + place + end.len();
-                Ok(())
-            }
-            None => Err(self.open_text(start)),
+    /// The number just walked over, which is the next value, is not finite.
+    fn not_finite(&mut self, span: Range<usize>) {
+        if self.errors.len() < MOST_ERRORS {
+            let message = format!("must be a finite number, got {}", &self.text[span.clone()]);
+            let error = SceneError::new("", message).at(span, "not finite");
+            self.errors.push(SceneError { by_walk: true, node: Some(self.tree.next()), ..error });
         }
     }
 
-    fn open_text(&self, start: usize) -> Box<SceneError> {
-        let end = self.text[start..].find('\n').map_or(self.text.len(), |place| start + place);
-        self.fault("the text that begins here never ends", start..end, "no closing `\"`").help("close it with `\"`")
-    }
-
-    fn character(&mut self, start: usize) -> Step {
-        let line_end = self.text[start + 1..].find('\n').map_or(self.text.len(), |place| start + 1 + place);
-        let line = &self.text[start + 1..line_end];
-        let escaped = usize::from(line.starts_with('\\'));
-        let one = line.chars().nth(escaped).map_or(0, char::len_utf8) + escaped;
-        if line.get(one..).is_some_and(|rest| rest.starts_with('\'')) && one > 0 {
-            self.at = start + 1 + one + 1;
-            return Ok(());
-        }
-        let end = line.find('\'').map_or(start + 1, |place| start + 1 + place + 1);
-        let inner = self.text[start + 1..end].trim_end_matches('\'');
-        let help = format!("write `\"{inner}\"`");
-        Err(self.fault("texts stand in double quotes", start..end, "single quotes").help(help))
-    }
-
-    fn number(&mut self, key: &Range<usize>) -> Step {
-        let start = self.at;
-        let rest = &self.text.as_bytes()[start..];
-        let mut length = 0;
-        while let Some(&byte) = rest.get(length) {
-            let exponent = length > 0 && matches!(rest[length - 1], b'e' | b'E');
-            let range_start = rest[..length].ends_with(b"..") || rest[..length].ends_with(b"..=");
-            let sign = matches!(byte, b'+' | b'-') && (length == 0 || exponent || range_start);
-            let range_end = byte == b'=' && rest[..length].ends_with(b"..");
-            if !(byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.') || sign || range_end) {
-                break;
-            }
-            length += 1;
-        }
-        let span = start..start + length;
-        let written = &self.text[span.clone()];
-        self.at = span.end;
-        match number_value(written) {
-            Some(value) if value.is_finite() => Ok(()),
-            Some(_) => {
-                self.not_finite(span, key);
-                Ok(())
-            }
-            None => {
-                let digits = written.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(0);
-                let (number, unit) = written.split_at(digits);
-                let help = if number_value(number).is_some() && !unit.is_empty() {
-                    format!("a number with a unit stands in quotes: write `\"{number} {unit}\"`")
-                } else {
-                    "a number looks like `12`, `-0.5` or `1e-3`".to_owned()
-                };
-                let message = format!("`{written}` is not a number");
-                Err(self.fault(&message, span, "not a number").help(help))
-            }
-        }
-    }
-
-    fn not_finite(&mut self, span: Range<usize>, key: &Range<usize>) {
-        let written = self.text[span.clone()].to_owned();
-        let error = SceneError::new(self.path(key), format!("must be a finite number, got {written}"));
-        let error = error.at(span, "not finite");
-        self.errors.push(SceneError { by_walk: true, ..error });
-    }
-
-    /// The path of the value being read.
-    fn path(&self, key: &Range<usize>) -> String {
-        let Some(frame) = self.frames.last() else { return String::new() };
-        let parent = self.tree.path(frame.id, self.text);
-        let name = &self.text[key.clone()];
-        let index = frame.children.len();
-        match frame.form {
-            Form::Round if !name.is_empty() && parent.is_empty() => name.to_owned(),
-            Form::Round if !name.is_empty() => format!("{parent}.{name}"),
-            Form::Braces => format!("{parent}[{name}]"),
-            _ => format!("{parent}[{index}]"),
-        }
-    }
-
-    fn duplicates(&mut self, frame: &Frame) {
-        if frame.form == Form::List {
+    fn duplicates(&mut self, id: Id) {
+        // Few fields are compared with one another; a table is worth its making for many.
+        const FEW: usize = 16;
+        let children = self.tree.children(id);
+        if self.tree.node(id).form == Form::List || children.len() < 2 {
             return;
         }
-        let mut first: BTreeMap<&str, Id> = BTreeMap::new();
-        for &child in &frame.children {
-            let key = self.tree.key(child);
+        let name = |child: Id| &self.text[self.tree.key(child)];
+        let mut table: BTreeMap<&str, Id> = BTreeMap::new();
+        for (index, &child) in children.iter().enumerate() {
+            let key = name(child);
             if key.is_empty() {
                 continue;
             }
-            let name = &self.text[key.clone()];
-            if let Some(&before) = first.get(name) {
-                let path = self.tree.path(child, self.text);
-                let error = SceneError::new(path, format!("`{}` stands here twice", name.trim_matches('"')))
-                    .at(key, "the second time")
+            let before = if children.len() <= FEW {
+                children[..index].iter().copied().find(|&other| name(other) == key)
+            } else {
+                let before = table.get(key).copied();
+                table.entry(key).or_insert(child);
+                before
+            };
+            if let Some(before) = before
+                && self.errors.len() < MOST_ERRORS
+            {
+                let error = SceneError::new("", format!("`{}` stands here twice", key.trim_matches('"')))
+                    .at(self.tree.key(child), "the second time")
                     .also(self.tree.key(before), "the first time")
                     .with_help("keep one of the two");
-                self.errors.push(SceneError { by_walk: true, ..error });
-            } else {
-                first.insert(name, child);
+                self.errors.push(SceneError { by_walk: true, node: Some(child), ..error });
             }
         }
     }
@@ -543,7 +510,20 @@ impl Scanner<'_> {
         match skip_blank(self.text, self.at) {
             Ok(at) => {
                 self.at = at;
-                Ok(())
+                if self.text.as_bytes().get(at).is_none_or(u8::is_ascii_graphic) {
+                    return Ok(());
+                }
+                let hidden = |&c: &char| {
+                    c.is_whitespace() || c.is_control() || matches!(c, '\u{200b}'..='\u{200d}' | '\u{feff}')
+                };
+                match self.peek().filter(hidden) {
+                    None => Ok(()),
+                    Some(c) => {
+                        let message = format!("an invisible character (U+{:04X}) stands here", u32::from(c));
+                        let fault = self.fault(&message, self.token(), "invisible");
+                        Err(fault.help("replace it with an ordinary blank"))
+                    }
+                }
             }
             Err(start) => Err(self
                 .fault("the comment that begins here never ends", start..start + 2, "no `*/`")
@@ -581,8 +561,8 @@ impl Scanner<'_> {
     }
 
     fn fault(&self, message: &str, span: Range<usize>, label: &str) -> Box<SceneError> {
-        let path = self.frames.last().map_or_else(String::new, |frame| self.tree.path(frame.id, self.text));
-        Box::new(SceneError::new(path, message).at(span, label))
+        let node = self.frames.last().map(|frame| frame.id);
+        Box::new(SceneError { node, ..SceneError::new("", message).at(span, label) })
     }
 
     fn token(&self) -> Range<usize> {
@@ -608,94 +588,5 @@ impl SceneError {
     }
 }
 
-/// The length of a field name or word at the beginning of a text, in bytes.
-pub(crate) fn word_length(text: &str) -> usize {
-    let raw = if text.starts_with("r#") { 2 } else { 0 };
-    let mut length = raw;
-    for c in text[raw..].chars() {
-        let first = length == raw;
-        if c == '_' || c.is_alphabetic() || (!first && c.is_alphanumeric()) {
-            length += c.len_utf8();
-        } else {
-            break;
-        }
-    }
-    if length == raw { 0 } else { length }
-}
-
-/// `b"`, `r"`, `r##"` and their like: the bytes before the quote and the number of `#`.
-fn text_prefix(text: &str) -> Option<(usize, usize)> {
-    let letters = text.find(|c| !matches!(c, 'b' | 'r')).unwrap_or(text.len());
-    if !matches!(&text[..letters], "b" | "r" | "br") {
-        return None;
-    }
-    let hashes = text[letters..].bytes().take_while(|&byte| byte == b'#').count();
-    let prefix = letters + hashes;
-    (text[prefix..].starts_with('"') && (hashes == 0 || text[..letters].ends_with('r'))).then_some((prefix, hashes))
-}
-
-/// The value of a number as it may stand in RON; ranges and whole numbers of other bases count as zero.
-fn number_value(written: &str) -> Option<f64> {
-    if written.contains("..") {
-        return Some(0.0);
-    }
-    let plain = written.replace('_', "");
-    let unsigned = plain.trim_start_matches(['+', '-']);
-    for (prefix, base) in [("0x", 16), ("0o", 8), ("0b", 2)] {
-        if let Some(digits) = unsigned.strip_prefix(prefix) {
-            return u64::from_str_radix(digits, base).ok().map(|_| 0.0);
-        }
-    }
-    let suffixes = ["f32", "f64", "i8", "i16", "i32", "i64", "u8", "u16", "u32", "u64"];
-    let digits = suffixes.iter().find_map(|suffix| plain.strip_suffix(suffix)).unwrap_or(&plain);
-    let special = ["NaN", "inf"].contains(&digits.trim_start_matches(['+', '-']));
-    if !special && digits.contains(|c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E')) {
-        return None;
-    }
-    digits.parse().ok()
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_value_has_its_place_and_path() {
-        let text = "Scene(a: 1, b: [(x: -2e-3), Drag(y: \"s\")], m: { \"k\": (z: 0.1..0.5) }, c: List([7, 8]),)";
-        let found = scan(text);
-        assert_eq!(found.fault, None);
-        let at = |path: &str| {
-            let place = found.tree.find(path, text).unwrap();
-            assert!(place.whole, "{path}");
-            &text[found.tree.span(place.node)]
-        };
-        assert_eq!(at("a"), "1");
-        assert_eq!(at("b[0].x"), "-2e-3");
-        assert_eq!(at("b[1].y"), "\"s\"");
-        assert_eq!(at("m[\"k\"].z"), "0.1..0.5");
-        assert_eq!(at("c[1]"), "8");
-        for path in ["a", "b[0].x", "b[1].y", "m[\"k\"].z", "c[1]", "b"] {
-            let node = found.tree.find(path, text).unwrap().node;
-            assert_eq!(found.tree.path(node, text), path);
-            assert_eq!(found.tree.innermost(found.tree.span(node).start, false), node);
-        }
-    }
-
-    #[test]
-    fn no_beginning_of_a_scene_makes_it_stumble() {
-        let text = "#![type = \"x\"]\n/* a /* b */ */ Scene(a: r#\"q\"#, d: {\"é\": 'ü', \"f\": '\\n'}, g: -inf, h: 1_000u32) // end";
-        assert_eq!(scan(text).fault, None);
-        for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
-            let _ = scan(&text[..end]);
-            let _ = scan(&text[end..]);
-        }
-    }
-
-    #[test]
-    fn a_million_brackets_are_one_plain_error() {
-        for bracket in ["(", "[", "{\"a\":", "Some("] {
-            let fault = scan(&bracket.repeat(1_000_000)).fault.unwrap();
-            assert_eq!(fault.message, "brackets are nested more than 48 deep");
-        }
-    }
-}
+mod tests;
