@@ -156,6 +156,10 @@ impl Scanner<'_> {
         self.blank()?;
         match self.peek() {
             None => Ok(()),
+            Some(found @ ('[' | '{')) if !self.tree.is_empty() && self.tree.node(0).form == Form::Word => {
+                let root = self.tree.span(0);
+                Err(self.name_before_bracket(&self.text[root.clone()], root, found))
+            }
             Some(_) => {
                 let span = self.token();
                 Err(self
@@ -199,8 +203,11 @@ impl Scanner<'_> {
                 self.leaf(key, start, Form::Character);
             }
             '0'..='9' | '+' | '-' | '.' => {
-                self.number()?;
+                let fault = self.number().err();
                 self.leaf(key, start, Form::Number);
+                if let Some(fault) = fault {
+                    return Err(self.about_last(fault));
+                }
             }
             _ => match text_prefix(rest) {
                 Some((prefix, hashes)) => {
@@ -333,6 +340,9 @@ impl Scanner<'_> {
                     .help(format!("write `{bare}: ..`")));
             }
         }
+        if before_form == Some(Form::Word) && matches!(found, '[' | '{') {
+            return Err(self.name_before_bracket(&self.text[before.clone()], before, found));
+        }
         if frame.form == Form::Round && before_form == Some(Form::Word) && keyless && found != ';' {
             let name = word.to_owned();
             let fault = self.fault(&format!("`:` is missing after `{name}`"), before, "`:` expected after this");
@@ -375,6 +385,13 @@ impl Scanner<'_> {
     /// The last value in the innermost open bracket.
     fn last_value(&self) -> Option<Id> {
         self.pending[self.frames.last()?.first..].last().copied()
+    }
+
+    /// `Name[..]` or `Name {..}` in place of `Name(..)`.
+    fn name_before_bracket(&self, name: &str, span: Range<usize>, found: char) -> Box<SceneError> {
+        let help = if found == '[' { format!("write `{name}([..])`") } else { format!("write `{name}(..)`") };
+        let fault = self.fault(&format!("`(` is missing after `{name}`"), span, "`(` expected after this");
+        self.about_last(fault).help(help)
     }
 
     fn about_last(&self, fault: Box<SceneError>) -> Box<SceneError> {

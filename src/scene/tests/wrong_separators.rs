@@ -330,3 +330,24 @@ error: clock.method: a comma is missing after this value
 "#,
     );
 }
+
+#[test]
+fn a_bracket_missing_after_a_name() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "b", at: (0, 0), atoms: List[(at: (0, 0), radius: 1)])],
+)"#,
+        r#"
+error: bodies[0].atoms: `(` is missing after `List`
+ --> a.ron:4:45
+  |
+4 |     bodies: [(name: "b", at: (0, 0), atoms: List[(at: (0, 0), radius: 1)])],
+  |                                             ^^^^ `(` expected after this
+  |
+  = help: write `List([..])`
+"#,
+    );
+}

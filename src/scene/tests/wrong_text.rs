@@ -187,7 +187,7 @@ Scene(
     bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 10cm))],
 )"#,
         r#"
-error: bodies[0].atoms: `10cm` is not a number
+error: bodies[0].atoms.radius: `10cm` is not a number
  --> a.ron:4:61
   |
 4 |     bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 10cm))],
@@ -352,6 +352,25 @@ error: bodies[0].atoms[0].radius: a number with a unit stands in quotes
   |                                                                           ^^^^ needs quotes
   |
   = help: write `"1 cm"`
+"#,
+    );
+}
+
+#[test]
+fn braces_after_scene() {
+    wrong(
+        r#"
+Scene {
+    format: 1,
+}"#,
+        r#"
+error: `(` is missing after `Scene`
+ --> a.ron:1:1
+  |
+1 | Scene {
+  | ^^^^^ `(` expected after this
+  |
+  = help: write `Scene(..)`
 "#,
     );
 }
