@@ -33,6 +33,9 @@ pub struct SceneError {
     /// The bytes the caret stands under.
     #[serde(skip)]
     pub(crate) span: Option<Range<usize>>,
+    /// The value the mistake is about, until its path is known.
+    #[serde(skip)]
+    pub(crate) node: Option<u32>,
     /// Whether the walk over the text found it, before anything was read.
     #[serde(skip)]
     pub(crate) by_walk: bool,
@@ -81,7 +84,7 @@ pub struct SceneErrors {
 impl SceneErrors {
     /// Puts mistakes in the order of the file and gives them line and column.
     pub(crate) fn new(source: Source, mut errors: Vec<SceneError>, notes: Vec<String>) -> Self {
-        errors.sort_by_key(|error| error.span.as_ref().map_or(0, |span| span.start));
+        errors.sort_by_key(|error| error.span.as_ref().map_or(usize::MAX, |span| span.start));
         // What the walk over the text found wrong with a value, the checks need not repeat.
         let walked: BTreeSet<String> =
             errors.iter().filter(|error| error.by_walk).map(|error| error.path.clone()).collect();

@@ -115,11 +115,25 @@ impl Walked<'_> {
                 SceneError::new(self.path(behind), message.clone()).at(self.tree.head_or_value(behind), "this value")
             }
             Error::ExpectedBoolean => wrong(at, "`true` or `false`"),
+            Error::ExpectedString if offset < self.tree.key(at).end => {
+                let key = self.tree.key(at);
+                let name = &self.text[key.clone()];
+                SceneError::new(self.path(at), format!("the name `{name}` must stand in quotes"))
+                    .at(key, "needs quotes")
+                    .with_help(format!("write `\"{name}\": ..`"))
+            }
             Error::ExpectedString | Error::ExpectedStringEnd => wrong(at, "a text in quotes"),
             Error::ExpectedFloat | Error::ExpectedInteger => wrong(at, "a number"),
             Error::ExpectedArray => wrong(at, "a list `[..]`"),
             Error::ExpectedMap => wrong(at, "a map `{ \"name\": (..) }`"),
             Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) | Error::ExpectedUnit => {
+                let word = self.tree.innermost(self.text[..offset.min(self.text.len())].trim_end().len(), true);
+                if self.tree.node(word).form == Form::Word && word != at {
+                    let name = self.found(word).replace("the word ", "");
+                    return SceneError::new(self.path(word), format!("brackets are missing after {name}"))
+                        .at(self.tree.span(word), "`(..)` expected after this")
+                        .with_help(for_example);
+                }
                 match self.tree.name(at, self.text) {
                     "" => wrong(at, "round brackets `(..)`"),
                     name => {
@@ -135,7 +149,7 @@ impl Walked<'_> {
                     .at(self.tree.head(at), "in here")
                     .with_help(for_example)
             }
-            Error::ExpectedIdentifier => {
+            Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) | Error::InvalidIdentifier(_) => {
                 if self.tree.key(at).is_empty() && self.tree.node(self.tree.node(at).parent).form == Form::Round {
                     let name = self.found(at);
                     SceneError::new(self.path(at), format!("expected a field name and `:`, found {name}"))
@@ -151,8 +165,10 @@ impl Walked<'_> {
                     .with_help(for_example)
             }
             Error::ExpectedComma | Error::TrailingCharacters if self.tree.node(behind).form == Form::Round => {
+                let start = self.tree.span(behind).start;
+                let name = self.tree.name(behind, self.text).len().max(1);
                 SceneError::new(self.path(behind), format!("{} takes nothing in brackets", self.name(behind)))
-                    .at(self.tree.head(behind), "remove the brackets after it")
+                    .at(start..start + name, "remove the brackets after it")
                     .with_help(for_example)
             }
             Error::IntegerOutOfBounds | Error::ExpectedComma => wrong(at, "a whole number that is not too large"),

@@ -13,6 +13,7 @@ use super::scan::{scan, skip_blank};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id};
+use super::values::WholeNumber;
 
 const SMALLEST: &str = "the smallest scene is `Scene(format: 1, clock: (duration: 1), bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.1))])`";
 /// More mistakes than this are not looked up in the text.
@@ -22,7 +23,7 @@ const MOST_PROBLEMS: usize = 1000;
 #[derive(Clone, Debug, Default)]
 pub struct SceneHeader {
     /// The version of the scene language; always 1 so far.
-    pub format: u32,
+    pub format: u64,
     /// The title, shown in the film's corner and on the card.
     pub title: Option<String>,
     /// The author's words on what to look for.
@@ -151,7 +152,7 @@ impl Loading<'_> {
     }
 
     fn format(&mut self, id: Id) {
-        let Some(format) = self.read::<u32>(id, "format: 1") else { return };
+        let Some(WholeNumber(format)) = self.read(id, "format: 1") else { return };
         self.header.format = format;
         if format != 1 {
             let error = SceneError::new("format", format!("must be 1, got {format}"));

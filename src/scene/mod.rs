@@ -11,6 +11,49 @@
 //! 5. *install*, in the order of registration.
 //!
 //! Mistakes come with file, line, column, path, source line and remedy ([`SceneErrors`]).
+//!
+//! A plugin with a section of its own:
+//!
+//! ```
+//! use bevy_app::App;
+//! use bevy_ecs::resource::Resource;
+//! use jostle::scene::units::Speed;
+//! use jostle::scene::{Outline, Report, SceneAppExt, Section, Source, load};
+//!
+//! #[derive(serde::Deserialize)]
+//! #[serde(deny_unknown_fields)]
+//! struct WindSection {
+//!     /// From the left, in m/s.
+//!     speed: Speed,
+//! }
+//!
+//! #[derive(Resource)]
+//! struct Wind(f64);
+//!
+//! impl Section for WindSection {
+//!     const NAME: &'static str = "wind";
+//!     const EXAMPLE: &'static str = "wind: (speed: \"10 km/h\")";
+//!
+//!     fn check(&self, _outline: &Outline, report: &mut Report) {
+//!         report.between("speed", self.speed, -100.0, 100.0);
+//!     }
+//!
+//!     fn install(self, _outline: &Outline, app: &mut App) {
+//!         app.insert_resource(Wind(self.speed.si()));
+//!     }
+//! }
+//!
+//! let mut app = App::empty();
+//! app.register_section::<WindSection>();
+//! let scene = Source::new("storm.ron", "Scene(format: 1, clock: (duration: 1), wind: (speed: \"2 kg\"))");
+//! let errors = load(&mut app, &scene).unwrap_err();
+//! let wind = errors.errors().iter().find(|error| error.path == "wind.speed").unwrap();
+//! assert_eq!(
+//!     wind.message,
+//!     "expected a speed such as `0.2` or \"20 cm/s\", got a mass `2 kg`"
+//! );
+//! assert_eq!((wind.line, wind.column), (Some(1), Some(54)));
+//! ```
 
 mod error;
 mod explain;

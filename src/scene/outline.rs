@@ -113,12 +113,12 @@ impl Outline {
     }
 
     /// Adds a name. `path` is where it stands, relative to the section or entry, such as `"[3].name"`. A name that is
-    /// taken, empty, or holds one of `* . , "` or a control character is reported.
-    pub fn declare(&mut self, kind: Kind, name: &str, path: &str) {
+    /// taken, empty, or holds one of `* . , "` or a control character is reported. Returns whether the name is good.
+    pub fn declare(&mut self, kind: Kind, name: &str, path: &str) -> bool {
         let path = join(&self.scope, path);
         if name.is_empty() {
             self.report.error_at(path, "a name must not be empty".into());
-            return;
+            return false;
         }
         if let Some(bad) = name.chars().find(|&c| matches!(c, '*' | '.' | ',' | '"') || c.is_control()) {
             let why = match bad {
@@ -128,16 +128,17 @@ impl Outline {
             };
             let message = format!("the name {name:?} must not contain {bad:?}");
             self.report.error_at(path, message).help(format!("{why}; use letters, digits and `_`"));
-            return;
+            return false;
         }
         if let Some((other, first)) = self.taken(kind, name) {
             let which = if other == kind { "another" } else { "a" };
             let message = format!("the name \"{name}\" is taken by {which} {}", other.noun);
             let (first, label) = (first.to_owned(), format!("this {} has the name too", other.noun));
             self.report.error_at(path, message).also(first, label).help("give every thing its own name");
-            return;
+            return false;
         }
         self.add(kind, name, path);
+        true
     }
 
     fn add(&mut self, kind: Kind, name: &str, path: String) {

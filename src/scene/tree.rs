@@ -81,6 +81,11 @@ impl Tree {
         node.children = (first, first + children.len() as u32);
     }
 
+    /// The number the next value will have.
+    pub(crate) fn next(&self) -> Id {
+        self.nodes.len() as Id
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }

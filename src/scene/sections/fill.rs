@@ -72,7 +72,10 @@ impl FillSection {
     pub fn declare(&self, outline: &mut Outline) {
         for (index, entry) in self.0.iter().enumerate() {
             for number in 0..entry.count.0.min(LARGEST_COUNT) {
-                outline.declare(Kind::BODY, &entry.body_name(number), &format!("[{index}].name"));
+                // One message about a bad name is enough.
+                if !outline.declare(Kind::BODY, &entry.body_name(number), &format!("[{index}].name")) {
+                    break;
+                }
             }
         }
     }

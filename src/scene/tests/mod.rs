@@ -1,10 +1,13 @@
 //! Whole scenes, read with a few small plugins, and the exact messages for those that are wrong.
 
+mod display;
 mod plugins;
 mod reading;
+mod wrong_bodies;
 mod wrong_fields;
 mod wrong_kinds;
 mod wrong_names;
+mod wrong_separators;
 mod wrong_text;
 mod wrong_values;
 

@@ -258,3 +258,24 @@ error: the section `clock` is missing
 "#,
     );
 }
+
+#[test]
+fn brackets_twice() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc((radius: 1)))],
+)"#,
+        r#"
+error: bodies[0].atoms: expected a field name
+ --> a.ron:4:53
+  |
+4 |     bodies: [(name: "ball", at: (0, 1), atoms: Disc((radius: 1)))],
+  |                                                     ^ in here
+  |
+  = help: for example: bodies: [(name: "ball", at: (2, 3), atoms: Disc(radius: 0.2))]
+"#,
+    );
+}

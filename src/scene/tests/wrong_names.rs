@@ -430,3 +430,110 @@ error: wind.gusts[0].strength: `Storm` is not one of the choices
 "#,
     );
 }
+
+#[test]
+fn a_material_without_quotes() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
+    materials: { rock: () },
+)"#,
+        r#"
+error: materials[rock]: the name `rock` must stand in quotes
+ --> a.ron:5:18
+  |
+5 |     materials: { rock: () },
+  |                  ^^^^ needs quotes
+  |
+  = help: write `"rock": ..`
+"#,
+    );
+}
+
+#[test]
+fn a_shape_without_brackets() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc)],
+)"#,
+        r#"
+error: bodies[0].atoms: brackets are missing after `Disc`
+ --> a.ron:4:48
+  |
+4 |     bodies: [(name: "ball", at: (0, 1), atoms: Disc)],
+  |                                                ^^^^ `(..)` expected after this
+  |
+  = help: for example: bodies: [(name: "ball", at: (2, 3), atoms: Disc(radius: 0.2))]
+"#,
+    );
+}
+
+#[test]
+fn an_entry_with_a_value_without_name() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
+    forces: [Drag(1)],
+)"#,
+        r#"
+error: forces[0]: expected a field name and `:`, found the number 1
+ --> a.ron:5:19
+  |
+5 |     forces: [Drag(1)],
+  |                   ^ no field name
+  |
+  = help: for example: Drag(quadratic: 0.02, of: ["ball"])
+"#,
+    );
+}
+
+#[test]
+fn a_method_with_brackets() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1, method: VelocityVerlet(3)),
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
+)"#,
+        r#"
+error: clock.method: `VelocityVerlet` takes nothing in brackets
+ --> a.ron:3:34
+  |
+3 |     clock: (duration: 1, method: VelocityVerlet(3)),
+  |                                  ^^^^^^^^^^^^^^ remove the brackets after it
+  |
+  = help: for example: clock: (duration: 20, tick: "1 ms", method: VelocityVerlet)
+"#,
+    );
+}
+
+#[test]
+fn a_wrong_datum() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 1), datum: Center)],
+)"#,
+        r#"
+error: bodies[0].datum: `Center` is not one of the choices
+ --> a.ron:4:72
+  |
+4 |     bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 1), datum: Center)],
+  |                                                                        ^^^^^^ unknown
+  |
+  = help: did you mean `CenterOfMass`? choices: `CenterOfMass`, `Origin`
+"#,
+    );
+}

@@ -1,4 +1,4 @@
-//! Scenes whose text is broken: brackets, commas, quotes, comments.
+//! Texts that are no scene: empty, of another format, with open quotes and comments, stray letters.
 
 use super::wrong;
 
@@ -67,189 +67,6 @@ error: expected `Scene(..)`, found the word `GIF89a`
   | ^^^^^^ not a scene
   |
   = help: the smallest scene is `Scene(format: 1, clock: (duration: 1), bodies: [(name: "ball", at: (0, 0), atoms: Disc(radius: 0.1))])`
-"#,
-    );
-}
-
-#[test]
-fn a_missing_comma() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [
-        (name: "ball", at: (0, 1), atoms: Disc(radius: 0.1))  // the ball
-        (name: "box", at: (2, 1), atoms: Disc(radius: 0.1)),
-    ],
-)"#,
-        r#"
-error: bodies[0]: a comma is missing after this value
- --> a.ron:5:60
-  |
-5 |         (name: "ball", at: (0, 1), atoms: Disc(radius: 0.1))  // the ball
-  |                                                            ^ `,` expected after this
-  |
-  = help: separate fields and list items with `,`
-"#,
-    );
-}
-
-#[test]
-fn a_missing_comma_between_fields() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (
-        duration: 1
-        tick: 0.001,
-    ),
-)"#,
-        r#"
-error: clock.duration: a comma is missing after this value
- --> a.ron:4:19
-  |
-4 |         duration: 1
-  |                   ^ `,` expected after this
-  |
-  = help: separate fields and list items with `,`
-"#,
-    );
-}
-
-#[test]
-fn a_scene_cut_off() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [
-        (name: "ball", at: (0, 1), atoms: Disc(radius: 0.1"#,
-        r#"
-error: bodies[0].atoms: the scene ends before this bracket is closed
- --> a.ron:5:47
-  |
-5 |         (name: "ball", at: (0, 1), atoms: Disc(radius: 0.1
-  |                                               ^ no `)` for it
-  |
-  = help: the text may be cut off; close it with `)`
-"#,
-    );
-}
-
-#[test]
-fn the_wrong_bracket() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [
-        (name: "ball", at: (0, 1], atoms: Disc(radius: 0.1)),
-    ],
-)"#,
-        r#"
-error: bodies[0].at: `]` closes nothing here: `)` must come first
- --> a.ron:5:33
-  |
-5 |         (name: "ball", at: (0, 1], atoms: Disc(radius: 0.1)),
-  |                            -    ^ expected `)`
-  |                            |
-  |                            this bracket is still open
-  |
-  = help: close it with `)`
-"#,
-    );
-}
-
-#[test]
-fn a_list_left_open() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [
-        (name: "ball", at: (0, 1), atoms: Disc(radius: 0.1)),
-    forces: [Drag()],
-)"#,
-        r#"
-error: bodies: the list is not closed before the field `forces`
- --> a.ron:6:5
-  |
-4 |     bodies: [
-  |             - this list is still open
-5 |         (name: "ball", at: (0, 1), atoms: Disc(radius: 0.1)),
-6 |     forces: [Drag()],
-  |     ^^^^^^ a new field
-  |
-  = help: close the list with `]`
-"#,
-    );
-}
-
-#[test]
-fn one_bracket_too_many() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
-    ),
-)"#,
-        r#"
-error: there is text after the end of the scene
- --> a.ron:5:6
-  |
-5 |     ),
-  |      ^ not expected here
-  |
-  = help: check for a closing bracket too many before it
-"#,
-    );
-}
-
-#[test]
-fn an_equals_sign() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name = "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
-)"#,
-        r#"
-error: bodies[0]: fields take `:`, not `=`
- --> a.ron:4:20
-  |
-4 |     bodies: [(name = "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
-  |                    ^ expected `:`
-  |
-  = help: write `name: ..`
-"#,
-    );
-}
-
-#[test]
-fn a_semicolon() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name: "ball"; at: (0, 1), atoms: Disc(radius: 0.1))],
-)"#,
-        r#"
-error: bodies[0]: fields and items are separated by `,`, not `;`
- --> a.ron:4:27
-  |
-4 |     bodies: [(name: "ball"; at: (0, 1), atoms: Disc(radius: 0.1))],
-  |                           ^ expected `,`
-  |
-  = help: write `,`
 "#,
     );
 }
@@ -370,97 +187,13 @@ Scene(
     bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 10cm))],
 )"#,
         r#"
-error: bodies[0].atoms: `10cm` is not a number
+error: bodies[0].atoms.radius: `10cm` is not a number
  --> a.ron:4:61
   |
 4 |     bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 10cm))],
   |                                                             ^^^^ not a number
   |
   = help: a number with a unit stands in quotes: write `"10 cm"`
-"#,
-    );
-}
-
-#[test]
-fn a_decimal_comma() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0,1))],
-)"#,
-        r#"
-error: bodies[0].atoms.radius: decimals take a point, not a comma
- --> a.ron:4:61
-  |
-4 |     bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0,1))],
-  |                                                             ^^^ two numbers
-  |
-  = help: write `0.1`
-"#,
-    );
-}
-
-#[test]
-fn a_field_without_value() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name: "ball", at: , atoms: Disc(radius: 0.1))],
-)"#,
-        r#"
-error: bodies[0]: `at` has no value
- --> a.ron:4:29
-  |
-4 |     bodies: [(name: "ball", at: , atoms: Disc(radius: 0.1))],
-  |                             ^^ a value is missing after this
-  |
-  = help: write `at: ..`, or remove it
-"#,
-    );
-}
-
-#[test]
-fn two_commas() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name: "ball", at: (0, 1),, atoms: Disc(radius: 0.1))],
-)"#,
-        r#"
-error: bodies[0]: `,` is not expected here
- --> a.ron:4:40
-  |
-4 |     bodies: [(name: "ball", at: (0, 1),, atoms: Disc(radius: 0.1))],
-  |                                        ^ not the beginning of a value
-  |
-  = help: one comma is enough
-"#,
-    );
-}
-
-#[test]
-fn very_deep_nesting() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]],
-)"#,
-        r#"
-error: brackets are nested more than 48 deep
- --> a.ron:4:60
-  |
-4 |     bodies: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]],
-  |                                                            ^ this one is too deep
-  |
-  = help: a scene needs about eight levels
 "#,
     );
 }
@@ -488,27 +221,6 @@ error: the scene language has no extensions to enable
 }
 
 #[test]
-fn a_value_among_fields() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name: "ball", (0, 1), atoms: Disc(radius: 0.1))],
-)"#,
-        r#"
-error: bodies[0]: expected a field name and `:`
- --> a.ron:4:29
-  |
-4 |     bodies: [(name: "ball", (0, 1), atoms: Disc(radius: 0.1))],
-  |                             ^ no field name
-  |
-  = help: every field here has a name, as in `name: value`
-"#,
-    );
-}
-
-#[test]
 fn a_list_of_json() {
     wrong(
         r#"
@@ -525,27 +237,6 @@ error: bodies[0]: expected round brackets `(..)`, found a map `{..}`
   |              ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ not round brackets `(..)`
   |
   = help: for example: bodies: [(name: "ball", at: (2, 3), atoms: Disc(radius: 0.2))]
-"#,
-    );
-}
-
-#[test]
-fn no_colon() {
-    wrong(
-        r#"
-Scene(
-    format: 1,
-    clock: (duration: 1),
-    bodies: [(name "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
-)"#,
-        r#"
-error: bodies[0]: `:` is missing after `name`
- --> a.ron:4:15
-  |
-4 |     bodies: [(name "ball", at: (0, 1), atoms: Disc(radius: 0.1))],
-  |               ^^^^ `:` expected after this
-  |
-  = help: write `name: ..`
 "#,
     );
 }
@@ -587,6 +278,99 @@ error: expected a section, found the number 2
   |          ^ no section name
   |
   = help: a scene is made of sections such as `clock: (duration: 1)`
+"#,
+    );
+}
+
+#[test]
+fn a_text_closed_lines_below() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [
+        (name: "ball, at: (0, 1), atoms: Disc(radius: 0.1)),
+        (name: "box", at: (2, 1), atoms: Disc(radius: 0.1)),
+    ],
+)"#,
+        r#"
+error: bodies[0].name: a text begins here and ends only lines below
+ --> a.ron:5:16
+  |
+5 |         (name: "ball, at: (0, 1), atoms: Disc(radius: 0.1)),
+  |                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ no closing `"` on this line
+  |
+  = help: close the text with `"`
+"#,
+    );
+}
+
+#[test]
+fn a_text_closed_too_late() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball, at: (0, 1), material: "rock", atoms: Disc(radius: 0.1))],
+)"#,
+        r#"
+error: bodies[0].name: a comma is missing after this value
+ --> a.ron:4:50
+  |
+4 |     bodies: [(name: "ball, at: (0, 1), material: "rock", atoms: Disc(radius: 0.1))],
+  |                                                  ^ `,` expected after this
+  |
+  = help: separate fields and list items with `,`; or is a closing `"` missing before?
+"#,
+    );
+}
+
+#[test]
+fn an_invisible_character() {
+    wrong(
+        "\nScene(\n    format: 1,\n    clock: (duration: 1),\n    bodies:\u{a0}[(name: \"ball\", at: (0, 1), atoms: Disc(radius: 0.1))],\n)",
+        "\nerror: an invisible character (U+00A0) stands here\n --> a.ron:4:12\n  |\n4 |     bodies:\u{a0}[(name: \"ball\", at: (0, 1), atoms: Disc(radius: 0.1))],\n  |            ^ invisible\n  |\n  = help: replace it with an ordinary blank\n",
+    );
+}
+
+#[test]
+fn a_bare_unit_in_a_list_of_atoms() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [(name: "ball", at: (0, 1), atoms: List([(at: (0, 0), radius: 1 cm)]))],
+)"#,
+        r#"
+error: bodies[0].atoms[0].radius: a number with a unit stands in quotes
+ --> a.ron:4:75
+  |
+4 |     bodies: [(name: "ball", at: (0, 1), atoms: List([(at: (0, 0), radius: 1 cm)]))],
+  |                                                                           ^^^^ needs quotes
+  |
+  = help: write `"1 cm"`
+"#,
+    );
+}
+
+#[test]
+fn braces_after_scene() {
+    wrong(
+        r#"
+Scene {
+    format: 1,
+}"#,
+        r#"
+error: `(` is missing after `Scene`
+ --> a.ron:1:1
+  |
+1 | Scene {
+  | ^^^^^ `(` expected after this
+  |
+  = help: write `Scene(..)`
 "#,
     );
 }
