@@ -17,14 +17,14 @@ const EMPTY: u32 = u32::MAX;
 #[derive(Debug)]
 pub(super) struct Packer {
     /// Each slot holds 20 bits of key (code of the prefix, next symbol) and 12 bits of code.
-    table: Vec<u32>,
+    table: Box<[u32; SLOTS]>,
     /// For each symbol the codes of its runs of 1, 2, 3 ...
     runs: Vec<Vec<u16>>,
 }
 
 impl Default for Packer {
     fn default() -> Packer {
-        Packer { table: vec![EMPTY; SLOTS], runs: vec![Vec::new(); 256] }
+        Packer { table: Box::new([EMPTY; SLOTS]), runs: vec![Vec::new(); 256] }
     }
 }
 

@@ -1,8 +1,8 @@
 //! The clock: the time of the frame, with digits that stand still.
 
-use tiny_skia::{FillRule, LineJoin, Pixmap, Stroke, Transform};
+use tiny_skia::Pixmap;
 
-use super::paint;
+use super::labels::{Column, Label};
 use crate::raster::text::{Lettering, Weight};
 use crate::raster::theme::Theme;
 
@@ -24,24 +24,13 @@ impl Clock {
         self.lettering.width(&self.text(10.0))
     }
 
-    /// Draws the time (s) with its upper left corner at (`left`, `top`). A halo of the background keeps it readable
-    /// when bodies pass behind.
-    pub(in crate::raster) fn draw(
-        &self,
-        pixmap: &mut Pixmap,
-        time: f64,
-        left: f32,
-        top: f32,
-        halo: bool,
-        theme: &Theme,
-    ) {
+    /// Draws the time (s) below `above` pixels of its column.
+    pub(in crate::raster) fn draw(&self, pixmap: &mut Pixmap, time: f64, column: &Column, above: f32, theme: &Theme) {
         let size = self.lettering.size();
-        let Some(path) = self.lettering.path(&self.text(time), left, top + 0.73 * size) else { return };
-        if halo {
-            let stroke = Stroke { width: 0.25 * size, line_join: LineJoin::Round, ..Stroke::default() };
-            pixmap.stroke_path(&path, &paint(theme.background), &stroke, Transform::identity(), None);
+        let path = self.lettering.path(&self.text(time), column.left, column.top + above + 0.73 * size);
+        if let Some(path) = path {
+            Label::new(path, size, column.in_room).draw(pixmap, theme.quiet_ink, theme);
         }
-        pixmap.fill_path(&path, &paint(theme.quiet_ink), FillRule::Winding, Transform::identity(), None);
     }
 
     fn text(&self, time: f64) -> String {

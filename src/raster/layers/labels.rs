@@ -1,8 +1,12 @@
 //! Where the labels stand: beside the room if there is space, else in its upper left corner.
 
 use glam::DVec2;
+use tiny_skia::{FillRule, LineJoin, Path, Pixmap, Stroke, Transform};
 
+use super::paint;
 use crate::raster::text::Lettering;
+use crate::raster::theme::Theme;
+use crate::record::frame::Rgb;
 
 /// The part of the picture that no wall covers, as an upright box in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +39,38 @@ impl Column {
         let width = (room.high.x - room.low.x) as f32 - 2.0 * pad;
         Column { left: room.low.x as f32 + pad, top: room.low.y as f32 + pad, width: width.max(needed), in_room: true }
     }
+}
+
+/// A text in its place, with a halo if bodies may pass behind it.
+#[derive(Clone, Debug)]
+pub(in crate::raster) struct Label {
+    letters: Path,
+    halo: Option<Path>,
+}
+
+impl Label {
+    /// The label with these outlines, of letters `size` pixels high.
+    pub(in crate::raster) fn new(letters: Path, size: f32, over_bodies: bool) -> Label {
+        let stroke = Stroke { width: 0.25 * size, line_join: LineJoin::Round, ..Stroke::default() };
+        let halo = over_bodies.then(|| letters.stroke(&stroke, 1.0)).flatten();
+        Label { letters, halo }
+    }
+
+    /// Draws the label.
+    pub(in crate::raster) fn draw(&self, pixmap: &mut Pixmap, color: Rgb, theme: &Theme) {
+        let mut fill = |path: &Path, color| {
+            pixmap.fill_path(path, &paint(color), FillRule::Winding, Transform::identity(), None);
+        };
+        if let Some(halo) = &self.halo {
+            fill(halo, theme.background);
+        }
+        fill(&self.letters, color);
+    }
+}
+
+/// The width of the longest word of a text, in pixels.
+pub(in crate::raster) fn longest_word(text: &str, lettering: &Lettering) -> f32 {
+    text.split_whitespace().map(|word| lettering.width(word)).fold(0.0, f32::max)
 }
 
 /// Breaks a text into lines no wider than `width`; a word that is wider stands alone and runs over.
