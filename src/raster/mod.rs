@@ -102,8 +102,7 @@ impl Painter {
         let clock = Clock::new(weights.clock, clock::decimals(view.frame_step));
         let room = walls::room(&cast.walls, camera, theme);
         let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
-        // A column of less than nine letters' height would stand a title on its head.
-        let needed = clock.width().max(longest_word(&cast.title, &lettering)).max(9.0 * weights.title);
+        let needed = clock.width().max(longest_word(&cast.title, &lettering));
         let column = Column::beside_or_in(room, weights.band, needed, weights.pad);
         let title = Title::new(&cast.title, &lettering, &column);
         if !column.in_room {
