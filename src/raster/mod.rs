@@ -99,14 +99,14 @@ impl Painter {
             }
         }
 
-        let clock = Clock::new(weights.clock, clock::decimals(view.frame_step));
+        let clock = Clock::new(weights.clock, clock::decimals(view.frame_step), theme);
         let room = walls::room(&cast.walls, camera, theme);
         let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
         let needed = clock.width().max(longest_word(&cast.title, &lettering));
         let column = Column::beside_or_in(room, weights.band, needed, weights.pad);
-        let title = Title::new(&cast.title, &lettering, &column);
+        let title = Title::new(&cast.title, &lettering, &column, theme);
         if !column.in_room {
-            title.draw(&mut picture, theme);
+            title.draw(&mut picture);
         }
         Ok(Painter { view: view.clone(), cast: cast.clone(), figures, title, clock, labels: column, backdrop: picture })
     }
@@ -136,9 +136,9 @@ impl Painter {
             }
         }
         if self.labels.in_room {
-            self.title.draw(picture, &self.view.theme);
+            self.title.draw(picture);
         }
-        self.clock.draw(picture, frame.time, &self.labels, self.title.height(), &self.view.theme);
+        self.clock.draw(picture, frame.time, &self.labels, self.title.height());
     }
 
     /// The flat colours of the film, each once: an encoder with few colours keeps these exact.
