@@ -15,7 +15,7 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub use camera::{Bounds, Camera};
-pub use theme::{Swatch, Theme, Tint};
+pub use theme::{COLOR_NAMES, Swatch, Theme, Tint};
 
 use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
 use canvas::Canvas;
