@@ -12,7 +12,19 @@ const THEMES: [(&str, &str); 2] = [
 
 /// The names of colours that every theme has, in the order of its palette.
 pub const COLOR_NAMES: [&str; 14] = [
-    "sky", "orange", "teal", "pink", "blue", "yellow", "vermilion", "green", "purple", "brown", "red", "grey", "white",
+    "sky",
+    "orange",
+    "teal",
+    "pink",
+    "blue",
+    "yellow",
+    "vermilion",
+    "green",
+    "purple",
+    "brown",
+    "red",
+    "grey",
+    "white",
     "black",
 ];
 

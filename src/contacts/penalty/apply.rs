@@ -15,6 +15,8 @@ use crate::world::{Bodies, Materials, PackedWall};
 #[derive(Resource, Debug, Default)]
 pub struct PenaltyContacts {
     version: u64,
+    pub(super) settings: Penalty,
+    pub(super) materials: Materials,
     laws: LawTable,
     /// One for each pair of atoms.
     pub atoms: Vec<Contact>,
@@ -34,31 +36,21 @@ struct Touching {
 }
 
 /// Gives every pair of a new list its slot, with its history if it had one.
-pub(super) fn carry_history(
-    bodies: Res<Bodies>,
-    pairs: Res<CandidatePairs>,
-    materials: Res<Materials>,
-    settings: Res<Penalty>,
-    mut contacts: ResMut<PenaltyContacts>,
-) {
-    if contacts.version == pairs.version {
-        return;
-    }
-    let contacts = &mut *contacts;
+fn carry_history(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let side = |atom: u32| Side {
         stiffness: bodies.atom_stiffness[atom as usize],
         material: bodies.atom_material[atom as usize],
     };
     let radius = |atom: u32| bodies.atom_radius[atom as usize];
-    let laws = &mut contacts.laws;
-    contacts.atoms = carried(&pairs.atoms, &pairs.atoms_before, &contacts.atoms, laws, |pair, laws| {
-        let law = laws.place(side(pair.a), side(pair.b), &materials, &settings);
+    let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
+    *atoms = carried(&pairs.atoms, &pairs.atoms_before, atoms, laws, |pair, laws| {
+        let law = laws.place(side(pair.a), side(pair.b), materials, settings);
         Contact { reach: radius(pair.a) + radius(pair.b), law, ..Default::default() }
     });
-    contacts.walls = carried(&pairs.walls, &pairs.walls_before, &contacts.walls, laws, |pair, laws| {
+    *walls = carried(&pairs.walls, &pairs.walls_before, walls, laws, |pair, laws| {
         let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
-        let law = laws.place(wall, side(pair.atom), &materials, &settings);
+        let law = laws.place(wall, side(pair.atom), materials, settings);
         Contact { reach: radius(pair.atom), law, ..Default::default() }
     });
 }
@@ -188,6 +180,9 @@ pub(super) fn apply_penalty(
     evaluation: Res<Evaluation>,
     mut forces: Option<ResMut<ContactForces>>,
 ) {
+    if contacts.version != pairs.version {
+        carry_history(&mut contacts, &bodies, &pairs);
+    }
     if let Some(forces) = &mut forces {
         forces.clear(&bodies);
     }
