@@ -139,7 +139,10 @@ impl Render {
                 match failure {
                     None => Exit::Good,
                     Some(failure) => {
-                        eprintln!("error: the run went wrong: {failure}; the {} frames so far are kept", written.frames);
+                        eprintln!(
+                            "error: the run went wrong: {failure}; the {} frames so far are kept",
+                            written.frames
+                        );
                         eprintln!("help: {}", shared::remedy(&simulation.card()));
                         Exit::RunWrong
                     }

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Exit;
+use super::progress::Progress;
 use super::shared::{self, OverrideFlags};
 use crate::output::OutputError;
 use crate::output::csv::Table;
-use super::progress::Progress;
 use crate::sensors::Channels;
 use crate::simulation::Simulation;
 use crate::tick::Failure;

@@ -83,7 +83,11 @@ pub fn observe_expectations(world: &mut World) {
 
 /// Registers the expectations of this folder.
 pub fn plugin(app: &mut App) {
-    app.register_entry_section("expect", Arity::List, "expect: [Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)]");
+    app.register_entry_section(
+        "expect",
+        Arity::List,
+        "expect: [Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)]",
+    );
     at_rest::plugin(app);
     channel::plugin(app);
     inside::plugin(app);

@@ -19,10 +19,7 @@ impl Table {
     ///
     /// # Errors
     /// If the file cannot be created.
-    pub fn create<'a>(
-        path: &Path,
-        columns: impl IntoIterator<Item = (&'a str, &'a str)>,
-    ) -> Result<Self, OutputError> {
+    pub fn create<'a>(path: &Path, columns: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, OutputError> {
         let part = PartFile::create(path)?;
         let mut table = Self { path: path.to_owned(), part, columns: 0 };
         let mut header = "time [s]".to_owned();

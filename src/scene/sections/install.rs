@@ -8,18 +8,8 @@ use super::{ClockSection, FilmSection};
 use crate::scene::{Arity, Entry, Outline, Report, SceneAppExt, Section, Written};
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 10] = [
-    "joints",
-    "plots",
-    "look",
-    "params",
-    "include",
-    "templates",
-    "instances",
-    "randomise",
-    "controllers",
-    "scene",
-];
+const RESERVED: [&str; 10] =
+    ["joints", "plots", "look", "params", "include", "templates", "instances", "randomise", "controllers", "scene"];
 
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {

@@ -1,0 +1,1 @@
+//! Same scene, same binary: same bits.
