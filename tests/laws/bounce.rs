@@ -99,7 +99,8 @@ fn two_soft_discs_scatter_as_the_integral_says() {
         // A hundred ticks of rounding.
         assert_near("momentum", (momentum_after - momentum).length() / scale, 0.0, 100.0 * f64::EPSILON);
         assert_near("angular momentum", (turning_after - turning) / turning_scale, 0.0, 100.0 * f64::EPSILON);
-        // Frictionless: nothing makes them spin.
-        assert_eq!(bodies.spin, [0.0, 0.0]);
+        // Frictionless: nothing but rounding of the contact point makes them spin.
+        let rim = bodies.spin.iter().map(|spin| 0.15 * spin.abs()).fold(0.0, f64::max);
+        assert_near("speed of the rim", rim / oblique_collision::SPEED, 0.0, 100.0 * f64::EPSILON);
     }
 }

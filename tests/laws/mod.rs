@@ -3,5 +3,14 @@
 
 mod support;
 
+mod bounce;
+mod constant_acceleration;
 mod convergence;
+mod energy;
+mod forces;
+mod friction;
+mod momentum;
+mod orbit;
 mod problems;
+mod restitution;
+mod rotation;
