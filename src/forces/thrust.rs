@@ -1,4 +1,7 @@
 //! Thrust: a force at a point of a body, constant in the body's frame or in the world's, between two times.
+//!
+//! It acts in a whole tick or not at all: in those whose middle lies between the two times. So a schedule on the grid
+//! of ticks gives force times time to the last digit, and rounding of the times decides nothing.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -9,7 +12,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Dependence, Evaluation, TickAppExt};
+use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Modes, TickAppExt};
 use crate::world::Bodies;
 
 /// `Thrust(of: "T", at: (0, 0.1), force: (0, 2), frame: Body, from: 1, to: 1.25)`.
@@ -63,6 +66,7 @@ impl Entry for Thrust {
             turns: value.frame == ThrustFrame::Body,
             from: value.from.si(),
             to: value.to.map_or(f64::INFINITY, Time::si),
+            acts: false,
         };
         install(entries.into_iter().map(thrust).collect(), app);
     }
@@ -83,6 +87,8 @@ pub struct ThrustForce {
     pub from: f64,
     /// It no longer acts at this time, in seconds.
     pub to: f64,
+    /// Whether it acts in the present tick; false at the beginning.
+    pub acts: bool,
 }
 
 #[derive(Resource)]
@@ -92,27 +98,43 @@ struct Thrusts(Vec<ThrustForce>);
 pub fn install(thrusts: Vec<ThrustForce>, app: &mut App) {
     app.insert_resource(Thrusts(thrusts));
     app.add_packed_force(Dependence::Position, apply_thrust);
+    app.add_systems(Modes, switch_thrust.in_set(EvaluateStage::Forces));
 }
 
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Thrust>();
 }
 
-fn apply_thrust(
+fn apply_thrust(mut thrusts: ResMut<Thrusts>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+    for thrust in thrusts.0.iter_mut().filter(|thrust| thrust.acts) {
+        thrust.push(&mut bodies, &mut balance, 1.0);
+    }
+}
+
+/// Before a tick: what begins or ends with it is added to or taken from the sums of its beginning.
+fn switch_thrust(
     mut thrusts: ResMut<Thrusts>,
     mut bodies: ResMut<Bodies>,
     mut balance: ResMut<Balance>,
-    evaluation: Res<Evaluation>,
+    clock: Res<Clock>,
 ) {
+    let middle = clock.time() + 0.5 * clock.dt;
     for thrust in &mut thrusts.0 {
-        if !(thrust.from..thrust.to).contains(&evaluation.time) {
-            continue;
+        let acts = (thrust.from..thrust.to).contains(&middle);
+        if acts != thrust.acts {
+            thrust.acts = acts;
+            thrust.push(&mut bodies, &mut balance, if acts { 1.0 } else { -1.0 });
         }
-        for body in thrust.of.places(&bodies) {
+    }
+}
+
+impl ThrustForce {
+    fn push(&mut self, bodies: &mut Bodies, balance: &mut Balance, times: f64) {
+        for body in self.of.places(bodies) {
             let (sin, cos) = libm::sincos(bodies.angle[body]);
             let rotation = DVec2::new(cos, sin);
-            let force = if thrust.turns { rotation.rotate(thrust.force) } else { thrust.force };
-            let arm = rotation.rotate(thrust.at);
+            let force = times * if self.turns { rotation.rotate(self.force) } else { self.force };
+            let arm = rotation.rotate(self.at);
             bodies.push(body, arm, force);
             balance.outside(bodies.position[body], force, arm.perp_dot(force));
             balance.work += force.dot(bodies.velocity_at(body, arm));

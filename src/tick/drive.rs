@@ -147,8 +147,7 @@ pub(super) fn integrate(world: &mut World) {
     let mut drive = world.resource_mut::<Drive>();
     let mut running = drive.running.take().expect("ticks run inside `step`");
     let (first_of_batch, ordinary) = (!drive.stepped, drive.ordinary_tick);
-    // Whatever an ordinary system changed, the forces of the last evaluation may not know of it.
-    let current = drive.current && !ordinary;
+    let current = drive.current;
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
     let clock = *world.resource::<Clock>();
     let Running { method, evaluate, modes, has_modes } = &mut *running;
@@ -177,9 +176,10 @@ pub(super) fn integrate(world: &mut World) {
 /// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
 /// anything changed.
 fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
-    let changed = world.resource::<Bodies>().changed;
+    let mut bodies = world.resource_mut::<Bodies>();
+    let (changed, touched) = (bodies.changed, std::mem::take(&mut bodies.touched));
     let beginning = world.resource::<Ledger>().start.is_none();
-    let differs = changed || beginning || world.run_system_cached(packed::components_differ).unwrap_or(false);
+    let differs = changed || touched || beginning || world.run_system_cached(packed::components_differ).unwrap_or(false);
     if !differs {
         return None;
     }

@@ -5,7 +5,8 @@
 //! | [`SimTick`] | [`Stage::Begin`] | plugins look at the state and change it: spawn, despawn, steer |
 //! | | [`Stage::Integrate`] | the integrator advances the state by `dt`; it runs [`Modes`] and [`Evaluate`] as often as its method needs |
 //! | | [`Stage::Observe`] | sensors, expectations and guards look at the new state |
-//! | [`Modes`] | | contacts choose the modes that stay frozen during the step |
+//! | [`Modes`] | [`EvaluateStage::Forces`] | schedules of forces switch on or off for the whole step |
+//! | | [`EvaluateStage::Contacts`] | contacts choose the modes that stay frozen during the step |
 //! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now |
 //! | | [`EvaluateStage::Forces`] | one system per kind of force, in the order of registration |
 //! | | [`EvaluateStage::Contacts`] | candidate pairs, then the contact law |
@@ -17,7 +18,9 @@
 //! **Packed systems and ordinary systems.** Built-in systems work on the packed [`Bodies`](crate::world::Bodies) and
 //! are registered with [`TickAppExt::add_packed_systems`]. Any other system in these schedules is an ordinary one: the
 //! engine notices it and keeps the components (`Position`, `Velocity` ...) up to date around it. A scene without
-//! ordinary systems pays nothing for that.
+//! ordinary systems pays nothing for that. A system in [`Stage::Begin`] that changes components, spawns or despawns is
+//! noticed too, and the forces are evaluated anew before the tick; one that changes anything else that forces depend on
+//! says so with [`Bodies::touched`](crate::world::Bodies::touched).
 
 pub mod balance;
 pub mod clock;
@@ -40,7 +43,8 @@ pub struct SimTick;
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Evaluate;
 
-/// The schedule in which contacts choose the modes (loading or unloading) that stay frozen during the step.
+/// The schedule in which forces and contacts choose the modes (on or off, loading or unloading) that stay frozen during
+/// the step. It has the stages [`EvaluateStage::Forces`] and [`EvaluateStage::Contacts`].
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Modes;
 
@@ -135,7 +139,9 @@ impl TickAppExt for App {
         let mut evaluate = single_threaded(Evaluate);
         use EvaluateStage::{Bounds, Contacts, Forces, Joints};
         evaluate.configure_sets((Bounds, Forces, Contacts, Joints).chain());
-        self.add_schedule(tick).add_schedule(evaluate).add_schedule(single_threaded(Modes));
+        let mut modes = single_threaded(Modes);
+        modes.configure_sets((Forces, Contacts).chain());
+        self.add_schedule(tick).add_schedule(evaluate).add_schedule(modes);
         self.init_resource::<Census>()
             .init_resource::<Clock>()
             .init_resource::<Evaluation>()

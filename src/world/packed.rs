@@ -36,6 +36,9 @@ pub struct PackedWall {
 pub struct Bodies {
     /// Set when something was spawned, despawned or given another mass: the arrays are rebuilt before the next tick.
     pub changed: bool,
+    /// Set by a plugin that changed something forces depend on other than the components of bodies (a setting of its
+    /// own force, say): forces are then evaluated anew before the next tick instead of at its end.
+    pub touched: bool,
     /// Counts the rebuilds: whoever keeps indices compares it.
     pub generation: u64,
 

@@ -202,7 +202,7 @@ pub(super) fn apply_penalty(
         let law = laws.get(contact.law);
         let ends = (&End::of(sink.bodies, a), &End::of(sink.bodies, b));
         let touch = touch_atoms(sink.bodies, ends, normal, distance, contact.reach);
-        contact.follow(law, &touch, &mut losses);
+        contact.follow(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;
         }
@@ -222,7 +222,7 @@ pub(super) fn apply_penalty(
         let law = laws.get(contact.law);
         let end = End::of(sink.bodies, atom);
         let touch = touch_wall(sink.bodies, &end, packed.normal, height);
-        contact.follow(law, &touch, &mut losses);
+        contact.follow(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;
         }

@@ -69,8 +69,9 @@ pub struct Losses {
 
 impl Contact {
     /// Follows the pair to the state that `touch` describes, in its present mode. A pair that was open begins to load.
+    /// `elapsed` seconds have passed since the last accepted state.
     #[inline(always)]
-    pub fn follow(&mut self, law: &PairLaw, touch: &Touch, losses: &mut Losses) {
+    pub fn follow(&mut self, law: &PairLaw, touch: &Touch, elapsed: f64, losses: &mut Losses) {
         let before = self.overlap;
         if self.mode == Mode::Open {
             self.mode = Mode::Loading;
@@ -78,7 +79,7 @@ impl Contact {
         self.overlap = touch.overlap.max(0.0);
         losses.inelasticity += inelasticity::loss(law, self.mode, before, self.overlap);
         if law.friction_static > 0.0 || law.friction_dynamic > 0.0 {
-            let displacement = touch.tangential_displacement(law, before);
+            let displacement = (elapsed > 0.0).then(|| touch.tangential_displacement(law, before));
             self.stretch(law, displacement, losses);
         }
         if touch.overlap <= 0.0 {
@@ -98,12 +99,12 @@ impl Contact {
         let before = *self;
         self.mode = chosen;
         // A weaker normal force holds less friction.
-        self.stretch(law, 0.0, losses);
+        self.stretch(law, None, losses);
         Some(before)
     }
 
     #[inline(always)]
-    fn stretch(&mut self, law: &PairLaw, displacement: f64, losses: &mut Losses) {
+    fn stretch(&mut self, law: &PairLaw, displacement: Option<f64>, losses: &mut Losses) {
         let normal_force = inelasticity::force(law, self.mode, self.overlap);
         let stretched = tangential::stretch(law, self.elongation, self.slipping, displacement, normal_force);
         self.elongation = stretched.elongation;

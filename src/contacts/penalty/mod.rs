@@ -90,7 +90,7 @@ pub fn install(settings: Penalty, app: &mut App) {
         .init_resource::<DeepestOverlap>();
     let system = apply::apply_penalty.after(FindPairs).in_set(EvaluateStage::Contacts);
     app.add_packed_systems(Evaluate, 1, system);
-    app.add_systems(Modes, apply::choose_modes);
+    app.add_systems(Modes, apply::choose_modes.in_set(EvaluateStage::Contacts));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
     app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
 }

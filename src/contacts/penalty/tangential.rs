@@ -18,13 +18,24 @@ pub struct Stretched {
     pub loss: f64,
 }
 
-/// Stretches a spring by `displacement` metres under the normal force `normal_force`.
+/// Stretches a spring by `displacement` metres under the normal force `normal_force`; `None`: no time has passed, only
+/// the normal force is another one. A contact that slips begins to stick by moving back, never by being looked at.
 #[inline]
-pub fn stretch(law: &PairLaw, before: f64, slipping: bool, displacement: f64, normal_force: f64) -> Stretched {
+pub fn stretch(
+    law: &PairLaw,
+    before: f64,
+    slipping: bool,
+    displacement: Option<f64>,
+    normal_force: f64,
+) -> Stretched {
     let stiffness = law.tangential_stiffness;
-    let trial = before + displacement;
+    let trial = before + displacement.unwrap_or(0.0);
     let coefficient = if slipping { law.friction_dynamic } else { law.friction_static };
-    let slipping = stiffness * trial.abs() > coefficient * normal_force;
+    let beyond = stiffness * trial.abs() > coefficient * normal_force;
+    if !beyond && displacement.is_none() {
+        return Stretched { elongation: before, slipping, loss: 0.0 };
+    }
+    let slipping = beyond;
     let elongation = if slipping { (law.friction_dynamic * normal_force / stiffness).copysign(trial) } else { trial };
     // Mean force times the displacement that the spring did not take up.
     let loss = 0.5 * stiffness * (before + elongation) * (trial - elongation);
@@ -53,10 +64,10 @@ mod tests {
 
     #[test]
     fn a_sticking_spring_holds_up_to_the_static_limit_and_loses_nothing() {
-        let stuck = stretch(&LAW, 0.0, false, 0.59 * 10.0 / 80.0, 10.0);
+        let stuck = stretch(&LAW, 0.0, false, Some(0.59 * 10.0 / 80.0), 10.0);
         assert!(!stuck.slipping);
         assert_eq!(stuck.loss, 0.0);
-        let slipped = stretch(&LAW, 0.0, false, 0.61 * 10.0 / 80.0, 10.0);
+        let slipped = stretch(&LAW, 0.0, false, Some(0.61 * 10.0 / 80.0), 10.0);
         assert!(slipped.slipping);
         assert_eq!(slipped.elongation, 0.4 * 10.0 / 80.0);
     }
@@ -64,7 +75,7 @@ mod tests {
     #[test]
     fn steady_slip_loses_force_times_way() {
         let limit = 0.4 * 10.0 / 80.0;
-        let slipped = stretch(&LAW, limit, true, 0.01, 10.0);
+        let slipped = stretch(&LAW, limit, true, Some(0.01), 10.0);
         assert!((slipped.loss - 0.4 * 10.0 * 0.01).abs() < 1e-15);
     }
 }
