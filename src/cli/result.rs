@@ -52,7 +52,7 @@ pub(super) fn tell(
         exit = Exit::RunWrong;
     }
     let outcomes = simulation.outcomes();
-    let broken = |outcome: &&Outcome| !outcome.holds && !(cut && outcome.measured.starts_with(NOT_JUDGED));
+    let broken = |outcome: &&Outcome| !(outcome.holds || cut && outcome.measured.starts_with(NOT_JUDGED));
     let broken: Vec<&Outcome> = outcomes.iter().filter(broken).collect();
     if !broken.is_empty() {
         exit = exit.worse(Exit::SceneWrong);

@@ -11,7 +11,7 @@ fn impossible_values_of_flags_are_refused() {
     let rate = "expected frames per second, from 0.01 to 1000";
     let threads = "expected a whole number from 1 to 1024";
     for (flag, name, values, message) in [
-        ("--duration", "T", &["-1", "0", "nan", "inf", "1e400", "", "long"][..], time),
+        ("--duration", "T", &["-1", "0", "nan", "inf", "1e400", "long"][..], time),
         ("--tick", "DT", &["-1", "0", "nan", "1e-400", "1kg"], time),
         ("--at", "T", &["-1", "nan", "inf", "soon"], moment),
         ("--size", "WxH", &["0x0", "1e9x1", "8193x16", "720", "64x", "x"], size),
@@ -19,7 +19,7 @@ fn impossible_values_of_flags_are_refused() {
         ("--threads", "N", &["0", "-1", "1025", "99999999999999999999", "all"], threads),
         ("--tolerance", "X", &["1e-8", "-1"], "not available yet; use `--tick`"),
     ] {
-        for value in values.iter().filter(|value| !value.is_empty()) {
+        for value in values {
             let ended = folder.jostle(&format!("render fall.ron {flag} {value}")).code(2);
             let expected = format!("error: invalid value '{value}' for '{flag} <{name}>': {message}\n");
             assert!(ended.err.starts_with(&expected), "{ended:?}");
