@@ -70,11 +70,7 @@ fn one_wrong_scene_does_not_stop_the_others() {
 
 #[test]
 fn what_cannot_be_written_is_usage_with_a_remedy() {
-    let folder = Folder::new("unwritable")
-        .with("fall.ron", FALL)
-        .with("file", "")
-        .with("table.csv/x", "")
-        .with("late.gif/x", "");
+    let folder = Folder::new("unwritable").with("fall.ron", FALL).with("file", "").with("table.csv/x", "");
     for (arguments, message) in [
         ("render fall.ron -o none/film.gif", "`none/film.gif` could not be written"),
         ("render fall.ron -o none/film.gif", "create its directory first"),
