@@ -6,7 +6,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::contacts::{self, StiffestContact};
-use crate::expect::{Expectations, Outcome, observe_expectations};
+use crate::expect::{Expectations, Outcome, observe_all};
 use crate::integrate::Methods;
 use crate::report::Card;
 use crate::report::card::{ChosenMethod, Notes};
@@ -88,8 +88,9 @@ impl Simulation {
         for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
             finish(world);
         }
-        let ticks = set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![error], Vec::new()))?;
-        observe_expectations(world);
+        let ticks =
+            set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![error], Vec::new()))?;
+        observe_all(world);
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
     }
@@ -141,6 +142,9 @@ impl Simulation {
         let start = Instant::now();
         let result = step(self.app.world_mut(), missing);
         self.spent += start.elapsed();
+        if self.clock().ticks == self.ticks {
+            observe_all(self.app.world_mut());
+        }
         result
     }
 
@@ -185,7 +189,8 @@ const TICKS_PER_CONTACT: f64 = 40.0;
 const COARSEST_TICK: f64 = 1e-3;
 
 fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, SceneError> {
-    let clock = world.remove_resource::<ClockSection>().ok_or_else(|| SceneError::new("clock", "`clock` is missing"))?;
+    let clock =
+        world.remove_resource::<ClockSection>().ok_or_else(|| SceneError::new("clock", "`clock` is missing"))?;
     let mut notes = Vec::new();
     let dt = match (overrides.tick, clock.tick) {
         (Some(tick), _) => {
@@ -229,7 +234,8 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, SceneError
         return Err(error.with_help("a run takes at most 1e15 ticks; choose a longer tick or a shorter duration"));
     }
     // A quotient that is whole but for rounding is whole.
-    let ticks = if (exact - exact.round()).abs() < 1e-9 * exact.max(1.0) { exact.round() } else { exact.ceil() }.max(1.0);
+    let ticks =
+        if (exact - exact.round()).abs() < 1e-9 * exact.max(1.0) { exact.round() } else { exact.ceil() }.max(1.0);
     if (ticks * dt - duration).abs() > 1e-9 * duration {
         notes.push(format!("{duration} s are not a whole number of ticks: the run ends at {} s", ticks * dt));
     }

@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::scene::{Arity, Outline, SceneAppExt};
-use crate::world::{Atom, Body, Wall};
+use crate::world::{Atom, Bodies, Body, Wall};
 
 pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
 
@@ -53,6 +53,16 @@ pub struct ContactForces {
     pub on_body: Vec<DVec2>,
     /// Force on each wall in newtons, in canonical order.
     pub on_wall: Vec<DVec2>,
+}
+
+impl ContactForces {
+    /// Begins a new sum for each body and wall.
+    pub fn clear(&mut self, bodies: &Bodies) {
+        self.on_body.clear();
+        self.on_body.resize(bodies.len(), DVec2::ZERO);
+        self.on_wall.clear();
+        self.on_wall.resize(bodies.walls.len(), DVec2::ZERO);
+    }
 }
 
 /// Registers the contact laws of this folder.

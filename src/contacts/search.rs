@@ -80,9 +80,9 @@ pub fn find_pairs(bodies: Res<Bodies>, bounds: Res<Bounds>, mut pairs: ResMut<Ca
     pairs.walls = wall_pairs(&bodies, &bounds);
     let same = pairs.generation == bodies.generation;
     let places = if same { None } else { Some(new_places(&pairs.identity, &bodies)) };
-    let place = |old: u32| places.as_ref().map_or(Some(old), |places: &Vec<u32>| {
-        Some(places[old as usize]).filter(|&place| place != NEW)
-    });
+    let place = |old: u32| {
+        places.as_ref().map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
+    };
     // Walls do not come and go one by one: when their number changes their history starts anew.
     let same_walls = same || pairs.wall_count == bodies.walls.len();
     pairs.atoms_before = carry(&pairs.atoms, &old_atoms, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));

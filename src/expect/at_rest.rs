@@ -61,7 +61,9 @@ impl Watch for Watching {
     }
 
     fn verdict(&self) -> (Option<bool>, String) {
-        let Some((speed, time)) = self.fastest else { return (None, format!("nothing before t = {} s counts", self.from)) };
+        let Some((speed, time)) = self.fastest else {
+            return (None, format!("nothing before t = {} s counts", self.from));
+        };
         (Some(speed < self.below), format!("fastest {speed:.3e} m/s at t = {time:.4} s"))
     }
 }

@@ -25,8 +25,13 @@ pub struct Sight<'a> {
 
 /// Something that watches a run and says in the end whether it held.
 pub trait Watch: Send + Sync + 'static {
-    /// Looks at the state at the beginning and after each tick.
+    /// Looks at a state.
     fn observe(&mut self, sight: &Sight);
+
+    /// It looks at the beginning, after every so many ticks, and at the end.
+    fn every(&self) -> u64 {
+        1
+    }
 
     /// Whether it held, and what was measured. `None` for the first: the run ended before it could be judged.
     fn verdict(&self) -> (Option<bool>, String);
@@ -52,7 +57,7 @@ impl Expectations {
     pub fn add(app: &mut App, text: String, watch: impl Watch) {
         if !app.world().contains_resource::<Self>() {
             app.init_resource::<Self>();
-            app.add_packed_systems(SimTick, 1, observe_expectations.in_set(Stage::Observe));
+            app.add_packed_systems(SimTick, 1, observe_tick.in_set(Stage::Observe));
         }
         app.world_mut().resource_mut::<Self>().0.push((text, Box::new(watch)));
     }
@@ -70,12 +75,21 @@ impl Expectations {
     }
 }
 
-/// Looks at the present state: after each tick, and once before the first.
-pub fn observe_expectations(world: &mut World) {
+fn observe_tick(world: &mut World) {
+    let ticks = world.resource::<Clock>().ticks;
+    look(world, |watch| ticks.is_multiple_of(watch.every()));
+}
+
+/// All expectations look at the present state: before the first tick, and after the last.
+pub fn observe_all(world: &mut World) {
+    look(world, |_| true);
+}
+
+fn look(world: &mut World, wanted: impl Fn(&dyn Watch) -> bool) {
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
     let mut watches = std::mem::take(&mut expectations.0);
     let sight = Sight { world, bodies: world.resource::<Bodies>(), time: world.resource::<Clock>().time() };
-    for (_, watch) in &mut watches {
+    for (_, watch) in watches.iter_mut().filter(|(_, watch)| wanted(watch.as_ref())) {
         watch.observe(&sight);
     }
     world.resource_mut::<Expectations>().0 = watches;
@@ -83,7 +97,11 @@ pub fn observe_expectations(world: &mut World) {
 
 /// Registers the expectations of this folder.
 pub fn plugin(app: &mut App) {
-    app.register_entry_section("expect", Arity::List, "expect: [Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)]");
+    app.register_entry_section(
+        "expect",
+        Arity::List,
+        "expect: [Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)]",
+    );
     at_rest::plugin(app);
     channel::plugin(app);
     inside::plugin(app);

@@ -7,6 +7,7 @@ pub mod gravity;
 mod targets;
 pub mod thrust;
 pub mod torque;
+mod wind;
 
 use bevy_app::App;
 
@@ -21,7 +22,8 @@ pub fn plugin(app: &mut App) {
         .add_plugins(attraction::plugin)
         .add_plugins(thrust::plugin)
         .add_plugins(torque::plugin)
-        .add_plugins(drag::plugin);
+        .add_plugins(drag::plugin)
+        .add_plugins(wind::plugin);
     for later in ["Spring", "Drive", "Aim"] {
         app.reserve_entry("forces", later);
     }

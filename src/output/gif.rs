@@ -10,9 +10,9 @@ use std::sync::Arc;
 use super::delta::Patch;
 use super::lzw::Packer;
 use super::palette::{Histogram, Matcher, Palette};
-use super::part::PartFile;
+use super::part::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
-use super::{Film, FilmSettings, Format, OutputError, Written, crew};
+use super::{Film, FilmSettings, Format, Opened, OutputError, Written, crew};
 use crate::raster::{Painter, View};
 use crate::record::frame::Frame;
 
@@ -32,7 +32,7 @@ const LONGEST_DELAY: f64 = u16::MAX as f64;
 /// Browsers show a frame that is shorter than two hundredths of a second for ten of them instead.
 const MOST_FRAMES_PER_SECOND: f64 = 50.0;
 
-fn open(path: &Path, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
     let (width, height) = view.camera.size();
     if width.max(height) > LONGEST_SIDE {
         return Err(OutputError::Size { width, height, longest: LONGEST_SIDE });
@@ -41,7 +41,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Result<Box<dyn Film
     if !(allowed.0..=allowed.1).contains(&rate) {
         return Err(OutputError::Rate { frames_per_second: rate, allowed });
     }
-    let file = PartFile::create(path)?;
+    let file = PartFile::create(path, Unfinished::Kept)?;
     let studio = Studio::new(view);
     let workers = (0..settings.threads.max(1)).map(|_| studio.easel().map(Worker::new));
     Ok(Box::new(Gif {

@@ -17,14 +17,14 @@ const EMPTY: u32 = u32::MAX;
 #[derive(Debug)]
 pub(super) struct Packer {
     /// Each slot holds 20 bits of key (code of the prefix, next symbol) and 12 bits of code.
-    table: Vec<u32>,
+    table: Box<[u32; SLOTS]>,
     /// For each symbol the codes of its runs of 1, 2, 3 ...
     runs: Vec<Vec<u16>>,
 }
 
 impl Default for Packer {
     fn default() -> Packer {
-        Packer { table: vec![EMPTY; SLOTS], runs: vec![Vec::new(); 256] }
+        Packer { table: Box::new([EMPTY; SLOTS]), runs: vec![Vec::new(); 256] }
     }
 }
 
@@ -198,13 +198,14 @@ mod tests {
     #[test]
     fn loose_symbols_come_back_as_themselves_or_their_alternative() {
         let mut random = ChaCha8Rng::seed_from_u64(2);
-        let alternatives: Vec<u8> = (0..50_000).map(|_| (random.next_u32() % 4) as u8).collect();
-        let symbols: Vec<u8> =
-            alternatives.iter().map(|symbol| if random.next_u32() % 3 == 0 { *symbol } else { 7 }).collect();
+        // A pattern with gaps at random: who may fill them finds it again, who may not sees noise.
+        let alternatives: Vec<u8> = (0..50_000).map(|place| [0, 1, 2, 0, 3, 1, 1][place % 7]).collect();
+        let gap = |symbol: &u8| if random.next_u32() % 10 == 0 { 7 } else { *symbol };
+        let symbols: Vec<u8> = alternatives.iter().map(gap).collect();
         let mut packer = Packer::default();
         let packed = packer.pack(&symbols, &alternatives, 7, 3);
         let strict = packer.pack(&symbols, &symbols, 7, 3);
-        assert!(packed.len() < strict.len());
+        assert!(packed.len() < strict.len() / 2, "{} of {} bytes", packed.len(), strict.len());
         for ((seen, symbol), alternative) in unpack(packed, 50_000).iter().zip(&symbols).zip(&alternatives) {
             assert!(seen == symbol || (*symbol == 7 && seen == alternative));
         }

@@ -34,7 +34,7 @@ pub struct FilmSettings {
 /// A film in the making.
 ///
 /// A film that is dropped before [`Film::finish`] leaves the frames written so far in `<name>.part`.
-pub trait Film {
+pub trait Film: Send {
     /// Adds the next frame.
     ///
     /// # Errors
@@ -59,7 +59,7 @@ pub struct Written {
     pub frames: u64,
     /// How many bytes, all files together.
     pub bytes: u64,
-    /// How long the film lasts, in seconds.
+    /// How long the film lasts, in seconds; 0 for a still.
     pub seconds: f64,
     /// Pictures of an earlier, longer sequence that still lie in the directory, after the last frame of this one.
     pub left_over: u64,
@@ -70,8 +70,10 @@ pub struct Written {
 struct Format {
     /// The ending of its files, as it is to be written.
     ending: &'static str,
-    open: fn(&Path, &FilmSettings, View) -> Result<Box<dyn Film>, OutputError>,
+    open: fn(&Path, &FilmSettings, View) -> Opened,
 }
+
+type Opened = Result<Box<dyn Film>, OutputError>;
 
 /// Every format, the directory of a sequence last.
 const FORMATS: [&Format; 3] = [&gif::FORMAT, &png::STILL, &png::SEQUENCE];

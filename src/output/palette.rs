@@ -44,6 +44,8 @@ impl Histogram {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Palette {
     colors: Vec<Rgb>,
+    /// The colours with their places, sorted by green: the search for the nearest one begins there.
+    by_green: Vec<(Rgb, u8)>,
 }
 
 impl Palette {
@@ -62,7 +64,9 @@ impl Palette {
                 served.error = served.error.min(error(served.color, color));
             }
         }
-        Palette { colors }
+        let mut by_green: Vec<(Rgb, u8)> = colors.iter().copied().zip(0..=u8::MAX).collect();
+        by_green.sort_by_key(|(color, place)| (color.1, *place));
+        Palette { colors, by_green }
     }
 
     /// The place of transparent pixels.
@@ -84,9 +88,17 @@ impl Palette {
 
     /// The place of the nearest colour, the first of equals.
     fn nearest(&self, color: Rgb) -> u8 {
-        let places = self.colors.iter().enumerate();
-        let errors = places.map(|(place, own)| error(color, *own) << 8 | place as u32);
-        errors.min().unwrap_or(0) as u8
+        let (below, above) = self.by_green.split_at(self.by_green.partition_point(|(own, _)| own.1 < color.1));
+        let mut best = u32::MAX;
+        let mut try_on = |&(own, place): &(Rgb, u8)| {
+            best = best.min(error(color, own) << 8 | u32::from(place));
+            // Further on the green alone is worse than the best so far.
+            error(Rgb(0, color.1, 0), Rgb(0, own.1, 0)) <= best >> 8
+        };
+        // `all` stops at the first that says no.
+        above.iter().all(&mut try_on);
+        below.iter().rev().all(&mut try_on);
+        best as u8
     }
 }
 
@@ -124,19 +136,19 @@ fn number([red, green, blue, _]: [u8; 4]) -> u32 {
 const BLOCK: usize = 16;
 
 /// Slots of the memory of a [`Matcher`].
-const SLOTS: usize = 1 << 15;
+const SLOTS: usize = 1 << 16;
 
 /// Finds the places of pixels in a palette, and remembers them: the same blends come back in every frame.
 #[derive(Debug)]
 pub(super) struct Matcher {
     /// Each slot holds 24 bits of colour and 8 bits of place.
-    memory: Vec<u32>,
+    memory: Box<[u32; SLOTS]>,
 }
 
 impl Default for Matcher {
     fn default() -> Matcher {
         // White at place 255 is nowhere: the last place of a colour is 254.
-        Matcher { memory: vec![u32::MAX; SLOTS] }
+        Matcher { memory: Box::new([u32::MAX; SLOTS]) }
     }
 }
 
@@ -181,7 +193,7 @@ mod tests {
     fn grey_ramp() -> Histogram {
         let mut histogram = Histogram::default();
         for level in 0..=255 {
-            histogram.count(&[level, level, level, 255].repeat(usize::from(level) + 1));
+            histogram.count(&[level, level, level, 255]);
         }
         histogram
     }
@@ -227,7 +239,10 @@ mod tests {
         Matcher::default().match_over(&palette, &pixels, (&backdrop, &known), &mut over);
         assert_eq!(all, over);
         for (pixel, place) in pixels.chunks_exact(4).zip(all) {
-            assert_eq!(place, palette.nearest(Rgb(pixel[0], pixel[1], pixel[2])));
+            let off = |own: &Rgb| error(*own, Rgb(pixel[0], pixel[1], pixel[2]));
+            // `min_by_key` gives the first of equals.
+            let nearest = palette.colors.iter().enumerate().min_by_key(|(_, own)| off(own));
+            assert_eq!(nearest.map(|(nearest, _)| nearest), Some(usize::from(place)));
         }
     }
 }

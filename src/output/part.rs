@@ -6,8 +6,16 @@ use std::path::{Path, PathBuf};
 
 use super::OutputError;
 
-/// A file in the making, `<name>.part` beside its target. Dropped unfinished, it stays where it is if anything was
-/// written, and goes if not.
+/// What becomes of a file that is never completed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unfinished {
+    /// It stays where it is, unless it is empty: its beginning can be shown.
+    Kept,
+    /// It goes: its beginning is of no use.
+    Removed,
+}
+
+/// A file in the making, `<name>.part` beside its target.
 #[derive(Debug)]
 pub(super) struct PartFile {
     target: PathBuf,
@@ -15,11 +23,12 @@ pub(super) struct PartFile {
     /// None once complete.
     file: Option<BufWriter<File>>,
     bytes: u64,
+    unfinished: Unfinished,
 }
 
 impl PartFile {
     /// Creates the temporary file for a target.
-    pub(super) fn create(target: &Path) -> Result<PartFile, OutputError> {
+    pub(super) fn create(target: &Path, unfinished: Unfinished) -> Result<PartFile, OutputError> {
         let mut name = target.file_name().unwrap_or_default().to_os_string();
         name.push(".part");
         let part = target.with_file_name(name);
@@ -32,6 +41,7 @@ impl PartFile {
             part,
             file: Some(BufWriter::with_capacity(1 << 16, file)),
             bytes: 0,
+            unfinished,
         })
     }
 
@@ -40,13 +50,17 @@ impl PartFile {
         &self.part
     }
 
+    fn is_kept(&self) -> bool {
+        self.unfinished == Unfinished::Kept && self.bytes > 0
+    }
+
     /// Gives the file its name; returns its length in bytes.
     pub(super) fn complete(mut self) -> Result<u64, OutputError> {
         let renamed = self.flush().and_then(|()| fs::rename(&self.part, &self.target));
         renamed.map_err(|cause| OutputError::Io {
             path: self.target.clone(),
             cause,
-            kept: (self.bytes > 0).then(|| self.part.clone()),
+            kept: self.is_kept().then(|| self.part.clone()),
         })?;
         self.file = None;
         Ok(self.bytes)
@@ -68,8 +82,8 @@ impl Write for PartFile {
 
 impl Drop for PartFile {
     fn drop(&mut self) {
-        if self.file.is_some() && self.bytes == 0 {
-            // Nobody is left to be told if this fails, and an empty file does no harm.
+        if self.file.is_some() && !self.is_kept() {
+            // Nobody is left to be told if this fails, and the file does no harm.
             let _ = fs::remove_file(&self.part);
         }
     }

@@ -5,9 +5,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::part::PartFile;
+use super::part::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
-use super::{Film, FilmSettings, Format, OutputError, Written, crew};
+use super::{Film, FilmSettings, Format, Opened, OutputError, Written, crew};
 use crate::raster::{Painter, View};
 use crate::record::frame::Frame;
 
@@ -20,17 +20,18 @@ pub(super) const SEQUENCE: Format = Format { ending: "/", open: open_sequence };
 /// Frames drawn at once, for each thread.
 const FRAMES_PER_THREAD: usize = 4;
 
-fn open_still(path: &Path, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
-    let file = PartFile::create(path)?;
-    let seconds = 1.0 / settings.frames_per_second;
-    Ok(Box::new(Still { path: path.to_path_buf(), file, studio: Studio::new(view), seconds, last: None }))
+/// Rates a sequence may be meant for, in frames per second: files have none of their own.
+const RATES: (f64, f64) = (1e-6, 1e6);
+
+fn open_still(path: &Path, _: &FilmSettings, view: View) -> Opened {
+    let file = PartFile::create(path, Unfinished::Removed)?;
+    Ok(Box::new(Still { path: path.to_path_buf(), file, studio: Studio::new(view), last: None }))
 }
 
 struct Still {
     path: PathBuf,
     file: PartFile,
     studio: Studio,
-    seconds: f64,
     last: Option<Frame>,
 }
 
@@ -49,11 +50,15 @@ impl Film for Still {
         let packed = pack(&easel, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
         self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
         let bytes = self.file.complete()?;
-        Ok(Written { path: self.path, frames: 1, bytes, seconds: self.seconds, left_over: 0 })
+        Ok(Written { path: self.path, frames: 1, bytes, seconds: 0.0, left_over: 0 })
     }
 }
 
-fn open_sequence(path: &Path, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+fn open_sequence(path: &Path, settings: &FilmSettings, view: View) -> Opened {
+    let (rate, (lowest, highest)) = (settings.frames_per_second, RATES);
+    if !(lowest..=highest).contains(&rate) {
+        return Err(OutputError::Rate { frames_per_second: rate, allowed: RATES });
+    }
     fs::create_dir_all(path).map_err(|cause| OutputError::io(path, cause))?;
     let studio = Studio::new(view);
     let workers = (0..settings.threads.max(1)).map(|_| Ok(Worker { easel: studio.easel()?, rgb: Vec::new() }));
@@ -61,10 +66,11 @@ fn open_sequence(path: &Path, settings: &FilmSettings, view: View) -> Result<Box
         path: path.to_path_buf(),
         workers: workers.collect::<Result<_, OutputError>>()?,
         studio,
-        frames_per_second: settings.frames_per_second,
+        frames_per_second: rate,
         waiting: Vec::new(),
         frames: 0,
         bytes: 0,
+        given_up: false,
     }))
 }
 
@@ -76,6 +82,7 @@ struct Sequence {
     waiting: Vec<Job>,
     frames: u64,
     bytes: u64,
+    given_up: bool,
 }
 
 struct Worker {
@@ -95,7 +102,7 @@ impl Job {
     fn write(&self, worker: &mut Worker) -> Result<u64, OutputError> {
         worker.easel.paint(&self.painter, &self.frame);
         let packed = pack(&worker.easel, &mut worker.rgb).map_err(|cause| OutputError::io(&self.path, cause))?;
-        let mut file = PartFile::create(&self.path)?;
+        let mut file = PartFile::create(&self.path, Unfinished::Removed)?;
         file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
         file.complete()
     }
@@ -106,11 +113,26 @@ impl Sequence {
         self.path.join(format!("frame_{place:05}.png"))
     }
 
+    /// Notes that the sequence has a gap now, and adds to the error where the frames before it are.
+    fn gave_up(&mut self, error: OutputError) -> OutputError {
+        self.given_up = true;
+        match error {
+            OutputError::Io { path, cause, .. } => {
+                OutputError::Io { path, cause, kept: (self.frames > 0).then(|| self.path.clone()) }
+            }
+            other => other,
+        }
+    }
+
+    fn check(&self) -> Result<(), OutputError> {
+        if self.given_up { Err(OutputError::GivenUp { path: self.path.clone() }) } else { Ok(()) }
+    }
+
     fn write_waiting(&mut self) -> Result<(), OutputError> {
         let mut jobs = std::mem::take(&mut self.waiting);
         crew::share_out(&mut self.workers, &mut jobs, |worker, job| job.written = job.write(worker));
         for job in jobs {
-            self.bytes += job.written?;
+            self.bytes += job.written.map_err(|error| self.gave_up(error))?;
             self.frames += 1;
         }
         Ok(())
@@ -119,6 +141,7 @@ impl Sequence {
 
 impl Film for Sequence {
     fn push(&mut self, frame: Frame) -> Result<(), OutputError> {
+        self.check()?;
         Studio::check(&frame)?;
         let painter = self.studio.painter(&frame)?;
         let path = self.file(self.frames + self.waiting.len() as u64);
@@ -127,6 +150,7 @@ impl Film for Sequence {
     }
 
     fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+        self.check()?;
         self.write_waiting()?;
         if self.frames == 0 {
             return Err(OutputError::NoFrames { path: self.path });

@@ -89,12 +89,14 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// The pixels that an interval about `center` touches, within 0 to `end`.
+/// The pixels that an interval about `center` touches, within 0 to `end`; one more where it ends between two.
 pub(super) fn span(center: f32, half: f32, end: usize) -> std::ops::Range<usize> {
-    // Casts saturate, and not-a-number becomes 0: whatever the pose, the range lies in the picture.
-    let from = ((center - half).floor().max(0.0) as usize).min(end);
-    let to = ((center + half).ceil().max(0.0) as usize).min(end);
-    from..to.max(from)
+    // Casts cut off the fraction, saturate, and turn not-a-number into 0: whatever the pose, the range lies in the
+    // picture. (Rounding down and up by name would be calls where the processor has no instruction for it.)
+    let high = center + half;
+    let to = if high > 0.0 { (high as usize).saturating_add(1).min(end) } else { 0 };
+    let from = (center - half) as usize;
+    from.min(to)..to
 }
 
 /// Half the length of the chord of a circle at the distance `dy` from its centre.

@@ -15,14 +15,15 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub use camera::{Bounds, Camera};
-pub use theme::{Swatch, Theme, Tint};
+pub use theme::{COLOR_NAMES, Swatch, Theme, Tint};
 
 use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
 use canvas::Canvas;
 use layers::bodies::Figure;
 use layers::clock::Clock;
-use layers::labels::Column;
-use layers::{backdrop, clock, title, walls};
+use layers::labels::{Column, longest_word};
+use layers::title::Title;
+use layers::{backdrop, clock, walls};
 use silhouette::Field;
 use text::{Lettering, Weight};
 
@@ -67,9 +68,9 @@ pub struct Painter {
     cast: Arc<Cast>,
     /// The moving bodies, by their place in the cast.
     figures: Vec<(usize, Figure)>,
+    title: Title,
     clock: Clock,
-    /// Upper left corner of the clock, in pixels, and whether bodies may pass behind it.
-    clock_place: (f32, f32, bool),
+    labels: Column,
     backdrop: Pixmap,
 }
 
@@ -98,14 +99,16 @@ impl Painter {
             }
         }
 
-        let clock = Clock::new(weights.clock, clock::decimals(view.frame_step));
+        let clock = Clock::new(weights.clock, clock::decimals(view.frame_step), theme);
         let room = walls::room(&cast.walls, camera, theme);
-        let column = Column::beside_or_in(room, weights.band, clock.width(), weights.pad);
         let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
-        let used = title::draw(&mut picture, &cast.title, &lettering, &column, theme);
-        let gap = if used > 0.0 { 0.2 * weights.title } else { 0.0 };
-        let clock_place = (column.left, column.top + used + gap, column.in_room);
-        Ok(Painter { view: view.clone(), cast: cast.clone(), figures, clock, clock_place, backdrop: picture })
+        let needed = clock.width().max(longest_word(&cast.title, &lettering));
+        let column = Column::beside_or_in(room, weights.band, needed, weights.pad);
+        let title = Title::new(&cast.title, &lettering, &column, theme);
+        if !column.in_room {
+            title.draw(&mut picture);
+        }
+        Ok(Painter { view: view.clone(), cast: cast.clone(), figures, title, clock, labels: column, backdrop: picture })
     }
 
     /// Whether this painter can draw that frame: it has the same cast.
@@ -132,8 +135,10 @@ impl Painter {
                 figure.draw(pose, &self.view.camera, &mut canvas, &mut scratch.field);
             }
         }
-        let (left, top, halo) = self.clock_place;
-        self.clock.draw(picture, frame.time, left, top, halo, &self.view.theme);
+        if self.labels.in_room {
+            self.title.draw(picture);
+        }
+        self.clock.draw(picture, frame.time, &self.labels, self.title.height());
     }
 
     /// The flat colours of the film, each once: an encoder with few colours keeps these exact.

@@ -10,6 +10,24 @@ const THEMES: [(&str, &str); 2] = [
     ("night", include_str!("../../assets/themes/night.ron")),
 ];
 
+/// The names of colours that every theme has, in the order of its palette.
+pub const COLOR_NAMES: [&str; 14] = [
+    "sky",
+    "orange",
+    "teal",
+    "pink",
+    "blue",
+    "yellow",
+    "vermilion",
+    "green",
+    "purple",
+    "brown",
+    "red",
+    "grey",
+    "white",
+    "black",
+];
+
 /// Every colour of a film.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -143,9 +161,7 @@ mod tests {
             for color in theme.cycle.iter().chain([&theme.fixed]) {
                 assert!(theme.color(color).is_some(), "{name} has no {color}");
             }
-            for wanted in ["teal", "sky", "orange", "vermilion", "yellow", "blue", "pink", "green", "grey"] {
-                assert!(theme.color_names().any(|known| known == wanted), "{name} lacks {wanted}");
-            }
+            assert!(theme.color_names().eq(COLOR_NAMES), "{name} has other colours");
         }
     }
 

@@ -108,7 +108,8 @@ impl Card {
     pub fn of(world: &World, seconds_spent: f64) -> Self {
         let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.0);
-        let limit = world.get_resource::<Methods>().and_then(|methods| methods.named(method)).map(|m| m.stability_limit);
+        let limit =
+            world.get_resource::<Methods>().and_then(|methods| methods.named(method)).map(|m| m.stability_limit);
         let stiffest = world.get_resource::<StiffestContact>().filter(|stiffest| stiffest.angular_frequency > 0.0);
         let critical_tick = stiffest.zip(limit).map(|(stiffest, limit)| limit / stiffest.angular_frequency);
         let energy = EnergyLedger::of(world);
@@ -237,7 +238,10 @@ impl fmt::Display for Card {
                 self.ns_per_atom_tick
             ),
         )?;
-        row("energy", parts(&[("kinetic", energy.kinetic), ("potential", energy.potential), ("elastic", energy.elastic)]))?;
+        row(
+            "energy",
+            parts(&[("kinetic", energy.kinetic), ("potential", energy.potential), ("elastic", energy.elastic)]),
+        )?;
         let lost = [("friction", energy.friction), ("inelasticity", energy.inelasticity), ("drag", energy.drag)];
         row("energy lost", parts(&lost))?;
         row("work of drives", parts(&[("", energy.work)]))?;
@@ -274,8 +278,11 @@ impl fmt::Display for Card {
 
 /// Energies with their names; those that are zero are left out, and nothing at all is `0 J`.
 fn parts(parts: &[(&str, f64)]) -> String {
-    let there: Vec<String> =
-        parts.iter().filter(|(_, value)| *value != 0.0).map(|(name, value)| format!("{name} {} J", number(*value))).collect();
+    let there: Vec<String> = parts
+        .iter()
+        .filter(|(_, value)| *value != 0.0)
+        .map(|(name, value)| format!("{name} {} J", number(*value)))
+        .collect();
     if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
 }
 

@@ -152,7 +152,8 @@ pub(super) fn integrate(world: &mut World) {
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
     let clock = *world.resource::<Clock>();
     let Running { method, evaluate, modes, has_modes } = &mut *running;
-    let mut tick = Tick { world, evaluate, modes, dt: clock.dt, begin: clock.time(), end: clock.time_of(clock.ticks + 1) };
+    let mut tick =
+        Tick { world, evaluate, modes, dt: clock.dt, begin: clock.time(), end: clock.time_of(clock.ticks + 1) };
     if !current || before.is_some() {
         tick.evaluate(0.0);
     }

@@ -12,11 +12,14 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
-use crate::scene::values::OrderedMap;
+use crate::scene::values::{OrderedMap, Word};
 use crate::scene::{Kind, Outline, Report};
 
 /// The name of the material of everything that names none. It is always there; a scene may redefine it.
 pub const DEFAULT: &str = "default";
+
+/// The open list of words for colours: what draws the scene registers them.
+pub const COLORS: &str = "color";
 
 /// One material, all numbers in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -300,20 +303,22 @@ impl MaterialEntry {
         }
     }
 
-    fn check(&self, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         report.positive_if_given("stiffness", self.stiffness);
         if let Some(friction) = &self.friction {
             friction.check(report);
         }
         check_rebound(self.restitution, self.inelasticity, report);
         report.positive_if_given("density", self.density);
-        if let Some(color) = &self.color
-            && let Some(digits) = color.strip_prefix('#')
-            && (digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()))
-        {
-            report
-                .error("color", format!("`{color}` is not a colour"))
-                .help("write `\"#rrggbb\"`, such as `\"#20a0c0\"`");
+        match self.color.as_deref().map(|color| (color, color.strip_prefix('#'))) {
+            Some((color, Some(digits))) if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) => {
+                let message = format!("`{color}` is not a colour");
+                report.error("color", message).help("write `\"#rrggbb\"`, such as `\"#20a0c0\"`");
+            }
+            Some((color, None)) => {
+                Word(color.to_owned()).check(outline, COLORS, "color", report);
+            }
+            _ => {}
         }
     }
 }
@@ -335,10 +340,10 @@ impl MaterialsSection {
         }
     }
 
-    /// Reports numbers out of their range.
-    pub fn check(&self, report: &mut Report) {
+    /// Reports numbers out of their range and unknown colours.
+    pub fn check(&self, outline: &Outline, report: &mut Report) {
         for (name, entry) in &self.0.0 {
-            report.within(&format!("[\"{name}\"]"), |report| entry.check(report));
+            report.within(&format!("[\"{name}\"]"), |report| entry.check(outline, report));
         }
     }
 }

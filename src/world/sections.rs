@@ -29,8 +29,8 @@ impl Section for MaterialsSection {
         self.declare(outline);
     }
 
-    fn check(&self, _: &Outline, report: &mut Report) {
-        self.check(report);
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.check(outline, report);
     }
 
     fn install(self, _: &Outline, app: &mut App) {

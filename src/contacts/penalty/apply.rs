@@ -4,58 +4,55 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::contact::{Contact, Losses, Touch};
-use super::law::{LawTable, Side};
+use super::law::{LawTable, PairLaw, Side};
 use super::{Penalty, inelasticity::Mode};
 use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::tick::{Balance, Evaluation, Ledger};
-use crate::world::{Bodies, Materials};
+use crate::world::{Bodies, Materials, PackedWall};
 
 /// History of all candidate pairs, beside the lists of [`CandidatePairs`].
 #[derive(Resource, Debug, Default)]
 pub struct PenaltyContacts {
     version: u64,
+    pub(super) settings: Penalty,
+    pub(super) materials: Materials,
     laws: LawTable,
     /// One for each pair of atoms.
     pub atoms: Vec<Contact>,
     /// One for each atom near a wall.
     pub walls: Vec<Contact>,
-    /// Places of the pairs of atoms that touch.
-    touching_atoms: Vec<u32>,
-    /// Places of the atoms near walls that touch.
-    touching_walls: Vec<u32>,
+    touching_atoms: Vec<Touching>,
+    touching_walls: Vec<Touching>,
+}
+
+/// A pair that touches in the present state.
+#[derive(Clone, Copy, Debug)]
+struct Touching {
+    /// Place in the list of candidate pairs.
+    place: u32,
+    /// Unit normal from A to B.
+    normal: DVec2,
 }
 
 /// Gives every pair of a new list its slot, with its history if it had one.
-pub(super) fn carry_history(
-    bodies: Res<Bodies>,
-    pairs: Res<CandidatePairs>,
-    materials: Res<Materials>,
-    settings: Res<Penalty>,
-    mut contacts: ResMut<PenaltyContacts>,
-) {
-    if contacts.version == pairs.version {
-        return;
-    }
-    let contacts = &mut *contacts;
+fn carry_history(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let side = |atom: u32| Side {
         stiffness: bodies.atom_stiffness[atom as usize],
         material: bodies.atom_material[atom as usize],
     };
     let radius = |atom: u32| bodies.atom_radius[atom as usize];
-    let laws = &mut contacts.laws;
-    contacts.atoms = carried(&pairs.atoms, &pairs.atoms_before, &contacts.atoms, laws, |pair, laws| {
-        let law = laws.place(side(pair.a), side(pair.b), &materials, &settings);
+    let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
+    *atoms = carried(&pairs.atoms, &pairs.atoms_before, atoms, laws, |pair, laws| {
+        let law = laws.place(side(pair.a), side(pair.b), materials, settings);
         Contact { reach: radius(pair.a) + radius(pair.b), law, ..Default::default() }
     });
-    contacts.walls = carried(&pairs.walls, &pairs.walls_before, &contacts.walls, laws, |pair, laws| {
+    *walls = carried(&pairs.walls, &pairs.walls_before, walls, laws, |pair, laws| {
         let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
-        let law = laws.place(wall, side(pair.atom), &materials, &settings);
+        let law = laws.place(wall, side(pair.atom), materials, settings);
         Contact { reach: radius(pair.atom), law, ..Default::default() }
     });
-    contacts.touching_atoms = touching(&contacts.atoms);
-    contacts.touching_walls = touching(&contacts.walls);
 }
 
 fn carried<P>(
@@ -72,8 +69,36 @@ fn carried<P>(
     pairs.iter().zip(before).map(slot).collect()
 }
 
-fn touching(contacts: &[Contact]) -> Vec<u32> {
-    (0..contacts.len() as u32).filter(|&place| contacts[place as usize].mode != Mode::Open).collect()
+/// One side of a contact.
+#[derive(Clone, Copy)]
+struct End {
+    body: usize,
+    /// Centre of the atom from the centre of mass of its body, in metres.
+    arm: DVec2,
+    /// Radius of the atom in metres.
+    radius: f64,
+}
+
+impl End {
+    #[inline]
+    fn of(bodies: &Bodies, atom: u32) -> Self {
+        let atom = atom as usize;
+        let body = bodies.atom_body[atom] as usize;
+        Self { body, arm: bodies.atom_position[atom] - bodies.position[body], radius: bodies.atom_radius[atom] }
+    }
+
+    /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
+    /// the turn of its body.
+    #[inline]
+    fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
+        let turn = bodies.turn[self.body];
+        (bodies.drift[self.body] + self.arm.perp() * turn + self.arm * (0.5 * turn * turn), turn)
+    }
+
+    #[inline]
+    fn velocity(&self, bodies: &Bodies) -> DVec2 {
+        bodies.velocity_at(self.body, self.arm)
+    }
 }
 
 /// Where the forces of contacts go.
@@ -84,85 +109,67 @@ struct Sink<'a> {
 }
 
 impl Sink<'_> {
-    fn on_atom(&mut self, atom: usize, point: DVec2, force: DVec2) -> bool {
-        let body = self.bodies.atom_body[atom] as usize;
-        let arm = point - self.bodies.position[body];
-        self.bodies.push(body, arm, force);
+    /// `force` acts on the body of `end`, `arm` metres from its centre of mass.
+    #[inline]
+    fn on_body(&mut self, end: &End, arm: DVec2, force: DVec2) {
+        self.bodies.push(end.body, arm, force);
         if let Some(forces) = &mut self.forces {
-            forces.on_body[body] += force;
-        }
-        self.bodies.dynamic[body]
-    }
-
-    /// `force` acts on atom `b` at `point`, the opposite on atom `a`.
-    fn between_atoms(&mut self, pair: AtomPair, point: DVec2, force: DVec2) {
-        let dynamic_a = self.on_atom(pair.a as usize, point, -force);
-        let dynamic_b = self.on_atom(pair.b as usize, point, force);
-        if !dynamic_a {
-            self.balance.outside(point, force, 0.0);
-        }
-        if !dynamic_b {
-            self.balance.outside(point, -force, 0.0);
+            forces.on_body[end.body] += force;
         }
     }
 
-    fn on_wall(&mut self, pair: WallPair, point: DVec2, force: DVec2) {
-        self.on_atom(pair.atom as usize, point, force);
-        self.balance.outside(point, force, 0.0);
+    /// `force` acts on side B, the opposite on side A, at the point where they touch: between the centres, nearer to
+    /// the undeformed surface of the harder side.
+    #[inline]
+    fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
+        let arm_a = a.arm + normal * (a.radius - law.share_a * overlap);
+        let arm_b = b.arm - normal * (b.radius - law.share_b * overlap);
+        self.on_body(a, arm_a, -force);
+        self.on_body(b, arm_b, force);
+        // What a fixed body gives comes from outside.
+        if !self.bodies.dynamic[a.body] {
+            self.balance.outside(self.bodies.position[b.body] + arm_b, force, 0.0);
+        }
+        if !self.bodies.dynamic[b.body] {
+            self.balance.outside(self.bodies.position[a.body] + arm_a, -force, 0.0);
+        }
+    }
+
+    /// `force` acts on an atom where it touches the wall, `height` metres from its centre.
+    #[inline]
+    fn from_wall(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
+        let arm = end.arm - normal * height;
+        self.on_body(end, arm, force);
+        self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
         if let Some(forces) = &mut self.forces {
-            forces.on_wall[pair.wall as usize] -= force;
+            forces.on_wall[wall as usize] -= force;
         }
     }
 }
 
-/// Unit normal from A to B and distance of the centres. Centres in one place have no direction: up is as good as any.
 #[inline]
-fn line_of_centres(bodies: &Bodies, pair: AtomPair) -> (DVec2, f64) {
-    let between = bodies.atom_position[pair.b as usize] - bodies.atom_position[pair.a as usize];
-    let distance = between.length();
-    (if distance > 0.0 { between / distance } else { DVec2::Y }, distance)
-}
-
-/// Displacement of an atom's centre since the last accepted state, and the turn of its body.
-#[inline]
-fn displacement(bodies: &Bodies, atom: usize) -> (DVec2, f64) {
-    let body = bodies.atom_body[atom] as usize;
-    let (arm, turn) = (bodies.atom_position[atom] - bodies.position[body], bodies.turn[body]);
-    // The chord of the arc, to second order.
-    (bodies.drift[body] + arm.perp() * turn + arm * (0.5 * turn * turn), turn)
-}
-
-fn touch_atoms(bodies: &Bodies, pair: AtomPair, normal: DVec2, distance: f64, reach: f64) -> Touch {
-    let (a, b) = (pair.a as usize, pair.b as usize);
-    let ((moved_a, turn_a), (moved_b, turn_b)) = (displacement(bodies, a), displacement(bodies, b));
+fn touch_atoms(bodies: &Bodies, (a, b): (&End, &End), normal: DVec2, distance: f64, reach: f64) -> Touch {
+    let ((moved_a, turn_a), (moved_b, turn_b)) = (a.displacement(bodies), b.displacement(bodies));
     let displacement = moved_b - moved_a;
     let swing = if distance > 0.0 { displacement.dot(normal.perp()) / distance } else { 0.0 };
-    let (rolled_a, rolled_b) = ((bodies.atom_radius[a], turn_a), (bodies.atom_radius[b], turn_b));
+    let (rolled_a, rolled_b) = ((a.radius, turn_a), (b.radius, turn_b));
     Touch { normal, overlap: reach - distance, displacement, swing, rolled_a, rolled_b }
 }
 
-fn touch_wall(bodies: &Bodies, pair: WallPair, normal: DVec2, height: f64, reach: f64) -> Touch {
-    let atom = pair.atom as usize;
-    let (displacement, turn) = displacement(bodies, atom);
-    let rolled_b = (bodies.atom_radius[atom], turn);
-    Touch { normal, overlap: reach - height, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
-}
-
-/// The contact point lies between the centres, nearer to the softer side's undeformed surface.
 #[inline]
-fn point_between(bodies: &Bodies, pair: AtomPair, normal: DVec2, overlap: f64, share_a: f64) -> DVec2 {
-    let a = pair.a as usize;
-    bodies.atom_position[a] + normal * (bodies.atom_radius[a] - share_a * overlap)
+fn touch_wall(bodies: &Bodies, end: &End, normal: DVec2, height: f64) -> Touch {
+    let (displacement, turn) = end.displacement(bodies);
+    let rolled_b = (end.radius, turn);
+    Touch { normal, overlap: end.radius - height, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
 }
 
 #[inline]
-fn wall_height(bodies: &Bodies, pair: WallPair) -> (DVec2, f64) {
-    let wall = &bodies.walls[pair.wall as usize];
-    (wall.normal, (bodies.atom_position[pair.atom as usize] - wall.point).dot(wall.normal))
+fn height_over(wall: &PackedWall, position: DVec2) -> f64 {
+    (position - wall.point).dot(wall.normal)
 }
 
 /// The system of [`crate::tick::EvaluateStage::Contacts`].
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments)] // a system's parameters are its declaration of access
 pub(super) fn apply_penalty(
     mut bodies: ResMut<Bodies>,
     pairs: Res<CandidatePairs>,
@@ -173,56 +180,55 @@ pub(super) fn apply_penalty(
     evaluation: Res<Evaluation>,
     mut forces: Option<ResMut<ContactForces>>,
 ) {
+    if contacts.version != pairs.version {
+        carry_history(&mut contacts, &bodies, &pairs);
+    }
     if let Some(forces) = &mut forces {
-        forces.on_body.clear();
-        forces.on_body.resize(bodies.len(), DVec2::ZERO);
-        forces.on_wall.clear();
-        forces.on_wall.resize(bodies.walls.len(), DVec2::ZERO);
+        forces.clear(&bodies);
     }
     let mut losses = Losses::default();
     let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
     touching_atoms.clear();
-    for (place, (&pair, contact)) in pairs.atoms.iter().zip(atoms).enumerate() {
-        let between = sink.bodies.atom_position[pair.b as usize] - sink.bodies.atom_position[pair.a as usize];
-        if contact.mode == Mode::Open && between.length_squared() >= contact.reach * contact.reach {
+    for (place, (&AtomPair { a, b }, contact)) in pairs.atoms.iter().zip(atoms).enumerate() {
+        let between = sink.bodies.atom_position[b as usize] - sink.bodies.atom_position[a as usize];
+        let squared = between.length_squared();
+        if squared >= contact.reach * contact.reach && contact.mode == Mode::Open {
             continue;
         }
-        let (normal, distance) = line_of_centres(sink.bodies, pair);
+        let distance = squared.sqrt();
+        // Centres in one place have no direction: up is as good as any.
+        let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
         let law = laws.get(contact.law);
-        let touch = touch_atoms(sink.bodies, pair, normal, distance, contact.reach);
+        let ends = (&End::of(sink.bodies, a), &End::of(sink.bodies, b));
+        let touch = touch_atoms(sink.bodies, ends, normal, distance, contact.reach);
         contact.follow(law, &touch, &mut losses);
         if contact.mode == Mode::Open {
             continue;
         }
-        touching_atoms.push(place as u32);
-        let smaller = touch.rolled_a.0.min(touch.rolled_b.0);
-        deepest.note(contact.overlap, smaller, evaluation.time, || {
-            let entity = |atom: u32| sink.bodies.entity[sink.bodies.atom_body[atom as usize] as usize];
-            (entity(pair.a), entity(pair.b))
+        touching_atoms.push(Touching { place: place as u32, normal });
+        deepest.note(contact.overlap, ends.0.radius.min(ends.1.radius), evaluation.time, || {
+            (sink.bodies.entity[ends.0.body], sink.bodies.entity[ends.1.body])
         });
-        let point = point_between(sink.bodies, pair, normal, contact.overlap, law.share_a);
-        sink.between_atoms(pair, point, contact.force(law, normal));
+        sink.between(ends, normal, contact.overlap, law, contact.force(law, normal));
     }
     touching_walls.clear();
-    for (place, (&pair, contact)) in pairs.walls.iter().zip(walls).enumerate() {
-        let (normal, height) = wall_height(sink.bodies, pair);
-        if contact.mode == Mode::Open && height >= contact.reach {
+    for (place, (&WallPair { wall, atom }, contact)) in pairs.walls.iter().zip(walls).enumerate() {
+        let packed = sink.bodies.walls[wall as usize];
+        let height = height_over(&packed, sink.bodies.atom_position[atom as usize]);
+        if height >= contact.reach && contact.mode == Mode::Open {
             continue;
         }
         let law = laws.get(contact.law);
-        let touch = touch_wall(sink.bodies, pair, normal, height, contact.reach);
+        let end = End::of(sink.bodies, atom);
+        let touch = touch_wall(sink.bodies, &end, packed.normal, height);
         contact.follow(law, &touch, &mut losses);
         if contact.mode == Mode::Open {
             continue;
         }
-        touching_walls.push(place as u32);
-        deepest.note(contact.overlap, contact.reach, evaluation.time, || {
-            let body = sink.bodies.atom_body[pair.atom as usize] as usize;
-            (sink.bodies.entity[body], sink.bodies.walls[pair.wall as usize].entity)
-        });
-        let point = sink.bodies.atom_position[pair.atom as usize] - normal * height;
-        sink.on_wall(pair, point, contact.force(law, normal));
+        touching_walls.push(Touching { place: place as u32, normal: packed.normal });
+        deepest.note(contact.overlap, end.radius, evaluation.time, || (sink.bodies.entity[end.body], packed.entity));
+        sink.from_wall(&end, wall, packed.normal, height, contact.force(law, packed.normal));
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
@@ -241,39 +247,33 @@ pub(super) fn choose_modes(
     let mut losses = Losses::default();
     let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
-    for &place in &*touching_atoms {
+    for &Touching { place, normal } in &*touching_atoms {
         let (pair, contact) = (pairs.atoms[place as usize], &mut atoms[place as usize]);
         let law = laws.get(contact.law);
-        let (normal, _) = line_of_centres(sink.bodies, pair);
-        let parting = (velocity(sink.bodies, pair.b) - velocity(sink.bodies, pair.a)).dot(normal);
+        let ends = (&End::of(sink.bodies, pair.a), &End::of(sink.bodies, pair.b));
+        let parting = (ends.1.velocity(sink.bodies) - ends.0.velocity(sink.bodies)).dot(normal);
         if let Some(before) = contact.choose_mode(law, parting, &mut losses) {
-            let point = point_between(sink.bodies, pair, normal, contact.overlap, law.share_a);
-            sink.between_atoms(pair, point, contact.force(law, normal) - before.force(law, normal));
+            let change = contact.force(law, normal) - before.force(law, normal);
+            sink.between(ends, normal, contact.overlap, law, change);
         }
     }
-    for &place in &*touching_walls {
+    for &Touching { place, normal } in &*touching_walls {
         let (pair, contact) = (pairs.walls[place as usize], &mut walls[place as usize]);
         let law = laws.get(contact.law);
-        let (normal, height) = wall_height(sink.bodies, pair);
-        let parting = velocity(sink.bodies, pair.atom).dot(normal);
-        if let Some(before) = contact.choose_mode(law, parting, &mut losses) {
-            let point = sink.bodies.atom_position[pair.atom as usize] - normal * height;
-            sink.on_wall(pair, point, contact.force(law, normal) - before.force(law, normal));
+        let end = End::of(sink.bodies, pair.atom);
+        if let Some(before) = contact.choose_mode(law, end.velocity(sink.bodies).dot(normal), &mut losses) {
+            let change = contact.force(law, normal) - before.force(law, normal);
+            let height = end.radius - contact.overlap;
+            sink.from_wall(&end, pair.wall, normal, height, change);
         }
     }
     ledger.friction.add(losses.friction);
 }
 
-#[inline]
-fn velocity(bodies: &Bodies, atom: u32) -> DVec2 {
-    let body = bodies.atom_body[atom as usize] as usize;
-    bodies.velocity_at(body, bodies.atom_position[atom as usize] - bodies.position[body])
-}
-
 impl PenaltyContacts {
     /// Elastic energy of all contacts in J.
     pub fn energy(&self) -> f64 {
-        let all = self.atoms.iter().chain(&self.walls);
-        all.filter(|contact| contact.mode != Mode::Open).map(|c| c.energy(self.laws.get(c.law))).sum()
+        let all = self.atoms.iter().chain(&self.walls).filter(|contact| contact.mode != Mode::Open);
+        all.map(|contact| contact.energy(self.laws.get(contact.law))).fold(0.0, |sum, energy| sum + energy)
     }
 }

@@ -69,7 +69,7 @@ pub struct Losses {
 
 impl Contact {
     /// Follows the pair to the state that `touch` describes, in its present mode. A pair that was open begins to load.
-    #[inline]
+    #[inline(always)]
     pub fn follow(&mut self, law: &PairLaw, touch: &Touch, losses: &mut Losses) {
         let before = self.overlap;
         if self.mode == Mode::Open {
@@ -102,7 +102,7 @@ impl Contact {
         Some(before)
     }
 
-    #[inline]
+    #[inline(always)]
     fn stretch(&mut self, law: &PairLaw, displacement: f64, losses: &mut Losses) {
         let normal_force = inelasticity::force(law, self.mode, self.overlap);
         let stretched = tangential::stretch(law, self.elongation, self.slipping, displacement, normal_force);

@@ -88,11 +88,11 @@ pub fn install(settings: Penalty, app: &mut App) {
         .init_resource::<Materials>()
         .init_resource::<PenaltyContacts>()
         .init_resource::<DeepestOverlap>();
-    let systems = (apply::carry_history, apply::apply_penalty).chain().after(FindPairs);
-    app.add_packed_systems(Evaluate, 2, systems.in_set(EvaluateStage::Contacts));
+    let system = apply::apply_penalty.after(FindPairs).in_set(EvaluateStage::Contacts);
+    app.add_packed_systems(Evaluate, 1, system);
     app.add_systems(Modes, apply::choose_modes);
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
-    app.world_mut().get_resource_or_init::<Finishers>().0.push(note_stiffest_contact);
+    app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
 }
 
 impl Entry for Penalty {
@@ -117,7 +117,11 @@ pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Penalty>();
 }
 
-fn note_stiffest_contact(world: &mut World) {
+/// Takes up what the scene says of materials, once all sections stand.
+fn prepare(world: &mut World) {
+    let (materials, settings) = (world.resource::<Materials>().clone(), *world.resource::<Penalty>());
+    let mut contacts = world.resource_mut::<PenaltyContacts>();
+    (contacts.materials, contacts.settings) = (materials, settings);
     let stiffest = stiffest_contact(world.resource(), world.resource(), world.resource());
     world.insert_resource(stiffest);
 }

@@ -25,8 +25,7 @@ pub fn stretch(law: &PairLaw, before: f64, slipping: bool, displacement: f64, no
     let trial = before + displacement;
     let coefficient = if slipping { law.friction_dynamic } else { law.friction_static };
     let slipping = stiffness * trial.abs() > coefficient * normal_force;
-    let elongation =
-        if slipping { (law.friction_dynamic * normal_force / stiffness).copysign(trial) } else { trial };
+    let elongation = if slipping { (law.friction_dynamic * normal_force / stiffness).copysign(trial) } else { trial };
     // Mean force times the displacement that the spring did not take up.
     let loss = 0.5 * stiffness * (before + elongation) * (trial - elongation);
     Stretched { elongation, slipping, loss }

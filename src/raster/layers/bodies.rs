@@ -11,6 +11,9 @@ use crate::record::frame::{BodyLook, Disc, Pose, Rgb};
 /// Atoms with a smaller radius than this, in pixels, are not marked: the marks would be noise.
 const SMALLEST_MARKED: f64 = 5.0;
 
+/// Fixed discs have an axle from this radius on, in pixels: a terrain of small discs would be dotted all over.
+const SMALLEST_WITH_AXLE: f64 = 12.0;
+
 /// How one body is drawn, at the camera's scale.
 #[derive(Clone, Debug)]
 pub(in crate::raster) struct Figure {
@@ -36,7 +39,7 @@ impl Figure {
         let mark = if look.fixed { outline } else { theme.mark.of(fill) };
         Figure {
             silhouette: Silhouette::new(&look.discs, scale),
-            ink: Ink { fill, outline, width: line.min(0.22 * smallest as f32) },
+            ink: Ink { fill, outline, width: line.min(0.26 * smallest as f32) },
             marks: marks(&look.discs, look.fixed, scale),
             mark_ink: Ink::plain(mark),
         }
@@ -58,7 +61,8 @@ impl Figure {
 /// A body of several discs shows each; a single disc that moves has its mark off the centre, so that one sees it
 /// turn; a single disc that is fixed has a small axle.
 fn marks(discs: &[Disc], fixed: bool, scale: f64) -> Vec<Mark> {
-    let wide = |disc: &&Disc| disc.radius * scale > SMALLEST_MARKED;
+    let smallest = if fixed { SMALLEST_WITH_AXLE } else { SMALLEST_MARKED };
+    let wide = |disc: &&Disc| disc.radius * scale > smallest;
     let mark = |disc: &Disc, share: f64, shift: f64| Mark {
         offset: (disc.offset + DVec2::X * shift * disc.radius) * scale,
         radius: share * disc.radius * scale,

@@ -1,8 +1,11 @@
 //! Where the labels stand: beside the room if there is space, else in its upper left corner.
 
 use glam::DVec2;
+use tiny_skia::{FillRule, IntRect, LineJoin, Path, Pixmap, PixmapPaint, Stroke, Transform};
 
+use super::paint;
 use crate::raster::text::Lettering;
+use crate::record::frame::Rgb;
 
 /// The part of the picture that no wall covers, as an upright box in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,11 +33,54 @@ impl Column {
     pub(in crate::raster) fn beside_or_in(room: Room, band: f32, needed: f32, pad: f32) -> Column {
         let beside = room.low.x as f32 - band - 2.0 * pad;
         if beside >= needed {
-            return Column { left: pad, top: pad, width: beside, in_room: false };
+            return Column { left: pad.round(), top: pad.round(), width: beside, in_room: false };
         }
         let width = (room.high.x - room.low.x) as f32 - 2.0 * pad;
-        Column { left: room.low.x as f32 + pad, top: room.low.y as f32 + pad, width: width.max(needed), in_room: true }
+        let (left, top) = (room.low.x as f32 + pad, room.low.y as f32 + pad);
+        Column { left: left.round(), top: top.round(), width: width.max(needed), in_room: true }
     }
+}
+
+/// Outlines drawn once, to be put on pictures at whole pixels: filling them anew in each frame would cost as much as
+/// all bodies.
+#[derive(Clone, Debug)]
+pub(in crate::raster) struct Sticker {
+    picture: Pixmap,
+    left: i32,
+    top: i32,
+}
+
+impl Sticker {
+    /// The sticker of some outlines, each with its colour, from back to front; `None` if there is nothing to see.
+    pub(in crate::raster) fn new(layers: &[(&Path, Rgb)]) -> Option<Sticker> {
+        let bounds = layers.iter().filter_map(|(path, _)| path.bounds().round_out()).reduce(|a, b| {
+            let (left, top) = (a.left().min(b.left()), a.top().min(b.top()));
+            IntRect::from_ltrb(left, top, a.right().max(b.right()), a.bottom().max(b.bottom())).unwrap_or(a)
+        })?;
+        let mut picture = Pixmap::new(bounds.width(), bounds.height())?;
+        let place = Transform::from_translate(-bounds.left() as f32, -bounds.top() as f32);
+        for (path, color) in layers {
+            picture.fill_path(path, &paint(*color), FillRule::Winding, place, None);
+        }
+        Some(Sticker { picture, left: bounds.left(), top: bounds.top() })
+    }
+
+    /// Puts it on a picture, moved by whole pixels.
+    pub(in crate::raster) fn put(&self, pixmap: &mut Pixmap, right: i32, down: i32) {
+        let (x, y) = (self.left + right, self.top + down);
+        pixmap.draw_pixmap(x, y, self.picture.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
+    }
+}
+
+/// The outline of a halo around letters `size` pixels high, which keeps them readable over bodies.
+pub(in crate::raster) fn halo(letters: &Path, size: f32) -> Option<Path> {
+    let stroke = Stroke { width: 0.25 * size, line_join: LineJoin::Round, ..Stroke::default() };
+    letters.stroke(&stroke, 1.0)
+}
+
+/// The width of the longest word of a text, in pixels.
+pub(in crate::raster) fn longest_word(text: &str, lettering: &Lettering) -> f32 {
+    text.split_whitespace().map(|word| lettering.width(word)).fold(0.0, f32::max)
 }
 
 /// Breaks a text into lines no wider than `width`; a word that is wider stands alone and runs over.

@@ -109,6 +109,7 @@ fn cut(polygon: Vec<DVec2>, plane: &HalfPlane) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::frame::Rgb;
 
     fn wall(left: (f64, f64), right: (f64, f64)) -> WallLook {
         WallLook { name: String::new(), left: left.into(), right: right.into(), color: None }
@@ -137,18 +138,19 @@ mod tests {
         let theme = Theme::named("paper").expect("shipped");
         let camera = Camera::look(DVec2::splat(3.0), 8.0, (120, 80));
         let mut pixmap = Pixmap::new(120, 80).expect("small");
+        fill(pixmap.data_mut(), theme.background);
         draw(&mut pixmap, &box_of_six(), &camera, &theme, 4.0, 0.0);
         let seen = |x: u32, y: u32| {
             let pixel = pixmap.pixel(x, y).expect("inside");
-            (pixel.alpha() > 0).then(|| crate::record::frame::Rgb(pixel.red(), pixel.green(), pixel.blue()))
+            Rgb(pixel.red(), pixel.green(), pixel.blue())
         };
         // The room spans the pixels 30 to 90 and 10 to 70.
-        assert_eq!(seen(60, 40), None);
+        assert_eq!(seen(60, 40), theme.background);
         for (x, y) in [(60, 71), (60, 8), (91, 40), (28, 40), (28, 8), (91, 71)] {
-            assert_eq!(seen(x, y), Some(theme.wall), "band at {x}, {y}");
+            assert_eq!(seen(x, y), theme.wall, "band at {x}, {y}");
         }
         for (x, y) in [(60, 78), (60, 1), (110, 40), (5, 40), (5, 72), (28, 78)] {
-            assert_eq!(seen(x, y), Some(theme.ground), "ground at {x}, {y}");
+            assert_eq!(seen(x, y), theme.ground, "ground at {x}, {y}");
         }
         let room = room(&box_of_six(), &camera, &theme);
         assert!(

@@ -5,21 +5,13 @@ use bevy_ecs::prelude::*;
 
 use super::camera::{self, FitCamera, LookCamera};
 use super::{ClockSection, FilmSection};
+use crate::raster::COLOR_NAMES;
 use crate::scene::{Arity, Entry, Outline, Report, SceneAppExt, Section, Written};
+use crate::world::material::COLORS;
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 10] = [
-    "joints",
-    "plots",
-    "look",
-    "params",
-    "include",
-    "templates",
-    "instances",
-    "randomise",
-    "controllers",
-    "scene",
-];
+const RESERVED: [&str; 10] =
+    ["joints", "plots", "look", "params", "include", "templates", "instances", "randomise", "controllers", "scene"];
 
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {
@@ -34,6 +26,9 @@ pub fn plugin(app: &mut App) {
     app.register_entry::<LookCamera>();
     for later in camera::RESERVED {
         app.reserve_entry(camera::SECTION, later);
+    }
+    for color in COLOR_NAMES {
+        app.register_word(COLORS, color);
     }
     for later in RESERVED {
         app.reserve_section(later);

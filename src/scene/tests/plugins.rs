@@ -59,7 +59,7 @@ section!(Film, FilmSection, |it, outline| {}, |report| it.check(report));
 section!(Walls, WallsSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
 section!(Bodies, BodiesSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
 section!(Fill, FillSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
-section!(Materials, MaterialsSection, |it, outline| it.declare(outline), |report| it.check(report));
+section!(Materials, MaterialsSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
 section!(Pairs, PairsSection, |it, outline| {}, |report| it.check(outline, report));
 
 macro_rules! camera {
@@ -179,6 +179,9 @@ impl Entry for Drag {
 /// An app that reads the engine's sections, a plugin's `wind` and `forces: [Drag(..)]`, and knows reserved names.
 pub(super) fn app() -> App {
     let mut app = App::empty();
+    for color in crate::raster::COLOR_NAMES {
+        app.register_word(crate::world::material::COLORS, color);
+    }
     app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE)
         .register_entry::<Fit>()
         .register_entry::<Look>()

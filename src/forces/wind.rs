@@ -1,0 +1,111 @@
+//! Wind: drag against air that moves evenly, `F = -(c1 + c2 |w|) w` with `w = v - u` and `u` the wind's velocity.
+//!
+//! The air's own motion drives the body: of the power `F . v`, `F . w` is lost as heat and `F . u` is work of the wind.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::{Targets, check_targets};
+use crate::scene::units::{Damping, QuadraticDamping, Velocity};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::world::Bodies;
+
+/// `Wind(velocity: (3, 0), linear: 0.1, of: ["kite"])`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wind {
+    /// Velocity of the air in m/s.
+    velocity: Velocity,
+    /// Linear coefficient in N s/m. Default 0.
+    #[serde(default)]
+    linear: Damping,
+    /// Quadratic coefficient in N s2/m2. Default 0.
+    #[serde(default)]
+    quadratic: QuadraticDamping,
+    /// Names, `*` matches. Default: all bodies.
+    of: Option<Names>,
+}
+
+impl Entry for Wind {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Wind";
+    const EXAMPLE: &'static str = "Wind(velocity: (3, 0), linear: 0.1)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        report.not_negative("linear", self.linear);
+        report.not_negative("quadratic", self.quadratic);
+        if self.linear.si() == 0.0 && self.quadratic.si() == 0.0 {
+            report.error("", "this wind pushes nothing").help("give `linear` or `quadratic`");
+        }
+        check_targets(self.of.as_ref(), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let gust = |Written { value, .. }: Written<Self>| Gust {
+            velocity: value.velocity.si(),
+            linear: value.linear.si(),
+            quadratic: value.quadratic.si(),
+            of: Targets::named(value.of.as_ref(), outline),
+        };
+        app.insert_resource(Gusts(entries.into_iter().map(gust).collect()));
+        app.add_packed_force(Dependence::Velocity, apply_wind);
+    }
+}
+
+struct Gust {
+    velocity: DVec2,
+    linear: f64,
+    quadratic: f64,
+    of: Targets,
+}
+
+#[derive(Resource)]
+struct Gusts(Vec<Gust>);
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Wind>();
+}
+
+fn apply_wind(mut gusts: ResMut<Gusts>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+    for gust in &mut gusts.0 {
+        for body in gust.of.places(&bodies) {
+            let relative = bodies.velocity[body] - gust.velocity;
+            let force = relative * -(gust.linear + gust.quadratic * relative.length());
+            bodies.force[body] += force;
+            balance.outside(bodies.position[body], force, 0.0);
+            balance.drag -= force.dot(relative);
+            balance.work += force.dot(gust.velocity);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Simulation;
+    use crate::scene::Source;
+
+    /// `v = u (1 - exp(-c t/m))` from rest. Tolerance: order 2 in the tick, `(c dt/m)^2 = 1e-6` of `u`. Not tested: the
+    /// quadratic part, which is drag's in another frame.
+    #[test]
+    fn a_body_at_rest_is_taken_along() {
+        let scene = r#"Scene(
+            format: 1,
+            clock: (duration: 2, tick: "1 ms"),
+            bodies: [(name: "kite", at: (0, 0), mass: 2, atoms: Disc(radius: 0.1)),
+                     (name: "stone", at: (5, 0), mass: 2, atoms: Disc(radius: 0.1))],
+            forces: [Wind(velocity: (3, -1), linear: 2, of: "kite")],
+        )"#;
+        let mut simulation = Simulation::load(&Source::new("wind.ron", scene)).unwrap();
+        simulation.run_to_end().unwrap();
+        let expected = glam::DVec2::new(3.0, -1.0) * (1.0 - libm::exp(-2.0));
+        let velocity = simulation.bodies().velocity[0];
+        assert!((velocity - expected).length() < 3e-6, "{velocity} for {expected}");
+        assert_eq!(simulation.bodies().velocity[1], glam::DVec2::ZERO, "only the bodies named");
+        // What the wind brought is in the body or was lost.
+        assert!(simulation.card().energy_error() < 1e-6);
+    }
+}

@@ -1,0 +1,4 @@
+//! What ARCHITECTURE.md promises about the code itself.
+
+mod arrow;
+mod schedule;
