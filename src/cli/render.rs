@@ -108,9 +108,10 @@ fn report(written: &Written, cut: bool) {
     } else {
         format!("{:.1} MB", *bytes as f64 / 1e6)
     };
-    let path = path.display().to_string();
+    let path = path.display();
     let frames = count(*frames as usize, "frame", "frames");
-    if path.ends_with(".png") {
+    // A still lasts no time.
+    if *seconds == 0.0 {
         say(&format!("{path}: one picture, {size}"));
     } else if cut {
         say(&format!("{path}: the {frames} before the run went wrong, {seconds:.2} s, {size}"));

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
-use super::part::PartFile;
+use super::part::{PartFile, Unfinished};
 
 /// A table in the making: `<name>.part` until it is complete.
 pub struct Table {
@@ -20,7 +20,7 @@ impl Table {
     /// # Errors
     /// If the file cannot be created.
     pub fn create<'a>(path: &Path, columns: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, OutputError> {
-        let part = PartFile::create(path)?;
+        let part = PartFile::create(path, Unfinished::Kept)?;
         let mut table = Self { path: path.to_owned(), part, columns: 0 };
         let mut header = "time [s]".to_owned();
         for (name, unit) in columns {
