@@ -1,6 +1,8 @@
 //! The integration tests: one binary, a folder per kind of promise.
 
 mod architecture;
+mod cli;
 mod determinism;
 mod extend;
 mod laws;
+mod scenes;

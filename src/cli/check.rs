@@ -3,55 +3,80 @@
 use clap::Args;
 
 use super::Exit;
-use super::shared::{self, OverrideFlags};
+use super::flags::OverrideFlags;
+use super::load::Request;
+use super::pace::run_to;
+use super::progress::Progress;
+use super::result::{self, Detail};
+use super::say::{count, print_line, say};
+use crate::simulation::Simulation;
 
 /// The command `check`.
 #[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
 pub(super) struct Check {
-    /// Scene files, or example:NAME
+    /// Scene files, or example:NAME for a scene that comes with the program
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
     /// Also run each scene and check what it expects
     #[arg(long)]
     run: bool,
-    /// Print mistakes as JSON, one line per scene
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     overrides: OverrideFlags,
+    /// Print for each scene one line of JSON on standard output: its mistakes, or with --run its result
+    #[arg(long)]
+    json: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle check my.ron                 every mistake with its line and a remedy
+  jostle check --run scenes/*.ron     does each scene do what it says under `expect`?";
 
 impl Check {
     pub(super) fn execute(self) -> Exit {
-        let overrides = match self.overrides.overrides() {
-            Ok(overrides) => overrides,
-            Err(exit) => return exit,
-        };
-        let mut worst = Exit::Good;
-        for scene in &self.scenes {
-            let exit = match shared::load(scene, &overrides, self.json) {
+        let overrides = self.overrides.overrides();
+        let check = |name: &String| {
+            let request = Request { name, json: self.json };
+            match request.load(&overrides) {
                 Err(exit) => exit,
-                Ok(mut simulation) if self.run => match simulation.run_to_end() {
-                    Ok(()) => {
-                        eprintln!("{scene}");
-                        shared::print_outcomes(&simulation.outcomes())
-                    }
-                    Err(failure) => {
-                        eprintln!("{scene}: the run went wrong: {failure}");
-                        Exit::RunWrong
-                    }
-                },
-                Ok(simulation) => {
-                    let bodies = simulation.bodies();
-                    let (bodies, atoms, walls) = (bodies.len(), bodies.atom_count(), bodies.walls.len());
-                    if !self.json {
-                        shared::print_line(&format!("{scene}: good; {bodies} bodies, {atoms} atoms, {walls} walls"));
-                    }
-                    Exit::Good
+                Ok((_, simulation)) if self.run => self.run(request, simulation),
+                Ok((_, simulation)) if self.json => {
+                    let notes = &simulation.header().remarks;
+                    print_line(&serde_json::json!({ "scene": name, "errors": [], "notes": notes }).to_string())
                 }
-            };
-            worst = worst.worse(exit);
-        }
-        worst
+                Ok((_, simulation)) => {
+                    for remark in &simulation.header().remarks {
+                        say(&format!("note: {name}: {remark}"));
+                    }
+                    print_line(&format!("{name}: good; {}", contents(&simulation)))
+                }
+            }
+        };
+        self.scenes.iter().map(check).fold(Exit::Good, Exit::worse)
     }
+
+    fn run(&self, request: Request, mut simulation: Simulation) -> Exit {
+        let progress = Progress::new(simulation.ticks(), "ticks", self.json);
+        let end = simulation.ticks();
+        let failure = run_to(&mut simulation, end, &progress).err();
+        drop(progress);
+        let exit = result::tell(request, &simulation, failure.as_ref(), false, Detail::of(self.json, true));
+        if exit == Exit::Good && !self.json {
+            let holding = match simulation.outcomes().len() {
+                0 => "nothing is expected".to_owned(),
+                many => count(many, "expectation holds", "expectations hold"),
+            };
+            return print_line(&format!("{}: good; {}; {holding}", request.name, contents(&simulation)));
+        }
+        exit
+    }
+}
+
+/// What is in a scene.
+fn contents(simulation: &Simulation) -> String {
+    let bodies = simulation.bodies();
+    let atoms = count(bodies.atom_count(), "atom", "atoms");
+    let walls = count(bodies.walls.len(), "wall", "walls");
+    format!("{}, {atoms}, {walls}", count(bodies.len(), "body", "bodies"))
 }

@@ -2,10 +2,16 @@
 
 mod check;
 mod examples;
+mod film;
+mod flags;
+mod load;
+mod pace;
 mod progress;
 mod render;
+mod result;
 mod run;
-mod shared;
+mod say;
+mod target;
 
 use clap::{Parser, Subcommand};
 
@@ -37,17 +43,25 @@ impl Exit {
 
 const EXAMPLES: &str = "\
 Examples:
-  jostle render example:tetris                      the film tetris.gif, and the error card
-  jostle render scenes/bounce.ron -o bounce.png --at 1.5
-  jostle render scenes/*.ron -o films/              a GIF of each scene
-  jostle run scenes/projectile.ron -o channels.csv  numbers instead of pictures
-  jostle check my_scene.ron                         read it and say what is wrong
+  jostle render example:tetris                           the film tetris.gif, and the error card
+  jostle render example:bounce -o bounce.png --at 1.5    one picture, after 1.5 s
+  jostle render scenes/*.ron -o films/                   a film of each scene
+  jostle run example:projectile -o channels.csv          numbers instead of pictures
+  jostle check my_scene.ron                              read it and say what is wrong
+
+Scenes that come with the program: {scenes}.
 
 Exit codes: 0 good, 1 scene or expectation wrong, 2 usage or a file cannot be written, 3 the run went wrong.";
 
-/// 2D physics without a window: a scene in a RON file -> films, numbers, and a statement of how wrong they are.
+fn after_help() -> String {
+    let names: Vec<&str> = examples::SCENES.iter().map(|(name, _)| *name).collect();
+    EXAMPLES.replace("{scenes}", &names.join(", "))
+}
+
+/// 2D physics without a window: a scene in a RON file goes in; films, numbers and a statement of how wrong they are
+/// come out.
 #[derive(Parser, Debug)]
-#[command(name = "jostle", version, after_help = EXAMPLES)]
+#[command(name = "jostle", version, after_help = after_help())]
 pub struct CommandLine {
     #[command(subcommand)]
     command: Command,
@@ -55,11 +69,11 @@ pub struct CommandLine {
 
 #[derive(Subcommand, Debug)]
 enum Command {
-    /// Run a scene and print its error card; with -o also its channels as CSV
+    /// Run a scene and print its error card; with -o also write its channels as CSV
     Run(run::Run),
-    /// Run scenes and draw them: GIF, PNG, PNG sequences
+    /// Run scenes and draw them: films (GIF), single pictures and sequences (PNG)
     Render(render::Render),
-    /// Read scenes and say what is wrong with them, without running them
+    /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),
 }
 

@@ -17,9 +17,14 @@ impl Progress {
         Self(bar)
     }
 
-    /// Moves the bar.
+    /// Moves the bar to a place.
     pub fn at(&self, position: u64) {
         self.0.set_position(position);
+    }
+
+    /// Moves the bar by one.
+    pub fn step(&self) {
+        self.0.inc(1);
     }
 }
 

@@ -1,12 +1,17 @@
 //! `jostle run`: runs a scene, prints its error card, writes its channels.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::Exit;
+use super::flags::{self, OverrideFlags};
+use super::load::Request;
+use super::pace::run_to;
 use super::progress::Progress;
-use super::shared::{self, OverrideFlags};
+use super::result::{self, Detail};
+use super::say::say;
+use super::target::{is_directory, takes_no_file};
 use crate::output::OutputError;
 use crate::output::csv::Table;
 use crate::sensors::Channels;
@@ -15,94 +20,116 @@ use crate::tick::Failure;
 
 /// The command `run`.
 #[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
 pub(super) struct Run {
-    /// A scene file, or example:NAME
+    /// A scene file, or example:NAME for a scene that comes with the program
     #[arg(value_name = "SCENE")]
     scene: String,
-    /// Write the channels of the scene's sensors here, one row per frame of the film, rounded to whole ticks
+    /// Write the channels of the scene's sensors here: comma-separated values, a row for each frame of the film (at
+    /// the nearest tick)
     #[arg(short, long, value_name = "channels.csv")]
     output: Option<PathBuf>,
-    /// Print the result as JSON on standard output
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     overrides: OverrideFlags,
-    /// Threads (a single run uses one so far)
-    #[arg(long, value_name = "N")]
+    /// Threads; a run uses one so far
+    #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
-    /// No progress bar, and the card only if something is wrong
+    /// No progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
+    /// Print the result as one line of JSON on standard output
+    #[arg(long)]
+    json: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle run example:projectile                 the error card: how far to trust the result
+  jostle run my.ron -o channels.csv             what the sensors measured
+  jostle run my.ron --tick 0.1ms --json         another tick; the result for a program";
 
 enum Trouble {
     Run(Failure),
     Output(OutputError),
 }
 
+impl From<OutputError> for Trouble {
+    fn from(error: OutputError) -> Self {
+        Self::Output(error)
+    }
+}
+
 impl Run {
     pub(super) fn execute(self) -> Exit {
-        let overrides = match self.overrides.overrides() {
-            Ok(overrides) => overrides,
-            Err(exit) => return exit,
-        };
-        let mut simulation = match shared::load(&self.scene, &overrides, self.json) {
-            Ok(simulation) => simulation,
-            Err(exit) => return exit,
-        };
-        let trouble = self.go(&mut simulation).err();
-        let card = simulation.card();
-        let mut exit = match trouble {
-            None => Exit::Good,
-            Some(Trouble::Run(failure)) => {
-                eprintln!("error: the run went wrong: {failure}");
-                eprintln!("help: {}", shared::remedy(&card));
-                Exit::RunWrong
-            }
-            Some(Trouble::Output(error)) => shared::usage(&error.to_string()),
-        };
-        if self.json {
-            exit = exit.worse(shared::print_json(&self.scene, &simulation, &card));
-        } else if self.quiet {
-            exit = exit.worse(shared::print_outcomes(&simulation.outcomes()));
-        } else {
-            exit = exit.worse(shared::print_card(&self.scene, &simulation, &card));
+        let request = Request { name: &self.scene, json: self.json };
+        if let Some(message) = self.output.as_deref().and_then(|path| objection(request, path)) {
+            return request.usage(&message);
         }
-        exit
-    }
-
-    fn go(&self, simulation: &mut Simulation) -> Result<(), Trouble> {
+        let (_, mut simulation) = match request.load(&self.overrides.overrides()) {
+            Ok(loaded) => loaded,
+            Err(exit) => return exit,
+        };
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
-        let Some(path) = &self.output else {
-            let batch = (simulation.ticks() / 1000).max(1);
-            while simulation.clock().ticks < simulation.ticks() {
-                let next = simulation.clock().ticks + batch;
-                simulation.run_to_tick(next.min(simulation.ticks())).map_err(Trouble::Run)?;
-                progress.at(simulation.clock().ticks);
+        let measures = simulation.world().get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
+        if self.output.is_some() && !measures {
+            say(
+                "note: the scene has no sensors, so there are only times to write: add `sensors: [Energy()]` or others",
+            );
+        }
+        let ran = match &self.output {
+            Some(path) => write_channels(&mut simulation, path, &progress),
+            None => {
+                let end = simulation.ticks();
+                run_to(&mut simulation, end, &progress).map_err(Trouble::Run)
             }
-            return Ok(());
         };
-        let none = Channels::default();
-        let channels = simulation.world().get_resource::<Channels>().unwrap_or(&none);
-        let columns = channels.0.iter().map(|channel| (channel.name.as_str(), channel.unit));
-        let mut table = Table::create(path, columns).map_err(Trouble::Output)?;
-        let frame = simulation.frame_step() / simulation.clock().dt;
-        let every = (frame.round() as u64).max(1);
-        // A run that goes wrong keeps the rows so far.
-        let run = loop {
-            let rows = simulation.world().get_resource::<Channels>().unwrap_or(&none);
-            let values = rows.0.iter().map(|channel| (channel.read)(simulation.world()));
-            table.row(simulation.clock().time(), values).map_err(Trouble::Output)?;
-            let done = simulation.clock().ticks;
-            if done == simulation.ticks() {
-                break Ok(());
-            }
-            if let Err(failure) = simulation.run_to_tick((done + every).min(simulation.ticks())) {
-                break Err(Trouble::Run(failure));
-            }
-            progress.at(simulation.clock().ticks);
+        drop(progress);
+        let failure = match ran {
+            Ok(()) => None,
+            Err(Trouble::Run(failure)) => Some(failure),
+            Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
         };
-        table.finish().map_err(Trouble::Output)?;
-        run
+        result::tell(request, &simulation, failure.as_ref(), false, Detail::of(self.json, self.quiet))
     }
+}
+
+/// What speaks against writing channels to a path.
+fn objection(request: Request, path: &Path) -> Option<String> {
+    let name = path.display();
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    if path.as_os_str().is_empty() {
+        Some("-o needs the name of a file, such as channels.csv".to_owned())
+    } else if request.is_at(path) {
+        Some(format!("`{name}` is the scene itself: write the channels to another file, such as channels.csv"))
+    } else if is_directory(path) {
+        Some(format!("`{name}` is a directory: name a file in it, such as `{}`", path.join("channels.csv").display()))
+    } else if ending.as_deref().is_some_and(|ending| ["gif", "png"].contains(&ending)) {
+        Some(format!("`run` writes comma-separated values, not `{name}`: use `jostle render` for pictures"))
+    } else {
+        takes_no_file(path)
+    }
+}
+
+/// Runs, and writes a row now, after each frame of the film, and at the end.
+fn write_channels(simulation: &mut Simulation, path: &Path, progress: &Progress) -> Result<(), Trouble> {
+    let none = Channels::default();
+    let channels = simulation.world().get_resource::<Channels>().unwrap_or(&none);
+    let columns = channels.0.iter().map(|channel| (channel.name.as_str(), channel.unit));
+    let mut table = Table::create(path, columns)?;
+    let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
+    let run = loop {
+        let rows = simulation.world().get_resource::<Channels>().unwrap_or(&none);
+        let values = rows.0.iter().map(|channel| (channel.read)(simulation.world()));
+        table.row(simulation.clock().time(), values)?;
+        let (done, end) = (simulation.clock().ticks, simulation.ticks());
+        if done == end {
+            break Ok(());
+        }
+        if let Err(failure) = run_to(simulation, done.saturating_add(every).min(end), progress) {
+            break Err(Trouble::Run(failure));
+        }
+    };
+    // A run that goes wrong keeps the rows so far.
+    table.finish()?;
+    run
 }

@@ -40,10 +40,10 @@ impl Table {
     /// # Errors
     /// If the system refuses to write.
     pub fn row(&mut self, time: f64, values: impl IntoIterator<Item = f64>) -> Result<(), OutputError> {
-        let mut line = time.to_string();
+        let mut line = number(time);
         for value in values.into_iter().take(self.columns) {
             line.push(',');
-            line.push_str(&value.to_string());
+            line.push_str(&number(value));
         }
         self.line(&line)
     }
@@ -58,5 +58,26 @@ impl Table {
     /// If the system refuses to write.
     pub fn finish(self) -> Result<(), OutputError> {
         self.part.complete().map(|_| ())
+    }
+}
+
+/// A number in the fewest digits that read back to the same bits: in full, or with an exponent where that is shorter.
+fn number(value: f64) -> String {
+    let (full, exponent) = (value.to_string(), format!("{value:e}"));
+    if full.len() <= exponent.len() + 3 { full } else { exponent }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_read_back_to_the_same_bits() {
+        for value in [0.0, -0.0, 0.1 + 0.2, 1e300, -2.5e-300, 5e-324, f64::MAX, 1.0 / 3.0, 123_456_789.0] {
+            assert_eq!(number(value).parse::<f64>().map(f64::to_bits), Ok(value.to_bits()));
+        }
+        for (value, text) in [(20.0, "20"), (0.001, "0.001"), (1e300, "1e300"), (-2.5e-9, "-2.5e-9")] {
+            assert_eq!(number(value), text);
+        }
     }
 }

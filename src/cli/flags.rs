@@ -1,0 +1,115 @@
+//! Flags that several commands share, and how their values are read: a wrong value is named before anything runs.
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use crate::integrate::Methods;
+use crate::scene::sections::{ClockSection, film};
+use crate::scene::units::Time;
+use crate::simulation::Overrides;
+use crate::tick::TickAppExt;
+
+/// More threads than any machine of today makes use of.
+const MOST_THREADS: usize = 1024;
+
+/// Flags that override the scene.
+#[derive(Args, Clone, Debug)]
+pub(super) struct OverrideFlags {
+    /// Seconds of physics, instead of the scene's
+    #[arg(long, value_name = "T", value_parser = above_zero, allow_negative_numbers = true)]
+    pub duration: Option<f64>,
+    /// Length of a tick, such as 0.001 or 1ms, instead of the scene's
+    #[arg(long, value_name = "DT", value_parser = above_zero, allow_negative_numbers = true)]
+    pub tick: Option<f64>,
+    /// Integration method, instead of the scene's
+    #[arg(long, value_name = "NAME", value_parser = methods())]
+    pub method: Option<String>,
+    /// Error allowed, instead of a tick (not available yet)
+    #[arg(long, value_name = "X", value_parser = not_available_yet, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+}
+
+impl OverrideFlags {
+    /// What is to be otherwise than the scene says.
+    pub fn overrides(&self) -> Overrides {
+        Overrides { tick: self.tick, method: self.method.clone(), duration: self.duration }
+    }
+}
+
+/// The registered methods: an integrator that registers itself is offered here without a second list.
+fn methods() -> PossibleValuesParser {
+    let mut app = bevy_app::App::empty();
+    app.add_tick();
+    crate::plugins::standard(&mut app);
+    let registered = app.world().get_resource::<Methods>().map_or_else(Vec::new, |methods| methods.0.clone());
+    let names = std::iter::once(ClockSection::AUTO).chain(registered.into_iter().map(|method| method.name));
+    PossibleValuesParser::new(names.collect::<Vec<_>>())
+}
+
+fn not_available_yet(_: &str) -> Result<f64, String> {
+    Err("not available yet; use `--tick`".to_owned())
+}
+
+/// A time as in a scene: a number of seconds, or a number with its unit.
+fn time(text: &str) -> Option<f64> {
+    let text = text.trim();
+    text.parse().ok().or_else(|| Time::parse(text).ok().map(Time::si))
+}
+
+/// A time above zero.
+fn above_zero(text: &str) -> Result<f64, String> {
+    let value = time(text).filter(|value| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| "expected a time above zero, such as 0.5 (seconds) or 20ms".to_owned())
+}
+
+/// A time, zero or later.
+pub(super) fn moment(text: &str) -> Result<f64, String> {
+    let value = time(text).filter(|value| value.is_finite() && *value >= 0.0);
+    value.ok_or_else(|| "expected a time, zero or later, such as 1.5 (seconds) or 20ms".to_owned())
+}
+
+/// Width and height of a picture.
+pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
+    let largest = film::LARGEST_SIZE as u32;
+    let side = |text: &str| text.parse().ok().filter(|side| (16..=largest).contains(side));
+    let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    sides.ok_or_else(|| format!("expected width and height in pixels such as 1280x720, each from 16 to {largest}"))
+}
+
+/// Frames per second.
+pub(super) fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse::<f64>().ok().filter(|rate| (0.01..=1000.0).contains(rate));
+    rate.ok_or_else(|| "expected frames per second, from 0.01 to 1000".to_owned())
+}
+
+/// A number of threads.
+pub(super) fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok().filter(|threads| (1..=MOST_THREADS).contains(threads));
+    threads.ok_or_else(|| format!("expected a whole number from 1 to {MOST_THREADS}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_read_as_in_scenes() {
+        for (text, seconds) in [("1", 1.0), ("1e-3", 1e-3), ("1 ms", 1e-3), ("20ms", 0.02), (" 2 s ", 2.0)] {
+            assert_eq!(above_zero(text), Ok(seconds), "{text}");
+        }
+        for text in ["0", "-1", "nan", "inf", "1e400", "1 kg", "", "ms"] {
+            assert!(above_zero(text).is_err(), "{text}");
+        }
+        assert_eq!(moment("0"), Ok(0.0));
+        assert!(moment("-0.1").is_err());
+    }
+
+    #[test]
+    fn sizes_are_bounded() {
+        assert_eq!(size("1280x720"), Ok((1280, 720)));
+        assert_eq!(size("16X8192"), Ok((16, 8192)));
+        for text in ["0x0", "1e9x1", "15x16", "8193x16", "-16x16", "16", "16x", "16x16x16", "99999999999x16"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Reading scenes for the commands, and telling what is wrong with them.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use super::say::{print_line, say};
+use super::{Exit, examples};
+use crate::scene::{SceneError, SceneErrors, Source};
+use crate::simulation::{Overrides, Simulation};
+
+/// What scenes that come with the program are called by.
+const EXAMPLE: &str = "example:";
+
+/// A scene as the command line names it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Request<'a> {
+    /// The name as given: a path, or `example:NAME`.
+    pub name: &'a str,
+    /// Whether results and mistakes are printed as JSON.
+    pub json: bool,
+}
+
+impl Request<'_> {
+    /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
+    /// not read it again: it may come from a pipe.
+    pub fn load(self, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
+        let read = source(self.name).and_then(|source| {
+            let simulation = Simulation::load_with(&source, overrides, |_| {})?;
+            Ok((source, simulation))
+        });
+        read.map_err(|errors| self.refuse_scene(&errors))
+    }
+
+    /// Tells what is wrong with the scene.
+    pub fn refuse_scene(self, errors: &SceneErrors) -> Exit {
+        say(errors.render(std::io::stderr().is_terminal()).trim_end());
+        if self.json { print_line(&errors.to_json().to_string()).worse(Exit::SceneWrong) } else { Exit::SceneWrong }
+    }
+
+    /// Tells what is wrong with a value of the scene that only now turned out to be.
+    pub fn refuse(self, exit: Exit, path: &str, message: &str, help: &str) -> Exit {
+        let message = message.to_owned();
+        let error = SceneError::new(path, message).with_help(help);
+        let errors = SceneErrors::new(Source::new(self.name, ""), vec![error], Vec::new());
+        self.refuse_scene(&errors);
+        exit
+    }
+
+    /// Tells that the command cannot be done with this scene: its output cannot be written, or a flag does not fit.
+    pub fn usage(self, message: &str) -> Exit {
+        say(&format!("error: {message}"));
+        if self.json {
+            let errors = vec![SceneError::new("", message)];
+            print_line(&SceneErrors::new(Source::new(self.name, ""), errors, Vec::new()).to_json().to_string());
+        }
+        Exit::Usage
+    }
+
+    /// The name without folders and ending: what its film is called.
+    pub fn stem(self) -> String {
+        let name = self.name.strip_prefix(EXAMPLE).unwrap_or(self.name);
+        Path::new(name).file_stem().map_or_else(|| "film".to_owned(), |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// Whether a path leads to the scene's own file.
+    pub fn is_at(self, path: &Path) -> bool {
+        let real = |path: &Path| std::fs::canonicalize(path).ok();
+        !self.name.starts_with(EXAMPLE) && real(path).is_some_and(|path| Some(path) == real(Path::new(self.name)))
+    }
+}
+
+/// Reads the text of a scene: a file, or `example:NAME`.
+fn source(scene: &str) -> Result<Source, SceneErrors> {
+    let Some(name) = scene.strip_prefix(EXAMPLE) else { return Source::read(&PathBuf::from(scene)) };
+    let found = examples::SCENES.iter().find(|(known, _)| *known == name);
+    found.map(|(_, text)| Source::new(scene, *text)).ok_or_else(|| {
+        let known: Vec<&str> = examples::SCENES.iter().map(|(name, _)| *name).collect();
+        let error = SceneError::new("", format!("there is no example `{name}`"));
+        let help = format!("examples: {}", known.join(", "));
+        SceneErrors::new(Source::new(scene, ""), vec![error.with_help(help)], Vec::new())
+    })
+}

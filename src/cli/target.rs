@@ -1,0 +1,131 @@
+//! Where the films of a command go. All of it is settled before anything runs.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::Exit;
+use super::load::Request;
+use super::say::say;
+use crate::output::{OutputError, Target};
+
+/// What the command line says about where films go.
+pub(super) struct Wish<'a> {
+    /// `-o`.
+    pub output: Option<&'a Path>,
+    /// Whether only one picture is drawn.
+    pub still: bool,
+    /// `--png`.
+    pub png: bool,
+}
+
+/// Where one film goes.
+#[derive(Debug)]
+pub(super) struct Place {
+    pub target: Target,
+    /// A directory that the command line names and that may have to be made first. The directory of a single file
+    /// is not made: its name is more likely misspelt.
+    pub folder: Option<PathBuf>,
+}
+
+/// The place of each scene's film. Two scenes never share one: the second film would overwrite the first.
+pub(super) fn places(scenes: &[Request], wish: &Wish) -> Result<Vec<Place>, Exit> {
+    let mut taken: BTreeMap<PathBuf, &str> = BTreeMap::new();
+    let mut places: Vec<Place> = Vec::new();
+    for scene in scenes {
+        let place = wish.place(*scene, scenes.len()).map_err(usage)?;
+        let target = &place.target;
+        if let Some(other) = taken.insert(target.path().to_owned(), scene.name) {
+            let path = target.path().display();
+            return Err(usage(if other == scene.name {
+                format!("`{other}` is named twice")
+            } else {
+                format!(
+                    "`{other}` and `{}` would both be written to `{path}`; render them with two commands and an `-o` each",
+                    scene.name
+                )
+            }));
+        }
+        places.push(place);
+    }
+    Ok(places)
+}
+
+fn usage(message: String) -> Exit {
+    say(&format!("error: {message}"));
+    Exit::Usage
+}
+
+impl Wish<'_> {
+    fn place(&self, scene: Request, scenes: usize) -> Result<Place, String> {
+        let stem = scene.stem();
+        let file = if self.still {
+            format!("{stem}.png")
+        } else if self.png {
+            format!("{stem}/")
+        } else {
+            format!("{stem}.gif")
+        };
+        let mut folder = None;
+        let path = match self.output {
+            None => PathBuf::from(&file),
+            // A sequence of one scene needs no folder of its own.
+            Some(output) if scenes == 1 && !(self.still && is_directory(output)) => output.to_owned(),
+            Some(output) if is_directory(output) => {
+                folder = Some(output.to_owned());
+                output.join(&file)
+            }
+            Some(output) => {
+                let better = output.with_extension("");
+                return Err(format!("{scenes} scenes need a directory: `-o {}/`", better.display()));
+            }
+        };
+        let target = Target::new(path).map_err(|error| match error {
+            OutputError::UnknownFormat { path, .. } => format!(
+                "the ending of `{}` names no format: .gif is a film, .png one picture (with --at), / a directory of \
+                 pictures",
+                path.display()
+            ),
+            error => error.to_string(),
+        })?;
+        self.check(&target)?;
+        if target.path().is_dir() && !file.ends_with('/') && self.output != Some(target.path()) {
+            let path = target.path().display();
+            return Err(format!("`{path}` is a directory; say with -o where the file is to go"));
+        }
+        Ok(Place { target, folder })
+    }
+
+    fn check(&self, target: &Target) -> Result<(), String> {
+        let path = target.path();
+        if let Some(message) = takes_no_file(path) {
+            return Err(message);
+        }
+        let directory = is_directory(path);
+        let picture = !directory && path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        if self.still && !picture {
+            return Err(format!("--at makes one picture: write it to a .png instead of `{}`", path.display()));
+        }
+        if !self.still && picture {
+            return Err("a .png holds one picture: add --at T, or write a film to a .gif".to_owned());
+        }
+        if self.png && !self.still && !directory {
+            let path = path.display();
+            return Err(format!(
+                "--png makes pictures: they need a directory instead of `{path}`, such as `-o frames/`"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// What speaks against giving a finished file this name: it would take the place of a device or a pipe.
+pub(super) fn takes_no_file(path: &Path) -> Option<String> {
+    let kind = std::fs::metadata(path).ok()?.file_type();
+    let special = !kind.is_file() && !kind.is_dir();
+    special.then(|| format!("`{}` is a device or a pipe: name a file", path.display()))
+}
+
+/// Whether a path is, or is meant to be, a directory.
+pub(super) fn is_directory(path: &Path) -> bool {
+    path.is_dir() || path.as_os_str().to_string_lossy().ends_with(std::path::is_separator)
+}

@@ -1,0 +1,14 @@
+//! The command line as its users meet it: the built program, run in folders of its own, one file per promise.
+
+mod check;
+mod failures;
+mod flags;
+mod harness;
+mod help;
+mod interrupt;
+mod json;
+mod numbers;
+mod outputs;
+mod scene_files;
+mod streams;
+mod values;
