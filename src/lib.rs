@@ -61,4 +61,6 @@ pub mod output;
 
 pub mod report;
 
+pub mod problems;
+
 pub use simulation::Simulation;
