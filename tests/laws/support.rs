@@ -1,0 +1,80 @@
+//! What several laws need: loading, phases, fits.
+
+use std::fmt::Write;
+
+use glam::DVec2;
+use jostle::Simulation;
+use jostle::scene::Source;
+use jostle::world::Bodies;
+
+/// The two methods that stand in most tests by name.
+pub const METHODS: [&str; 2] = ["SemiImplicitEuler", "VelocityVerlet"];
+
+/// A scene, ready to run.
+pub fn load(text: &str) -> Simulation {
+    Simulation::load(&Source::new("law.ron", text)).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+/// A scene that has run to its end.
+pub fn run(text: &str) -> Simulation {
+    let mut simulation = load(text);
+    simulation.run_to_end().expect("numbers stay finite");
+    simulation
+}
+
+/// `count` phases between 0 and 1 that no tick falls on twice: multiples of the golden section.
+pub fn phases(count: u32) -> impl Iterator<Item = f64> {
+    (1..=count).map(|number| (f64::from(number) * 0.618_033_988_749_894_9).fract())
+}
+
+/// The power of the tick with which errors fall: least squares of their logarithms.
+pub fn fitted_order(points: &[(f64, f64)]) -> f64 {
+    let logarithms: Vec<(f64, f64)> = points.iter().map(|(tick, error)| (tick.ln(), error.ln())).collect();
+    let count = logarithms.len() as f64;
+    let (sum_x, sum_y) = logarithms.iter().fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
+    let (mean_x, mean_y) = (sum_x / count, sum_y / count);
+    let covariance: f64 = logarithms.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let variance: f64 = logarithms.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
+    covariance / variance
+}
+
+/// Ticks and errors, to be shown when a test fails.
+pub fn table(points: &[(f64, f64)]) -> String {
+    points.iter().fold(String::new(), |mut text, (tick, error)| {
+        let _ = write!(text, " {tick:.3e}: {error:.3e};");
+        text
+    })
+}
+
+/// Asserts that a number is what it should be, to an absolute tolerance.
+#[track_caller]
+pub fn assert_near(what: &str, found: f64, exact: f64, tolerance: f64) {
+    let error = (found - exact).abs();
+    assert!(error <= tolerance, "{what}: found {found:?}, exact {exact:?}, error {error:e} > {tolerance:e}");
+}
+
+/// Momentum in N s and angular momentum about the origin in N m s, summed here and not by the engine; and the sums of
+/// their absolute values, to compare errors with.
+pub fn momenta(bodies: &Bodies) -> ((DVec2, f64), (f64, f64)) {
+    let mut totals = (DVec2::ZERO, 0.0);
+    let mut scales = (0.0, 0.0);
+    for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body]) {
+        let momentum = bodies.mass[body] * bodies.velocity[body];
+        let own = bodies.inertia[body] * bodies.spin[body];
+        let (position, turning) = (bodies.position[body], bodies.position[body].perp_dot(momentum));
+        totals.0 += momentum;
+        totals.1 += turning + own;
+        scales.0 += momentum.length();
+        scales.1 += position.length() * momentum.length() + own.abs();
+    }
+    (totals, scales)
+}
+
+/// Kinetic energy in J, summed here and not by the engine.
+pub fn kinetic(bodies: &Bodies) -> f64 {
+    let of = |body: usize| {
+        0.5 * bodies.mass[body] * bodies.velocity[body].length_squared()
+            + 0.5 * bodies.inertia[body] * bodies.spin[body].powi(2)
+    };
+    (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
+}
