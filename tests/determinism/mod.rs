@@ -1,0 +1,104 @@
+//! Same scene, same binary: same bits. Source: design of the engine: the order of every sum is a function of keys and
+//! state, never of spawning, archetypes, batches or pictures.
+//!
+//! Tolerance: none, hashes and states are compared to the last bit. A scene that would not tell one order of sums from
+//! another proves nothing, so each hash is of a pile with friction that has been shaken for thousands of ticks.
+//!
+//! Not tested: other machines, numbers of threads (physics has one).
+
+mod changes;
+mod same_bits;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use jostle::Simulation;
+use jostle::scene::Source;
+use jostle::simulation::Overrides;
+use jostle::world::{Atom, MaterialIndex, Materials, NewBody, hash::state_hash};
+
+/// A box under gravity with drag, sticking and slipping friction, and losses; `sections` and `bodies` come in addition.
+fn scene(method: &str, sections: &str, bodies: &str) -> String {
+    format!(
+        "Scene(format: 1, clock: (duration: 4, tick: 0.0005, method: {method}), {sections}
+        gravity: (0.2, -9.81), contacts: Penalty(), forces: [Drag(linear: 0.01)],
+        materials: {{
+            \"stone\": (stiffness: 4000, friction: (static: 0.5, dynamic: 0.3), inelasticity: 0.2),
+            \"wood\": (stiffness: 2000, friction: (static: 0.4, dynamic: 0.25), inelasticity: 0.4),
+        }},
+        walls: [
+            (name: \"floor\", left: (2, 0), right: (0, 0), material: \"stone\"),
+            (name: \"left\", left: (0, 0), right: (0, 2), material: \"wood\"),
+            (name: \"right\", left: (2, 2), right: (2, 0), material: \"stone\"),
+        ],
+        bodies: [{bodies}])"
+    )
+}
+
+/// Twelve clumps of four atoms as text.
+fn clumps() -> String {
+    let clump = |number: usize| {
+        let (x, y) = place(number);
+        let material = MATERIALS[number % 2];
+        format!(
+            "(name: \"clump_{number}\", at: ({x:?}, {y:?}), spin: {:?}, material: \"{material}\",
+              atoms: Picture(spacing: 0.1, mass: 0.02, rows: [\"##\", \"##\"])),",
+            spin(number)
+        )
+    };
+    (0..12).map(clump).collect()
+}
+
+const MATERIALS: [&str; 2] = ["stone", "wood"];
+
+fn place(number: usize) -> (f64, f64) {
+    (0.3 + 0.4 * (number % 4) as f64 + 0.03 * (number / 4) as f64, 0.3 + 0.4 * (number / 4) as f64)
+}
+
+fn spin(number: usize) -> f64 {
+    3.0 - number as f64
+}
+
+/// Clump `number` of the scene's materials, as a plugin would make it.
+fn new_clump(world: &World, number: usize) -> NewBody {
+    let material = MaterialIndex::new(world.resource::<Materials>().index(Some(MATERIALS[number % 2])));
+    let stiffness = world.resource::<Materials>().by_index[material.place()].stiffness;
+    let offsets = [(-0.05, 0.05), (0.05, 0.05), (-0.05, -0.05), (0.05, -0.05)];
+    let atom = |(x, y)| Atom { offset: DVec2::new(x, y), radius: 0.05, mass: 0.02, stiffness, material };
+    NewBody {
+        name: format!("clump_{number}"),
+        position: DVec2::from(place(number)),
+        spin: spin(number),
+        mass: 0.08,
+        inertia: 4.0 * 0.02 * (0.05 * 0.05 / 2.0 + 0.005),
+        atoms: offsets.into_iter().map(atom).collect(),
+        ..NewBody::default()
+    }
+}
+
+fn load(text: &str, plugins: impl FnOnce(&mut App)) -> Simulation {
+    let source = Source::new("same.ron", text);
+    Simulation::load_with(&source, &Overrides::default(), plugins).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+fn run(simulation: &mut Simulation, ticks: u64) {
+    simulation.run_to_tick(ticks).expect("numbers stay finite");
+}
+
+fn hash(simulation: &Simulation) -> u64 {
+    state_hash(simulation.bodies())
+}
+
+/// Position, velocity, angle and spin of a body, as bits.
+type State = [u64; 6];
+
+/// State of each body in canonical order, with its key.
+fn states(simulation: &Simulation) -> Vec<(u64, State)> {
+    let bodies = simulation.bodies();
+    let state = |body: usize| {
+        let (position, velocity) = (bodies.position[body], bodies.velocity[body]);
+        let numbers = [position.x, position.y, velocity.x, velocity.y, bodies.angle[body], bodies.spin[body]];
+        (bodies.key[body], numbers.map(f64::to_bits))
+    };
+    (0..bodies.len()).map(state).collect()
+}
