@@ -9,6 +9,7 @@ mod convergence;
 mod energy;
 mod forces;
 mod friction;
+mod ledger;
 mod momentum;
 mod orbit;
 mod problems;
