@@ -89,7 +89,7 @@ impl Simulation {
             finish(world);
         }
         let ticks =
-            set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![error], Vec::new()))?;
+            set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![*error], Vec::new()))?;
         observe_all(world);
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
@@ -188,29 +188,35 @@ const TICKS_PER_CONTACT: f64 = 40.0;
 /// The tick in seconds when nothing in the scene asks for a finer one.
 const COARSEST_TICK: f64 = 1e-3;
 
-fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, SceneError> {
-    let clock =
-        world.remove_resource::<ClockSection>().ok_or_else(|| SceneError::new("clock", "`clock` is missing"))?;
+fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Box<SceneError>> {
+    let clock = world
+        .remove_resource::<ClockSection>()
+        .ok_or_else(|| Box::new(SceneError::new("clock", "`clock` is missing")))?;
     let mut notes = Vec::new();
+    let duration = match overrides.duration {
+        Some(duration) => {
+            notes.push(format!("duration {duration:?} s from the command line"));
+            positive("--duration", duration)?
+        }
+        None => clock.duration.si(),
+    };
     let dt = match (overrides.tick, clock.tick) {
         (Some(tick), _) => {
-            notes.push(format!("tick {tick} s from the command line"));
+            notes.push(format!("tick {tick:?} s from the command line"));
             positive("--tick", tick)?
         }
         (None, Some(tick)) => tick.si(),
         (None, None) => {
             let (tick, why) = chosen_tick(world.get_resource());
+            let tick = tick.min(duration);
             notes.push(format!("tick {tick} s chosen: {why}"));
             tick
         }
     };
-    let duration = match overrides.duration {
-        Some(duration) => {
-            notes.push(format!("duration {duration} s from the command line"));
-            positive("--duration", duration)?
-        }
-        None => clock.duration.si(),
-    };
+    if dt > duration {
+        let message = format!("the tick of {dt:?} s is longer than the whole run of {duration:?} s");
+        return Err(Box::new(SceneError::new(if overrides.tick.is_some() { "--tick" } else { "--duration" }, message)));
+    }
     let methods = world.resource::<Methods>();
     let mut name = clock.method.0;
     if let Some(method) = &overrides.method {
@@ -226,12 +232,14 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, SceneError
         let reserved = ClockSection::RESERVED_METHODS.contains(&name.as_str());
         let why = if reserved { "is not available yet" } else { "is not a method" };
         let error = SceneError::new("--method", format!("`{name}` {why}"));
-        return Err(error.with_help(format!("known methods: Auto, {}", known.join(", "))));
+        return Err(Box::new(error.with_help(format!("known methods: Auto, {}", known.join(", ")))));
     };
     let exact = duration / dt;
     if exact > MOST_TICKS {
-        let error = SceneError::new("clock", format!("{duration} s in ticks of {dt} s are {exact:.1e} ticks"));
-        return Err(error.with_help("a run takes at most 1e15 ticks; choose a longer tick or a shorter duration"));
+        let error = SceneError::new("clock", format!("{duration:?} s in ticks of {dt:?} s are {exact:.1e} ticks"));
+        return Err(Box::new(
+            error.with_help("a run takes at most 1e15 ticks; choose a longer tick or a shorter duration"),
+        ));
     }
     // A quotient that is whole but for rounding is whole.
     let ticks =
@@ -249,11 +257,11 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, SceneError
 /// More ticks than anybody can wait for, and still counted exactly.
 const MOST_TICKS: f64 = 1e15;
 
-fn positive(flag: &str, value: f64) -> Result<f64, SceneError> {
+fn positive(flag: &str, value: f64) -> Result<f64, Box<SceneError>> {
     if value.is_finite() && value > 0.0 {
         Ok(value)
     } else {
-        Err(SceneError::new(flag, format!("must be a finite number above zero, got {value}")))
+        Err(Box::new(SceneError::new(flag, format!("must be a finite number above zero, got {value:?}"))))
     }
 }
 

@@ -74,7 +74,9 @@ impl Order<'_> {
         }
         let target = &self.place.target;
         output::open(target, &settings(1), view(trial)).map_err(|error| self.refuse(&error))?;
-        let camera = self.camera(simulation, &schedule, size)?;
+        // A still shows what the film shows at that moment, so its camera looks at the whole run too.
+        let looked_at = if self.at.is_some() { whole_run(simulation, schedule.step) } else { schedule };
+        let camera = self.camera(simulation, &looked_at, size)?;
         let threads = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
         let settings = settings(threads.min(affordable_threads(size)));
         let mut film = output::open(target, &settings, view(camera)).map_err(|error| self.refuse(&error))?;
@@ -189,6 +191,13 @@ impl Order<'_> {
         let nothing = Bounds { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
         Ok(Camera::fit(all.unwrap_or(nothing), margin, size))
     }
+}
+
+/// Frames of the whole run, `step` seconds apart or so many that nobody waits for them.
+fn whole_run(simulation: &Simulation, step: f64) -> Schedule {
+    const ENOUGH: f64 = 10_000.0;
+    let end = simulation.ticks() as f64 * simulation.clock().dt;
+    Schedule::new(0.0, end, step.max(end / ENOUGH), 1.0)
 }
 
 fn extent(bounds: Bounds) -> f64 {

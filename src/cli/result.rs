@@ -31,9 +31,6 @@ impl Detail {
     }
 }
 
-/// How expectations begin to say that the run did not last long enough for them.
-const NOT_JUDGED: &str = "the run ended before it could be judged";
-
 /// Tells how a run went, and returns how it ended. A run that was `cut` short on purpose breaks no expectation that
 /// was to be judged later.
 pub(super) fn tell(
@@ -52,7 +49,7 @@ pub(super) fn tell(
         exit = Exit::RunWrong;
     }
     let outcomes = simulation.outcomes();
-    let broken = |outcome: &&Outcome| !(outcome.holds || cut && outcome.measured.starts_with(NOT_JUDGED));
+    let broken = |outcome: &&Outcome| !(outcome.holds || cut && !outcome.judged);
     let broken: Vec<&Outcome> = outcomes.iter().filter(broken).collect();
     if !broken.is_empty() {
         exit = exit.worse(Exit::SceneWrong);

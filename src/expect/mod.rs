@@ -50,6 +50,9 @@ pub struct Outcome {
     pub holds: bool,
     /// What was measured.
     pub measured: String,
+    /// Whether the run lasted long enough to judge it.
+    #[serde(skip)]
+    pub judged: bool,
 }
 
 impl Expectations {
@@ -69,7 +72,7 @@ impl Expectations {
             if holds.is_none() {
                 measured = format!("the run ended before it could be judged; {measured}");
             }
-            Outcome { text: text.clone(), holds: holds == Some(true), measured }
+            Outcome { text: text.clone(), holds: holds == Some(true), measured, judged: holds.is_some() }
         };
         self.0.iter().map(outcome).collect()
     }

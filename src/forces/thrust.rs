@@ -97,7 +97,8 @@ struct Thrusts(Vec<ThrustForce>);
 /// Installs thrust.
 pub fn install(thrusts: Vec<ThrustForce>, app: &mut App) {
     app.insert_resource(Thrusts(thrusts));
-    app.add_packed_force(Dependence::Position, apply_thrust);
+    // The force does not depend on velocities, its power does.
+    app.add_packed_force(Dependence::Velocity, apply_thrust);
     app.add_systems(Modes, switch_thrust.in_set(EvaluateStage::Forces));
 }
 

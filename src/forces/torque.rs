@@ -53,7 +53,8 @@ struct Torques(Vec<ConstantTorque>);
 /// Installs torques.
 pub fn install(torques: Vec<ConstantTorque>, app: &mut App) {
     app.insert_resource(Torques(torques));
-    app.add_packed_force(Dependence::Position, apply_torque);
+    // The torque does not depend on velocities, its power does.
+    app.add_packed_force(Dependence::Velocity, apply_torque);
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -27,7 +27,7 @@ pub struct Method(pub Box<dyn Integrator>);
 
 impl Default for Method {
     fn default() -> Self {
-        Self(Box::new(VelocityVerlet::default()))
+        Self(Box::new(VelocityVerlet))
     }
 }
 

@@ -6,23 +6,14 @@
 //! Forces that depend on velocities see `v½ + a dt/2` at the end of the tick, an estimate of `v'` with an error of
 //! order dt²: that keeps order 2 for drag and anything a plugin adds, where `v½` alone would fall to order 1.
 
-use glam::DVec2;
-
 use super::{Description, Integrator, Method};
 use crate::tick::Tick;
 
 /// Velocity Verlet.
-#[derive(Default)]
-pub struct VelocityVerlet {
-    half_step: Vec<(DVec2, f64)>,
-}
+pub struct VelocityVerlet;
 
-pub(super) const DESCRIPTION: Description = Description {
-    name: "VelocityVerlet",
-    order: 2,
-    stability_limit: 2.0,
-    make: || Method(Box::<VelocityVerlet>::default()),
-};
+pub(super) const DESCRIPTION: Description =
+    Description { name: "VelocityVerlet", order: 2, stability_limit: 2.0, make: || Method(Box::new(VelocityVerlet)) };
 
 impl Integrator for VelocityVerlet {
     fn advance(&mut self, tick: &mut Tick) {
@@ -30,19 +21,9 @@ impl Integrator for VelocityVerlet {
         tick.kick(dt / 2.0);
         tick.drift(dt);
         if tick.velocity_dependent() {
-            let mut bodies = tick.bodies();
-            self.half_step.clear();
-            self.half_step.extend(bodies.velocity.iter().copied().zip(bodies.spin.iter().copied()));
-            bodies.kick(dt / 2.0);
-            tick.evaluate(dt);
-            let mut bodies = tick.bodies();
-            for (body, &(velocity, spin)) in self.half_step.iter().enumerate() {
-                bodies.velocity[body] = velocity;
-                bodies.spin[body] = spin;
-            }
-        } else {
-            tick.evaluate(dt);
+            tick.estimate_velocities(dt / 2.0);
         }
+        tick.evaluate(dt);
         tick.kick(dt / 2.0);
     }
 }

@@ -32,6 +32,11 @@ impl PartFile {
         let mut name = target.file_name().unwrap_or_default().to_os_string();
         name.push(".part");
         let part = target.with_file_name(name);
+        if target.exists() && !target.is_dir() && !target.is_file() {
+            // Renaming would put a file in the place of a device or pipe.
+            let cause = io::Error::new(io::ErrorKind::InvalidInput, "it is a device or a pipe, not a file");
+            return Err(OutputError::io(target, cause));
+        }
         if target.is_dir() {
             return Err(OutputError::io(target, io::Error::from(io::ErrorKind::IsADirectory)));
         }

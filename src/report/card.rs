@@ -45,7 +45,7 @@ pub struct ErrorParts {
     pub model: Option<f64>,
 }
 
-/// The estimated error of a run; `null` until it is estimated.
+/// The estimated error of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorEstimate {
     /// Of positions in metres.
@@ -91,8 +91,8 @@ pub struct Card {
     pub verdict: String,
     /// Every choice the engine made and every limit it applied.
     pub notes: Vec<String>,
-    /// The estimated error.
-    pub error: ErrorEstimate,
+    /// The estimated error; `null` until it is estimated.
+    pub error: Option<ErrorEstimate>,
     #[serde(skip)]
     ticks: u64,
     #[serde(skip)]
@@ -136,7 +136,7 @@ impl Card {
             hash: format!("{:016x}", state_hash(bodies)),
             verdict: String::new(),
             notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
-            error: ErrorEstimate::default(),
+            error: None,
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
@@ -152,7 +152,12 @@ impl Card {
     }
 
     fn judge(&self) -> String {
-        let finer = format!("--tick {}", finer_tick(self.tick));
+        // Twenty ticks per radian of the stiffest contact are plenty, however far the tick is from that.
+        let finer = self.critical_tick.map_or(self.tick, |critical| self.tick.min(critical / 5.0));
+        let finer = format!("--tick {}", finer_tick(finer));
+        if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
+            return format!("Do not trust it: numbers are no longer finite. Use {finer} or finer.");
+        }
         let contact_ticks = self.critical_tick.map(|critical| std::f64::consts::PI / 2.0 * critical / self.tick);
         let overlap = &self.largest_overlap;
         if contact_ticks.is_some_and(|ticks| ticks < std::f64::consts::PI / 2.0) {

@@ -25,7 +25,7 @@ pub struct Failure {
 impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { body, quantity, tick, time } = self;
-        write!(f, "the {quantity} of `{body}` is no longer a finite number at t = {time:.6} s (tick {tick})")
+        write!(f, "the {quantity} of `{body}` is no longer a finite number at t = {time:?} s (tick {tick})")
     }
 }
 
@@ -69,7 +69,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let evaluate = take(world, Evaluate);
     let modes = take(world, Modes);
     let method = world.resource_mut::<Drive>().method.take().unwrap_or_default();
-    let has_modes = modes.graph().systems.len() > 0;
+    let has_modes = !modes.graph().systems.is_empty();
     let mut running = Box::new(Running { method, evaluate, modes, has_modes });
     keep_components_current(world, &mut sim, &mut running.evaluate);
     let mut drive = world.resource_mut::<Drive>();
@@ -179,7 +179,8 @@ fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
     let mut bodies = world.resource_mut::<Bodies>();
     let (changed, touched) = (bodies.changed, std::mem::take(&mut bodies.touched));
     let beginning = world.resource::<Ledger>().start.is_none();
-    let differs = changed || touched || beginning || world.run_system_cached(packed::components_differ).unwrap_or(false);
+    let differs =
+        changed || touched || beginning || world.run_system_cached(packed::components_differ).unwrap_or(false);
     if !differs {
         return None;
     }
@@ -239,6 +240,12 @@ impl Tick<'_> {
         self.world.resource_mut::<Bodies>()
     }
 
+    /// Estimates the velocities `dt` seconds ahead from the present forces: the following evaluations see them in place
+    /// of the velocities, which stay as they are.
+    pub fn estimate_velocities(&mut self, dt: f64) {
+        self.world.resource_mut::<Bodies>().estimate_velocities(dt);
+    }
+
     /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
     pub fn evaluate(&mut self, elapsed: f64) {
         let mut bodies = self.world.resource_mut::<Bodies>();
@@ -246,11 +253,13 @@ impl Tick<'_> {
             bodies.accept();
         }
         bodies.pose();
+        bodies.swap_estimate();
         *self.world.resource_mut::<Balance>() = Balance::default();
         // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
         *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed };
         self.evaluate.run(self.world);
+        self.world.resource_mut::<Bodies>().swap_estimate();
     }
 
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.

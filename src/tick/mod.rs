@@ -72,7 +72,7 @@ pub enum EvaluateStage {
     Joints,
 }
 
-/// What a force depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
+/// What a force, or the power that it books, depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
 /// those who need them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependence {

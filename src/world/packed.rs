@@ -75,6 +75,11 @@ pub struct Bodies {
     pub velocity: Vec<DVec2>,
     /// Angular velocity in rad/s.
     pub spin: Vec<f64>,
+    /// Velocities in m/s that forces are evaluated with, where an integrator estimates them; empty: they see the
+    /// velocities themselves. An evaluation that is repeated for the same state sees the same estimate.
+    pub estimated_velocity: Vec<DVec2>,
+    /// Likewise angular velocities in rad/s.
+    pub estimated_spin: Vec<f64>,
     /// Displacement since the last accepted state, in metres. Tangential springs follow it.
     pub drift: Vec<DVec2>,
     /// Turn since the last accepted state, in radians.
@@ -166,6 +171,24 @@ impl Bodies {
         self.turn.fill(0.0);
     }
 
+    /// Estimates the velocities `dt` seconds ahead from the present forces.
+    pub fn estimate_velocities(&mut self, dt: f64) {
+        self.estimated_velocity.clone_from(&self.velocity);
+        self.estimated_spin.clone_from(&self.spin);
+        for body in 0..self.len() {
+            self.estimated_velocity[body] += self.force[body] * (self.inverse_mass[body] * dt);
+            self.estimated_spin[body] += self.torque[body] * (self.inverse_inertia[body] * dt);
+        }
+    }
+
+    /// Before an evaluation the estimate, if there is one, takes the place of the velocities; afterwards it goes back.
+    pub fn swap_estimate(&mut self) {
+        if !self.estimated_velocity.is_empty() {
+            std::mem::swap(&mut self.velocity, &mut self.estimated_velocity);
+            std::mem::swap(&mut self.spin, &mut self.estimated_spin);
+        }
+    }
+
     /// Velocities change by the present forces over `dt` seconds.
     pub fn kick(&mut self, dt: f64) {
         for body in 0..self.len() {
@@ -248,8 +271,14 @@ pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State>) {
             bodies.angle[body] = rotation.0;
             bodies.angle_rest[body] = 0.0;
         }
-        bodies.velocity[body] = velocity.0;
-        bodies.spin[body] = spin.0;
+        if bodies.velocity[body] != velocity.0 || bodies.spin[body] != spin.0 {
+            bodies.velocity[body] = velocity.0;
+            bodies.spin[body] = spin.0;
+            if !bodies.estimated_velocity.is_empty() {
+                bodies.estimated_velocity[body] = velocity.0;
+                bodies.estimated_spin[body] = spin.0;
+            }
+        }
     }
 }
 
@@ -307,8 +336,15 @@ pub fn rebuild(world: &mut World) {
         bodies.position_rest.push(position_kept.map_or(DVec2::ZERO, |b| previous.position_rest[b]));
         bodies.angle.push(angle);
         bodies.angle_rest.push(angle_kept.map_or(0.0, |b| previous.angle_rest[b]));
-        bodies.velocity.push(body.get::<Velocity>().expect("Body requires Velocity").0);
-        bodies.spin.push(body.get::<Spin>().expect("Body requires Spin").0);
+        let velocity = body.get::<Velocity>().expect("Body requires Velocity").0;
+        let spin = body.get::<Spin>().expect("Body requires Spin").0;
+        bodies.velocity.push(velocity);
+        bodies.spin.push(spin);
+        if !previous.estimated_velocity.is_empty() {
+            let kept = kept(before.is_some_and(|b| previous.velocity[b] == velocity && previous.spin[b] == spin));
+            bodies.estimated_velocity.push(kept.map_or(velocity, |b| previous.estimated_velocity[b]));
+            bodies.estimated_spin.push(kept.map_or(spin, |b| previous.estimated_spin[b]));
+        }
         bodies.drift.push(DVec2::ZERO);
         bodies.turn.push(0.0);
         bodies.force.push(DVec2::ZERO);

@@ -137,7 +137,7 @@ impl Sink<'_> {
 
     /// `force` acts on an atom where it touches the wall, `height` metres from its centre.
     #[inline]
-    fn from_wall(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
+    fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
         let arm = end.arm - normal * height;
         self.on_body(end, arm, force);
         self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
@@ -228,7 +228,7 @@ pub(super) fn apply_penalty(
         }
         touching_walls.push(Touching { place: place as u32, normal: packed.normal });
         deepest.note(contact.overlap, end.radius, evaluation.time, || (sink.bodies.entity[end.body], packed.entity));
-        sink.from_wall(&end, wall, packed.normal, height, contact.force(law, packed.normal));
+        sink.wall_pushes(&end, wall, packed.normal, height, contact.force(law, packed.normal));
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
@@ -264,7 +264,7 @@ pub(super) fn choose_modes(
         if let Some(before) = contact.choose_mode(law, end.velocity(sink.bodies).dot(normal), &mut losses) {
             let change = contact.force(law, normal) - before.force(law, normal);
             let height = end.radius - contact.overlap;
-            sink.from_wall(&end, pair.wall, normal, height, change);
+            sink.wall_pushes(&end, pair.wall, normal, height, change);
         }
     }
     ledger.friction.add(losses.friction);

@@ -21,13 +21,7 @@ pub struct Stretched {
 /// Stretches a spring by `displacement` metres under the normal force `normal_force`; `None`: no time has passed, only
 /// the normal force is another one. A contact that slips begins to stick by moving back, never by being looked at.
 #[inline]
-pub fn stretch(
-    law: &PairLaw,
-    before: f64,
-    slipping: bool,
-    displacement: Option<f64>,
-    normal_force: f64,
-) -> Stretched {
+pub fn stretch(law: &PairLaw, before: f64, slipping: bool, displacement: Option<f64>, normal_force: f64) -> Stretched {
     let stiffness = law.tangential_stiffness;
     let trial = before + displacement.unwrap_or(0.0);
     let coefficient = if slipping { law.friction_dynamic } else { law.friction_static };

@@ -12,7 +12,7 @@ use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
 use crate::world::material;
 
-/// The largest number of bodies of one entry.
+/// The largest number of bodies of all entries together.
 pub const LARGEST_COUNT: u64 = 1_000_000;
 /// How often a place is tried for one body before the box counts as full.
 const TRIES: usize = 20_000;
@@ -86,6 +86,11 @@ impl FillSection {
         for (index, entry) in self.0.iter().enumerate() {
             good &=
                 report.all_good(|report| report.within(&format!("[{index}]"), |report| entry.check(outline, report)));
+        }
+        let all: u64 = self.0.iter().map(|entry| entry.count.0).fold(0, u64::saturating_add);
+        if good && all > LARGEST_COUNT {
+            report.error("", format!("must be at most {LARGEST_COUNT} bodies in all, got {all}"));
+            return;
         }
         if !good || !outline.complete {
             return;
