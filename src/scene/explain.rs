@@ -36,6 +36,9 @@ pub(crate) struct Walked<'a> {
     pub(crate) tree: &'a Tree,
 }
 
+/// Fields and choices inside sections that are kept for later versions of the language.
+const LATER: [&str; 4] = ["kinematic", "shape", "surface_velocity", "Dashpot"];
+
 impl Walked<'_> {
     fn path(&self, id: Id) -> String {
         self.tree.path(id, self.text)
@@ -68,6 +71,18 @@ impl Walked<'_> {
                 .with_help(for_example.clone())
         };
         match code {
+            Error::NoSuchStructField { found, .. } | Error::NoSuchEnumVariant { found, .. }
+                if LATER.contains(&found.as_str()) =>
+            {
+                let span = self.tree.span(behind);
+                let span = match code {
+                    Error::NoSuchStructField { .. } => self.tree.head(behind),
+                    _ => span.start..(span.start + found.len()).min(span.end),
+                };
+                SceneError::new(self.path(behind), format!("`{found}` is not available yet"))
+                    .at(span, "not available yet")
+                    .with_help("the name is reserved for a later version; remove it")
+            }
             Error::NoSuchStructField { expected, found, .. } => {
                 let key = behind;
                 let parent = self.tree.node(key).parent;

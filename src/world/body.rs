@@ -1,6 +1,6 @@
 //! A body: position, velocity, mass, and the forces of the present evaluation, as components.
 //!
-//! The components are the truth between ticks. Inside a tick the packed [`Bodies`](super::Bodies) hold the state; the
+//! The components are the truth between ticks. Inside a tick the packed [`Bodies`] hold the state; the
 //! components are brought up to date for whoever reads them (see [`crate::tick`]).
 
 use bevy_ecs::lifecycle::HookContext;
