@@ -64,3 +64,8 @@ pub mod report;
 pub mod problems;
 
 pub use simulation::Simulation;
+
+/// The examples of the README are run by the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
