@@ -7,13 +7,14 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
-use crate::scene::{Kind, Outline, Report};
+use crate::scene::{Kind, Outline, Report, Section};
 
 /// The name of the material of everything that names none. It is always there; a scene may redefine it.
 pub const DEFAULT: &str = "default";
@@ -327,24 +328,26 @@ impl MaterialEntry {
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct MaterialsSection(pub OrderedMap<MaterialEntry>);
 
-impl MaterialsSection {
-    /// The section's name.
-    pub const NAME: &'static str = "materials";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "materials: { \"rock\": (friction: 0.5, restitution: 0.8, density: 2.5) }";
+impl Section for MaterialsSection {
+    const NAME: &'static str = "materials";
+    const EXAMPLE: &'static str = "materials: { \"rock\": (friction: 0.5, restitution: 0.8, density: 2.5) }";
 
     /// Declares the materials' names.
-    pub fn declare(&self, outline: &mut Outline) {
+    fn declare(&self, outline: &mut Outline) {
         for (name, _) in &self.0.0 {
             outline.declare(Kind::MATERIAL, name, &format!("[\"{name}\"]"));
         }
     }
 
     /// Reports numbers out of their range and unknown colours.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         for (name, entry) in &self.0.0 {
             report.within(&format!("[\"{name}\"]"), |report| entry.check(outline, report));
         }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.insert_resource(Materials::new(Some(&self), None));
     }
 }
 
@@ -369,14 +372,12 @@ pub struct PairEntry {
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct PairsSection(pub Vec<PairEntry>);
 
-impl PairsSection {
-    /// The section's name.
-    pub const NAME: &'static str = "pairs";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "pairs: [(between: (\"block\", \"rock\"), friction: 0.1)]";
+impl Section for PairsSection {
+    const NAME: &'static str = "pairs";
+    const EXAMPLE: &'static str = "pairs: [(between: (\"block\", \"rock\"), friction: 0.1)]";
 
     /// Reports unknown materials, pairs that stand twice or say nothing, and numbers out of their range.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         let mut seen: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for (index, pair) in self.0.iter().enumerate() {
             let (a, b) = (pair.between.0.as_str(), pair.between.1.as_str());
@@ -399,6 +400,10 @@ impl PairsSection {
                 }
             });
         }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.world_mut().resource_mut::<Materials>().set_pairs(&self);
     }
 }
 

@@ -6,7 +6,7 @@ pub mod finite;
 pub mod hash;
 pub mod material;
 pub mod packed;
-mod sections;
+pub mod sections;
 pub mod spawn;
 pub mod wall;
 

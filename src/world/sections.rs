@@ -7,7 +7,7 @@ use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::NextKey;
 use super::{Atom, Motion, Name, NewBody, Wall};
 use crate::scene::sections::{BodiesSection, FillSection, InertiaRule, WallsSection};
-use crate::scene::{Kind, Outline, Report, SceneAppExt, Section};
+use crate::scene::{Kind, Outline, SceneAppExt};
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::shapes::{AtomSpec, Atoms};
 
@@ -21,120 +21,51 @@ pub fn plugin(app: &mut App) {
     app.register_section::<FillSection>();
 }
 
-impl Section for MaterialsSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn declare(&self, outline: &mut Outline) {
-        self.declare(outline);
-    }
-
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        self.check(outline, report);
-    }
-
-    fn install(self, _: &Outline, app: &mut App) {
-        app.insert_resource(Materials::new(Some(&self), None));
+/// Spawns the walls of a scene.
+pub fn spawn_walls(section: WallsSection, world: &mut World) {
+    for wall in section.0 {
+        let material = material(world, wall.material.as_deref());
+        let mut next = world.get_resource_or_init::<NextKey>();
+        let key = next.wall;
+        next.wall += 1;
+        let (left, right) = (wall.left.si(), wall.right.si());
+        world.spawn((Wall { key, left, right, material }, Name(wall.name)));
     }
 }
 
-impl Section for PairsSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        self.check(outline, report);
-    }
-
-    fn install(self, _: &Outline, app: &mut App) {
-        app.world_mut().resource_mut::<Materials>().set_pairs(&self);
-    }
-}
-
-impl Section for WallsSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn declare(&self, outline: &mut Outline) {
-        self.declare(outline);
-    }
-
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        self.check(outline, report);
-    }
-
-    fn install(self, _: &Outline, app: &mut App) {
-        let world = app.world_mut();
-        for wall in self.0 {
-            let material = material(world, wall.material.as_deref());
-            let mut next = world.get_resource_or_init::<NextKey>();
-            let key = next.wall;
-            next.wall += 1;
-            let (left, right) = (wall.left.si(), wall.right.si());
-            world.spawn((Wall { key, left, right, material }, Name(wall.name)));
-        }
+/// Spawns the bodies of a scene.
+pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World) {
+    for entry in section.0 {
+        let template = Template::of(world, &entry.atoms, entry.material.as_deref());
+        let properties = entry.mass_properties(template.density);
+        let body = NewBody {
+            position: entry.start(&properties),
+            motion: if entry.fixed { Motion::Fixed } else { Motion::Dynamic },
+            collides: entry.collides,
+            angle: entry.angle.si(),
+            velocity: entry.velocity.si(),
+            spin: entry.spin.si(),
+            name: entry.name,
+            ..template.body(&properties)
+        };
+        spawn(body, outline, world);
     }
 }
 
-impl Section for BodiesSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn declare(&self, outline: &mut Outline) {
-        self.declare(outline);
-    }
-
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        self.check(outline, report);
-    }
-
-    fn install(self, outline: &Outline, app: &mut App) {
-        for entry in self.0 {
-            let world = app.world_mut();
-            let template = Template::of(world, &entry.atoms, entry.material.as_deref());
-            let properties = entry.mass_properties(template.density);
+/// Spawns the bodies of the fills of a scene.
+pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
+    for (entry, placed) in section.0.iter().zip(section.place(outline)) {
+        let template = Template::of(world, &entry.atoms, entry.material.as_deref());
+        let properties = mass_properties::of(&template.specs, None, InertiaRule::default(), template.density);
+        for (number, place) in placed.into_iter().enumerate() {
             let body = NewBody {
-                position: entry.start(&properties),
-                motion: if entry.fixed { Motion::Fixed } else { Motion::Dynamic },
-                collides: entry.collides,
-                angle: entry.angle.si(),
-                velocity: entry.velocity.si(),
-                spin: entry.spin.si(),
-                name: entry.name,
+                name: entry.body_name(number as u64),
+                position: place.position,
+                angle: place.angle,
+                velocity: place.velocity,
                 ..template.body(&properties)
             };
             spawn(body, outline, world);
-        }
-    }
-}
-
-impl Section for FillSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn declare(&self, outline: &mut Outline) {
-        self.declare(outline);
-    }
-
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        self.check(outline, report);
-    }
-
-    fn install(self, outline: &Outline, app: &mut App) {
-        let world = app.world_mut();
-        for (entry, placed) in self.0.iter().zip(self.place(outline)) {
-            let template = Template::of(world, &entry.atoms, entry.material.as_deref());
-            let properties = mass_properties::of(&template.specs, None, InertiaRule::default(), template.density);
-            for (number, place) in placed.into_iter().enumerate() {
-                let body = NewBody {
-                    name: entry.body_name(number as u64),
-                    position: place.position,
-                    angle: place.angle,
-                    velocity: place.velocity,
-                    ..template.body(&properties)
-                };
-                spawn(body, outline, world);
-            }
         }
     }
 }

@@ -1,13 +1,14 @@
 //! `bodies`: everything that moves, or stands fixed.
 
+use bevy_app::App;
 use glam::DVec2;
 use serde::Deserialize;
 
 use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
-use crate::scene::{Kind, Obstacle, Outline, Report};
+use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
 use crate::shapes::mass_properties::{self, MassProperties};
-use crate::world::material;
+use crate::world::{material, sections};
 
 pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 
@@ -60,14 +61,12 @@ fn yes() -> bool {
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct BodiesSection(pub Vec<BodyEntry>);
 
-impl BodiesSection {
-    /// The section's name.
-    pub const NAME: &'static str = "bodies";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "bodies: [(name: \"ball\", at: (2, 3), atoms: Disc(radius: 0.2))]";
+impl Section for BodiesSection {
+    const NAME: &'static str = "bodies";
+    const EXAMPLE: &'static str = "bodies: [(name: \"ball\", at: (2, 3), atoms: Disc(radius: 0.2))]";
 
     /// Declares the bodies' names.
-    pub fn declare(&self, outline: &mut Outline) {
+    fn declare(&self, outline: &mut Outline) {
         for (index, body) in self.0.iter().enumerate() {
             outline.declare(Kind::BODY, &body.name, &format!("[{index}].name"));
             if body.collides {
@@ -77,10 +76,14 @@ impl BodiesSection {
     }
 
     /// Reports wrong atoms, masses, places and unknown materials.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         for (index, body) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| body.check(outline, report));
         }
+    }
+
+    fn install(self, outline: &Outline, app: &mut App) {
+        sections::spawn_bodies(self, outline, app.world_mut());
     }
 }
 

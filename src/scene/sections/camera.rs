@@ -1,9 +1,11 @@
 //! `camera`: which part of the world the film shows. Entries `Fit` and `Look`; `Follow` is reserved.
 
+use bevy_app::App;
+use bevy_ecs::resource::Resource;
 use serde::Deserialize;
 
-use crate::scene::Report;
 use crate::scene::units::{Length, Position, Scalar};
+use crate::scene::{Entry, Outline, Report, Written};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
@@ -31,15 +33,20 @@ impl Default for FitCamera {
     }
 }
 
-impl FitCamera {
-    /// The entry's name.
-    pub const NAME: &'static str = "Fit";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "Fit(margin: 0.05)";
+impl Entry for FitCamera {
+    const SECTION: &'static str = SECTION;
+    const NAME: &'static str = "Fit";
+    const EXAMPLE: &'static str = "Fit(margin: 0.05)";
 
     /// Reports a margin that leaves no picture.
-    pub fn check(&self, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Report) {
         report.between("margin", self.margin, 0.0, 0.45);
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        for entry in entries {
+            app.insert_resource(CameraChoice::Fit(entry.value));
+        }
     }
 }
 
@@ -53,15 +60,29 @@ pub struct LookCamera {
     pub height: Length,
 }
 
-impl LookCamera {
-    /// The entry's name.
-    pub const NAME: &'static str = "Look";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "Look(center: (3, 3), height: 6)";
+impl Entry for LookCamera {
+    const SECTION: &'static str = SECTION;
+    const NAME: &'static str = "Look";
+    const EXAMPLE: &'static str = "Look(center: (3, 3), height: 6)";
 
     /// Reports a height that is not above zero.
-    pub fn check(&self, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Report) {
         report.finite_pair("center", self.center.si());
         report.positive("height", self.height);
     }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        for entry in entries {
+            app.insert_resource(CameraChoice::Look(entry.value));
+        }
+    }
+}
+
+/// The camera of the scene. Absent: everything fits, with the default margin.
+#[derive(Resource, Clone, Debug)]
+pub enum CameraChoice {
+    /// Everything that moves stays in the picture.
+    Fit(FitCamera),
+    /// A fixed part of the world.
+    Look(LookCamera),
 }

@@ -1,11 +1,12 @@
 //! `clock`: how long, in which steps, by which method.
 
+use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use serde::Deserialize;
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::Word;
-use crate::scene::{Outline, Report};
+use crate::scene::{Outline, Report, Section};
 
 /// When forces jump (touch, part, stick, slip), inside a tick or at its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -45,10 +46,6 @@ fn auto() -> Word {
 }
 
 impl ClockSection {
-    /// The section's name.
-    pub const NAME: &'static str = "clock";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "clock: (duration: 20, tick: \"1 ms\", method: VelocityVerlet)";
     /// The open list of words the method is checked against: integrators add their names with
     /// [`register_word`](crate::scene::SceneAppExt::register_word).
     pub const METHODS: &'static str = "method";
@@ -57,10 +54,15 @@ impl ClockSection {
     /// Methods of the language that are reserved until an integrator registers them.
     pub const RESERVED_METHODS: [&'static str; 6] =
         ["ExplicitEuler", "RungeKutta4", "Dop853", "ImplicitMidpoint", "Symplectic4", "Reference"];
+}
+
+impl Section for ClockSection {
+    const NAME: &'static str = "clock";
+    const EXAMPLE: &'static str = "clock: (duration: 20, tick: \"1 ms\", method: VelocityVerlet)";
 
     /// Reports lengths of time that are not above zero, a tick longer than the run, unknown methods and what is not
     /// available yet.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         let long = report.positive("duration", self.duration);
         if let Some(tick) = self.tick
             && report.positive("tick", tick)
@@ -83,5 +85,9 @@ impl ClockSection {
         if self.events == EventTiming::Located {
             report.error("events", "`Located` is not available yet").help("write `events: Auto`, or leave it out");
         }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.insert_resource(self);
     }
 }

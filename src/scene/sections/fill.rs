@@ -1,5 +1,6 @@
 //! `fill`: many equal bodies in a box, none touching another, by seeded chance.
 
+use bevy_app::App;
 use glam::DVec2;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -7,10 +8,10 @@ use serde::Deserialize;
 
 use crate::scene::units::{Position, Speed};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Kind, Obstacle, Outline, Report};
+use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
-use crate::world::material;
+use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together.
 pub const LARGEST_COUNT: u64 = 1_000_000;
@@ -62,14 +63,28 @@ pub struct Placed {
 pub struct FillSection(pub Vec<FillEntry>);
 
 impl FillSection {
-    /// The section's name.
-    pub const NAME: &'static str = "fill";
-    /// One correct use.
-    pub const EXAMPLE: &'static str =
+    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the box
+    /// is full, which `check` reports. The outline tells which places are taken.
+    pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
+        let mut taken = outline.obstacles().to_vec();
+        let mut all = Vec::new();
+        for entry in &self.0 {
+            let radius = mass_properties::reach(&entry.atoms.specs());
+            let placed = entry.place(radius, &taken);
+            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
+            all.push(placed);
+        }
+        all
+    }
+}
+
+impl Section for FillSection {
+    const NAME: &'static str = "fill";
+    const EXAMPLE: &'static str =
         "fill: [(name: \"gas\", atoms: Disc(radius: 0.02), count: 500, within: ((0, 0), (6, 6)), speed: 1, seed: 7)]";
 
     /// Declares the bodies' names.
-    pub fn declare(&self, outline: &mut Outline) {
+    fn declare(&self, outline: &mut Outline) {
         for (index, entry) in self.0.iter().enumerate() {
             for number in 0..entry.count.0.min(LARGEST_COUNT) {
                 // One message about a bad name is enough.
@@ -81,7 +96,7 @@ impl FillSection {
     }
 
     /// Reports wrong atoms, counts and boxes, unknown materials, and boxes in which not all bodies find room.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         let mut good = true;
         for (index, entry) in self.0.iter().enumerate() {
             good &=
@@ -109,18 +124,8 @@ impl FillSection {
         }
     }
 
-    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the box
-    /// is full, which `check` reports. The outline tells which places are taken.
-    pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
-        let mut taken = outline.obstacles().to_vec();
-        let mut all = Vec::new();
-        for entry in &self.0 {
-            let radius = mass_properties::reach(&entry.atoms.specs());
-            let placed = entry.place(radius, &taken);
-            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
-            all.push(placed);
-        }
-        all
+    fn install(self, outline: &Outline, app: &mut App) {
+        sections::spawn_fill(self, outline, app.world_mut());
     }
 }
 

@@ -1,11 +1,12 @@
 //! `film`: what is drawn of the run. It never changes the physics.
 
+use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use serde::Deserialize;
 
-use crate::scene::Report;
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::values::WholeNumber;
+use crate::scene::{Outline, Report, Section};
 
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
@@ -32,11 +33,6 @@ pub struct FilmSection {
 }
 
 impl FilmSection {
-    /// The section's name.
-    pub const NAME: &'static str = "film";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5)";
-
     /// Frames per second of the film. Default: 30.
     pub fn frames_per_second(&self) -> f64 {
         self.fps.map_or(30.0, Rate::si)
@@ -61,9 +57,14 @@ impl FilmSection {
     pub fn end(&self) -> f64 {
         self.to.map_or(f64::INFINITY, Time::si)
     }
+}
+
+impl Section for FilmSection {
+    const NAME: &'static str = "film";
+    const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5)";
 
     /// Reports rates, sizes and moments that give no film.
-    pub fn check(&self, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Report) {
         if let Some(fps) = self.fps {
             report.between("fps", fps, 0.01, 1000.0);
         }
@@ -86,5 +87,9 @@ impl FilmSection {
         {
             report.error("to", format!("must be after `from`, which is {} s, got {} s", from.si(), to.si()));
         }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.insert_resource(self);
     }
 }

@@ -1,12 +1,11 @@
-//! What becomes of `clock`, `film` and `camera`: resources, for whoever runs and draws the scene.
+//! The sections that describe the run and the film, and the names that are kept for later versions.
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 
 use super::camera::{self, FitCamera, LookCamera};
 use super::{ClockSection, FilmSection};
 use crate::raster::COLOR_NAMES;
-use crate::scene::{Arity, Entry, Outline, Report, SceneAppExt, Section, Written};
+use crate::scene::{Arity, SceneAppExt};
 use crate::world::material::COLORS;
 
 /// Names of the language that are kept for later.
@@ -32,72 +31,5 @@ pub fn plugin(app: &mut App) {
     }
     for later in RESERVED {
         app.reserve_section(later);
-    }
-}
-
-impl Section for ClockSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        self.check(outline, report);
-    }
-
-    fn install(self, _: &Outline, app: &mut App) {
-        app.insert_resource(self);
-    }
-}
-
-impl Section for FilmSection {
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn check(&self, _: &Outline, report: &mut Report) {
-        self.check(report);
-    }
-
-    fn install(self, _: &Outline, app: &mut App) {
-        app.insert_resource(self);
-    }
-}
-
-/// The camera of the scene. Absent: everything fits, with the default margin.
-#[derive(Resource, Clone, Debug)]
-pub enum CameraChoice {
-    /// Everything that moves stays in the picture.
-    Fit(FitCamera),
-    /// A fixed part of the world.
-    Look(LookCamera),
-}
-
-impl Entry for FitCamera {
-    const SECTION: &'static str = camera::SECTION;
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn check(&self, _: &Outline, report: &mut Report) {
-        self.check(report);
-    }
-
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        for entry in entries {
-            app.insert_resource(CameraChoice::Fit(entry.value));
-        }
-    }
-}
-
-impl Entry for LookCamera {
-    const SECTION: &'static str = camera::SECTION;
-    const NAME: &'static str = Self::NAME;
-    const EXAMPLE: &'static str = Self::EXAMPLE;
-
-    fn check(&self, _: &Outline, report: &mut Report) {
-        self.check(report);
-    }
-
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        for entry in entries {
-            app.insert_resource(CameraChoice::Look(entry.value));
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! The sections of the scene language that come with the engine, as plain data: one file each.
 //!
-//! Each has its fields with units and defaults, `declare` for the names it brings and `check` for what types cannot
-//! exclude. What is built from them stands with the model that needs it.
+//! Each has its fields with units and defaults, and says which names it brings, what types cannot exclude, and what is
+//! built from it.
 
 pub mod bodies;
 pub mod camera;
@@ -12,9 +12,9 @@ mod install;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
-pub use camera::{FitCamera, LookCamera};
+pub use camera::{CameraChoice, FitCamera, LookCamera};
 pub use clock::{ClockSection, EventTiming};
 pub use fill::{FillEntry, FillSection};
 pub use film::FilmSection;
-pub use install::{CameraChoice, plugin};
+pub use install::plugin;
 pub use walls::{WallEntry, WallsSection};

@@ -1,10 +1,11 @@
 //! `walls`: half-planes that nothing enters.
 
+use bevy_app::App;
 use serde::Deserialize;
 
 use crate::scene::units::Position;
-use crate::scene::{Kind, Obstacle, Outline, Report};
-use crate::world::material;
+use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::world::{material, sections};
 
 /// One wall: the half-plane behind the line through two points.
 #[derive(Clone, Debug, Deserialize)]
@@ -25,14 +26,12 @@ pub struct WallEntry {
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct WallsSection(pub Vec<WallEntry>);
 
-impl WallsSection {
-    /// The section's name.
-    pub const NAME: &'static str = "walls";
-    /// One correct use.
-    pub const EXAMPLE: &'static str = "walls: [(name: \"floor\", left: (6, 0), right: (0, 0), material: \"rock\")]";
+impl Section for WallsSection {
+    const NAME: &'static str = "walls";
+    const EXAMPLE: &'static str = "walls: [(name: \"floor\", left: (6, 0), right: (0, 0), material: \"rock\")]";
 
     /// Declares the walls' names.
-    pub fn declare(&self, outline: &mut Outline) {
+    fn declare(&self, outline: &mut Outline) {
         for (index, wall) in self.0.iter().enumerate() {
             outline.declare(Kind::WALL, &wall.name, &format!("[{index}].name"));
             outline.occupy(Obstacle::Wall { left: wall.left.si(), right: wall.right.si() });
@@ -40,10 +39,14 @@ impl WallsSection {
     }
 
     /// Reports two points in one place and unknown materials.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         for (index, wall) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| wall.check(outline, report));
         }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        sections::spawn_walls(self, app.world_mut());
     }
 }
 

@@ -22,7 +22,7 @@ fn log(app: &mut App, line: String) {
 
 // The models install these sections; here they are only read and checked.
 macro_rules! section {
-    ($name:ident, $data:ty, |$it:ident, $outline:ident| $declare:expr, |$report:ident| $check:expr) => {
+    ($name:ident, $data:ty) => {
         struct $name($data);
 
         impl<'de> Deserialize<'de> for $name {
@@ -35,16 +35,12 @@ macro_rules! section {
             const NAME: &'static str = <$data>::NAME;
             const EXAMPLE: &'static str = <$data>::EXAMPLE;
 
-            #[allow(unused_variables)]
-            fn declare(&self, $outline: &mut Outline) {
-                let $it = &self.0;
-                $declare
+            fn declare(&self, outline: &mut Outline) {
+                self.0.declare(outline);
             }
 
-            #[allow(unused_variables)]
-            fn check(&self, $outline: &Outline, $report: &mut Report) {
-                let $it = &self.0;
-                $check
+            fn check(&self, outline: &Outline, report: &mut Report) {
+                self.0.check(outline, report);
             }
 
             fn install(self, _outline: &Outline, app: &mut App) {
@@ -54,13 +50,13 @@ macro_rules! section {
     };
 }
 
-section!(Clock, ClockSection, |it, outline| {}, |report| it.check(outline, report));
-section!(Film, FilmSection, |it, outline| {}, |report| it.check(report));
-section!(Walls, WallsSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
-section!(Bodies, BodiesSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
-section!(Fill, FillSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
-section!(Materials, MaterialsSection, |it, outline| it.declare(outline), |report| it.check(outline, report));
-section!(Pairs, PairsSection, |it, outline| {}, |report| it.check(outline, report));
+section!(Clock, ClockSection);
+section!(Film, FilmSection);
+section!(Walls, WallsSection);
+section!(Bodies, BodiesSection);
+section!(Fill, FillSection);
+section!(Materials, MaterialsSection);
+section!(Pairs, PairsSection);
 
 macro_rules! camera {
     ($name:ident, $data:ty) => {
@@ -77,8 +73,8 @@ macro_rules! camera {
             const NAME: &'static str = <$data>::NAME;
             const EXAMPLE: &'static str = <$data>::EXAMPLE;
 
-            fn check(&self, _outline: &Outline, report: &mut Report) {
-                self.0.check(report);
+            fn check(&self, outline: &Outline, report: &mut Report) {
+                self.0.check(outline, report);
             }
 
             fn install(entries: Vec<Written<Self>>, _outline: &Outline, app: &mut App) {
