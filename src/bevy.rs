@@ -116,7 +116,7 @@ impl PhysicsPlugin {
     /// All mistakes of the scene, with their places; overrides that cannot be; a second scene for one app.
     pub fn install(&self, app: &mut App) -> Result<(), SceneErrors> {
         if app.world().contains_resource::<Run>() {
-            let error = SceneError::new("", "this app runs a scene already");
+            let error = SceneError::new("", "this app has been given a scene already, and takes only one");
             return Err(SceneErrors::new(self.source.clone(), vec![error], Vec::new()));
         }
         app.insert_resource(Run::Running);
@@ -141,6 +141,11 @@ impl Plugin for PhysicsPlugin {
         if let Err(errors) = self.install(app) {
             app.insert_resource(Run::Refused(errors));
         }
+    }
+
+    /// A second scene is refused like other mistakes; Bevy would panic.
+    fn is_unique(&self) -> bool {
+        false
     }
 }
 

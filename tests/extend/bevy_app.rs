@@ -165,6 +165,9 @@ fn a_wrong_scene_and_a_second_one_are_refused_without_a_panic() {
     PhysicsPlugin::new(scene(), Pace::Free).install(&mut app).unwrap();
     let told = PhysicsPlugin::new(scene(), Pace::Free).install(&mut app).unwrap_err();
     assert!(told.to_string().contains("already"), "{told}");
+    // As a plugin, the second one stops the first: neither is what was asked for.
+    app.add_plugins((PhysicsPlugin::new(scene(), Pace::Free), PhysicsPlugin::new(scene(), Pace::Free)));
+    assert!(app.world().resource::<Run>().trouble().unwrap().contains("already"));
 }
 
 #[test]
