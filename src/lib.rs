@@ -31,6 +31,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "bevy")]
+pub mod bevy;
 pub mod cli;
 pub mod plugins;
 pub mod simulation;

@@ -73,24 +73,27 @@ impl Simulation {
         overrides: &Overrides,
         plugins: impl FnOnce(&mut App),
     ) -> Result<Self, SceneErrors> {
+        Self::load_only(source, overrides, |app| {
+            crate::plugins::standard(app);
+            plugins(app);
+        })
+    }
+
+    /// Reads a scene with nothing but the plugins given: what they do not register, the scene cannot name.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, with their places; overrides that cannot be.
+    pub fn load_only(
+        source: &Source,
+        overrides: &Overrides,
+        plugins: impl FnOnce(&mut App),
+    ) -> Result<Self, SceneErrors> {
         let mut app = App::empty();
-        app.add_tick();
-        app.init_resource::<Notes>().init_resource::<Finishers>();
-        crate::plugins::standard(&mut app);
-        plugins(&mut app);
-        let header = scene::load(&mut app, source)?;
-        contacts::install_default(&header.outline, &mut app);
+        let header = read(&mut app, source, plugins)?;
         app.finish();
         app.cleanup();
         let world = app.world_mut();
-        world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
-        packed::rebuild(world);
-        for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
-            finish(world);
-        }
-        let ticks =
-            set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![*error], Vec::new()))?;
-        observe_all(world);
+        let ticks = begin(world, source, &header, overrides)?;
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
     }
@@ -181,6 +184,34 @@ impl Simulation {
     pub fn outcomes(&self) -> Vec<Outcome> {
         self.world().get_resource::<Expectations>().map_or_else(Vec::new, Expectations::outcomes)
     }
+}
+
+/// Reads a scene into an app: afterwards everything in it is installed.
+pub(crate) fn read(app: &mut App, source: &Source, plugins: impl FnOnce(&mut App)) -> Result<SceneHeader, SceneErrors> {
+    app.add_tick();
+    app.init_resource::<Notes>().init_resource::<Finishers>();
+    plugins(app);
+    let header = scene::load(app, source)?;
+    contacts::install_default(&header.outline, app);
+    Ok(header)
+}
+
+/// Makes a scene that was read ready for its first tick; returns the number of ticks it is to run.
+pub(crate) fn begin(
+    world: &mut World,
+    source: &Source,
+    header: &SceneHeader,
+    overrides: &Overrides,
+) -> Result<u64, SceneErrors> {
+    world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
+    packed::rebuild(world);
+    for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
+        finish(world);
+    }
+    let ticks =
+        set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![*error], Vec::new()))?;
+    observe_all(world);
+    Ok(ticks)
 }
 
 /// Ticks per half period of the stiffest contact when the engine chooses the tick.

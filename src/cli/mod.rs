@@ -5,6 +5,7 @@ mod examples;
 mod film;
 mod flags;
 mod load;
+mod new;
 mod pace;
 mod progress;
 mod render;
@@ -48,6 +49,7 @@ Examples:
   jostle render scenes/*.ron -o films/                   a film of each scene
   jostle run example:projectile -o channels.csv          numbers instead of pictures
   jostle check my_scene.ron                              read it and say what is wrong
+  jostle new scene my_scene                              a scene to begin with
 
 Scenes that come with the program: {scenes}.
 
@@ -75,6 +77,8 @@ enum Command {
     Render(render::Render),
     /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),
+    /// Write a starting point: a plugin or a scene
+    New(new::New),
 }
 
 impl CommandLine {
@@ -84,6 +88,7 @@ impl CommandLine {
             Command::Run(run) => run.execute(),
             Command::Render(render) => render.execute(),
             Command::Check(check) => check.execute(),
+            Command::New(new) => new.execute(),
         }
     }
 }

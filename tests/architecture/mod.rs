@@ -1,4 +1,5 @@
 //! What ARCHITECTURE.md promises about the code itself.
 
 mod arrow;
+mod pay;
 mod schedule;

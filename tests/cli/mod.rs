@@ -7,6 +7,7 @@ mod harness;
 mod help;
 mod interrupt;
 mod json;
+mod new;
 mod numbers;
 mod outputs;
 mod scene_files;

@@ -4,10 +4,12 @@
 //! Tolerance: none, hashes and states are compared to the last bit. A scene that would not tell one order of sums from
 //! another proves nothing, so each hash is of a pile with friction that has been shaken for thousands of ticks.
 //!
-//! Not tested: other machines, numbers of threads (physics has one).
+//! Not tested: other machines.
 
 mod changes;
+mod pinned;
 mod same_bits;
+mod threads;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -1,3 +1,4 @@
 //! Extension from outside the crate: one of each kind, through the public interface only, one file each.
 
 mod axis_wise;
+mod bevy_app;

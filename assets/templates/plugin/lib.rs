@@ -1,0 +1,134 @@
+//! A plugin for Jostle: a spring that pulls a body home, `F = -k (x - x_home)` on the centre of mass (Hooke).
+//!
+//! In a scene: `forces: [HomeSpring(of: "ball", home: (0, 0), stiffness: 2)]`; its sensor
+//! `sensors: [HomeSpringStretch(of: "ball")]` gives the greatest stretch so far, the channel `ball.home_spring.stretch`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use jostle::scene::units::{Position as At, Stiffness};
+use jostle::scene::values::Names;
+use jostle::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use jostle::sensors::{self, Channel, Channels, SensorAppExt};
+use jostle::tick::{SimTick, Stage, TickAppExt};
+use jostle::world::{Body, Force, Name, Position};
+use serde::Deserialize;
+
+/// Registers what scenes may name: `Simulation::load_with(&source, &Overrides::default(), home_spring::plugin)`.
+pub fn plugin(app: &mut App) {
+    app.register_entry::<HomeSpring>().register_entry::<HomeSpringStretch>();
+    app.add_quantities(&[STRETCH], find_stretch);
+}
+
+/// The entry as it stands in the scene. Quantities take numbers in SI units and texts with units.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HomeSpring {
+    /// Names of bodies, `*` matches.
+    of: Names,
+    /// Where the spring is relaxed, in metres. Default: the origin.
+    #[serde(default)]
+    home: At,
+    /// Stiffness k in N/m, above zero.
+    stiffness: Stiffness,
+}
+
+/// The springs of a scene: state of the plugin's own. A scene without the entry never has it.
+#[derive(Resource, Default)]
+struct Springs(Vec<Spring>);
+
+struct Spring {
+    body: Entity,
+    home: DVec2,
+    stiffness: f64,
+    /// Greatest stretch at the end of a tick so far, in metres.
+    greatest: f64,
+}
+
+impl Entry for HomeSpring {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "HomeSpring";
+    const EXAMPLE: &'static str = "HomeSpring(of: \"ball\", home: (0, 0), stiffness: 2)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.of.require(Kind::BODY, outline, "of", report);
+        report.positive("stiffness", self.stiffness);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let mut springs = Springs::default();
+        for Written { value, .. } in entries {
+            for place in value.of.matching(Kind::BODY, outline) {
+                let Some(body) = body_named(app.world_mut(), &outline.names(Kind::BODY)[place]) else { continue };
+                springs.0.push(Spring { body, home: value.home.si(), stiffness: value.stiffness.si(), greatest: 0.0 });
+            }
+        }
+        app.insert_resource(springs).add_force(pull_home);
+        app.add_systems(SimTick, note_stretch.in_set(Stage::Observe));
+    }
+}
+
+/// Integrators run this as often as they need: a force depends on the state and changes nothing but forces.
+fn pull_home(springs: Res<Springs>, mut bodies: Query<(&Position, &mut Force)>) {
+    for spring in &springs.0 {
+        if let Ok((position, mut force)) = bodies.get_mut(spring.body) {
+            force.0 -= spring.stiffness * (position.0 - spring.home);
+        }
+    }
+}
+
+/// Runs once per tick, so it may remember.
+fn note_stretch(mut springs: ResMut<Springs>, bodies: Query<&Position>) {
+    for spring in &mut springs.0 {
+        if let Ok(position) = bodies.get(spring.body) {
+            spring.greatest = spring.greatest.max(position.0.distance(spring.home));
+        }
+    }
+}
+
+const STRETCH: &str = "home_spring.stretch";
+
+/// The sensor's entry in the scene.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HomeSpringStretch {
+    /// Names of bodies, `*` matches.
+    of: Names,
+}
+
+impl Entry for HomeSpringStretch {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "HomeSpringStretch";
+    const EXAMPLE: &'static str = "HomeSpringStretch(of: \"ball\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.of.require(Kind::BODY, outline, "of", report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for place in entries.iter().flat_map(|entry| entry.value.of.matching(Kind::BODY, outline)) {
+            let name = format!("{}.{STRETCH}", outline.names(Kind::BODY)[place]);
+            if let Some(channel) = sensors::find(app.world_mut(), &name) {
+                app.world_mut().get_resource_or_init::<Channels>().0.push(channel);
+            }
+        }
+    }
+}
+
+/// The channel in metres; zero for a body without a spring. Expectations find it by its name too.
+fn find_stretch(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let body = body_named(world, owner).filter(|_| quantity == STRETCH)?;
+    let read = move |world: &World| {
+        let springs = world.get_resource::<Springs>().map_or(&[][..], |springs| &springs.0);
+        springs.iter().filter(|spring| spring.body == body).fold(0.0, |most, spring| spring.greatest.max(most))
+    };
+    Some(Channel { name: format!("{owner}.{quantity}"), unit: "m", read: Box::new(read) })
+}
+
+fn body_named(world: &mut World, name: &str) -> Option<Entity> {
+    let mut bodies = world.query_filtered::<(Entity, &Name), With<Body>>();
+    bodies.iter(world).find(|(_, found)| found.0 == name).map(|(body, _)| body)
+}
+
+#[cfg(test)]
+mod tests;

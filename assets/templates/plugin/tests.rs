@@ -1,0 +1,62 @@
+//! Law: a body of mass m that leaves home with velocity v stands at `(v/w) sin(w t)`, `w = sqrt(k/m)` (harmonic
+//! oscillator). Here w = 2 rad/s, v = 3 m/s.
+//!
+//! Not tested: contacts, other integrators.
+
+use jostle::Simulation;
+use jostle::scene::{SceneErrors, Source};
+use jostle::simulation::Overrides;
+
+use super::Channels;
+
+const W: f64 = 2.0;
+const V: f64 = 3.0;
+
+fn load(stiffness: &str, tick: f64) -> Result<Simulation, SceneErrors> {
+    let scene = format!(
+        r#"Scene(
+            format: 1,
+            clock: (duration: 1, tick: {tick:?}, method: VelocityVerlet),
+            bodies: [(name: "ball", at: (1, 0), velocity: (3, 0), atoms: Disc(radius: 0.1, mass: 0.5))],
+            forces: [HomeSpring(of: "ball", home: (1, 0), stiffness: {stiffness})],
+            sensors: [HomeSpringStretch(of: "ball")],
+        )"#
+    );
+    Simulation::load_with(&Source::new("spring.ron", scene), &Overrides::default(), super::plugin)
+}
+
+fn run(tick: f64) -> Simulation {
+    let mut simulation = load("\"2 N/m\"", tick).unwrap();
+    simulation.run_to_end().unwrap();
+    simulation
+}
+
+fn error(tick: f64) -> f64 {
+    (run(tick).bodies().position[0].x - 1.0 - V / W * W.sin()).abs()
+}
+
+/// Velocity Verlet swings too fast by the share `(w dt)^2 / 24`, which puts the body off by `v t (w dt)^2 / 24` at most,
+/// and as much again for the amplitude. Half the tick leaves a quarter of the error; terms of higher order are 1 %.
+#[test]
+fn the_body_swings_as_the_law_says() {
+    let (coarse, fine) = (error(0.01), error(0.005));
+    assert!(coarse > 0.0 && coarse < 2.0 * V * (W * 0.01_f64).powi(2) / 24.0, "{coarse:e}");
+    assert!((coarse / fine - 4.0).abs() < 0.04, "{coarse:e} {fine:e}");
+}
+
+/// After a quarter of a period, 0.785 s, the stretch has been v/w. Looked at once per tick, it is missed by
+/// `(w dt)^2 / 8` of it at most, and the method is off by as much again.
+#[test]
+fn the_sensor_gives_the_greatest_stretch() {
+    let simulation = run(0.001);
+    let channel = &simulation.world().resource::<Channels>().0[0];
+    assert_eq!((channel.name.as_str(), channel.unit), ("ball.home_spring.stretch", "m"));
+    let stretch = (channel.read)(simulation.world());
+    assert!((stretch - V / W).abs() < V / W * (W * 0.001_f64).powi(2) / 4.0, "{stretch}");
+}
+
+#[test]
+fn a_wrong_stiffness_is_told_with_its_place() {
+    let errors = load("-2", 0.01).err().unwrap();
+    assert_eq!(errors.errors()[0].path, "forces[0].stiffness");
+}

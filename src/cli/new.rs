@@ -1,0 +1,168 @@
+//! `jostle new`: writes starting points, a plugin or a scene.
+
+use std::fs::{DirBuilder, OpenOptions};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+
+use super::Exit;
+use super::say::{print_line, say};
+
+/// What the templates are called by until they get a name of their own.
+const TEMPLATE: [&str; 2] = ["home_spring", "HomeSpring"];
+const PLUGIN_FILES: [(&str, &str); 3] = [
+    ("src/lib.rs", include_str!("../../assets/templates/plugin/lib.rs")),
+    ("src/tests.rs", include_str!("../../assets/templates/plugin/tests.rs")),
+    ("README.md", include_str!("../../assets/templates/plugin/README.md")),
+];
+const MANIFEST: &str = include_str!("../../assets/templates/plugin/manifest.txt");
+const SCENE: &str = include_str!("../../assets/templates/scene.ron");
+
+/// The command `new`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct New {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand, Debug)]
+enum What {
+    /// Write a crate NAME/ with a force, its entry in scenes, a sensor, own state, and tests that prove its law
+    #[command(after_help = EXAMPLES)]
+    Plugin(NewPlugin),
+    /// Write a small scene NAME.ron with comments
+    #[command(after_help = EXAMPLES)]
+    Scene(NewScene),
+}
+
+#[derive(Args, Debug)]
+struct NewPlugin {
+    /// Small letters, digits and underscores, such as rubber_band; the entry in scenes is then RubberBand
+    #[arg(value_name = "NAME")]
+    name: String,
+    /// A checkout of Jostle to build against. Default: the released version of this program
+    #[arg(long, value_name = "PATH")]
+    jostle: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+struct NewScene {
+    /// Letters, digits, `_` and `-`; the file is NAME.ron
+    #[arg(value_name = "NAME")]
+    name: String,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle new scene pendulum                         pendulum.ron; then: jostle render pendulum.ron
+  jostle new plugin rubber_band                     the crate rubber_band/; then: cd rubber_band && cargo test
+  jostle new plugin rubber_band --jostle ../jostle  the same, built against a checkout
+
+They are written into the present folder. Nothing is ever overwritten.";
+
+impl New {
+    pub(super) fn execute(self) -> Exit {
+        let written = match self.what {
+            What::Plugin(plugin) => plugin.write(),
+            What::Scene(scene) => scene.write(),
+        };
+        match written {
+            Ok(line) => print_line(&line),
+            Err(message) => {
+                say(&format!("error: {message}"));
+                Exit::Usage
+            }
+        }
+    }
+}
+
+impl NewScene {
+    fn write(self) -> Result<String, String> {
+        let name = self.name.strip_suffix(".ron").unwrap_or(&self.name);
+        let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+        if !name.starts_with(|first: char| first.is_ascii_alphanumeric()) || !name.chars().all(fits) {
+            return Err(format!(
+                "`{name}` is no name for a scene: take letters, digits, `_` and `-`, such as `pendulum`"
+            ));
+        }
+        let file = format!("{name}.ron");
+        create(Path::new(&file), &SCENE.replace("NAME", name))?;
+        Ok(format!("{file} is written; next: jostle check {file} --run"))
+    }
+}
+
+impl NewPlugin {
+    fn write(self) -> Result<String, String> {
+        let name = &self.name;
+        let fits = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
+        if !name.starts_with(|first: char| first.is_ascii_lowercase()) || !name.chars().all(fits) {
+            let remedy = "take small letters, digits and underscores, such as `rubber_band`";
+            return Err(format!("`{name}` is no name for a plugin: {remedy}"));
+        }
+        if TAKEN.split_whitespace().any(|word| word == name) {
+            return Err(format!(
+                "`{name}` means something else to Rust or to the plugin's own code: take another name"
+            ));
+        }
+        let source = match &self.jostle {
+            Some(path) => format!("{{ path = {} }}", quoted_path(path)?),
+            None => format!("\"{}\"", env!("CARGO_PKG_VERSION")),
+        };
+        let own = |text: &str| text.replace(TEMPLATE[0], name).replace(TEMPLATE[1], &in_camel_case(name));
+        let folder = Path::new(name);
+        DirBuilder::new().create(folder).map_err(|error| refusal(folder, &error))?;
+        DirBuilder::new().create(folder.join("src")).map_err(|error| refusal(folder, &error))?;
+        create(&folder.join("Cargo.toml"), &own(MANIFEST).replace("JOSTLE", &source))?;
+        for (path, text) in PLUGIN_FILES {
+            create(&folder.join(path), &own(text))?;
+        }
+        Ok(format!("{name}/ is written; next: cd {name} && cargo test"))
+    }
+}
+
+/// Names that a crate cannot have beside the template's dependencies, and Rust's words.
+const TAKEN: &str = "\
+    abstract alloc as async await become bevy_app bevy_ecs box break const continue core crate do dyn else enum \
+    extern false final fn for gen glam if impl in jostle let loop macro match mod move mut override priv \
+    proc_macro pub ref return self serde static std struct super test trait true try type typeof unsafe unsized \
+    use virtual where while yield";
+
+/// `rubber_band` as `RubberBand`.
+fn in_camel_case(name: &str) -> String {
+    let capital = |word: &str| {
+        let mut letters = word.chars();
+        letters.next().map_or_else(String::new, |first| first.to_ascii_uppercase().to_string() + letters.as_str())
+    };
+    name.split('_').map(capital).collect()
+}
+
+/// The path of a checkout, as the manifest in a folder of its own has to say it.
+fn quoted_path(path: &Path) -> Result<String, String> {
+    let shown = path.display();
+    let manifest = std::fs::read_to_string(path.join("Cargo.toml")).unwrap_or_default();
+    if !manifest.lines().any(|line| line.trim() == "name = \"jostle\"") {
+        return Err(format!("`{shown}` is not a checkout of Jostle: --jostle needs the folder with its Cargo.toml"));
+    }
+    let seen = Path::new("..").join(path);
+    let text = seen.to_str().ok_or_else(|| format!("`{shown}` has letters that Cargo.toml cannot hold"))?;
+    // Basic strings of TOML take the escapes of JSON.
+    Ok(serde_json::Value::from(text).to_string())
+}
+
+/// Writes a file that is not there yet.
+fn create(path: &Path, text: &str) -> Result<(), String> {
+    let file = OpenOptions::new().write(true).create_new(true).open(path);
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| refusal(path, &error))
+}
+
+fn refusal(path: &Path, error: &std::io::Error) -> String {
+    let shown = path.display();
+    match error.kind() {
+        ErrorKind::AlreadyExists => {
+            format!("`{shown}` is there already, and nothing is overwritten: take another name")
+        }
+        _ => format!("`{shown}` cannot be written: {error}"),
+    }
+}
