@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::contact::{Contact, Losses, Touch};
 use super::law::{LawTable, PairLaw, Side};
+use super::rest::Rest;
 use super::{Penalty, inelasticity::Mode};
 use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
@@ -17,22 +18,23 @@ pub struct PenaltyContacts {
     version: u64,
     pub(super) settings: Penalty,
     pub(super) materials: Materials,
-    laws: LawTable,
+    pub(super) laws: LawTable,
     /// One for each pair of atoms.
     pub atoms: Vec<Contact>,
     /// One for each atom near a wall.
     pub walls: Vec<Contact>,
-    touching_atoms: Vec<Touching>,
-    touching_walls: Vec<Touching>,
+    pub(super) touching_atoms: Vec<Touching>,
+    pub(super) touching_walls: Vec<Touching>,
+    pub(super) rest: Rest,
 }
 
 /// A pair that touches in the present state.
 #[derive(Clone, Copy, Debug)]
-struct Touching {
+pub(super) struct Touching {
     /// Place in the list of candidate pairs.
-    place: u32,
+    pub place: u32,
     /// Unit normal from A to B.
-    normal: DVec2,
+    pub normal: DVec2,
 }
 
 /// Gives every pair of a new list its slot, with its history if it had one.
@@ -71,17 +73,17 @@ fn carried<P>(
 
 /// One side of a contact.
 #[derive(Clone, Copy)]
-struct End {
-    body: usize,
+pub(super) struct End {
+    pub body: usize,
     /// Centre of the atom from the centre of mass of its body, in metres.
-    arm: DVec2,
+    pub arm: DVec2,
     /// Radius of the atom in metres.
-    radius: f64,
+    pub radius: f64,
 }
 
 impl End {
     #[inline]
-    fn of(bodies: &Bodies, atom: u32) -> Self {
+    pub fn of(bodies: &Bodies, atom: u32) -> Self {
         let atom = atom as usize;
         let body = bodies.atom_body[atom] as usize;
         Self { body, arm: bodies.atom_position[atom] - bodies.position[body], radius: bodies.atom_radius[atom] }
@@ -96,16 +98,23 @@ impl End {
     }
 
     #[inline]
-    fn velocity(&self, bodies: &Bodies) -> DVec2 {
+    pub fn velocity(&self, bodies: &Bodies) -> DVec2 {
         bodies.velocity_at(self.body, self.arm)
     }
 }
 
 /// Where the forces of contacts go.
-struct Sink<'a> {
-    bodies: &'a mut Bodies,
-    balance: &'a mut Balance,
-    forces: Option<&'a mut ContactForces>,
+pub(super) struct Sink<'a> {
+    pub bodies: &'a mut Bodies,
+    pub balance: &'a mut Balance,
+    pub forces: Option<&'a mut ContactForces>,
+}
+
+/// Arms of both sides to the point where they touch: between the centres, nearer to the undeformed surface of the harder
+/// side.
+#[inline]
+pub(super) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw) -> (DVec2, DVec2) {
+    (a.arm + normal * (a.radius - law.share_a * overlap), b.arm - normal * (b.radius - law.share_b * overlap))
 }
 
 impl Sink<'_> {
@@ -118,12 +127,10 @@ impl Sink<'_> {
         }
     }
 
-    /// `force` acts on side B, the opposite on side A, at the point where they touch: between the centres, nearer to
-    /// the undeformed surface of the harder side.
+    /// `force` acts on side B, the opposite on side A, at the point where they touch.
     #[inline]
-    fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
-        let arm_a = a.arm + normal * (a.radius - law.share_a * overlap);
-        let arm_b = b.arm - normal * (b.radius - law.share_b * overlap);
+    pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
+        let (arm_a, arm_b) = arms((a, b), normal, overlap, law);
         self.on_body(a, arm_a, -force);
         self.on_body(b, arm_b, force);
         // What a fixed body gives comes from outside.
@@ -137,7 +144,7 @@ impl Sink<'_> {
 
     /// `force` acts on an atom where it touches the wall, `height` metres from its centre.
     #[inline]
-    fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
+    pub fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
         let arm = end.arm - normal * height;
         self.on_body(end, arm, force);
         self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
@@ -188,7 +195,7 @@ pub(super) fn apply_penalty(
     }
     let mut losses = Losses::default();
     let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
-    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
+    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, rest, .. } = &mut *contacts;
     touching_atoms.clear();
     for (place, (&AtomPair { a, b }, contact)) in pairs.atoms.iter().zip(atoms).enumerate() {
         let between = sink.bodies.atom_position[b as usize] - sink.bodies.atom_position[a as usize];
@@ -230,44 +237,9 @@ pub(super) fn apply_penalty(
         deepest.note(contact.overlap, end.radius, evaluation.time, || (sink.bodies.entity[end.body], packed.entity));
         sink.wall_pushes(&end, wall, packed.normal, height, contact.force(law, packed.normal));
     }
+    rest.settle(sink.bodies, sink.balance);
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
-}
-
-/// The system of [`crate::tick::Modes`]: touching pairs choose loading or unloading for the coming step; where that
-/// changes a force, the sums are corrected by the difference.
-pub(super) fn choose_modes(
-    mut bodies: ResMut<Bodies>,
-    pairs: Res<CandidatePairs>,
-    mut contacts: ResMut<PenaltyContacts>,
-    mut balance: ResMut<Balance>,
-    mut ledger: ResMut<Ledger>,
-    mut forces: Option<ResMut<ContactForces>>,
-) {
-    let mut losses = Losses::default();
-    let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
-    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
-    for &Touching { place, normal } in &*touching_atoms {
-        let (pair, contact) = (pairs.atoms[place as usize], &mut atoms[place as usize]);
-        let law = laws.get(contact.law);
-        let ends = (&End::of(sink.bodies, pair.a), &End::of(sink.bodies, pair.b));
-        let parting = (ends.1.velocity(sink.bodies) - ends.0.velocity(sink.bodies)).dot(normal);
-        if let Some(before) = contact.choose_mode(law, parting, &mut losses) {
-            let change = contact.force(law, normal) - before.force(law, normal);
-            sink.between(ends, normal, contact.overlap, law, change);
-        }
-    }
-    for &Touching { place, normal } in &*touching_walls {
-        let (pair, contact) = (pairs.walls[place as usize], &mut walls[place as usize]);
-        let law = laws.get(contact.law);
-        let end = End::of(sink.bodies, pair.atom);
-        if let Some(before) = contact.choose_mode(law, end.velocity(sink.bodies).dot(normal), &mut losses) {
-            let change = contact.force(law, normal) - before.force(law, normal);
-            let height = end.radius - contact.overlap;
-            sink.wall_pushes(&end, pair.wall, normal, height, change);
-        }
-    }
-    ledger.friction.add(losses.friction);
 }
 
 impl PenaltyContacts {

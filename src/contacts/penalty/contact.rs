@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::inelasticity::{self, Mode};
 use super::law::PairLaw;
-use super::tangential;
+use super::tangential::{self, Grip};
 
 /// History of a candidate pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,8 +15,12 @@ pub struct Contact {
     pub law: u32,
     /// Phase of the normal law.
     pub mode: Mode,
-    /// Whether the tangential spring has given way.
-    pub slipping: bool,
+    /// Phase of the tangential law.
+    pub grip: Grip,
+    /// Normal force in newtons while the normal law holds.
+    pub held_normal: f64,
+    /// Tangential force in newtons while the tangential law holds; it counts as the pull of the spring does.
+    pub held_tangential: f64,
     /// Overlap in metres, zero when open.
     pub overlap: f64,
     /// Elongation of the tangential spring in metres.
@@ -77,14 +81,24 @@ impl Contact {
             self.mode = Mode::Loading;
         }
         self.overlap = touch.overlap.max(0.0);
-        losses.inelasticity += inelasticity::loss(law, self.mode, before, self.overlap);
+        losses.inelasticity += match self.mode {
+            Mode::Hold => {
+                let stored = inelasticity::energy(law, self.overlap) - inelasticity::energy(law, before);
+                self.held_normal * (self.overlap - before) - stored
+            }
+            mode => inelasticity::loss(law, mode, before, self.overlap),
+        };
         if law.friction_static > 0.0 || law.friction_dynamic > 0.0 {
             let displacement = (elapsed > 0.0).then(|| touch.tangential_displacement(law, before));
-            self.stretch(law, displacement, losses);
+            if self.grip == Grip::Hold {
+                losses.friction += self.held_tangential * displacement.unwrap_or(0.0);
+            } else {
+                self.stretch(law, displacement, losses);
+            }
         }
         if touch.overlap <= 0.0 {
-            self.mode = Mode::Open;
-            self.slipping = false;
+            losses.friction += tangential::energy(law, self.elongation);
+            *self = Self { reach: self.reach, law: self.law, ..Self::default() };
         }
     }
 
@@ -93,30 +107,72 @@ impl Contact {
     #[inline]
     pub fn choose_mode(&mut self, law: &PairLaw, parting: f64, losses: &mut Losses) -> Option<Self> {
         let chosen = self.mode.chosen(parting);
-        if chosen == self.mode {
+        if chosen == self.mode && self.grip != Grip::Hold {
             return None;
         }
         let before = *self;
         self.mode = chosen;
+        self.let_go(law, losses);
         // A weaker normal force holds less friction.
         self.stretch(law, None, losses);
         Some(before)
     }
 
+    /// Holds along the normal with `normal` newtons, and along the tangent if `tangential` newtons are given.
+    pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: Option<f64>, losses: &mut Losses) {
+        self.mode = Mode::Hold;
+        self.held_normal = normal;
+        if let Some(tangential) = tangential {
+            self.grip = Grip::Hold;
+            self.held_tangential = tangential;
+        } else {
+            self.let_go(law, losses);
+            self.stretch(law, None, losses);
+        }
+    }
+
+    /// The spring takes over from a hold.
+    fn let_go(&mut self, law: &PairLaw, losses: &mut Losses) {
+        if self.grip == Grip::Hold {
+            let elongation = tangential::released(law, self.elongation, self.held_tangential);
+            losses.friction += tangential::energy(law, self.elongation) - tangential::energy(law, elongation);
+            self.elongation = elongation;
+            self.grip = Grip::Stick;
+        }
+    }
+
     #[inline(always)]
     fn stretch(&mut self, law: &PairLaw, displacement: Option<f64>, losses: &mut Losses) {
-        let normal_force = inelasticity::force(law, self.mode, self.overlap);
-        let stretched = tangential::stretch(law, self.elongation, self.slipping, displacement, normal_force);
-        self.elongation = stretched.elongation;
-        self.slipping = stretched.slipping;
-        losses.friction += stretched.loss;
+        if law.tangential_stiffness > 0.0 {
+            let stretched = tangential::stretch(law, self.elongation, self.grip, displacement, self.normal_force(law));
+            self.elongation = stretched.elongation;
+            self.grip = stretched.grip;
+            losses.friction += stretched.loss;
+        }
+    }
+
+    /// Normal force in newtons.
+    #[inline]
+    pub fn normal_force(&self, law: &PairLaw) -> f64 {
+        match self.mode {
+            Mode::Hold => self.held_normal,
+            mode => inelasticity::force(law, mode, self.overlap),
+        }
+    }
+
+    /// Tangential force in newtons: positive pulls side B back along the tangent.
+    #[inline]
+    pub fn tangential_force(&self, law: &PairLaw) -> f64 {
+        match self.grip {
+            Grip::Hold => self.held_tangential,
+            Grip::Stick | Grip::Slip => law.tangential_stiffness * self.elongation,
+        }
     }
 
     /// Force on side B in newtons; side A receives the opposite.
     #[inline]
     pub fn force(&self, law: &PairLaw, normal: DVec2) -> DVec2 {
-        normal * inelasticity::force(law, self.mode, self.overlap)
-            - normal.perp() * (law.tangential_stiffness * self.elongation)
+        normal * self.normal_force(law) - normal.perp() * self.tangential_force(law)
     }
 
     /// Elastic energy in J, of both springs.

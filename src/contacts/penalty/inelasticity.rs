@@ -4,6 +4,9 @@
 //! work lost in a full cycle gives the restitution `e = sqrt((1 - mu_e)/(1 + mu_e))`, whatever the speed (the idea of
 //! Walton and Braun 1986). Within a mode the force has a potential, so the energy lost between two overlaps is known
 //! exactly: `+-mu_e k (d1^2 - d0^2)/2`.
+//!
+//! At rest, `v_n = 0`, the law is set-valued: any force between the two keeps the contact there. Which one it is the
+//! balance of forces decides ([`super::hold`]).
 
 use super::law::PairLaw;
 
@@ -17,12 +20,14 @@ pub enum Mode {
     Loading,
     /// Parting.
     Unloading,
+    /// At rest along the normal: the force is whatever keeps it so, between the two others.
+    Hold,
 }
 
 impl Mode {
     fn sign(self) -> f64 {
         match self {
-            Mode::Open => 0.0,
+            Mode::Open | Mode::Hold => 0.0,
             Mode::Loading => 1.0,
             Mode::Unloading => -1.0,
         }
@@ -34,10 +39,18 @@ impl Mode {
             Mode::Loading
         } else if parting > 0.0 {
             Mode::Unloading
+        } else if self == Mode::Hold {
+            Mode::Loading
         } else {
             self
         }
     }
+}
+
+/// The least and the greatest force in newtons that a contact at rest may have: the law is set-valued there.
+#[inline]
+pub fn band(law: &PairLaw, overlap: f64) -> (f64, f64) {
+    (force(law, Mode::Unloading, overlap), force(law, Mode::Loading, overlap))
 }
 
 /// Normal force in newtons at `overlap` metres.

@@ -2,8 +2,11 @@
 
 pub mod apply;
 pub mod contact;
+pub mod hold;
 pub mod inelasticity;
 pub mod law;
+mod modes;
+mod rest;
 pub mod tangential;
 
 use bevy_app::App;
@@ -90,7 +93,7 @@ pub fn install(settings: Penalty, app: &mut App) {
         .init_resource::<DeepestOverlap>();
     let system = apply::apply_penalty.after(FindPairs).in_set(EvaluateStage::Contacts);
     app.add_packed_systems(Evaluate, 1, system);
-    app.add_systems(Modes, apply::choose_modes.in_set(EvaluateStage::Contacts));
+    app.add_systems(Modes, modes::choose_modes.in_set(EvaluateStage::Contacts));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
     app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
 }

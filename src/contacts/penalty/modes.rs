@@ -1,0 +1,319 @@
+//! The modes of contacts for the tick to come: loading, unloading, or held at rest.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::apply::{End, PenaltyContacts, Sink, Touching, arms};
+use super::contact::{Contact, Losses};
+use super::hold::{self, Candidate, Mover, Verdict};
+use super::inelasticity::{self, Mode};
+use super::law::PairLaw;
+use super::rest::Rest;
+use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
+use crate::tick::{Balance, Clock, Ledger};
+use crate::world::Bodies;
+
+/// What stands on side A of a contact.
+#[derive(Clone, Copy)]
+enum Other {
+    Atom(End),
+    Wall(u32),
+}
+
+/// A touching pair that may come to rest in the tick to come.
+#[derive(Clone, Copy)]
+struct Case {
+    place: u32,
+    normal: DVec2,
+    other: Other,
+    end: End,
+}
+
+impl Case {
+    fn other_body(&self) -> Option<usize> {
+        match self.other {
+            Other::Atom(end) => Some(end.body),
+            Other::Wall(_) => None,
+        }
+    }
+
+    /// Velocity of B against A in m/s where the centres are.
+    fn approach(&self, bodies: &Bodies) -> DVec2 {
+        let other = match &self.other {
+            Other::Atom(end) => end.velocity(bodies),
+            Other::Wall(_) => DVec2::ZERO,
+        };
+        self.end.velocity(bodies) - other
+    }
+
+    /// Arms of both sides.
+    fn arms(&self, law: &PairLaw, overlap: f64) -> (DVec2, DVec2) {
+        match &self.other {
+            Other::Atom(other) => arms((other, &self.end), self.normal, overlap, law),
+            Other::Wall(_) => (DVec2::ZERO, self.end.arm - self.normal * (self.end.radius - overlap)),
+        }
+    }
+
+    fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
+        match &self.other {
+            Other::Atom(other) => sink.between((other, &self.end), self.normal, overlap, law, force),
+            Other::Wall(wall) => {
+                sink.wall_pushes(&self.end, *wall, self.normal, self.end.radius - overlap, force);
+            }
+        }
+    }
+
+    /// Whether the contact could stop within `dt` seconds: its normal velocity can be reversed by a force within the
+    /// bounds of its law, or by what its neighbours may do at the same time (as much again).
+    fn could_stop(&self, contact: &Contact, law: &PairLaw, bodies: &Bodies, parting: f64, dt: f64) -> bool {
+        if law.inelasticity == 0.0 {
+            return false;
+        }
+        if contact.mode == Mode::Hold {
+            return true;
+        }
+        let acceleration = |body: usize| bodies.force[body] * bodies.inverse_mass[body];
+        let other = self.other_body();
+        let relative = acceleration(self.end.body) - other.map_or(DVec2::ZERO, acceleration);
+        let inverse_mass = bodies.inverse_mass[self.end.body] + other.map_or(0.0, |body| bodies.inverse_mass[body]);
+        let (least, greatest) = inelasticity::band(law, contact.overlap);
+        parting.abs() <= 2.0 * dt * (relative.dot(self.normal).abs() + (greatest - least) * inverse_mass)
+    }
+}
+
+/// Working memory of the search for rest.
+#[derive(Default)]
+pub(super) struct Scratch {
+    cases: Vec<Case>,
+    /// Bodies with a contact that does not stop.
+    moved: Vec<usize>,
+}
+
+/// The system of [`crate::tick::Modes`]: touching pairs choose loading, unloading or hold for the coming step; where that
+/// changes a force, the sums are corrected by the difference.
+#[allow(clippy::too_many_arguments)] // a system's parameters are its declaration of access
+pub(super) fn choose_modes(
+    mut bodies: ResMut<Bodies>,
+    pairs: Res<CandidatePairs>,
+    mut contacts: ResMut<PenaltyContacts>,
+    mut balance: ResMut<Balance>,
+    mut ledger: ResMut<Ledger>,
+    clock: Res<Clock>,
+    mut forces: Option<ResMut<ContactForces>>,
+    mut scratch: Local<Scratch>,
+) {
+    let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
+    let mut choice = Choice { sink, contacts: &mut contacts, dt: clock.dt, losses: Losses::default() };
+    choice.wake_touched(&pairs);
+    let Scratch { cases, moved } = &mut *scratch;
+    cases.clear();
+    moved.clear();
+    for place in 0..choice.contacts.touching_atoms.len() {
+        let Touching { place, normal } = choice.contacts.touching_atoms[place];
+        let AtomPair { a, b } = pairs.atoms[place as usize];
+        let (a, b) = (End::of(choice.sink.bodies, a), End::of(choice.sink.bodies, b));
+        if !(choice.stands(a.body) && choice.stands(b.body)) {
+            choice.first_look(Case { place, normal, other: Other::Atom(a), end: b }, cases, moved);
+        }
+    }
+    for place in 0..choice.contacts.touching_walls.len() {
+        let Touching { place, normal } = choice.contacts.touching_walls[place];
+        let WallPair { wall, atom } = pairs.walls[place as usize];
+        let end = End::of(choice.sink.bodies, atom);
+        if !choice.stands(end.body) {
+            choice.first_look(Case { place, normal, other: Other::Wall(wall), end }, cases, moved);
+        }
+    }
+    moved.sort_unstable();
+    for island in islands(cases, choice.sink.bodies) {
+        choice.stop(&island, moved, &mut ledger);
+    }
+    ledger.friction.add(choice.losses.friction);
+    ledger.inelasticity.add(choice.losses.inelasticity);
+}
+
+/// Groups cases that share a body that moves by forces, in canonical order.
+fn islands(cases: &[Case], bodies: &Bodies) -> Vec<Vec<Case>> {
+    if cases.is_empty() {
+        return Vec::new();
+    }
+    let mut root: Vec<usize> = (0..bodies.len()).collect();
+    fn find(root: &mut [usize], mut body: usize) -> usize {
+        while root[body] != body {
+            root[body] = root[root[body]];
+            body = root[body];
+        }
+        body
+    }
+    let joined =
+        |case: &Case| case.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[case.end.body]);
+    for case in cases {
+        if let Some(other) = joined(case) {
+            let (a, b) = (find(&mut root, other), find(&mut root, case.end.body));
+            root[a.max(b)] = a.min(b);
+        }
+    }
+    let mut sorted: Vec<(usize, Case)> = Vec::with_capacity(cases.len());
+    for case in cases {
+        let body = if bodies.dynamic[case.end.body] { Some(case.end.body) } else { case.other_body() };
+        sorted.push((find(&mut root, body.unwrap_or(case.end.body)), *case));
+    }
+    sorted.sort_by_key(|(root, _)| *root);
+    sorted.chunk_by(|a, b| a.0 == b.0).map(|chunk| chunk.iter().map(|(_, case)| *case).collect()).collect()
+}
+
+/// The choice of modes under way.
+struct Choice<'a> {
+    sink: Sink<'a>,
+    contacts: &'a mut PenaltyContacts,
+    dt: f64,
+    losses: Losses,
+}
+
+impl Choice<'_> {
+    /// Whether a body is at rest or does not move by forces.
+    fn stands(&self, body: usize) -> bool {
+        !self.sink.bodies.dynamic[body] || self.contacts.rest.has(body)
+    }
+
+    /// Bodies at rest that touch one that moves wake, and so do their neighbours.
+    fn wake_touched(&mut self, pairs: &CandidatePairs) {
+        let bodies = &*self.sink.bodies;
+        let PenaltyContacts { touching_atoms, rest, .. } = &mut *self.contacts;
+        let mut woke = !rest.is_empty();
+        while woke {
+            woke = false;
+            for &Touching { place, .. } in &*touching_atoms {
+                let AtomPair { a, b } = pairs.atoms[place as usize];
+                let (a, b) = (bodies.atom_body[a as usize] as usize, bodies.atom_body[b as usize] as usize);
+                let moves = |body: usize, rest: &Rest| {
+                    let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
+                    !still || bodies.dynamic[body] && !rest.has(body)
+                };
+                woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
+            }
+        }
+    }
+
+    fn contact(&mut self, case: &Case) -> (&mut Contact, &PairLaw) {
+        let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
+        let contact = match case.other {
+            Other::Atom(_) => &mut atoms[case.place as usize],
+            Other::Wall(_) => &mut walls[case.place as usize],
+        };
+        let law = laws.get(contact.law);
+        (contact, law)
+    }
+
+    /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
+    fn first_look(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Vec<usize>) {
+        let parting = case.approach(self.sink.bodies).dot(case.normal);
+        let (contact, law) = self.contact(&case);
+        let (seen, law) = (*contact, *law);
+        if case.could_stop(&seen, &law, self.sink.bodies, parting, self.dt) {
+            cases.push(case);
+            return;
+        }
+        moved.push(case.end.body);
+        moved.extend(case.other_body());
+        self.change(&case, |contact, law, losses| contact.choose_mode(law, parting, losses));
+    }
+
+    /// Changes a contact and corrects the sums of forces by the difference.
+    fn change(&mut self, case: &Case, change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>) {
+        let mut losses = self.losses;
+        let (contact, law) = self.contact(case);
+        let law = *law;
+        let before = change(contact, &law, &mut losses);
+        let after = *contact;
+        self.losses = losses;
+        if let Some(before) = before {
+            let difference = after.force(&law, case.normal) - before.force(&law, case.normal);
+            case.push(&mut self.sink, &law, after.overlap, difference);
+        }
+    }
+
+    /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves.
+    fn stop(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger) {
+        let members = members(island);
+        let place = |body: usize| members.binary_search(&body).map_or(0, |place| place + 1);
+        let mut movers = vec![Mover::default()];
+        movers.extend(members.iter().map(|&body| mover(self.sink.bodies, body, self.dt)));
+        let mut candidates = Vec::with_capacity(island.len());
+        for case in island {
+            let (contact, law) = self.contact(case);
+            let forces = (contact.normal_force(law), contact.tangential_force(law));
+            let ends = (case.other_body().map_or(0, place), place(case.end.body));
+            let band = inelasticity::band(law, contact.overlap);
+            let arms = case.arms(law, contact.overlap);
+            candidates.push(Candidate::new(&movers, ends, arms, case.normal, band, law.friction_static, forces));
+        }
+        hold::solve(&mut candidates, &mut movers, self.dt);
+        let mut all_rest = true;
+        for (case, candidate) in island.iter().zip(&candidates) {
+            let verdict = candidate.verdict(&movers, self.dt);
+            let parting = if candidate.normal_force > candidate.least_force() { -1.0 } else { 1.0 };
+            self.change(case, |contact, law, losses| {
+                let before = *contact;
+                match verdict {
+                    Verdict::Moves => return contact.choose_mode(law, parting, losses),
+                    Verdict::Rests => contact.hold(law, candidate.normal_force, None, losses),
+                    Verdict::Sticks => {
+                        contact.hold(law, candidate.normal_force, Some(candidate.tangential_force), losses);
+                    }
+                }
+                Some(before)
+            });
+            let frictionless = self.contact(case).1.friction_static == 0.0;
+            all_rest &= verdict == Verdict::Sticks || verdict == Verdict::Rests && frictionless;
+        }
+        let scales: Vec<f64> = (0..movers.len()).map(|place| hold::load(&candidates, place)).collect();
+        let bodies = &*self.sink.bodies;
+        let stands = |(&body, (end, &scale)): (&usize, (&Mover, &f64))| {
+            let stands = |mover: &Mover| mover.stands(scale, bodies.extent[body], self.dt);
+            let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };
+            moved.binary_search(&body).is_err() && stands(&begin) && stands(end)
+        };
+        if all_rest && members.iter().zip(movers.iter().zip(&scales).skip(1)).all(stands) {
+            self.lay_to_rest(&members, &scales[1..], ledger);
+        }
+    }
+
+    fn lay_to_rest(&mut self, members: &[usize], scales: &[f64], ledger: &mut Ledger) {
+        for (&body, &scale) in members.iter().zip(scales) {
+            let bodies = &mut *self.sink.bodies;
+            if !bodies.dynamic[body] {
+                continue;
+            }
+            // What rounding left of its motion the contacts take now.
+            let momentum = bodies.velocity[body] * bodies.mass[body];
+            let angular = bodies.inertia[body] * bodies.spin[body];
+            ledger.impulse[0].add(-momentum.x);
+            ledger.impulse[1].add(-momentum.y);
+            ledger.angular_impulse.add(-bodies.position[body].perp_dot(momentum) - angular);
+            self.losses.inelasticity += 0.5 * (momentum.dot(bodies.velocity[body]) + angular * bodies.spin[body]);
+            self.sink.balance.outside(bodies.position[body], -bodies.force[body], -bodies.torque[body]);
+            self.contacts.rest.lay(body, scale, bodies);
+        }
+    }
+}
+
+/// The bodies of an island in canonical order.
+fn members(island: &[Case]) -> Vec<usize> {
+    let mut members: Vec<usize> =
+        island.iter().flat_map(|case| [Some(case.end.body), case.other_body()]).flatten().collect();
+    members.sort_unstable();
+    members.dedup();
+    members
+}
+
+/// A body with the velocities it will have after `dt` seconds under the present forces.
+fn mover(bodies: &Bodies, body: usize, dt: f64) -> Mover {
+    let (inverse_mass, inverse_inertia) = (bodies.inverse_mass[body], bodies.inverse_inertia[body]);
+    Mover {
+        velocity: bodies.velocity[body] + bodies.force[body] * (inverse_mass * dt),
+        spin: bodies.spin[body] + bodies.torque[body] * (inverse_inertia * dt),
+        inverse_mass,
+        inverse_inertia,
+    }
+}
