@@ -3,10 +3,11 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::Penalty;
 use super::contact::{Contact, Losses, Touch};
 use super::law::{LawTable, PairLaw, Side};
+use super::normal::{Approach, Mode, NormalForce};
 use super::rest::Rest;
-use super::{Penalty, inelasticity::Mode};
 use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::tick::{Balance, Evaluation, Ledger};
@@ -38,7 +39,7 @@ pub(super) struct Touching {
 }
 
 /// Gives every pair of a new list its slot, with its history if it had one.
-fn carry_history(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
+fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let side = |atom: u32| Side {
         stiffness: bodies.atom_stiffness[atom as usize],
@@ -47,12 +48,12 @@ fn carry_history(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &Candid
     let radius = |atom: u32| bodies.atom_radius[atom as usize];
     let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
     *atoms = carried(&pairs.atoms, &pairs.atoms_before, atoms, laws, |pair, laws| {
-        let law = laws.place(side(pair.a), side(pair.b), materials, settings);
+        let law = laws.place::<N>(side(pair.a), side(pair.b), materials, settings);
         Contact { reach: radius(pair.a) + radius(pair.b), law, ..Default::default() }
     });
     *walls = carried(&pairs.walls, &pairs.walls_before, walls, laws, |pair, laws| {
         let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
-        let law = laws.place(wall, side(pair.atom), materials, settings);
+        let law = laws.place::<N>(wall, side(pair.atom), materials, settings);
         Contact { reach: radius(pair.atom), law, ..Default::default() }
     });
 }
@@ -89,6 +90,13 @@ impl End {
         Self { body, arm: bodies.atom_position[atom] - bodies.position[body], radius: bodies.atom_radius[atom] }
     }
 
+    /// Relative velocity along `normal` that an impulse of one newton second makes on this side, in 1/kg.
+    #[inline]
+    pub fn mobility(&self, bodies: &Bodies, normal: DVec2) -> f64 {
+        let lever = self.arm.perp_dot(normal);
+        bodies.inverse_mass[self.body] + lever * lever * bodies.inverse_inertia[self.body]
+    }
+
     /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
     /// the turn of its body.
     #[inline]
@@ -101,6 +109,18 @@ impl End {
     pub fn velocity(&self, bodies: &Bodies) -> DVec2 {
         bodies.velocity_at(self.body, self.arm)
     }
+}
+
+/// How side B approaches side A; `None` is a wall.
+#[inline]
+pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2) -> Approach {
+    let (velocity, mobility) = a.map_or((DVec2::ZERO, 0.0), |a| (a.velocity(bodies), a.mobility(bodies, normal)));
+    Approach { parting: (b.velocity(bodies) - velocity).dot(normal), mobility: mobility + b.mobility(bodies, normal) }
+}
+
+#[inline]
+fn approach_if_needed<N: NormalForce>(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2) -> Approach {
+    if N::DEPENDS_ON_VELOCITY { approach(bodies, a, b, normal) } else { Approach::default() }
 }
 
 /// Where the forces of contacts go.
@@ -155,19 +175,28 @@ impl Sink<'_> {
 }
 
 #[inline]
-fn touch_atoms(bodies: &Bodies, (a, b): (&End, &End), normal: DVec2, distance: f64, reach: f64) -> Touch {
+fn touch_atoms<N: NormalForce>(
+    bodies: &Bodies,
+    (a, b): (&End, &End),
+    normal: DVec2,
+    distance: f64,
+    reach: f64,
+) -> Touch {
     let ((moved_a, turn_a), (moved_b, turn_b)) = (a.displacement(bodies), b.displacement(bodies));
     let displacement = moved_b - moved_a;
     let swing = if distance > 0.0 { displacement.dot(normal.perp()) / distance } else { 0.0 };
     let (rolled_a, rolled_b) = ((a.radius, turn_a), (b.radius, turn_b));
-    Touch { normal, overlap: reach - distance, displacement, swing, rolled_a, rolled_b }
+    let approach = approach_if_needed::<N>(bodies, Some(a), b, normal);
+    Touch { normal, overlap: reach - distance, approach, displacement, swing, rolled_a, rolled_b }
 }
 
 #[inline]
-fn touch_wall(bodies: &Bodies, end: &End, normal: DVec2, height: f64) -> Touch {
+fn touch_wall<N: NormalForce>(bodies: &Bodies, end: &End, normal: DVec2, height: f64) -> Touch {
     let (displacement, turn) = end.displacement(bodies);
     let rolled_b = (end.radius, turn);
-    Touch { normal, overlap: end.radius - height, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
+    let approach = approach_if_needed::<N>(bodies, None, end, normal);
+    let overlap = end.radius - height;
+    Touch { normal, overlap, approach, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
 }
 
 #[inline]
@@ -177,7 +206,7 @@ fn height_over(wall: &PackedWall, position: DVec2) -> f64 {
 
 /// The system of [`crate::tick::EvaluateStage::Contacts`].
 #[allow(clippy::too_many_arguments)] // a system's parameters are its declaration of access
-pub(super) fn apply_penalty(
+pub(super) fn apply_penalty<N: NormalForce>(
     mut bodies: ResMut<Bodies>,
     pairs: Res<CandidatePairs>,
     mut contacts: ResMut<PenaltyContacts>,
@@ -188,14 +217,14 @@ pub(super) fn apply_penalty(
     mut forces: Option<ResMut<ContactForces>>,
 ) {
     if contacts.version != pairs.version {
-        carry_history(&mut contacts, &bodies, &pairs);
+        carry_history::<N>(&mut contacts, &bodies, &pairs);
     }
     if let Some(forces) = &mut forces {
         forces.clear(&bodies);
     }
     let mut losses = Losses::default();
     let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
-    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, rest, .. } = &mut *contacts;
+    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
     touching_atoms.clear();
     for (place, (&AtomPair { a, b }, contact)) in pairs.atoms.iter().zip(atoms).enumerate() {
         let between = sink.bodies.atom_position[b as usize] - sink.bodies.atom_position[a as usize];
@@ -208,8 +237,8 @@ pub(super) fn apply_penalty(
         let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
         let law = laws.get(contact.law);
         let ends = (&End::of(sink.bodies, a), &End::of(sink.bodies, b));
-        let touch = touch_atoms(sink.bodies, ends, normal, distance, contact.reach);
-        contact.follow(law, &touch, evaluation.elapsed, &mut losses);
+        let touch = touch_atoms::<N>(sink.bodies, ends, normal, distance, contact.reach);
+        contact.follow::<N>(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;
         }
@@ -228,8 +257,8 @@ pub(super) fn apply_penalty(
         }
         let law = laws.get(contact.law);
         let end = End::of(sink.bodies, atom);
-        let touch = touch_wall(sink.bodies, &end, packed.normal, height);
-        contact.follow(law, &touch, evaluation.elapsed, &mut losses);
+        let touch = touch_wall::<N>(sink.bodies, &end, packed.normal, height);
+        contact.follow::<N>(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;
         }
@@ -237,7 +266,6 @@ pub(super) fn apply_penalty(
         deepest.note(contact.overlap, end.radius, evaluation.time, || (sink.bodies.entity[end.body], packed.entity));
         sink.wall_pushes(&end, wall, packed.normal, height, contact.force(law, packed.normal));
     }
-    rest.settle(sink.bodies, sink.balance);
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::inelasticity::{self, Mode};
+use super::coulomb::Slider;
 use super::law::PairLaw;
-use super::tangential::{self, Grip};
+use super::normal::{Approach, Mode, NormalForce, elastic_energy, lost_work};
 
 /// History of a candidate pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,16 +15,12 @@ pub struct Contact {
     pub law: u32,
     /// Phase of the normal law.
     pub mode: Mode,
-    /// Phase of the tangential law.
-    pub grip: Grip,
-    /// Normal force in newtons while the normal law holds.
-    pub held_normal: f64,
-    /// Tangential force in newtons while the tangential law holds; it counts as the pull of the spring does.
-    pub held_tangential: f64,
     /// Overlap in metres, zero when open.
     pub overlap: f64,
-    /// Elongation of the tangential spring in metres.
-    pub elongation: f64,
+    /// Normal force in newtons.
+    pub normal_force: f64,
+    /// The tangential spring.
+    pub tangential: Slider,
 }
 
 /// Geometry of a touch of side A and side B.
@@ -34,6 +30,8 @@ pub struct Touch {
     pub normal: DVec2,
     /// Overlap in metres, positive when touching.
     pub overlap: f64,
+    /// How the sides approach, for laws that depend on it.
+    pub approach: Approach,
     /// Displacement of B's centre relative to A's since the last accepted state, in metres.
     pub displacement: DVec2,
     /// Turn of the line of centres in that time, in radians; zero for walls.
@@ -67,7 +65,7 @@ impl Touch {
 pub struct Losses {
     /// To friction.
     pub friction: f64,
-    /// To inelasticity.
+    /// To inelasticity and damping.
     pub inelasticity: f64,
 }
 
@@ -75,108 +73,81 @@ impl Contact {
     /// Follows the pair to the state that `touch` describes, in its present mode. A pair that was open begins to load.
     /// `elapsed` seconds have passed since the last accepted state.
     #[inline(always)]
-    pub fn follow(&mut self, law: &PairLaw, touch: &Touch, elapsed: f64, losses: &mut Losses) {
-        let before = self.overlap;
+    pub fn follow<N: NormalForce>(&mut self, law: &PairLaw, touch: &Touch, elapsed: f64, losses: &mut Losses) {
+        let before = (self.overlap, self.normal_force);
         if self.mode == Mode::Open {
             self.mode = Mode::Loading;
         }
         self.overlap = touch.overlap.max(0.0);
-        losses.inelasticity += match self.mode {
-            Mode::Hold => {
-                let stored = inelasticity::energy(law, self.overlap) - inelasticity::energy(law, before);
-                self.held_normal * (self.overlap - before) - stored
-            }
-            mode => inelasticity::loss(law, mode, before, self.overlap),
+        losses.inelasticity += if self.mode == Mode::Hold {
+            lost_work(law, before, (self.overlap, self.normal_force))
+        } else {
+            self.normal_force = N::force(law, self.mode, self.overlap, touch.approach);
+            N::loss(law, self.mode, before, (self.overlap, self.normal_force))
         };
-        if law.friction_static > 0.0 || law.friction_dynamic > 0.0 {
-            let displacement = (elapsed > 0.0).then(|| touch.tangential_displacement(law, before));
-            if self.grip == Grip::Hold {
-                losses.friction += self.held_tangential * displacement.unwrap_or(0.0);
-            } else {
-                self.stretch(law, displacement, losses);
-            }
+        let slider = law.tangential();
+        if slider.acts() {
+            let displacement = (elapsed > 0.0).then(|| touch.tangential_displacement(law, before.0));
+            losses.friction += self.tangential.follow(&slider, displacement, self.normal_force);
         }
         if touch.overlap <= 0.0 {
-            losses.friction += tangential::energy(law, self.elongation);
+            losses.friction += self.tangential.energy(&slider);
             *self = Self { reach: self.reach, law: self.law, ..Self::default() };
         }
     }
 
-    /// Chooses the mode for a pair that parts with `parting` m/s (negative: approaches). Returns what it was before if
-    /// that changed anything.
+    /// Chooses the mode for a pair that is not to be held. Returns what it was before if that changed anything.
     #[inline]
-    pub fn choose_mode(&mut self, law: &PairLaw, parting: f64, losses: &mut Losses) -> Option<Self> {
-        let chosen = self.mode.chosen(parting);
-        if chosen == self.mode && self.grip != Grip::Hold {
+    pub fn choose_mode<N: NormalForce>(
+        &mut self,
+        law: &PairLaw,
+        approach: Approach,
+        losses: &mut Losses,
+    ) -> Option<Self> {
+        let chosen = N::chosen(self.mode, approach.parting);
+        if chosen == self.mode {
             return None;
         }
         let before = *self;
         self.mode = chosen;
+        self.normal_force = N::force(law, chosen, self.overlap, approach);
         self.let_go(law, losses);
-        // A weaker normal force holds less friction.
-        self.stretch(law, None, losses);
         Some(before)
     }
 
     /// Holds along the normal with `normal` newtons, and along the tangent if `tangential` newtons are given.
     pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: Option<f64>, losses: &mut Losses) {
         self.mode = Mode::Hold;
-        self.held_normal = normal;
-        if let Some(tangential) = tangential {
-            self.grip = Grip::Hold;
-            self.held_tangential = tangential;
-        } else {
-            self.let_go(law, losses);
-            self.stretch(law, None, losses);
+        self.normal_force = normal;
+        match tangential {
+            Some(tangential) => self.tangential.hold(tangential),
+            None => self.let_go(law, losses),
         }
     }
 
-    /// The spring takes over from a hold.
+    /// The tangential spring takes over; a weaker normal force holds less friction.
     fn let_go(&mut self, law: &PairLaw, losses: &mut Losses) {
-        if self.grip == Grip::Hold {
-            let elongation = tangential::released(law, self.elongation, self.held_tangential);
-            losses.friction += tangential::energy(law, self.elongation) - tangential::energy(law, elongation);
-            self.elongation = elongation;
-            self.grip = Grip::Stick;
-        }
-    }
-
-    #[inline(always)]
-    fn stretch(&mut self, law: &PairLaw, displacement: Option<f64>, losses: &mut Losses) {
-        if law.tangential_stiffness > 0.0 {
-            let stretched = tangential::stretch(law, self.elongation, self.grip, displacement, self.normal_force(law));
-            self.elongation = stretched.elongation;
-            self.grip = stretched.grip;
-            losses.friction += stretched.loss;
-        }
-    }
-
-    /// Normal force in newtons.
-    #[inline]
-    pub fn normal_force(&self, law: &PairLaw) -> f64 {
-        match self.mode {
-            Mode::Hold => self.held_normal,
-            mode => inelasticity::force(law, mode, self.overlap),
+        let slider = law.tangential();
+        if slider.acts() {
+            losses.friction += self.tangential.let_go(&slider);
+            losses.friction += self.tangential.follow(&slider, None, self.normal_force);
         }
     }
 
     /// Tangential force in newtons: positive pulls side B back along the tangent.
     #[inline]
     pub fn tangential_force(&self, law: &PairLaw) -> f64 {
-        match self.grip {
-            Grip::Hold => self.held_tangential,
-            Grip::Stick | Grip::Slip => law.tangential_stiffness * self.elongation,
-        }
+        self.tangential.force(&law.tangential())
     }
 
     /// Force on side B in newtons; side A receives the opposite.
     #[inline]
     pub fn force(&self, law: &PairLaw, normal: DVec2) -> DVec2 {
-        normal * self.normal_force(law) - normal.perp() * self.tangential_force(law)
+        normal * self.normal_force - normal.perp() * self.tangential_force(law)
     }
 
     /// Elastic energy in J, of both springs.
     pub fn energy(&self, law: &PairLaw) -> f64 {
-        inelasticity::energy(law, self.overlap) + tangential::energy(law, self.elongation)
+        elastic_energy(law, self.overlap) + self.tangential.energy(&law.tangential())
     }
 }

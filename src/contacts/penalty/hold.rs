@@ -1,17 +1,25 @@
 //! Which forces keep touching bodies at rest: the contact laws are set-valued where a contact does not move.
 //!
-//! Normal force `N` in `[1 - mu_e, 1 + mu_e] k d`, tangential force `|T| <= mu N`. For the tick to come each contact that
-//! could stop gets the force that makes its velocity zero at the end, or the bound that is nearest (the implicit
-//! discretisation of dry friction: Moreau 1988; Acary and Brogliato 2008, chapter 1). There is no threshold: a velocity
-//! is taken away where the bounds of the law suffice to do so within the tick, and nowhere else.
+//! Normal force `N` within the band of the normal law (`[1 - mu_e, 1 + mu_e] k d`), tangential force `|T| <= mu N`,
+//! rolling torque `|M| <= mu_r R N`. For the tick to come each contact that could stop gets the force that makes its
+//! velocity zero at the end, or the bound that is nearest (the implicit discretisation of dry friction: Moreau 1988;
+//! Acary and Brogliato 2008, chapter 1). There is no threshold: a velocity is taken away where the bounds of the law
+//! suffice to do so within the tick, and nowhere else.
 //!
-//! Solved by projected Gauss-Seidel from the present forces; where no bound is active the equations are linear, and
-//! conjugate gradients finish them to rounding whatever the ratio of masses.
+//! Solved by projected Gauss-Seidel from the present forces. Where no bound is active the equations are linear: in an
+//! island that may come to rest conjugate gradients bring the velocities down by a factor each tick, whatever the ratio
+//! of masses, and after a few ticks to rounding.
 
 use glam::DVec2;
 
 /// Sweeps of Gauss-Seidel per tick. What is left over is taken up in the next tick, from where this one ended.
-const SWEEPS: usize = 40;
+const SWEEPS: usize = 10;
+
+/// How often conjugate gradients and sweeps take turns to find the bounds that are active.
+const ROUNDS: usize = 2;
+
+/// Share to which conjugate gradients bring down the velocities of an island in one tick. A few ticks reach rounding.
+const GAIN: f64 = 1e-4;
 
 /// A share of a force that counts as rounding.
 const ROUNDING: f64 = 1e-12;
@@ -30,23 +38,29 @@ pub struct Mover {
 }
 
 impl Mover {
-    /// Whether it stands but for rounding, under normal forces of `scale` newtons in all that act up to `extent` metres
-    /// from its centre of mass over `dt` seconds. What does not move by forces has to stand exactly.
-    pub fn stands(&self, scale: f64, extent: f64, dt: f64) -> bool {
-        let limit = 10.0 * ROUNDING * scale * dt;
+    /// Whether it stands but for rounding, under `load` newtons that act up to `extent` metres from its centre of mass
+    /// over `dt` seconds. What does not move by forces has to stand exactly.
+    pub fn stands(&self, load: f64, extent: f64, dt: f64) -> bool {
+        let limit = 10.0 * ROUNDING * load * dt;
         self.velocity.length() <= limit * self.inverse_mass && self.spin.abs() <= limit * extent * self.inverse_inertia
     }
 }
 
-/// Sum of the normal forces on mover `place` in newtons.
-pub fn load(candidates: &[Candidate], place: usize) -> f64 {
-    let on = candidates.iter().filter(|c| c.ends.0 == place || c.ends.1 == place);
-    on.fold(0.0, |sum, candidate| sum + candidate.normal_force)
+/// Sums over the contacts of each of `movers` movers of the force against which its rounding is to be judged, in newtons.
+pub fn loads(candidates: &[Candidate], movers: usize) -> Vec<f64> {
+    let mut loads = vec![0.0; movers];
+    for candidate in candidates {
+        for place in [candidate.ends.0, candidate.ends.1] {
+            loads[place] += candidate.normal_force + candidate.noise / ROUNDING;
+        }
+    }
+    loads
 }
 
-/// One direction of a contact: a force along it acts on B, the opposite on A.
+/// One direction of a contact: a force along it acts on B, the opposite on A. For a torque the direction is zero and the
+/// levers are one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+struct Row {
     direction: DVec2,
     lever_a: f64,
     lever_b: f64,
@@ -55,9 +69,9 @@ pub struct Row {
 }
 
 impl Row {
-    fn new(movers: &[Mover], (a, b): (usize, usize), (arm_a, arm_b): (DVec2, DVec2), direction: DVec2) -> Self {
-        let (lever_a, lever_b) = (arm_a.perp_dot(direction), arm_b.perp_dot(direction));
-        let share = |mover: &Mover, lever: f64| mover.inverse_mass + lever * lever * mover.inverse_inertia;
+    fn new(movers: &[Mover], (a, b): (usize, usize), (lever_a, lever_b): (f64, f64), direction: DVec2) -> Self {
+        let linear = direction.length_squared();
+        let share = |mover: &Mover, lever: f64| linear * mover.inverse_mass + lever * lever * mover.inverse_inertia;
         Self { direction, lever_a, lever_b, mobility: share(&movers[a], lever_a) + share(&movers[b], lever_b) }
     }
 
@@ -76,74 +90,116 @@ impl Row {
     }
 }
 
-/// A contact that may come to rest, between movers `ends`.
+/// A force or torque whose limit is a share of the normal force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Bounded {
+    row: Row,
+    coefficient: f64,
+    /// Whether it may hold in the tick to come; if not it stays as it is.
+    engaged: bool,
+    force: f64,
+}
+
+impl Bounded {
+    fn is_free(&self, normal_force: f64) -> bool {
+        self.engaged && self.force.abs() < self.coefficient * normal_force
+    }
+}
+
+/// A contact as it comes to the search for rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Places of both sides in the list of movers.
+    pub ends: (usize, usize),
+    /// Arms of both sides in metres.
+    pub arms: (DVec2, DVec2),
+    /// Unit normal from A to B.
+    pub normal: DVec2,
+    /// Least and greatest normal force in newtons.
+    pub band: (f64, f64),
+    /// Normal force in newtons.
+    pub normal_force: f64,
+    /// Force in newtons that rounding of positions makes.
+    pub noise: f64,
+    /// Whether the tangential and the rolling force may hold: not before the normal force has for a tick, so that a
+    /// contact that turns in a collision keeps what its springs hold.
+    pub engaged: bool,
+    /// Static coefficient of friction, and the present tangential force in newtons, along minus the tangent on B.
+    pub tangential: (f64, f64),
+    /// Coefficient of rolling friction times rolling radius in metres, and the present torque in N m, against B's turn.
+    pub rolling: (f64, f64),
+}
+
+/// A contact that may come to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     ends: (usize, usize),
     normal: Row,
-    tangent: Row,
-    /// Least and greatest normal force in newtons.
     band: (f64, f64),
-    /// Static coefficient of friction.
-    friction: f64,
-    /// Normal force in newtons.
-    pub normal_force: f64,
-    /// Tangential force in newtons, along minus the tangent on B.
-    pub tangential_force: f64,
+    noise: f64,
+    normal_force: f64,
+    bounded: [Bounded; 2],
 }
 
-/// What became of a candidate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What becomes of a contact in the tick to come.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// It still moves along its normal.
-    Moves,
-    /// It rests along its normal and slips, or has no friction.
-    Rests,
-    /// It rests along both directions.
-    Sticks,
+    /// It moves along its normal; the normal force wants it to approach or to part.
+    Moves {
+        /// Whether the normal force is at its upper bound: the contact approaches.
+        approaches: bool,
+    },
+    /// It rests along its normal.
+    Rests {
+        /// Normal force in newtons.
+        normal: f64,
+        /// Tangential force in newtons if it rests along the tangent too.
+        tangential: Option<f64>,
+        /// Rolling torque in N m if it does not roll.
+        rolling: Option<f64>,
+        /// Whether nothing in it moves that friction could hold.
+        entirely: bool,
+    },
 }
 
 impl Candidate {
-    /// A contact between `ends` with the arms of both sides, in the direction `normal` from A to B, with the present
-    /// forces.
-    pub fn new(
-        movers: &[Mover],
-        ends: (usize, usize),
-        arms: (DVec2, DVec2),
-        normal: DVec2,
-        band: (f64, f64),
-        friction: f64,
-        forces: (f64, f64),
-    ) -> Self {
-        let tangent = Row::new(movers, ends, arms, -normal.perp());
-        let normal = Row::new(movers, ends, arms, normal);
-        Self { ends, normal, tangent, band, friction, normal_force: forces.0, tangential_force: forces.1 }
+    /// Sets up the rows of a contact.
+    pub fn new(movers: &[Mover], seen: &Seen) -> Self {
+        let along = |direction: DVec2| {
+            let levers = (seen.arms.0.perp_dot(direction), seen.arms.1.perp_dot(direction));
+            Row::new(movers, seen.ends, levers, direction)
+        };
+        let turn = Row::new(movers, seen.ends, (-1.0, -1.0), DVec2::ZERO);
+        let bounded = |row, (coefficient, force): (f64, f64)| Bounded {
+            row,
+            coefficient,
+            engaged: seen.engaged && coefficient > 0.0,
+            force,
+        };
+        Self {
+            ends: seen.ends,
+            normal: along(seen.normal),
+            band: seen.band,
+            noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
+            normal_force: seen.normal_force,
+            bounded: [bounded(along(-seen.normal.perp()), seen.tangential), bounded(turn, seen.rolling)],
+        }
     }
 
-    /// Least normal force in newtons that the law allows.
-    pub fn least_force(&self) -> f64 {
-        self.band.0
-    }
-
-    fn limit(&self) -> f64 {
-        self.friction * self.normal_force
-    }
-
-    /// Velocity that rounding of forces may leave after `dt` seconds, in m/s.
-    fn noise(&self, row: &Row, dt: f64) -> f64 {
-        1e3 * ROUNDING * row.mobility * self.band.1 * dt
-    }
-
-    /// Lets both forces work over `dt` seconds so that the contact stops, as far as their bounds allow. Returns the
-    /// greatest change of velocity over what counts as rounding.
+    /// Lets all forces work over `dt` seconds so that the contact stops, as far as their bounds allow. Returns the
+    /// greatest change of a force over what counts as rounding.
     fn relax(&mut self, movers: &mut [Mover], dt: f64) -> f64 {
         let wanted = self.normal_force - self.normal.velocity(movers, self.ends) / (self.normal.mobility * dt);
-        let change = self.set_normal(movers, wanted.clamp(self.band.0, self.band.1), dt);
-        if self.friction == 0.0 {
-            return change;
+        let mut change = self.set_normal(movers, wanted.clamp(self.band.0, self.band.1), dt);
+        for place in 0..self.bounded.len() {
+            let Bounded { row, coefficient, engaged, force } = self.bounded[place];
+            if engaged {
+                let limit = coefficient * self.normal_force;
+                let wanted = force - row.velocity(movers, self.ends) / (row.mobility * dt);
+                change = change.max(self.set_bounded(movers, place, wanted.clamp(-limit, limit), dt));
+            }
         }
-        let wanted = self.tangential_force - self.tangent.velocity(movers, self.ends) / (self.tangent.mobility * dt);
-        change.max(self.set_tangential(movers, wanted.clamp(-self.limit(), self.limit()), dt))
+        change
     }
 
     fn set_normal(&mut self, movers: &mut [Mover], force: f64, dt: f64) -> f64 {
@@ -153,75 +209,83 @@ impl Candidate {
         change.abs() / (ROUNDING * self.band.1)
     }
 
-    fn set_tangential(&mut self, movers: &mut [Mover], force: f64, dt: f64) -> f64 {
-        let change = force - self.tangential_force;
-        self.tangential_force = force;
-        self.tangent.push(movers, self.ends, change * dt);
-        change.abs() / (ROUNDING * self.band.1)
+    fn set_bounded(&mut self, movers: &mut [Mover], place: usize, force: f64, dt: f64) -> f64 {
+        let bounded = &mut self.bounded[place];
+        let change = force - bounded.force;
+        bounded.force = force;
+        bounded.row.push(movers, self.ends, change * dt);
+        change.abs() / (ROUNDING * bounded.coefficient * self.band.1)
     }
 
-    fn free(&self) -> (bool, bool) {
-        let normal = self.normal_force > self.band.0 && self.normal_force < self.band.1;
-        (normal, self.friction > 0.0 && self.tangential_force.abs() < self.limit())
+    fn normal_is_free(&self) -> bool {
+        self.normal_force > self.band.0 && self.normal_force < self.band.1
+    }
+
+    /// The rows that no bound holds.
+    fn free_rows(&self) -> impl Iterator<Item = Row> + '_ {
+        let bounded = self.bounded.iter().filter(|bounded| bounded.is_free(self.normal_force)).map(|b| b.row);
+        self.normal_is_free().then_some(self.normal).into_iter().chain(bounded)
     }
 
     /// What the contact does in the tick to come.
     pub fn verdict(&self, movers: &[Mover], dt: f64) -> Verdict {
-        let (normal, tangential) = self.free();
-        let stands = |row: &Row| row.velocity(movers, self.ends).abs() <= self.noise(row, dt);
-        if !normal && !stands(&self.normal) {
-            Verdict::Moves
-        } else if self.friction > 0.0 && (tangential || stands(&self.tangent)) {
-            Verdict::Sticks
-        } else {
-            Verdict::Rests
+        let stands = |row: &Row| row.velocity(movers, self.ends).abs() <= self.noise * row.mobility * dt;
+        if !self.normal_is_free() && !stands(&self.normal) {
+            return Verdict::Moves { approaches: self.normal_force > self.band.0 };
         }
+        let held = |bounded: &Bounded| {
+            let holds = bounded.engaged && (bounded.is_free(self.normal_force) || stands(&bounded.row));
+            holds.then_some(bounded.force)
+        };
+        let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || held(bounded).is_some());
+        let [tangential, rolling] = [held(&self.bounded[0]), held(&self.bounded[1])];
+        Verdict::Rests { normal: self.normal_force, tangential, rolling, entirely }
     }
 }
 
 /// Finds the forces of an island of candidates for the `dt` seconds to come. `movers` hold the velocities at their end
-/// under the present forces, and are brought up to date.
-pub fn solve(candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
-    for _ in 0..SWEEPS {
-        let mut greatest = 0.0_f64;
-        for candidate in &mut *candidates {
-            greatest = greatest.max(candidate.relax(movers, dt));
+/// under the present forces, and are brought up to date. `may_rest`: nothing in the island has a contact that moves.
+pub fn solve(candidates: &mut [Candidate], movers: &mut [Mover], may_rest: bool, dt: f64) {
+    for _ in 0..if may_rest { ROUNDS } else { 1 } {
+        for _ in 0..SWEEPS {
+            let mut greatest = 0.0_f64;
+            for candidate in &mut *candidates {
+                greatest = greatest.max(candidate.relax(movers, dt));
+            }
+            if greatest <= 1e-2 {
+                return;
+            }
         }
-        if greatest <= 1e-2 {
-            return;
+        if may_rest {
+            finish(candidates, movers, dt);
         }
     }
-    finish(candidates, movers, dt);
 }
 
-/// Conjugate gradients over the forces that no bound holds. What would leave its bounds is left as it was.
+/// Conjugate gradients over the forces that no bound holds. A force that would leave its bounds stops there, and what
+/// that leaves is for the sweeps that follow.
 fn finish(candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
-    let rows: Vec<(Row, (usize, usize))> = candidates
-        .iter()
-        .flat_map(|c| {
-            let (normal, tangential) = c.free();
-            [normal.then_some((c.normal, c.ends)), tangential.then_some((c.tangent, c.ends))].into_iter().flatten()
-        })
-        .collect();
+    let rows: Vec<(Row, (usize, usize))> =
+        candidates.iter().flat_map(|c| c.free_rows().map(|row| (row, c.ends)).collect::<Vec<_>>()).collect();
     let still: Vec<Mover> = movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }).collect();
-    let velocities = |movers: &[Mover]| rows.iter().map(|(row, ends)| row.velocity(movers, *ends)).collect::<Vec<_>>();
-    let apply = |impulses: &[f64]| {
-        let mut moved = still.clone();
-        rows.iter().zip(impulses).for_each(|((row, ends), &impulse)| row.push(&mut moved, *ends, impulse));
-        velocities(&moved)
-    };
-    let scaled = |residual: &[f64]| rows.iter().zip(residual).map(|((row, _), r)| r / row.mobility).collect::<Vec<_>>();
+    let mut moved = still.clone();
+    let mut response = vec![0.0; rows.len()];
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
     let mut impulses = vec![0.0; rows.len()];
-    let mut residual: Vec<f64> = velocities(movers).iter().map(|v| -v).collect();
-    let mut search = scaled(&residual);
+    let mut residual: Vec<f64> = rows.iter().map(|(row, ends)| -row.velocity(movers, *ends)).collect();
+    let mut scaled: Vec<f64> = rows.iter().zip(&residual).map(|((row, _), r)| r / row.mobility).collect();
+    let mut search = scaled.clone();
     let mut size = dot(&residual, &search);
-    let goal = size * 1e-28;
+    let goal = size * GAIN * GAIN;
     for _ in 0..4 * rows.len() + 10 {
         if size <= goal || size == 0.0 {
             break;
         }
-        let response = apply(&search);
+        moved.clone_from(&still);
+        rows.iter().zip(&search).for_each(|((row, ends), &impulse)| row.push(&mut moved, *ends, impulse));
+        for (response, (row, ends)) in response.iter_mut().zip(&rows) {
+            *response = row.velocity(&moved, *ends);
+        }
         let curvature = dot(&search, &response);
         if curvature <= 0.0 {
             break;
@@ -230,37 +294,29 @@ fn finish(candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
         for i in 0..rows.len() {
             impulses[i] += step * search[i];
             residual[i] -= step * response[i];
+            scaled[i] = residual[i] / rows[i].0.mobility;
         }
-        let direction = scaled(&residual);
-        let before = std::mem::replace(&mut size, dot(&residual, &direction));
+        let before = std::mem::replace(&mut size, dot(&residual, &scaled));
         for i in 0..rows.len() {
-            search[i] = direction[i] + size / before * search[i];
+            search[i] = scaled[i] + size / before * search[i];
         }
     }
     take_over(candidates, movers, &impulses, dt);
 }
 
-/// Takes the impulses of the free directions over if all forces stay within their bounds.
+/// Takes over the impulses of the free rows, each as far as its bounds allow.
 fn take_over(candidates: &mut [Candidate], movers: &mut [Mover], impulses: &[f64], dt: f64) {
     let mut impulses = impulses.iter();
-    let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
-    let changed: Vec<(f64, f64)> = candidates
-        .iter()
-        .map(|c| {
-            let (normal, tangential) = c.free();
-            let change = if normal { next() } else { 0.0 };
-            (c.normal_force + change, c.tangential_force + if tangential { next() } else { 0.0 })
-        })
-        .collect();
-    let allowed = |(c, &(normal, tangential)): (&Candidate, &(f64, f64))| {
-        let within = normal >= c.band.0 && normal <= c.band.1;
-        within && tangential.abs() <= c.friction * normal
-    };
-    if candidates.iter().zip(&changed).all(allowed) {
-        for (candidate, (normal, tangential)) in candidates.iter_mut().zip(changed) {
-            candidate.set_normal(movers, normal, dt);
-            if candidate.friction > 0.0 {
-                candidate.set_tangential(movers, tangential, dt);
+    let mut next = |free: bool| if free { impulses.next().map_or(0.0, |impulse| impulse / dt) } else { 0.0 };
+    for candidate in candidates {
+        let free = candidate.bounded.map(|bounded| bounded.is_free(candidate.normal_force));
+        let normal = candidate.normal_force + next(candidate.normal_is_free());
+        candidate.set_normal(movers, normal.clamp(candidate.band.0, candidate.band.1), dt);
+        for (place, free) in free.into_iter().enumerate() {
+            let Bounded { coefficient, engaged, force, .. } = candidate.bounded[place];
+            if engaged {
+                let limit = coefficient * candidate.normal_force;
+                candidate.set_bounded(movers, place, (force + next(free)).clamp(-limit, limit), dt);
             }
         }
     }

@@ -1,72 +1,68 @@
 //! Normal law: a linear spring that is stiffer while loading than while unloading.
 //!
 //! `N = k d (1 + mu_e)` while the bodies approach and `N = k d (1 - mu_e)` while they part, with `d` the overlap. The
-//! work lost in a full cycle gives the restitution `e = sqrt((1 - mu_e)/(1 + mu_e))`, whatever the speed (the idea of
-//! Walton and Braun 1986). Within a mode the force has a potential, so the energy lost between two overlaps is known
-//! exactly: `+-mu_e k (d1^2 - d0^2)/2`.
+//! work lost in a full cycle gives the restitution `e = sqrt((1 - mu_e)/(1 + mu_e))`, whatever the speed, the masses and
+//! the number of atoms that touch at once (the idea of Walton and Braun 1986). Within a mode the force has a potential,
+//! so the energy lost between two overlaps is known exactly: `+-mu_e k (d1^2 - d0^2)/2`. A contact ends when the overlap
+//! does; it never pulls.
 //!
 //! At rest, `v_n = 0`, the law is set-valued: any force between the two keeps the contact there. Which one it is the
 //! balance of forces decides ([`super::hold`]).
 
+use super::Penalty;
 use super::law::PairLaw;
+use super::normal::{Approach, Mode, NormalForce, elastic_energy};
 
-/// Phase of a contact; frozen during a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// Not touching.
-    #[default]
-    Open,
-    /// Approaching.
-    Loading,
-    /// Parting.
-    Unloading,
-    /// At rest along the normal: the force is whatever keeps it so, between the two others.
-    Hold,
-}
+/// The law.
+pub struct Inelasticity;
 
-impl Mode {
-    fn sign(self) -> f64 {
-        match self {
-            Mode::Open | Mode::Hold => 0.0,
-            Mode::Loading => 1.0,
-            Mode::Unloading => -1.0,
-        }
+impl NormalForce for Inelasticity {
+    const DEPENDS_ON_VELOCITY: bool = false;
+
+    fn set_up(law: &mut PairLaw, inelasticity: f64, _: &Penalty) {
+        law.inelasticity = inelasticity;
     }
 
-    /// The mode for a contact that parts with `parting` m/s (negative: approaches). At rest it stays as it was.
-    pub fn chosen(self, parting: f64) -> Self {
+    /// At rest it stays as it was.
+    #[inline]
+    fn chosen(present: Mode, parting: f64) -> Mode {
         if parting < 0.0 {
             Mode::Loading
         } else if parting > 0.0 {
             Mode::Unloading
-        } else if self == Mode::Hold {
+        } else if present == Mode::Hold {
             Mode::Loading
         } else {
-            self
+            present
         }
+    }
+
+    #[inline]
+    fn force(law: &PairLaw, mode: Mode, overlap: f64, _: Approach) -> f64 {
+        law.stiffness * overlap * (1.0 + sign(mode) * law.inelasticity)
+    }
+
+    #[inline]
+    fn band(law: &PairLaw, overlap: f64, _: f64) -> (f64, f64) {
+        let force = |mode| Self::force(law, mode, overlap, Approach::default());
+        (force(Mode::Unloading), force(Mode::Loading))
+    }
+
+    #[inline]
+    fn loss(law: &PairLaw, mode: Mode, (before, _): (f64, f64), (after, _): (f64, f64)) -> f64 {
+        let share = sign(mode) * law.inelasticity;
+        share * elastic_energy(law, after) - share * elastic_energy(law, before)
+    }
+
+    fn dissipates(law: &PairLaw) -> bool {
+        law.inelasticity > 0.0
     }
 }
 
-/// The least and the greatest force in newtons that a contact at rest may have: the law is set-valued there.
-#[inline]
-pub fn band(law: &PairLaw, overlap: f64) -> (f64, f64) {
-    (force(law, Mode::Unloading, overlap), force(law, Mode::Loading, overlap))
-}
-
-/// Normal force in newtons at `overlap` metres.
-#[inline]
-pub fn force(law: &PairLaw, mode: Mode, overlap: f64) -> f64 {
-    law.stiffness * overlap * (1.0 + mode.sign() * law.inelasticity)
-}
-
-/// Energy in J that is lost between two overlaps in one mode.
-#[inline]
-pub fn loss(law: &PairLaw, mode: Mode, before: f64, after: f64) -> f64 {
-    mode.sign() * law.inelasticity * energy(law, after) - mode.sign() * law.inelasticity * energy(law, before)
-}
-
-/// Elastic energy in J at `overlap` metres.
-#[inline]
-pub fn energy(law: &PairLaw, overlap: f64) -> f64 {
-    0.5 * law.stiffness * overlap * overlap
+fn sign(mode: Mode) -> f64 {
+    match mode {
+        Mode::Open | Mode::Hold => 0.0,
+        Mode::Loading => 1.0,
+        Mode::Unloading => -1.0,
+    }
 }

@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::Penalty;
+use super::coulomb::SliderLaw;
+use super::dashpot::Damping;
+use super::normal::NormalForce;
 use crate::world::{MaterialIndex, Materials};
 
 /// Coefficients of one kind of pair.
@@ -10,8 +13,10 @@ use crate::world::{MaterialIndex, Materials};
 pub struct PairLaw {
     /// Stiffness of both sides in series, `1/(1/ka + 1/kb)`, in N/m.
     pub stiffness: f64,
-    /// `mu_e`, between 0 (elastic) and 1.
+    /// `mu_e`, between 0 (elastic) and 1. Zero if the normal law is another one.
     pub inelasticity: f64,
+    /// Damping. None if the normal law has none.
+    pub damping: Damping,
     /// Coulomb coefficient of a sticking contact.
     pub friction_static: f64,
     /// Coulomb coefficient of a slipping contact.
@@ -22,6 +27,18 @@ pub struct PairLaw {
     pub share_a: f64,
     /// Share of the overlap that side B gives way.
     pub share_b: f64,
+}
+
+impl PairLaw {
+    /// The tangential spring.
+    #[inline]
+    pub fn tangential(&self) -> SliderLaw {
+        SliderLaw {
+            stiffness: self.tangential_stiffness,
+            friction_static: self.friction_static,
+            friction_dynamic: self.friction_dynamic,
+        }
+    }
 }
 
 /// Stiffness and material of one side.
@@ -56,26 +73,29 @@ impl LawTable {
     }
 
     /// Place of the law between two sides.
-    pub fn place(&mut self, a: Side, b: Side, materials: &Materials, settings: &Penalty) -> u32 {
+    pub fn place<N: NormalForce>(&mut self, a: Side, b: Side, materials: &Materials, settings: &Penalty) -> u32 {
         *self.places.entry((a.key(), b.key())).or_insert_with(|| {
-            self.laws.push(pair_law(a, b, materials, settings));
+            self.laws.push(pair_law::<N>(a, b, materials, settings));
             self.laws.len() as u32 - 1
         })
     }
 }
 
-fn pair_law(a: Side, b: Side, materials: &Materials, settings: &Penalty) -> PairLaw {
+fn pair_law<N: NormalForce>(a: Side, b: Side, materials: &Materials, settings: &Penalty) -> PairLaw {
     let stiffness = 1.0 / (1.0 / a.stiffness + 1.0 / b.stiffness);
     let pair = materials.pair(a.material.place(), b.material.place());
     let ratio = settings.tangential.ratio();
     let friction = |coefficient: f64| if ratio.is_some() { coefficient } else { 0.0 };
-    PairLaw {
+    let mut law = PairLaw {
         stiffness,
-        inelasticity: pair.inelasticity,
+        inelasticity: 0.0,
+        damping: Damping::Ratio(0.0),
         friction_static: friction(pair.friction_static),
         friction_dynamic: friction(pair.friction_dynamic),
         tangential_stiffness: ratio.unwrap_or(0.0) * stiffness,
         share_a: stiffness / a.stiffness,
         share_b: stiffness / b.stiffness,
-    }
+    };
+    N::set_up(&mut law, pair.inelasticity, settings);
+    law
 }

@@ -2,33 +2,48 @@
 
 pub mod apply;
 pub mod contact;
+pub mod coulomb;
+pub mod dashpot;
 pub mod hold;
 pub mod inelasticity;
 pub mod law;
 mod modes;
+pub mod normal;
 mod rest;
-pub mod tangential;
+pub mod rolling;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Deserialize;
 
 pub use apply::PenaltyContacts;
+pub use dashpot::Dashpot;
+pub use inelasticity::Inelasticity;
+pub use rolling::RollingContacts;
+
+use normal::NormalForce;
 
 use super::search::{self, FindPairs};
 use super::{ContactLaw, DeepestOverlap, StiffestContact};
+use crate::report::card::Notes;
+use crate::scene::units::Damping;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
 use crate::tick::{Evaluate, EvaluateStage, Modes, TickAppExt};
+use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
 
 /// `contacts: Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)`.
+///
+/// The three laws are chosen one by one; each may stand with each.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Penalty {
     /// Force along the normal. Default: `Inelasticity`.
     pub normal: NormalLaw,
+    /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: what gives the restitution of the pair.
+    pub damping: Option<Damping>,
     /// Force along the tangent. Default: `Spring(ratio: 0.8)`.
     pub tangential: TangentialLaw,
     /// Torque against rolling. Default: `None`.
@@ -42,6 +57,8 @@ pub enum NormalLaw {
     /// A spring that is stiffer while loading; see [`inelasticity`].
     #[default]
     Inelasticity,
+    /// A spring and a dashpot, without pulling; see [`dashpot`].
+    Dashpot,
 }
 
 /// The tangential law.
@@ -60,7 +77,7 @@ pub enum TangentialLaw {
 
 impl Default for TangentialLaw {
     fn default() -> Self {
-        Self::Spring { ratio: 0.8 }
+        Self::Spring { ratio: default_ratio() }
     }
 }
 
@@ -81,7 +98,42 @@ pub enum RollingLaw {
     /// No resistance against rolling.
     #[default]
     None,
+    /// A spring with a Coulomb limit; see [`rolling`].
+    Spring {
+        /// Torque over normal force and rolling radius at which the spring gives way: the tangent of the steepest slope
+        /// on which a disc stays.
+        friction: f64,
+        /// Stiffness of the spring at the rim over that of the normal one. Default 0.8.
+        #[serde(default = "default_ratio")]
+        ratio: f64,
+    },
 }
+
+fn default_ratio() -> f64 {
+    0.8
+}
+
+impl NormalLaw {
+    fn add_systems(self, app: &mut App) {
+        match self {
+            Self::Inelasticity => add_systems::<Inelasticity>(app),
+            Self::Dashpot => add_systems::<Dashpot>(app),
+        }
+    }
+}
+
+fn add_systems<N: NormalForce>(app: &mut App) {
+    let system = apply::apply_penalty::<N>.in_set(ApplyPenalty).after(FindPairs).in_set(EvaluateStage::Contacts);
+    app.add_packed_systems(Evaluate, 1, system);
+    app.add_systems(Modes, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
+    if N::DEPENDS_ON_VELOCITY {
+        app.need_velocities();
+    }
+}
+
+/// Where penalty contacts are applied.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct ApplyPenalty;
 
 /// Installs penalty contacts with these settings.
 pub fn install(settings: Penalty, app: &mut App) {
@@ -91,10 +143,15 @@ pub fn install(settings: Penalty, app: &mut App) {
         .init_resource::<Materials>()
         .init_resource::<PenaltyContacts>()
         .init_resource::<DeepestOverlap>();
-    let system = apply::apply_penalty.after(FindPairs).in_set(EvaluateStage::Contacts);
-    app.add_packed_systems(Evaluate, 1, system);
-    app.add_systems(Modes, modes::choose_modes.in_set(EvaluateStage::Contacts));
+    settings.normal.add_systems(app);
+    app.add_packed_systems(Evaluate, 1, rest::settle_rest.after(EvaluateStage::Joints));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
+    if let RollingLaw::Spring { friction, ratio } = settings.rolling {
+        app.insert_resource(RollingContacts::new(friction, ratio));
+        let system = rolling::apply_rolling.after(ApplyPenalty).in_set(EvaluateStage::Contacts);
+        app.add_packed_systems(Evaluate, 1, system);
+        app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(rolling_energy);
+    }
     app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
 }
 
@@ -106,6 +163,17 @@ impl Entry for Penalty {
     fn check(&self, _: &Outline, report: &mut Report) {
         if let TangentialLaw::Spring { ratio } = self.tangential {
             report.positive("tangential.ratio", ratio);
+        }
+        if let RollingLaw::Spring { friction, ratio } = self.rolling {
+            report.positive("rolling.friction", friction);
+            report.positive("rolling.ratio", ratio);
+        }
+        if let Some(damping) = self.damping
+            && report.not_negative("damping", damping)
+            && self.normal != NormalLaw::Dashpot
+        {
+            let help = "write `normal: Dashpot` beside it, or remove `damping`";
+            report.error("damping", "`damping` belongs to the normal law `Dashpot`").help(help);
         }
     }
 
@@ -125,12 +193,37 @@ fn prepare(world: &mut World) {
     let (materials, settings) = (world.resource::<Materials>().clone(), *world.resource::<Penalty>());
     let mut contacts = world.resource_mut::<PenaltyContacts>();
     (contacts.materials, contacts.settings) = (materials, settings);
+    note_limits(world);
     let stiffest = stiffest_contact(world.resource(), world.resource(), world.resource());
     world.insert_resource(stiffest);
 }
 
 fn elastic_energy(world: &World) -> f64 {
     world.resource::<PenaltyContacts>().energy()
+}
+
+fn rolling_energy(world: &World) -> f64 {
+    world.resource::<RollingContacts>().energy(world.resource(), world.resource(), world.resource())
+}
+
+/// What the law cannot give is said on the card.
+fn note_limits(world: &mut World) {
+    let settings = *world.resource::<Penalty>();
+    if settings.normal != NormalLaw::Dashpot {
+        return;
+    }
+    let bodies = world.resource::<Bodies>();
+    let clumps = (0..bodies.len()).any(|body| bodies.atoms_of(body).len() > 1);
+    let least = restitution_of(world.resource::<Materials>().largest_inelasticity());
+    let mut notes = Vec::new();
+    if clumps {
+        notes.push("contacts: under Dashpot the restitution is that of one atom; a body that lands on n at once rebounds less, its damping ratio is sqrt(n) times as large".to_owned());
+    }
+    if settings.damping.is_none() && least < dashpot::LEAST_RESTITUTION {
+        let limit = dashpot::LEAST_RESTITUTION;
+        notes.push(format!("contacts: Dashpot cannot give the restitution {least}; {limit} is used"));
+    }
+    world.resource_mut::<Notes>().0.extend(notes);
 }
 
 /// Greatest angular frequency that a single contact of any body can have, in rad/s.
@@ -140,7 +233,10 @@ fn elastic_energy(world: &World) -> f64 {
 /// Normal and tangential spring turn the same body, so their values are added. Many contacts on one body at once
 /// respond faster still.
 pub fn stiffest_contact(bodies: &Bodies, materials: &Materials, settings: &Penalty) -> StiffestContact {
-    let inelasticity = materials.largest_inelasticity();
+    let inelasticity = match settings.normal {
+        NormalLaw::Inelasticity => materials.largest_inelasticity(),
+        NormalLaw::Dashpot => 0.0,
+    };
     let ratio = settings.tangential.ratio().filter(|_| materials.any_friction()).unwrap_or(0.0);
     let squared = |atom: usize| {
         let body = bodies.atom_body[atom] as usize;

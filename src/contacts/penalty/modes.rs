@@ -3,12 +3,14 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts, Sink, Touching, arms};
+use super::apply::{End, PenaltyContacts, Sink, Touching, approach, arms};
 use super::contact::{Contact, Losses};
-use super::hold::{self, Candidate, Mover, Verdict};
-use super::inelasticity::{self, Mode};
+use super::coulomb::{Slider, SliderLaw};
+use super::hold::{self, Candidate, Mover, Seen, Verdict};
 use super::law::PairLaw;
+use super::normal::{Mode, NormalForce};
 use super::rest::Rest;
+use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
 use crate::tick::{Balance, Clock, Ledger};
 use crate::world::Bodies;
@@ -30,20 +32,16 @@ struct Case {
 }
 
 impl Case {
-    fn other_body(&self) -> Option<usize> {
-        match self.other {
-            Other::Atom(end) => Some(end.body),
+    /// Side A unless it is a wall.
+    fn other_end(&self) -> Option<&End> {
+        match &self.other {
+            Other::Atom(end) => Some(end),
             Other::Wall(_) => None,
         }
     }
 
-    /// Velocity of B against A in m/s where the centres are.
-    fn approach(&self, bodies: &Bodies) -> DVec2 {
-        let other = match &self.other {
-            Other::Atom(end) => end.velocity(bodies),
-            Other::Wall(_) => DVec2::ZERO,
-        };
-        self.end.velocity(bodies) - other
+    fn other_body(&self) -> Option<usize> {
+        self.other_end().map(|end| end.body)
     }
 
     /// Arms of both sides.
@@ -65,8 +63,15 @@ impl Case {
 
     /// Whether the contact could stop within `dt` seconds: its normal velocity can be reversed by a force within the
     /// bounds of its law, or by what its neighbours may do at the same time (as much again).
-    fn could_stop(&self, contact: &Contact, law: &PairLaw, bodies: &Bodies, parting: f64, dt: f64) -> bool {
-        if law.inelasticity == 0.0 {
+    fn could_stop<N: NormalForce>(
+        &self,
+        contact: &Contact,
+        law: &PairLaw,
+        bodies: &Bodies,
+        parting: f64,
+        dt: f64,
+    ) -> bool {
+        if !N::dissipates(law) && !law.tangential().acts() {
             return false;
         }
         if contact.mode == Mode::Hold {
@@ -76,7 +81,7 @@ impl Case {
         let other = self.other_body();
         let relative = acceleration(self.end.body) - other.map_or(DVec2::ZERO, acceleration);
         let inverse_mass = bodies.inverse_mass[self.end.body] + other.map_or(0.0, |body| bodies.inverse_mass[body]);
-        let (least, greatest) = inelasticity::band(law, contact.overlap);
+        let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
         parting.abs() <= 2.0 * dt * (relative.dot(self.normal).abs() + (greatest - least) * inverse_mass)
     }
 }
@@ -92,10 +97,11 @@ pub(super) struct Scratch {
 /// The system of [`crate::tick::Modes`]: touching pairs choose loading, unloading or hold for the coming step; where that
 /// changes a force, the sums are corrected by the difference.
 #[allow(clippy::too_many_arguments)] // a system's parameters are its declaration of access
-pub(super) fn choose_modes(
+pub(super) fn choose_modes<N: NormalForce>(
     mut bodies: ResMut<Bodies>,
     pairs: Res<CandidatePairs>,
     mut contacts: ResMut<PenaltyContacts>,
+    mut rolling: Option<ResMut<RollingContacts>>,
     mut balance: ResMut<Balance>,
     mut ledger: ResMut<Ledger>,
     clock: Res<Clock>,
@@ -103,7 +109,8 @@ pub(super) fn choose_modes(
     mut scratch: Local<Scratch>,
 ) {
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
-    let mut choice = Choice { sink, contacts: &mut contacts, dt: clock.dt, losses: Losses::default() };
+    let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
+    let mut choice = Choice { sink, contacts, rolling, dt: clock.dt, losses: Losses::default() };
     choice.wake_touched(&pairs);
     let Scratch { cases, moved } = &mut *scratch;
     cases.clear();
@@ -113,7 +120,7 @@ pub(super) fn choose_modes(
         let AtomPair { a, b } = pairs.atoms[place as usize];
         let (a, b) = (End::of(choice.sink.bodies, a), End::of(choice.sink.bodies, b));
         if !(choice.stands(a.body) && choice.stands(b.body)) {
-            choice.first_look(Case { place, normal, other: Other::Atom(a), end: b }, cases, moved);
+            choice.first_look::<N>(Case { place, normal, other: Other::Atom(a), end: b }, cases, moved);
         }
     }
     for place in 0..choice.contacts.touching_walls.len() {
@@ -121,12 +128,12 @@ pub(super) fn choose_modes(
         let WallPair { wall, atom } = pairs.walls[place as usize];
         let end = End::of(choice.sink.bodies, atom);
         if !choice.stands(end.body) {
-            choice.first_look(Case { place, normal, other: Other::Wall(wall), end }, cases, moved);
+            choice.first_look::<N>(Case { place, normal, other: Other::Wall(wall), end }, cases, moved);
         }
     }
     moved.sort_unstable();
     for island in islands(cases, choice.sink.bodies) {
-        choice.stop(&island, moved, &mut ledger);
+        choice.stop::<N>(&island, moved, &mut ledger);
     }
     ledger.friction.add(choice.losses.friction);
     ledger.inelasticity.add(choice.losses.inelasticity);
@@ -166,6 +173,7 @@ fn islands(cases: &[Case], bodies: &Bodies) -> Vec<Vec<Case>> {
 struct Choice<'a> {
     sink: Sink<'a>,
     contacts: &'a mut PenaltyContacts,
+    rolling: Option<&'a mut RollingContacts>,
     dt: f64,
     losses: Losses,
 }
@@ -205,82 +213,129 @@ impl Choice<'_> {
         (contact, law)
     }
 
+    /// The rolling spring of a contact with its law, in scenes that have them.
+    fn roller(&mut self, case: &Case, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
+        let rolling = self.rolling.as_deref_mut()?;
+        let law = rolling.law(pair, case.other_end(), &case.end);
+        let list = if case.other_end().is_some() { &mut rolling.atoms } else { &mut rolling.walls };
+        Some((&mut list[case.place as usize], law))
+    }
+
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
-    fn first_look(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Vec<usize>) {
-        let parting = case.approach(self.sink.bodies).dot(case.normal);
+    fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Vec<usize>) {
+        let approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
         let (contact, law) = self.contact(&case);
         let (seen, law) = (*contact, *law);
-        if case.could_stop(&seen, &law, self.sink.bodies, parting, self.dt) {
+        if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
         moved.push(case.end.body);
         moved.extend(case.other_body());
-        self.change(&case, |contact, law, losses| contact.choose_mode(law, parting, losses));
+        self.change(&case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
     }
 
-    /// Changes a contact and corrects the sums of forces by the difference.
-    fn change(&mut self, case: &Case, change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>) {
+    /// Changes a contact and corrects the sums of forces by the difference. `rolling` is the torque with which its rolling
+    /// spring holds; if that is `None` the spring takes over.
+    fn change(
+        &mut self,
+        case: &Case,
+        rolling: Option<f64>,
+        change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>,
+    ) {
         let mut losses = self.losses;
         let (contact, law) = self.contact(case);
         let law = *law;
         let before = change(contact, &law, &mut losses);
         let after = *contact;
-        self.losses = losses;
         if let Some(before) = before {
             let difference = after.force(&law, case.normal) - before.force(&law, case.normal);
             case.push(&mut self.sink, &law, after.overlap, difference);
+            if let Some((slider, rolling_law)) = self.roller(case, &law) {
+                let before = slider.force(&rolling_law);
+                match rolling {
+                    Some(torque) => slider.hold(torque),
+                    None => {
+                        losses.friction += slider.let_go(&rolling_law);
+                        losses.friction += slider.follow(&rolling_law, None, after.normal_force);
+                    }
+                }
+                let difference = slider.force(&rolling_law) - before;
+                twist(self.sink.bodies, self.sink.balance, case.other_end(), &case.end, difference);
+            }
+        }
+        self.losses = losses;
+    }
+
+    /// A contact as the search for rest sees it.
+    fn seen<N: NormalForce>(&mut self, case: &Case, ends: (usize, usize)) -> Seen {
+        let (contact, law) = self.contact(case);
+        let (contact, law) = (*contact, *law);
+        let rolling = self.roller(case, &law).map(|(slider, law)| (law.friction_static, slider.force(&law)));
+        let place = self.sink.bodies.position[case.end.body] + case.end.arm;
+        Seen {
+            ends,
+            arms: case.arms(&law, contact.overlap),
+            normal: case.normal,
+            band: N::band(&law, contact.overlap, contact.normal_force),
+            normal_force: contact.normal_force,
+            noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
+            engaged: contact.mode == Mode::Hold,
+            tangential: (law.friction_static, contact.tangential_force(&law)),
+            rolling: rolling.unwrap_or((0.0, 0.0)),
         }
     }
 
     /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves.
-    fn stop(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger) {
+    fn stop<N: NormalForce>(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger) {
         let members = members(island);
         let place = |body: usize| members.binary_search(&body).map_or(0, |place| place + 1);
         let mut movers = vec![Mover::default()];
         movers.extend(members.iter().map(|&body| mover(self.sink.bodies, body, self.dt)));
         let mut candidates = Vec::with_capacity(island.len());
         for case in island {
-            let (contact, law) = self.contact(case);
-            let forces = (contact.normal_force(law), contact.tangential_force(law));
-            let ends = (case.other_body().map_or(0, place), place(case.end.body));
-            let band = inelasticity::band(law, contact.overlap);
-            let arms = case.arms(law, contact.overlap);
-            candidates.push(Candidate::new(&movers, ends, arms, case.normal, band, law.friction_static, forces));
+            let seen = self.seen::<N>(case, (case.other_body().map_or(0, place), place(case.end.body)));
+            candidates.push(Candidate::new(&movers, &seen));
         }
-        hold::solve(&mut candidates, &mut movers, self.dt);
-        let mut all_rest = true;
+        let may_rest = members.iter().all(|body| moved.binary_search(body).is_err());
+        hold::solve(&mut candidates, &mut movers, may_rest, self.dt);
+        let mut entirely = may_rest;
         for (case, candidate) in island.iter().zip(&candidates) {
-            let verdict = candidate.verdict(&movers, self.dt);
-            let parting = if candidate.normal_force > candidate.least_force() { -1.0 } else { 1.0 };
-            self.change(case, |contact, law, losses| {
-                let before = *contact;
-                match verdict {
-                    Verdict::Moves => return contact.choose_mode(law, parting, losses),
-                    Verdict::Rests => contact.hold(law, candidate.normal_force, None, losses),
-                    Verdict::Sticks => {
-                        contact.hold(law, candidate.normal_force, Some(candidate.tangential_force), losses);
+            match candidate.verdict(&movers, self.dt) {
+                Verdict::Moves { approaches } => {
+                    entirely = false;
+                    let mut approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
+                    if !N::DEPENDS_ON_VELOCITY {
+                        approach.parting = if approaches { -1.0 } else { 1.0 };
                     }
+                    self.change(case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
                 }
-                Some(before)
-            });
-            let frictionless = self.contact(case).1.friction_static == 0.0;
-            all_rest &= verdict == Verdict::Sticks || verdict == Verdict::Rests && frictionless;
+                Verdict::Rests { normal, tangential, rolling, entirely: stops } => {
+                    entirely &= stops;
+                    self.change(case, rolling, |contact, law, losses| {
+                        let before = *contact;
+                        contact.hold(law, normal, tangential, losses);
+                        Some(before)
+                    });
+                }
+            }
         }
-        let scales: Vec<f64> = (0..movers.len()).map(|place| hold::load(&candidates, place)).collect();
+        if !entirely {
+            return;
+        }
+        let loads = hold::loads(&candidates, movers.len());
         let bodies = &*self.sink.bodies;
-        let stands = |(&body, (end, &scale)): (&usize, (&Mover, &f64))| {
-            let stands = |mover: &Mover| mover.stands(scale, bodies.extent[body], self.dt);
+        let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
             let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };
-            moved.binary_search(&body).is_err() && stands(&begin) && stands(end)
+            [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent[body], self.dt))
         };
-        if all_rest && members.iter().zip(movers.iter().zip(&scales).skip(1)).all(stands) {
-            self.lay_to_rest(&members, &scales[1..], ledger);
+        if members.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
+            self.lay_to_rest(&members, &loads[1..], ledger);
         }
     }
 
-    fn lay_to_rest(&mut self, members: &[usize], scales: &[f64], ledger: &mut Ledger) {
-        for (&body, &scale) in members.iter().zip(scales) {
+    fn lay_to_rest(&mut self, members: &[usize], loads: &[f64], ledger: &mut Ledger) {
+        for (&body, &load) in members.iter().zip(loads) {
             let bodies = &mut *self.sink.bodies;
             if !bodies.dynamic[body] {
                 continue;
@@ -293,7 +348,7 @@ impl Choice<'_> {
             ledger.angular_impulse.add(-bodies.position[body].perp_dot(momentum) - angular);
             self.losses.inelasticity += 0.5 * (momentum.dot(bodies.velocity[body]) + angular * bodies.spin[body]);
             self.sink.balance.outside(bodies.position[body], -bodies.force[body], -bodies.torque[body]);
-            self.contacts.rest.lay(body, scale, bodies);
+            self.contacts.rest.lay(body, load, bodies);
         }
     }
 }

@@ -4,8 +4,10 @@
 //! law that balance all loads and take the last velocity away. It stays while the sum of all forces on it does not change
 //! by a bit; anything new (a touch, another load, a changed velocity or place) wakes it.
 
+use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::apply::PenaltyContacts;
 use crate::tick::Balance;
 use crate::world::Bodies;
 
@@ -18,8 +20,8 @@ struct Resting {
     body: usize,
     position: DVec2,
     angle: f64,
-    /// Sum of the absolute values of its normal forces in newtons.
-    scale: f64,
+    /// Force against which its imbalance is judged, in newtons; see [`super::hold::loads`].
+    load: f64,
     /// Sum of all forces and torques: what rounding leaves of zero. `None` before the first evaluation.
     left_over: Option<(DVec2, f64)>,
 }
@@ -45,8 +47,8 @@ impl Rest {
         self.resting.is_empty()
     }
 
-    /// Lays `body` to rest under normal forces of `scale` newtons in all: velocities become zero.
-    pub fn lay(&mut self, body: usize, scale: f64, bodies: &mut Bodies) {
+    /// Lays `body` to rest under contact forces of `load` newtons in all: velocities become zero.
+    pub fn lay(&mut self, body: usize, load: f64, bodies: &mut Bodies) {
         self.generation = bodies.generation;
         self.still.resize(bodies.len(), false);
         self.still[body] = true;
@@ -59,7 +61,7 @@ impl Rest {
         bodies.force[body] = DVec2::ZERO;
         bodies.torque[body] = 0.0;
         let (position, angle) = (bodies.position[body], bodies.angle[body]);
-        self.resting.push(Resting { body, position, angle, scale, left_over: None });
+        self.resting.push(Resting { body, position, angle, load, left_over: None });
     }
 
     /// Wakes `body`; returns whether it was at rest.
@@ -98,7 +100,20 @@ impl Rest {
             }
             stays
         });
+        if self.resting.len() == (0..bodies.len()).filter(|&body| bodies.dynamic[body]).count() {
+            // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
+            (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
+        }
     }
+}
+
+/// The system of [`crate::tick::Evaluate`] after all forces.
+pub(super) fn settle_rest(
+    mut contacts: ResMut<PenaltyContacts>,
+    mut bodies: ResMut<Bodies>,
+    mut balance: ResMut<Balance>,
+) {
+    contacts.rest.settle(&mut bodies, &mut balance);
 }
 
 impl Resting {
@@ -109,7 +124,7 @@ impl Resting {
             Some(left_over) => left_over == (force, torque),
             None => {
                 self.left_over = Some((force, torque));
-                let limit = IMBALANCE * self.scale;
+                let limit = IMBALANCE * self.load;
                 force.length() <= limit && torque.abs() <= limit * bodies.extent[body]
             }
         };

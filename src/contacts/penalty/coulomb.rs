@@ -1,0 +1,147 @@
+//! A spring with a Coulomb limit (Cundall and Strack 1979): tangential friction and rolling resistance are made of it.
+//!
+//! The spring's elongation `s` follows a displacement (along the contact, or the turn of one side against the other).
+//! It pulls with `k s` as long as that is at most `mu N`; beyond, it slips and the elongation is `mu N / k`. One that
+//! sticks gives way at the static coefficient, one that slips is limited by the dynamic one. What the spring holds when
+//! the contact opens, and the work of slipping, is energy lost to friction.
+//!
+//! At rest the law is set-valued: any force up to `mu N` keeps the contact there. Which one it is the balance of forces
+//! decides ([`super::hold`]).
+
+/// Phase of a spring with a Coulomb limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grip {
+    /// The spring holds.
+    #[default]
+    Stick,
+    /// The spring has given way and pulls with `mu N`.
+    Slip,
+    /// At rest: the force is whatever keeps it so, up to the static limit.
+    Hold,
+}
+
+/// Coefficients of a spring with a Coulomb limit. For rolling, forces are torques, displacements angles and the
+/// coefficients lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderLaw {
+    /// In N/m; above zero if a coefficient is.
+    pub stiffness: f64,
+    /// Coulomb coefficient while it holds.
+    pub friction_static: f64,
+    /// Coulomb coefficient while it slips.
+    pub friction_dynamic: f64,
+}
+
+impl SliderLaw {
+    /// Whether there is any friction.
+    #[inline]
+    pub fn acts(&self) -> bool {
+        self.friction_static > 0.0
+    }
+}
+
+/// A spring with a Coulomb limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slider {
+    /// Elongation in metres.
+    pub elongation: f64,
+    /// Force in newtons while it holds; it counts as the pull of the spring does.
+    pub held: f64,
+    /// Its phase.
+    pub grip: Grip,
+}
+
+impl Slider {
+    /// Force in newtons: positive pulls side B back.
+    #[inline]
+    pub fn force(&self, law: &SliderLaw) -> f64 {
+        match self.grip {
+            Grip::Hold => self.held,
+            Grip::Stick | Grip::Slip => law.stiffness * self.elongation,
+        }
+    }
+
+    /// Elastic energy in J.
+    #[inline]
+    pub fn energy(&self, law: &SliderLaw) -> f64 {
+        0.5 * law.stiffness * self.elongation * self.elongation
+    }
+
+    /// Follows a displacement in metres under the normal force `normal_force`. Returns the energy lost in J.
+    ///
+    /// `None`: no time has passed, only the normal force may be another one. A contact that slips begins to stick by
+    /// moving back, never by being looked at.
+    #[inline(always)]
+    pub fn follow(&mut self, law: &SliderLaw, displacement: Option<f64>, normal_force: f64) -> f64 {
+        if self.grip == Grip::Hold {
+            return self.held * displacement.unwrap_or(0.0);
+        }
+        let before = self.elongation;
+        let trial = before + displacement.unwrap_or(0.0);
+        let coefficient = if self.grip == Grip::Slip { law.friction_dynamic } else { law.friction_static };
+        let beyond = law.stiffness * trial.abs() > coefficient * normal_force;
+        if !beyond && displacement.is_none() {
+            return 0.0;
+        }
+        (self.grip, self.elongation) = if beyond {
+            (Grip::Slip, (law.friction_dynamic * normal_force / law.stiffness).copysign(trial))
+        } else {
+            (Grip::Stick, trial)
+        };
+        // Mean force times the displacement that the spring did not take up.
+        0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
+    }
+
+    /// Holds with `force` newtons.
+    pub fn hold(&mut self, force: f64) {
+        self.grip = Grip::Hold;
+        self.held = force;
+    }
+
+    /// The spring takes over from a hold, as far as the energy it has allows. Returns the energy lost in J.
+    pub fn let_go(&mut self, law: &SliderLaw) -> f64 {
+        if self.grip != Grip::Hold {
+            return 0.0;
+        }
+        let before = self.energy(law);
+        let wanted = (self.held / law.stiffness).abs();
+        self.elongation = wanted.min(self.elongation.abs()).copysign(self.held);
+        self.grip = Grip::Stick;
+        before - self.energy(law)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: SliderLaw = SliderLaw { stiffness: 80.0, friction_static: 0.6, friction_dynamic: 0.4 };
+
+    #[test]
+    fn a_sticking_spring_holds_up_to_the_static_limit_and_loses_nothing() {
+        let mut slider = Slider::default();
+        assert_eq!(slider.follow(&LAW, Some(0.59 * 10.0 / 80.0), 10.0), 0.0);
+        assert_eq!(slider.grip, Grip::Stick);
+        slider.follow(&LAW, Some(0.02 * 10.0 / 80.0), 10.0);
+        assert_eq!(slider.grip, Grip::Slip);
+        assert_eq!(slider.elongation, 0.4 * 10.0 / 80.0);
+    }
+
+    #[test]
+    fn a_spring_that_is_let_go_never_has_more_energy_than_it_had() {
+        for (before, held, after) in [(0.1, 4.0, 0.05), (0.1, -4.0, -0.05), (-0.01, 4.0, 0.01)] {
+            let mut slider = Slider { elongation: before, held, grip: Grip::Hold };
+            let loss = slider.let_go(&LAW);
+            assert_eq!(slider.elongation, after);
+            assert_eq!(loss, 40.0 * (before * before) - 40.0 * (after * after));
+        }
+    }
+
+    #[test]
+    fn steady_slip_loses_force_times_way() {
+        let limit = 0.4 * 10.0 / 80.0;
+        let mut slider = Slider { elongation: limit, held: 0.0, grip: Grip::Slip };
+        let loss = slider.follow(&LAW, Some(0.01), 10.0);
+        assert!((loss - 0.4 * 10.0 * 0.01).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,65 @@
+//! What a normal law has to say. Each law is one file: [`super::inelasticity`], [`super::dashpot`].
+
+use super::Penalty;
+use super::law::PairLaw;
+
+/// Phase of a contact; frozen during a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Not touching.
+    #[default]
+    Open,
+    /// Approaching, or touching under a law that makes no difference.
+    Loading,
+    /// Parting.
+    Unloading,
+    /// At rest along the normal: the force is whatever keeps it so, within the bounds of the law.
+    Hold,
+}
+
+/// How two sides approach each other.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Approach {
+    /// Velocity with which they part in m/s; negative: they approach.
+    pub parting: f64,
+    /// Relative velocity along the normal that an impulse of one newton second makes, in 1/kg.
+    pub mobility: f64,
+}
+
+/// A normal law over the spring of the pair.
+pub trait NormalForce: Send + Sync + 'static {
+    /// Whether the force depends on velocities. If not, [`Approach`] is not filled in.
+    const DEPENDS_ON_VELOCITY: bool;
+
+    /// Fills in the coefficients of the law for a pair of materials with this inelasticity.
+    fn set_up(law: &mut PairLaw, inelasticity: f64, settings: &Penalty);
+
+    /// The mode for a contact that is not open and parts with `parting` m/s.
+    fn chosen(present: Mode, parting: f64) -> Mode;
+
+    /// Normal force in newtons, never below zero.
+    fn force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64;
+
+    /// The least and the greatest force in newtons that a contact at rest may have, if it has `present` now.
+    fn band(law: &PairLaw, overlap: f64, present: f64) -> (f64, f64);
+
+    /// Energy in J that is lost between two states of one mode, each an overlap in metres and a force in newtons.
+    fn loss(law: &PairLaw, mode: Mode, before: (f64, f64), after: (f64, f64)) -> f64;
+
+    /// Whether the law takes energy from a pair.
+    fn dissipates(law: &PairLaw) -> bool;
+}
+
+/// Elastic energy in J at `overlap` metres.
+#[inline]
+pub fn elastic_energy(law: &PairLaw, overlap: f64) -> f64 {
+    0.5 * law.stiffness * overlap * overlap
+}
+
+/// What the force took from the bodies and the spring does not hold, in J: mean force times the change of overlap, less
+/// the change of elastic energy. Exact for a constant force, else to second order in the step.
+#[inline]
+pub fn lost_work(law: &PairLaw, before: (f64, f64), after: (f64, f64)) -> f64 {
+    let work = 0.5 * (before.1 + after.1) * (after.0 - before.0);
+    work - (elastic_energy(law, after.0) - elastic_energy(law, before.0))
+}

@@ -1,0 +1,150 @@
+//! Rolling law: a torque against rolling, `k_r theta` up to `mu_r R N` (type C of Ai, Chen, Rotter and Ooi 2011).
+//!
+//! `theta` is the turn of one side against the other while they touch: zero when a pair turns as one rigid body. `R` is
+//! the rolling radius, `1/R = 1/Ra + 1/Rb`, that of the atom on a wall, and `k_r = ratio k R^2`, the stiffness of a
+//! tangential spring at the rim. Unlike a constant torque, which changes its sign at rest, the spring with its Coulomb
+//! limit comes to rest; on a slope it holds up to `tan(slope) = mu_r`.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::apply::{End, PenaltyContacts};
+use super::contact::{Contact, Losses};
+use super::coulomb::{Slider, SliderLaw};
+use super::law::PairLaw;
+use super::normal::Mode;
+use crate::contacts::search::NEW;
+use crate::contacts::{AtomPair, CandidatePairs, WallPair};
+use crate::tick::{Balance, Evaluation, Ledger};
+use crate::world::Bodies;
+
+/// Rolling springs of all candidate pairs, beside the lists of [`CandidatePairs`]. Present in scenes that ask for it.
+#[derive(Resource, Debug)]
+pub struct RollingContacts {
+    /// `mu_r`: torque over normal force and rolling radius, at which the spring gives way.
+    pub friction: f64,
+    /// Stiffness at the rim over the normal stiffness.
+    pub ratio: f64,
+    version: u64,
+    /// One for each pair of atoms.
+    pub atoms: Vec<Slider>,
+    /// One for each atom near a wall.
+    pub walls: Vec<Slider>,
+}
+
+impl RollingContacts {
+    /// No contacts yet.
+    pub fn new(friction: f64, ratio: f64) -> Self {
+        Self { friction, ratio, version: 0, atoms: Vec::new(), walls: Vec::new() }
+    }
+
+    /// The law of a pair: torques in N m over angles in radians.
+    #[inline]
+    pub(super) fn law(&self, pair: &PairLaw, a: Option<&End>, b: &End) -> SliderLaw {
+        let radius = a.map_or(b.radius, |a| 1.0 / (1.0 / a.radius + 1.0 / b.radius));
+        let coefficient = self.friction * radius;
+        SliderLaw {
+            stiffness: self.ratio * pair.stiffness * radius * radius,
+            friction_static: coefficient,
+            friction_dynamic: coefficient,
+        }
+    }
+
+    /// Elastic energy in J.
+    pub fn energy(&self, bodies: &Bodies, pairs: &CandidatePairs, contacts: &PenaltyContacts) -> f64 {
+        let mut energy = 0.0;
+        for (&AtomPair { a, b }, (slider, contact)) in pairs.atoms.iter().zip(self.atoms.iter().zip(&contacts.atoms)) {
+            let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+            energy += slider.energy(&self.law(contacts.laws.get(contact.law), Some(&a), &b));
+        }
+        for (&WallPair { atom, .. }, (slider, contact)) in
+            pairs.walls.iter().zip(self.walls.iter().zip(&contacts.walls))
+        {
+            let end = End::of(bodies, atom);
+            energy += slider.energy(&self.law(contacts.laws.get(contact.law), None, &end));
+        }
+        energy
+    }
+}
+
+/// `torque` acts on side A, the opposite on side B. What does not move by forces gives or takes it from outside.
+pub(super) fn twist(bodies: &mut Bodies, balance: &mut Balance, a: Option<&End>, b: &End, torque: f64) {
+    bodies.torque[b.body] -= torque;
+    match a {
+        Some(a) => {
+            bodies.torque[a.body] += torque;
+            if !bodies.dynamic[a.body] {
+                balance.outside(DVec2::ZERO, DVec2::ZERO, -torque);
+            }
+            if !bodies.dynamic[b.body] {
+                balance.outside(DVec2::ZERO, DVec2::ZERO, torque);
+            }
+        }
+        None => balance.outside(DVec2::ZERO, DVec2::ZERO, -torque),
+    }
+}
+
+/// Brings the springs of a list up to date: those of pairs that opened let go, the others follow the turn.
+struct Follow<'a> {
+    bodies: &'a mut Bodies,
+    balance: &'a mut Balance,
+    elapsed: f64,
+    losses: Losses,
+}
+
+impl Follow<'_> {
+    fn pair(&mut self, slider: &mut Slider, law: &SliderLaw, contact: &Contact, a: Option<&End>, b: &End) {
+        if contact.mode == Mode::Open {
+            self.losses.friction += slider.energy(law);
+            *slider = Slider::default();
+            return;
+        }
+        let turn = self.bodies.turn[b.body] - a.map_or(0.0, |a| self.bodies.turn[a.body]);
+        let turn = (self.elapsed > 0.0).then_some(turn);
+        self.losses.friction += slider.follow(law, turn, contact.normal_force);
+        twist(self.bodies, self.balance, a, b, slider.force(law));
+    }
+}
+
+fn carried(before: &[u32], old: &[Slider]) -> Vec<Slider> {
+    before.iter().map(|&place| if place == NEW { Slider::default() } else { old[place as usize] }).collect()
+}
+
+/// The system of [`crate::tick::EvaluateStage::Contacts`], after the penalty contacts themselves.
+pub(super) fn apply_rolling(
+    mut bodies: ResMut<Bodies>,
+    pairs: Res<CandidatePairs>,
+    contacts: Res<PenaltyContacts>,
+    mut rolling: ResMut<RollingContacts>,
+    mut balance: ResMut<Balance>,
+    mut ledger: ResMut<Ledger>,
+    evaluation: Res<Evaluation>,
+) {
+    if rolling.version != pairs.version {
+        rolling.version = pairs.version;
+        rolling.atoms = carried(&pairs.atoms_before, &rolling.atoms);
+        rolling.walls = carried(&pairs.walls_before, &rolling.walls);
+    }
+    let (mut atoms, mut walls) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.walls));
+    let mut follow =
+        Follow { bodies: &mut bodies, balance: &mut balance, elapsed: evaluation.elapsed, losses: Losses::default() };
+    for (place, slider) in atoms.iter_mut().enumerate() {
+        let contact = &contacts.atoms[place];
+        if contact.mode != Mode::Open || *slider != Slider::default() {
+            let AtomPair { a, b } = pairs.atoms[place];
+            let (a, b) = (End::of(follow.bodies, a), End::of(follow.bodies, b));
+            let law = rolling.law(contacts.laws.get(contact.law), Some(&a), &b);
+            follow.pair(slider, &law, contact, Some(&a), &b);
+        }
+    }
+    for (place, slider) in walls.iter_mut().enumerate() {
+        let contact = &contacts.walls[place];
+        if contact.mode != Mode::Open || *slider != Slider::default() {
+            let end = End::of(follow.bodies, pairs.walls[place].atom);
+            let law = rolling.law(contacts.laws.get(contact.law), None, &end);
+            follow.pair(slider, &law, contact, None, &end);
+        }
+    }
+    ledger.friction.add(follow.losses.friction);
+    (rolling.atoms, rolling.walls) = (atoms, walls);
+}
