@@ -49,6 +49,13 @@ impl Touch {
         self.normal.perp()
     }
 
+    /// Share of the displacement that was made in touch, if the pair did not touch before. Without it a contact that
+    /// begins inside a tick and sticks would be of first order.
+    fn share_in_touch(&self) -> f64 {
+        let approached = -self.displacement.dot(self.normal);
+        if approached > self.overlap { self.overlap.max(0.0) / approached } else { 1.0 }
+    }
+
     /// Displacement of B relative to A along the contact, in metres, to second order in the step: tangent and lever
     /// arms are those of its middle.
     #[inline]
@@ -75,8 +82,10 @@ impl Contact {
     #[inline(always)]
     pub fn follow<N: NormalForce>(&mut self, law: &PairLaw, touch: &Touch, elapsed: f64, losses: &mut Losses) {
         let before = (self.overlap, self.normal_force);
+        let mut share = 1.0;
         if self.mode == Mode::Open {
             self.mode = Mode::Loading;
+            share = touch.share_in_touch();
         }
         self.overlap = touch.overlap.max(0.0);
         losses.inelasticity += if self.mode == Mode::Hold {
@@ -87,7 +96,7 @@ impl Contact {
         };
         let slider = law.tangential();
         if slider.acts() {
-            let displacement = (elapsed > 0.0).then(|| touch.tangential_displacement(law, before.0));
+            let displacement = (elapsed > 0.0).then(|| share * touch.tangential_displacement(law, before.0));
             losses.friction += self.tangential.follow(&slider, displacement, self.normal_force);
         }
         if touch.overlap <= 0.0 {

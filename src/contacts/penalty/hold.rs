@@ -97,12 +97,15 @@ struct Bounded {
     coefficient: f64,
     /// Whether it may hold in the tick to come; if not it stays as it is.
     engaged: bool,
+    /// Whether it would have to be greater than its limit to stop the contact. Comparing the force with the limit would
+    /// leave that to rounding.
+    at_limit: bool,
     force: f64,
 }
 
 impl Bounded {
-    fn is_free(&self, normal_force: f64) -> bool {
-        self.engaged && self.force.abs() < self.coefficient * normal_force
+    fn is_free(&self) -> bool {
+        self.engaged && !self.at_limit
     }
 }
 
@@ -136,6 +139,8 @@ pub struct Candidate {
     ends: (usize, usize),
     normal: Row,
     band: (f64, f64),
+    /// Whether the normal force would have to leave its band to stop the contact.
+    at_limit: bool,
     noise: f64,
     normal_force: f64,
     bounded: [Bounded; 2],
@@ -163,23 +168,24 @@ pub enum Verdict {
 }
 
 impl Candidate {
-    /// Sets up the rows of a contact.
-    pub fn new(movers: &[Mover], seen: &Seen) -> Self {
+    /// Sets up the rows of a contact for the `dt` seconds to come.
+    pub fn new(movers: &[Mover], seen: &Seen, dt: f64) -> Self {
         let along = |direction: DVec2| {
             let levers = (seen.arms.0.perp_dot(direction), seen.arms.1.perp_dot(direction));
             Row::new(movers, seen.ends, levers, direction)
         };
         let turn = Row::new(movers, seen.ends, (-1.0, -1.0), DVec2::ZERO);
-        let bounded = |row, (coefficient, force): (f64, f64)| Bounded {
-            row,
-            coefficient,
-            engaged: seen.engaged && coefficient > 0.0,
-            force,
+        // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
+        let bounded = |row: Row, (coefficient, force): (f64, f64)| {
+            let reach = 4.0 * coefficient * seen.band.1 * row.mobility * dt;
+            let engaged = seen.engaged && coefficient > 0.0 && row.velocity(movers, seen.ends).abs() <= reach;
+            Bounded { row, coefficient, engaged, at_limit: false, force }
         };
         Self {
             ends: seen.ends,
             normal: along(seen.normal),
             band: seen.band,
+            at_limit: false,
             noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
             normal_force: seen.normal_force,
             bounded: [bounded(along(-seen.normal.perp()), seen.tangential), bounded(turn, seen.rolling)],
@@ -190,51 +196,52 @@ impl Candidate {
     /// greatest change of a force over what counts as rounding.
     fn relax(&mut self, movers: &mut [Mover], dt: f64) -> f64 {
         let wanted = self.normal_force - self.normal.velocity(movers, self.ends) / (self.normal.mobility * dt);
-        let mut change = self.set_normal(movers, wanted.clamp(self.band.0, self.band.1), dt);
+        let mut change = self.set_normal(movers, wanted, dt);
         for place in 0..self.bounded.len() {
-            let Bounded { row, coefficient, engaged, force } = self.bounded[place];
+            let Bounded { row, engaged, force, .. } = self.bounded[place];
             if engaged {
-                let limit = coefficient * self.normal_force;
                 let wanted = force - row.velocity(movers, self.ends) / (row.mobility * dt);
-                change = change.max(self.set_bounded(movers, place, wanted.clamp(-limit, limit), dt));
+                change = change.max(self.set_bounded(movers, place, wanted, dt));
             }
         }
         change
     }
 
-    fn set_normal(&mut self, movers: &mut [Mover], force: f64, dt: f64) -> f64 {
+    /// Sets the normal force to what is wanted, as far as its band allows. Returns the change over what counts as rounding.
+    fn set_normal(&mut self, movers: &mut [Mover], wanted: f64, dt: f64) -> f64 {
+        let force = wanted.clamp(self.band.0, self.band.1);
+        self.at_limit = force != wanted;
         let change = force - self.normal_force;
         self.normal_force = force;
         self.normal.push(movers, self.ends, change * dt);
         change.abs() / (ROUNDING * self.band.1)
     }
 
-    fn set_bounded(&mut self, movers: &mut [Mover], place: usize, force: f64, dt: f64) -> f64 {
+    fn set_bounded(&mut self, movers: &mut [Mover], place: usize, wanted: f64, dt: f64) -> f64 {
         let bounded = &mut self.bounded[place];
+        let limit = bounded.coefficient * self.normal_force;
+        let force = wanted.clamp(-limit, limit);
+        bounded.at_limit = force != wanted;
         let change = force - bounded.force;
         bounded.force = force;
         bounded.row.push(movers, self.ends, change * dt);
         change.abs() / (ROUNDING * bounded.coefficient * self.band.1)
     }
 
-    fn normal_is_free(&self) -> bool {
-        self.normal_force > self.band.0 && self.normal_force < self.band.1
-    }
-
     /// The rows that no bound holds.
     fn free_rows(&self) -> impl Iterator<Item = Row> + '_ {
-        let bounded = self.bounded.iter().filter(|bounded| bounded.is_free(self.normal_force)).map(|b| b.row);
-        self.normal_is_free().then_some(self.normal).into_iter().chain(bounded)
+        let bounded = self.bounded.iter().filter(|bounded| bounded.is_free()).map(|bounded| bounded.row);
+        (!self.at_limit).then_some(self.normal).into_iter().chain(bounded)
     }
 
     /// What the contact does in the tick to come.
     pub fn verdict(&self, movers: &[Mover], dt: f64) -> Verdict {
         let stands = |row: &Row| row.velocity(movers, self.ends).abs() <= self.noise * row.mobility * dt;
-        if !self.normal_is_free() && !stands(&self.normal) {
+        if self.at_limit && !stands(&self.normal) {
             return Verdict::Moves { approaches: self.normal_force > self.band.0 };
         }
         let held = |bounded: &Bounded| {
-            let holds = bounded.engaged && (bounded.is_free(self.normal_force) || stands(&bounded.row));
+            let holds = bounded.engaged && (bounded.is_free() || stands(&bounded.row));
             holds.then_some(bounded.force)
         };
         let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || held(bounded).is_some());
@@ -307,16 +314,20 @@ fn finish(candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
 /// Takes over the impulses of the free rows, each as far as its bounds allow.
 fn take_over(candidates: &mut [Candidate], movers: &mut [Mover], impulses: &[f64], dt: f64) {
     let mut impulses = impulses.iter();
-    let mut next = |free: bool| if free { impulses.next().map_or(0.0, |impulse| impulse / dt) } else { 0.0 };
+    let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
     for candidate in candidates {
-        let free = candidate.bounded.map(|bounded| bounded.is_free(candidate.normal_force));
-        let normal = candidate.normal_force + next(candidate.normal_is_free());
-        candidate.set_normal(movers, normal.clamp(candidate.band.0, candidate.band.1), dt);
+        let free = candidate.bounded.map(|bounded| bounded.is_free());
+        if !candidate.at_limit {
+            candidate.set_normal(movers, candidate.normal_force + next(), dt);
+        }
         for (place, free) in free.into_iter().enumerate() {
             let Bounded { coefficient, engaged, force, .. } = candidate.bounded[place];
-            if engaged {
-                let limit = coefficient * candidate.normal_force;
-                candidate.set_bounded(movers, place, (force + next(free)).clamp(-limit, limit), dt);
+            if free {
+                candidate.set_bounded(movers, place, force + next(), dt);
+            } else if engaged {
+                // The limit has moved with the normal force.
+                candidate.set_bounded(movers, place, (coefficient * candidate.normal_force).copysign(force), dt);
+                candidate.bounded[place].at_limit = true;
             }
         }
     }

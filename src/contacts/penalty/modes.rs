@@ -295,7 +295,7 @@ impl Choice<'_> {
         let mut candidates = Vec::with_capacity(island.len());
         for case in island {
             let seen = self.seen::<N>(case, (case.other_body().map_or(0, place), place(case.end.body)));
-            candidates.push(Candidate::new(&movers, &seen));
+            candidates.push(Candidate::new(&movers, &seen, self.dt));
         }
         let may_rest = members.iter().all(|body| moved.binary_search(body).is_err());
         hold::solve(&mut candidates, &mut movers, may_rest, self.dt);
