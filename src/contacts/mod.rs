@@ -1,5 +1,6 @@
 //! Contacts: who may touch whom ([`search`]), and what follows from it: one contact law per scene.
 
+pub mod events;
 pub mod penalty;
 pub mod search;
 
@@ -10,6 +11,7 @@ use glam::DVec2;
 use crate::scene::{Arity, Outline, SceneAppExt};
 use crate::world::{Atom, Bodies, Body, Wall};
 
+pub use events::{ContactEvents, ContactEventsAppExt};
 pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
 
 /// The contact law of a run, by name. Present when some law is installed.

@@ -61,7 +61,7 @@ fn frames(count: usize) -> Vec<Frame> {
         let time = 0.04 * place as f64;
         let pose = |x, y, angle| Pose { position: DVec2::new(x, y), angle };
         let poses = vec![pose(2.0, 0.5, 0.0), pose(0.5 + time, 1.5, 2.0 * time), pose(3.5 - time, 2.0, -time)];
-        Frame { time, cast: cast.clone(), poses }
+        Frame { time, cast: cast.clone(), poses, marks: Vec::new() }
     };
     (0..count).map(frame).collect()
 }

@@ -23,7 +23,7 @@ use layers::bodies::Figure;
 use layers::clock::Clock;
 use layers::labels::{Column, longest_word};
 use layers::title::Title;
-use layers::{backdrop, clock, walls};
+use layers::{backdrop, clock, marks, walls};
 use silhouette::Field;
 use text::{Lettering, Weight};
 
@@ -135,6 +135,8 @@ impl Painter {
                 figure.draw(pose, &self.view.camera, &mut canvas, &mut scratch.field);
             }
         }
+        let (camera, theme) = (&self.view.camera, &self.view.theme);
+        marks::draw(picture, &frame.marks, camera, theme, Weights::of(camera).line);
         if self.labels.in_room {
             self.title.draw(picture);
         }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::layers::Mark;
+
 /// A colour as red, green and blue, each 0 to 255, in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Rgb(pub u8, pub u8, pub u8);
@@ -74,4 +76,6 @@ pub struct Frame {
     pub cast: Arc<Cast>,
     /// One pose for each body of the cast, in the same order.
     pub poses: Vec<Pose>,
+    /// What layers add, from back to front.
+    pub marks: Vec<Mark>,
 }

@@ -2,6 +2,8 @@
 
 pub mod between;
 pub mod frame;
+pub mod layers;
 mod recorder;
 
+pub use layers::{FilmAppExt, Mark, MarkShape};
 pub use recorder::{Recorder, Schedule};

@@ -6,6 +6,7 @@ use bevy_ecs::prelude::*;
 
 use super::between::{Moment, angle_between, position_between};
 use super::frame::{BodyLook, Cast, Disc, Frame, Pose, WallLook};
+use super::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 use crate::world::{Bodies, Materials, Motion, Name, Wall};
@@ -67,7 +68,8 @@ impl Recorder {
             let before = before.filter(|before| !on_tick && before.time <= time).unwrap_or(after);
             Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
         };
-        Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect() })
+        let marks = Layers::marks(simulation.world());
+        Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect(), marks })
     }
 
     fn refresh_cast(&mut self, simulation: &Simulation) {

@@ -4,6 +4,7 @@
 //! also be asked for by its name alone ([`find`]): expectations do that.
 
 mod contact_force;
+mod contacts;
 mod energy;
 mod overlap;
 mod pose;
@@ -141,5 +142,5 @@ pub fn plugin(app: &mut App) {
     energy::plugin(app);
     contact_force::plugin(app);
     overlap::plugin(app);
-    app.reserve_entry("sensors", "Contacts");
+    contacts::plugin(app);
 }

@@ -189,6 +189,17 @@ impl TickAppExt for App {
     }
 }
 
+/// Adds one system to [`Stage::Observe`] that works on the packed state only, while a scene is read.
+pub fn add_packed_observer<M>(
+    world: &mut World,
+    system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+) {
+    world.get_resource_or_init::<Census>().packed_in_tick += 1;
+    world.schedule_scope(SimTick, |_, schedule| {
+        schedule.add_systems(system.in_set(Stage::Observe));
+    });
+}
+
 fn next_force_slot(app: &mut App, dependence: Dependence) -> ForceSlot {
     let mut census = app.world_mut().resource_mut::<Census>();
     census.velocity_dependent |= dependence == Dependence::Velocity;

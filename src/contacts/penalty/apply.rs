@@ -8,6 +8,7 @@ use super::contact::{Contact, Losses, Touch};
 use super::law::{LawTable, PairLaw, Side};
 use super::normal::{Approach, Mode, NormalForce};
 use super::rest::Rest;
+use crate::contacts::events::Touches;
 use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::tick::{Balance, Evaluation, Ledger};
@@ -215,6 +216,7 @@ pub(super) fn apply_penalty<N: NormalForce>(
     mut deepest: ResMut<DeepestOverlap>,
     evaluation: Res<Evaluation>,
     mut forces: Option<ResMut<ContactForces>>,
+    touches: Option<ResMut<Touches>>,
 ) {
     if contacts.version != pairs.version {
         carry_history::<N>(&mut contacts, &bodies, &pairs);
@@ -268,6 +270,22 @@ pub(super) fn apply_penalty<N: NormalForce>(
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
+    if let Some(mut touches) = touches {
+        note_touches(&contacts, &bodies, &pairs, &mut touches);
+    }
+}
+
+fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs, touches: &mut Touches) {
+    let body = |atom: u32| bodies.atom_body[atom as usize] as usize;
+    touches.clear();
+    for touching in &contacts.touching_atoms {
+        let AtomPair { a, b } = pairs.atoms[touching.place as usize];
+        touches.bodies(body(a), body(b));
+    }
+    for touching in &contacts.touching_walls {
+        let WallPair { wall, atom } = pairs.walls[touching.place as usize];
+        touches.wall(body(atom), wall);
+    }
 }
 
 impl PenaltyContacts {

@@ -4,6 +4,7 @@ pub(super) mod backdrop;
 pub(super) mod bodies;
 pub(super) mod clock;
 pub(super) mod labels;
+pub(super) mod marks;
 pub(super) mod title;
 pub(super) mod walls;
 

@@ -1,0 +1,118 @@
+//! Contact events: which bodies began and which ceased to touch in the last tick.
+//!
+//! Whoever wants to know says so with [`ContactEventsAppExt::watch_contacts`]; then the contact law notes who touches and
+//! the lists of two ticks are compared. In a scene where nobody asks there is neither the list nor the system. Two bodies
+//! touch as long as any of their atoms do.
+
+use std::collections::BTreeSet;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+use crate::tick::{Clock, add_packed_observer};
+use crate::world::Bodies;
+
+/// A body and another body or a wall. Of two bodies the first stands before the second in canonical order; a wall stands
+/// second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Touching {
+    /// The first body.
+    pub a: Entity,
+    /// The second body, or the wall.
+    pub b: Entity,
+}
+
+/// Who touches in the present state: contact laws fill it in each evaluation, if it is there.
+#[derive(Resource, Debug, Default)]
+pub struct Touches {
+    /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
+    pairs: Vec<(bool, u32, u32)>,
+}
+
+impl Touches {
+    /// Begins a new list.
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+    }
+
+    /// Two bodies touch, given by their places.
+    pub fn bodies(&mut self, a: usize, b: usize) {
+        self.pairs.push((false, a.min(b) as u32, a.max(b) as u32));
+    }
+
+    /// A body touches a wall, given by their places.
+    pub fn wall(&mut self, body: usize, wall: u32) {
+        self.pairs.push((true, body as u32, wall));
+    }
+}
+
+/// What the last tick changed: an observer reads it in [`crate::tick::Stage::Observe`] after [`FindContactEvents`], or between ticks.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct ContactEvents {
+    /// Pairs that touch and did not before, in canonical order. In the first tick these are all that touch.
+    pub begun: Vec<Touching>,
+    /// Pairs that touched and no longer do, in canonical order.
+    pub ended: Vec<Touching>,
+    /// All pairs that touch, in canonical order.
+    pub present: Vec<Touching>,
+    /// End of the tick in seconds.
+    pub time: f64,
+}
+
+impl ContactEvents {
+    /// How many bodies and walls touch a body or wall.
+    pub fn count(&self, entity: Entity) -> usize {
+        self.present.iter().filter(|pair| pair.a == entity || pair.b == entity).count()
+    }
+}
+
+/// Where contact events are found.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FindContactEvents;
+
+/// How plugins ask for contact events.
+pub trait ContactEventsAppExt {
+    /// Keeps [`ContactEvents`] from the next tick on. Asking twice does nothing.
+    fn watch_contacts(&mut self) -> &mut Self;
+}
+
+impl ContactEventsAppExt for App {
+    fn watch_contacts(&mut self) -> &mut Self {
+        watch(self.world_mut());
+        self
+    }
+}
+
+/// The same for whoever has no app.
+pub fn watch(world: &mut World) {
+    if world.contains_resource::<ContactEvents>() {
+        return;
+    }
+    world.init_resource::<ContactEvents>();
+    world.init_resource::<Touches>();
+    add_packed_observer(world, find_contact_events.in_set(FindContactEvents));
+}
+
+fn find_contact_events(
+    bodies: Res<Bodies>,
+    mut touches: ResMut<Touches>,
+    mut events: ResMut<ContactEvents>,
+    clock: Res<Clock>,
+) {
+    touches.pairs.sort_unstable();
+    touches.pairs.dedup();
+    let entities = |&(is_wall, a, b): &(bool, u32, u32)| {
+        let b = if is_wall { bodies.walls[b as usize].entity } else { bodies.entity[b as usize] };
+        Touching { a: bodies.entity[a as usize], b }
+    };
+    let ContactEvents { begun, ended, present, time } = &mut *events;
+    *time = clock.time();
+    let before = std::mem::take(present);
+    present.extend(touches.pairs.iter().map(entities));
+    ended.clear();
+    begun.clear();
+    let known: BTreeSet<Touching> = before.iter().copied().collect();
+    let now: BTreeSet<Touching> = present.iter().copied().collect();
+    begun.extend(present.iter().filter(|pair| !known.contains(pair)));
+    ended.extend(before.iter().filter(|pair| !now.contains(pair)));
+}

@@ -1,0 +1,94 @@
+//! `Contacts(of: "ball")`: how many bodies and walls touch a body or wall, `ball.contacts`, and how often one began to
+//! since the start, `ball.contacts.begun`. A pair touches as long as any of its atoms do.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{Channel, SensorAppExt, add_found, entity_named};
+use crate::contacts::ContactEvents;
+use crate::contacts::events::{FindContactEvents, watch};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::add_packed_observer;
+use crate::world::{Body, Wall};
+
+const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
+
+/// The contacts of bodies or walls.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Contacts {
+    /// Names of bodies (`*` matches), or of one wall.
+    of: Names,
+}
+
+/// How often something began to touch, for each body or wall that is asked for.
+#[derive(Resource, Default)]
+struct Begun(Vec<(Entity, u64)>);
+
+impl Contacts {
+    /// Names of what it measures: walls are named one by one.
+    fn owners(&self, outline: &Outline) -> Vec<String> {
+        let bodies = self.of.matching(Kind::BODY, outline);
+        let (kind, places) =
+            if bodies.is_empty() { (Kind::WALL, self.of.matching(Kind::WALL, outline)) } else { (Kind::BODY, bodies) };
+        places.into_iter().map(|place| outline.names(kind)[place].clone()).collect()
+    }
+}
+
+impl Entry for Contacts {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Contacts";
+    const EXAMPLE: &'static str = "Contacts(of: \"ball\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        if self.of.matching(Kind::WALL, outline).is_empty() {
+            self.of.require(Kind::BODY, outline, "of", report);
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let owners = entry.value.owners(outline);
+            let names = owners.iter().flat_map(|owner| QUANTITIES.iter().map(move |q| format!("{owner}.{q}")));
+            add_found(app.world_mut(), names);
+        }
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    if !QUANTITIES.contains(&quantity) {
+        return None;
+    }
+    let entity = entity_named::<Body>(world, owner).or_else(|| entity_named::<Wall>(world, owner))?;
+    watch(world);
+    if quantity == "contacts" {
+        let count = move |world: &World| world.resource::<ContactEvents>().count(entity) as f64;
+        return Some(Channel::new(format!("{owner}.{quantity}"), "", count));
+    }
+    if !world.contains_resource::<Begun>() {
+        world.init_resource::<Begun>();
+        add_packed_observer(world, count_begun.after(FindContactEvents));
+    }
+    let mut begun = world.resource_mut::<Begun>();
+    let known = begun.0.iter().position(|(counted, _)| *counted == entity);
+    let place = known.unwrap_or(begun.0.len());
+    if known.is_none() {
+        begun.0.push((entity, 0));
+    }
+    let count = move |world: &World| world.resource::<Begun>().0[place].1 as f64;
+    Some(Channel::new(format!("{owner}.{quantity}"), "", count))
+}
+
+fn count_begun(events: Res<ContactEvents>, mut begun: ResMut<Begun>) {
+    for (entity, count) in &mut begun.0 {
+        let touches = events.begun.iter().filter(|pair| pair.a == *entity || pair.b == *entity);
+        *count += touches.count() as u64;
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_quantities(QUANTITIES, find);
+    app.register_entry::<Contacts>();
+}
