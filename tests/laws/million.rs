@@ -94,7 +94,10 @@ fn residuals_grow_like_rounding() {
             // Speeds up to 3.1 m/s have an ulp of 2 eps; heights, up to 2 m, of eps, and they enter with w.
             let ulp = 2.0 * f64::EPSILON;
             let allowed = (walk * ulp, walk * 3.0 * ulp / speed);
-            println!("{method}, {ticks} ticks: momentum {momentum:.1e} of {:.1e}, energy {energy:.1e} of {:.1e}", allowed.0, allowed.1);
+            println!(
+                "{method}, {ticks} ticks: momentum {momentum:.1e} of {:.1e}, energy {energy:.1e} of {:.1e}",
+                allowed.0, allowed.1
+            );
             assert!(momentum <= allowed.0, "{method}, {ticks} ticks: momentum {momentum:e} > {:e}", allowed.0);
             assert!(energy <= allowed.1, "{method}, {ticks} ticks: energy {energy:e} > {:e}", allowed.1);
         }

@@ -231,7 +231,8 @@ fn discs_strike_each_other_as_friction_without_a_spring_says() {
     let (friction, inelasticity, stiffness, ratio) = (0.3_f64, 0.36_f64, 1e9_f64, 100.0_f64);
     for method in METHODS {
         for (degrees, spins) in [(20, [0, 0]), (60, [0, 0]), (40, [15, -5])] {
-            let name = format!("discs hard, angle {degrees} deg, w=({},{}): v1x,v1y,w1,v2x,v2y,w2 after", spins[0], spins[1]);
+            let name =
+                format!("discs hard, angle {degrees} deg, w=({},{}): v1x,v1y,w1,v2x,v2y,w2 after", spins[0], spins[1]);
             let exact = truth.numbers(&name);
             let (sin, cos) = libm::sincos(f64::from(degrees).to_radians());
             let reduced = 2.0 / 3.0;

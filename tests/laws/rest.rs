@@ -221,7 +221,8 @@ fn tetris_comes_to_rest() {
 /// 200 bodies of four shapes and three materials, poured into a bin. Its floor is of gravel: on a smooth one a disc that
 /// touches nothing else rolls for ever, as it should, since nothing resists rolling.
 fn pile() -> String {
-    let gravel: Vec<String> = (0..38).map(|place| format!("(at: ({:?}, 0), radius: 0.06)", 0.1 * f64::from(place))).collect();
+    let gravel: Vec<String> =
+        (0..38).map(|place| format!("(at: ({:?}, 0), radius: 0.06)", 0.1 * f64::from(place))).collect();
     let mut bodies = format!(
         "(name: \"gravel\", fixed: true, datum: Origin, material: \"stone\", atoms: List([{}])),",
         gravel.join(", ")
@@ -234,7 +235,8 @@ fn pile() -> String {
         let atoms = match number % 4 {
             0 => format!("Disc(radius: {:?})", 0.06 + 0.04 * next()),
             1 => "Picture(spacing: 0.09, mass: 0.01, rows: [\"##\", \"##\"])".to_owned(),
-            2 => "List([(at: (0, 0), radius: 0.07, mass: 0.02), (at: (0.07, 0.03), radius: 0.05, mass: 0.01)])".to_owned(),
+            2 => "List([(at: (0, 0), radius: 0.07, mass: 0.02), (at: (0.07, 0.03), radius: 0.05, mass: 0.01)])"
+                .to_owned(),
             _ => "Picture(spacing: 0.08, mass: 0.01, rows: [\"###\"])".to_owned(),
         };
         let material = ["wood", "stone", "rubber"][(number / 4 + number) % 3];

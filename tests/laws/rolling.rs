@@ -89,7 +89,12 @@ fn a_sliding_disc_begins_to_roll_and_goes_on_for_ever() {
             assert_near("spin", found.1, last[1], 75.0 * SUNK);
             let energy = simulation.card().energy;
             let lost = number("energy lost / initial") * 0.5 * (9.0 + 0.005 * spin * spin);
-            assert_near("lost to friction", energy.friction, lost, 4.0 * 9.0 * SUNK + 9.0 * 3.0 * missing(friction, 3.0));
+            assert_near(
+                "lost to friction",
+                energy.friction,
+                lost,
+                4.0 * 9.0 * SUNK + 9.0 * 3.0 * missing(friction, 3.0),
+            );
             // No resistance against rolling: rounding of 200 000 ticks.
             run_to(&mut simulation, rolls + 10.0);
             let bodies = simulation.bodies();
@@ -184,12 +189,9 @@ fn a_spool_goes_where_the_string_tells_it() {
     let truth = Truth::read(include_str!("../../assets/truths/F06_spool.json"));
     let neutral = truth.number("neutral angle acos(r/R)");
     for method in METHODS {
-        for (name, angle) in [
-            ("0", 0.0),
-            ("40", 40.0_f64.to_radians()),
-            ("65.37568164780463", neutral),
-            ("80", 80.0_f64.to_radians()),
-        ] {
+        for (name, angle) in
+            [("0", 0.0), ("40", 40.0_f64.to_radians()), ("65.37568164780463", neutral), ("80", 80.0_f64.to_radians())]
+        {
             let mut simulation = pulled(method, 5.0, angle);
             let (found, turning) = accelerations(&mut simulation);
             let exact = truth.number(&format!("{name} deg rolling acceleration"));
@@ -207,7 +209,11 @@ fn a_spool_goes_where_the_string_tells_it() {
             let mut simulation = pulled(method, share * limit, 0.0);
             let (along, turning) = accelerations(&mut simulation);
             let slip = along + turning * SPOOL.0;
-            assert_eq!(slip.abs() > 1e-3, slips, "{method}: {share} of the limit, the point of contact gains {slip:e} m/s2");
+            assert_eq!(
+                slip.abs() > 1e-3,
+                slips,
+                "{method}: {share} of the limit, the point of contact gains {slip:e} m/s2"
+            );
         }
     }
 }
