@@ -65,9 +65,8 @@ fn residuals(method: &str, ticks: u64) -> (f64, f64) {
     let z = STIFFNESS * tick * tick;
     let invariant = |simulation: &Simulation| {
         let (x, v) = state(simulation);
-        let cross = if method == METHODS[0] { -STIFFNESS * tick * x * v } else { -0.25 * z * STIFFNESS * x * x };
-        let half = if method == METHODS[0] { 0.5 } else { 1.0 };
-        0.5 * (v * v + STIFFNESS * x * x) + half * if method == METHODS[0] { cross } else { 0.5 * cross }
+        let correction = if method == METHODS[0] { STIFFNESS * tick * x * v } else { 0.25 * z * STIFFNESS * x * x };
+        0.5 * (v * v + STIFFNESS * x * x - correction)
     };
     let start = invariant(&simulation);
     let (mut energy, mut momentum) = (0.0_f64, 0.0_f64);

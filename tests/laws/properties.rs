@@ -54,6 +54,9 @@ struct DrawnBody {
     mirrored: bool,
 }
 
+/// Jitter of a place in m, speed in m/s, spin in rad/s, radius in m, mass in kg, whether it is a clump.
+type Numbers = (f64, f64, f64, f64, f64, f64, bool);
+
 /// Bodies on a circle that fly to its middle.
 fn drawn(clumps: bool) -> impl Strategy<Value = Drawn> {
     drawn_with(clumps, 0.6)
@@ -65,21 +68,21 @@ fn drawn_with(clumps: bool, inelasticity: f64) -> impl Strategy<Value = Drawn> {
     let bodies = prop::collection::vec(body, 3..=5);
     (bodies, 0.0..0.8_f64, 0.0..1.0_f64, 0.3..1.5_f64).prop_map(move |(bodies, friction, lossy, ratio)| {
         let count = bodies.len() as f64;
-        let place =
-            |(number, (x, y, speed, spin, radius, mass, clump)): (usize, (f64, f64, f64, f64, f64, f64, bool))| {
-                let (sin, cos) = libm::sincos(std::f64::consts::TAU * number as f64 / count + 0.3);
-                let out = DVec2::new(cos, sin);
-                DrawnBody {
-                    position: out * 0.45 + DVec2::new(x, y),
-                    velocity: out * -speed,
-                    angle: spin,
-                    spin,
-                    radius,
-                    mass,
-                    clump: clump && clumps,
-                    mirrored: false,
-                }
-            };
+        let place = |(number, body): (usize, Numbers)| {
+            let (x, y, speed, spin, radius, mass, clump) = body;
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * number as f64 / count + 0.3);
+            let out = DVec2::new(cos, sin);
+            DrawnBody {
+                position: out * 0.45 + DVec2::new(x, y),
+                velocity: out * -speed,
+                angle: spin,
+                spin,
+                radius,
+                mass,
+                clump: clump && clumps,
+                mirrored: false,
+            }
+        };
         let bodies = bodies.into_iter().enumerate().map(place).collect();
         Drawn { bodies, friction, inelasticity: lossy * inelasticity, ratio }
     })
