@@ -14,13 +14,19 @@
 
 pub mod cluster_rotation;
 pub mod constant_acceleration;
+pub mod cradle;
 pub mod elastic_bounce;
 pub mod free_flight;
 pub mod inelastic_impact;
 pub mod kepler;
 pub mod linear_drag;
 pub mod oblique_collision;
+pub mod overlap_release;
 pub mod quadratic_drag;
+pub mod settling_bounce;
+pub mod slide_to_roll;
+pub mod sliding_stop;
+pub mod tangential_impact;
 pub mod truth;
 
 use std::error::Error;
@@ -42,6 +48,12 @@ pub const ALL: &[Problem] = &[
     elastic_bounce::PROBLEM,
     inelastic_impact::PROBLEM,
     oblique_collision::PROBLEM,
+    settling_bounce::PROBLEM,
+    tangential_impact::PROBLEM,
+    cradle::PROBLEM,
+    overlap_release::PROBLEM,
+    sliding_stop::PROBLEM,
+    slide_to_roll::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.

@@ -4,14 +4,25 @@
 mod support;
 
 mod bounce;
+mod clumps;
 mod constant_acceleration;
 mod convergence;
+mod cradle;
 mod energy;
 mod forces;
 mod friction;
+mod impacts;
 mod ledger;
+mod million;
 mod momentum;
+mod oblique;
 mod orbit;
 mod problems;
+mod properties;
+mod rest;
 mod restitution;
+mod rolling;
 mod rotation;
+mod scales;
+mod slope;
+mod stability;

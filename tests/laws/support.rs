@@ -4,8 +4,10 @@ use std::fmt::Write;
 
 use glam::DVec2;
 use jostle::Simulation;
+use jostle::contacts::ContactForces;
 use jostle::scene::Source;
 use jostle::world::Bodies;
+use jostle::world::hash::state_hash;
 
 /// The two methods that stand in most tests by name.
 pub const METHODS: [&str; 2] = ["SemiImplicitEuler", "VelocityVerlet"];
@@ -77,4 +79,33 @@ pub fn kinetic(bodies: &Bodies) -> f64 {
             + 0.5 * bodies.inertia[body] * bodies.spin[body].powi(2)
     };
     (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
+}
+
+/// Runs on to `time` seconds.
+pub fn run_to(simulation: &mut Simulation, time: f64) {
+    let tick = (time / simulation.clock().dt).round() as u64;
+    simulation.run_to_tick(tick).expect("numbers stay finite");
+}
+
+/// Forces that contacts exert on walls and bodies. The scene must have a sensor that asks for them.
+pub fn contact_forces(simulation: &Simulation) -> &ContactForces {
+    simulation.world().get_resource().expect("the scene has a sensor of contact forces")
+}
+
+/// Runs to `time`, asserts that by then nothing moves at all, and that it stays so to the last bit for `still` seconds.
+#[track_caller]
+pub fn assert_rest(what: &str, simulation: &mut Simulation, time: f64, still: f64) {
+    run_to(simulation, time);
+    let bodies = simulation.bodies();
+    let moving = (0..bodies.len()).filter(|&body| bodies.velocity[body] != DVec2::ZERO || bodies.spin[body] != 0.0);
+    let described = moving.fold(String::new(), |mut text, body| {
+        let (position, velocity) = (bodies.position[body], bodies.velocity[body]);
+        let _ = write!(text, "\n{} at {position}: {velocity} m/s, {} rad/s", simulation.name(body), bodies.spin[body]);
+        text
+    });
+    assert!(described.is_empty(), "{what}: at {time} s these still move:{described}");
+    assert_eq!(kinetic(bodies), 0.0, "{what}: kinetic energy at {time} s");
+    let hash = state_hash(bodies);
+    run_to(simulation, time + still);
+    assert_eq!(state_hash(simulation.bodies()), hash, "{what}: the state changed after {time} s");
 }
