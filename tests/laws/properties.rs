@@ -284,7 +284,6 @@ proptest! {
     }
 
     #[test]
-    #[ignore = "a contact that slides and holds along its normal may be taken to stick, by rounding"]
     fn no_state_of_rest_is_preferred(scene in drawn(true), x in -100.0..100.0_f64, y in -100.0..100.0_f64) {
         boosted(&scene, DVec2::new(x, y))?;
     }

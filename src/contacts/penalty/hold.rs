@@ -124,8 +124,8 @@ pub struct Seen {
     pub normal_force: f64,
     /// Force in newtons that rounding of positions makes.
     pub noise: f64,
-    /// Whether the tangential and the rolling force may hold: not before the normal force has for a tick, so that a
-    /// contact that turns in a collision keeps what its springs hold.
+    /// Whether the tangential and the rolling force may hold though their springs are drawn out: not before the normal
+    /// force has held for a tick, so that a contact that turns in a collision keeps what its springs hold.
     pub engaged: bool,
     /// Static coefficient of friction, and the present tangential force in newtons, along minus the tangent on B.
     pub tangential: (f64, f64),
@@ -178,7 +178,8 @@ impl Candidate {
         // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
         let bounded = |row: Row, (coefficient, force): (f64, f64)| {
             let reach = 4.0 * coefficient * seen.band.1 * row.mobility * dt;
-            let engaged = seen.engaged && coefficient > 0.0 && row.velocity(movers, seen.ends).abs() <= reach;
+            let engaged =
+                (seen.engaged || force == 0.0) && coefficient > 0.0 && row.velocity(movers, seen.ends).abs() <= reach;
             Bounded { row, coefficient, engaged, at_limit: false, force }
         };
         Self {
@@ -266,6 +267,10 @@ pub fn solve(candidates: &mut [Candidate], movers: &mut [Mover], may_rest: bool,
         if may_rest {
             finish(candidates, movers, dt);
         }
+    }
+    // Forces that stand at a limit without need come off it.
+    for candidate in candidates {
+        candidate.relax(movers, dt);
     }
 }
 

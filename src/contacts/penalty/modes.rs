@@ -71,7 +71,7 @@ impl Case {
         parting: f64,
         dt: f64,
     ) -> bool {
-        if !N::dissipates(law) && !law.tangential().acts() {
+        if !N::dissipates(law) {
             return false;
         }
         if contact.mode == Mode::Hold {
