@@ -67,7 +67,7 @@ pub enum NormalLaw {
 pub enum TangentialLaw {
     /// No friction, whatever the materials say.
     None,
-    /// A spring with a Coulomb limit; see [`tangential`].
+    /// A spring with a Coulomb limit; see [`coulomb`].
     Spring {
         /// Stiffness of the tangential spring over that of the normal one. Between 2/3 and 1 for equal elastic solids
         /// (Mindlin 1949). Default 0.8.
