@@ -75,6 +75,6 @@ impl Bounds {
             let left = allowed - turned;
             left >= 0.0 && (bodies.position[body] - self.position[body]).length_squared() <= left * left
         };
-        (0..bodies.len()).any(|body| bodies.dynamic[body] && !stayed(body))
+        (0..bodies.len()).any(|body| bodies.moves[body] && !stayed(body))
     }
 }

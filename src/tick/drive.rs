@@ -252,11 +252,17 @@ impl Tick<'_> {
         if elapsed == 0.0 {
             bodies.accept();
         }
-        bodies.pose();
-        bodies.swap_estimate();
-        *self.world.resource_mut::<Balance>() = Balance::default();
         // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
+        let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
+        bodies.pose();
+        bodies.swap_estimate();
+        if let Some((greatest, sum)) = driven {
+            let mut drive = self.world.resource_mut::<Drive>();
+            drive.travel = drive.travel.max(greatest);
+            drive.travelled += sum;
+        }
+        *self.world.resource_mut::<Balance>() = Balance::default();
         *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed };
         self.evaluate.run(self.world);
         self.world.resource_mut::<Bodies>().swap_estimate();

@@ -136,9 +136,19 @@ impl Sink<'_> {
         // What a fixed body gives comes from outside.
         if !self.bodies.dynamic[a.body] {
             self.balance.outside(self.bodies.position[b.body] + arm_b, force, 0.0);
+            self.driven(a, arm_a, force);
         }
         if !self.bodies.dynamic[b.body] {
             self.balance.outside(self.bodies.position[a.body] + arm_a, -force, 0.0);
+            self.driven(b, arm_b, -force);
+        }
+    }
+
+    /// Books the work of a body that moves as prescribed and gives `force`.
+    #[inline]
+    fn driven(&mut self, end: &End, arm: DVec2, force: DVec2) {
+        if self.bodies.moves[end.body] {
+            self.balance.work += force.dot(self.bodies.velocity_at(end.body, arm));
         }
     }
 
@@ -148,6 +158,7 @@ impl Sink<'_> {
         let arm = end.arm - normal * height;
         self.on_body(end, arm, force);
         self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
+        self.balance.work += force.dot(self.bodies.walls[wall as usize].surface_velocity);
         if let Some(forces) = &mut self.forces {
             forces.on_wall[wall as usize] -= force;
         }
@@ -164,8 +175,9 @@ fn touch_atoms(bodies: &Bodies, (a, b): (&End, &End), normal: DVec2, distance: f
 }
 
 #[inline]
-fn touch_wall(bodies: &Bodies, end: &End, normal: DVec2, height: f64) -> Touch {
+fn touch_wall(bodies: &Bodies, end: &End, wall: &PackedWall, height: f64, elapsed: f64) -> Touch {
     let (displacement, turn) = end.displacement(bodies);
+    let (displacement, normal) = (displacement - wall.surface_velocity * elapsed, wall.normal);
     let rolled_b = (end.radius, turn);
     Touch { normal, overlap: end.radius - height, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
 }
@@ -228,7 +240,7 @@ pub(super) fn apply_penalty(
         }
         let law = laws.get(contact.law);
         let end = End::of(sink.bodies, atom);
-        let touch = touch_wall(sink.bodies, &end, packed.normal, height);
+        let touch = touch_wall(sink.bodies, &end, &packed, height, evaluation.elapsed);
         contact.follow(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;

@@ -54,6 +54,13 @@ impl Case {
         }
     }
 
+    /// A wall whose surface moves.
+    fn belt(&self, bodies: &Bodies) -> Option<Mover> {
+        let Other::Wall(wall) = self.other else { return None };
+        let velocity = bodies.walls[wall as usize].surface_velocity;
+        (velocity != DVec2::ZERO).then(|| Mover { velocity, ..Mover::default() })
+    }
+
     fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
         match &self.other {
             Other::Atom(other) => sink.between((other, &self.end), self.normal, overlap, law, force),
@@ -240,10 +247,15 @@ impl Choice<'_> {
         let mut movers = vec![Mover::default()];
         movers.extend(members.iter().map(|&body| mover(self.sink.bodies, body, self.dt)));
         let mut candidates = Vec::with_capacity(island.len());
+        // Walls whose surface moves stand behind the bodies.
+        let belts = movers.len();
+        movers.extend(island.iter().filter_map(|case| case.belt(self.sink.bodies)));
+        let mut belt = belts..;
         for case in island {
+            let belt = case.belt(self.sink.bodies).and_then(|_| belt.next());
+            let ends = (case.other_body().map_or(belt.unwrap_or(0), place), place(case.end.body));
             let (contact, law) = self.contact(case);
             let forces = (contact.normal_force(law), contact.tangential_force(law));
-            let ends = (case.other_body().map_or(0, place), place(case.end.body));
             let band = inelasticity::band(law, contact.overlap);
             let arms = case.arms(law, contact.overlap);
             candidates.push(Candidate::new(&movers, ends, arms, case.normal, band, law.friction_static, forces));
@@ -309,6 +321,9 @@ fn members(island: &[Case]) -> Vec<usize> {
 
 /// A body with the velocities it will have after `dt` seconds under the present forces.
 fn mover(bodies: &Bodies, body: usize, dt: f64) -> Mover {
+    if let Some(state) = bodies.prescribed.ahead(body, dt) {
+        return Mover { velocity: state.velocity, spin: state.spin, ..Mover::default() };
+    }
     let (inverse_mass, inverse_inertia) = (bodies.inverse_mass[body], bodies.inverse_inertia[body]);
     Mover {
         velocity: bodies.velocity[body] + bodies.force[body] * (inverse_mass * dt),

@@ -3,7 +3,7 @@
 use bevy_app::App;
 use serde::Deserialize;
 
-use crate::scene::units::Position;
+use crate::scene::units::{Position, Velocity};
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
@@ -20,7 +20,13 @@ pub struct WallEntry {
     /// The name of its material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
+    /// The velocity of its surface along the wall, in m/s: a belt. Default: (0, 0).
+    #[serde(default)]
+    pub surface_velocity: Velocity,
 }
+
+/// How far a surface velocity may point out of its wall, as a share of itself: digits that people leave out.
+const ALONG: f64 = 1e-6;
 
 /// The section `walls`.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -58,6 +64,16 @@ impl WallEntry {
         if finite && !(length > 0.0 && length.is_finite()) {
             let message = format!("must differ from `left`, got ({}, {}) for both", right.x, right.y);
             report.error("right", message).help("a wall is the line through two points, seen from the open side");
+        }
+        let velocity = self.surface_velocity.si();
+        if report.finite_pair("surface_velocity", velocity) && finite && length > 0.0 {
+            let along = (right - left) / length;
+            let tangential = along * velocity.dot(along);
+            if (velocity - tangential).length() > ALONG * velocity.length() {
+                let message = "a surface moves along its wall, not into or out of it";
+                let help = format!("along this wall it would be ({:?}, {:?})", tangential.x, tangential.y);
+                report.error("surface_velocity", message).help(help);
+            }
         }
         material::require(self.material.as_deref(), outline, report);
     }
