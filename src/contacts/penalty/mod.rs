@@ -2,6 +2,7 @@
 
 pub mod apply;
 pub mod contact;
+mod frame;
 pub mod hold;
 pub mod inelasticity;
 pub mod law;

@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::apply::{End, PenaltyContacts, Sink, Touching, arms};
 use super::contact::{Contact, Losses};
+use super::frame::Frame;
 use super::hold::{self, Candidate, Mover, Verdict};
 use super::inelasticity::{self, Mode};
 use super::law::PairLaw;
@@ -260,6 +261,14 @@ impl Choice<'_> {
             let arms = case.arms(law, contact.overlap);
             candidates.push(Candidate::new(&movers, ends, arms, case.normal, band, law.friction_static, forces));
         }
+        let frame = self.frame(island, &members, &movers[1..]);
+        let place_of = |mover: usize, bodies: &Bodies| {
+            mover.checked_sub(1).and_then(|member| members.get(member)).map_or(DVec2::ZERO, |&body| bodies.position[body])
+        };
+        if let Some(frame) = frame {
+            let each = movers.iter_mut().enumerate();
+            each.for_each(|(place, mover)| frame.enter(mover, place_of(place, self.sink.bodies)));
+        }
         hold::solve(&mut candidates, &mut movers, self.dt);
         let mut all_rest = true;
         for (case, candidate) in island.iter().zip(&candidates) {
@@ -279,6 +288,10 @@ impl Choice<'_> {
             let frictionless = self.contact(case).1.friction_static == 0.0;
             all_rest &= verdict == Verdict::Sticks || verdict == Verdict::Rests && frictionless;
         }
+        if let Some(frame) = frame {
+            let each = movers.iter_mut().enumerate();
+            each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
+        }
         let scales: Vec<f64> = (0..movers.len()).map(|place| hold::load(&candidates, place)).collect();
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &scale)): (&usize, (&Mover, &f64))| {
@@ -289,6 +302,19 @@ impl Choice<'_> {
         if all_rest && members.iter().zip(movers.iter().zip(&scales).skip(1)).all(stands) {
             self.lay_to_rest(&members, &scales[1..], ledger);
         }
+    }
+
+    /// What carries an island: its first member that moves as prescribed, or its first belt. `movers` are those of its
+    /// members and belts.
+    fn frame(&self, island: &[Case], members: &[usize], movers: &[Mover]) -> Option<Frame> {
+        let bodies = &*self.sink.bodies;
+        let carries = |mover: &Mover| mover.inverse_mass == 0.0 && (mover.velocity != DVec2::ZERO || mover.spin != 0.0);
+        let place = movers.iter().position(carries)?;
+        // A wall has no centre to turn about.
+        let turns = island.iter().all(|case| case.other_body().is_some());
+        let Mover { velocity, spin, .. } = movers[place];
+        let origin = members.get(place).map_or(DVec2::ZERO, |&body| bodies.position[body]);
+        Some(Frame { origin, velocity, spin: if turns { spin } else { 0.0 } })
     }
 
     fn lay_to_rest(&mut self, members: &[usize], scales: &[f64], ledger: &mut Ledger) {
