@@ -1,6 +1,7 @@
 //! Contacts: who may touch whom ([`search`]), and what follows from it: one contact law per scene.
 
 pub mod penalty;
+pub mod response;
 pub mod search;
 
 use bevy_app::App;

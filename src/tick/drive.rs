@@ -5,31 +5,11 @@ use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 use glam::DVec2;
 
 use super::balance::Totals;
+use super::failure::{Failure, Wrong};
+use super::guard::EnergyGuard;
 use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
 use crate::integrate::Method;
 use crate::world::{Bodies, Force, Name, Slot, Torque, finite, packed};
-
-/// A run that went wrong: a number is not finite.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// Name of the first body that went wrong.
-    pub body: String,
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// The tick that made it.
-    pub tick: u64,
-    /// Its time in seconds.
-    pub time: f64,
-}
-
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let Self { body, quantity, tick, time } = self;
-        write!(f, "the {quantity} of `{body}` is no longer a finite number at t = {time:?} s (tick {tick})")
-    }
-}
-
-impl std::error::Error for Failure {}
 
 /// What is taken out of the world while a batch of ticks runs.
 struct Running {
@@ -56,14 +36,28 @@ pub(super) struct Drive {
     travel: f64,
     /// Sum over all bodies of the travel in the last tick: not finite as soon as one of them is.
     travelled: f64,
+    /// The first body that travelled farther than the smallest radius in one tick.
+    far: Option<FarTravel>,
+    energy: EnergyGuard,
     failure: Option<Failure>,
+}
+
+/// A body that travelled farther in one tick than the smallest radius: it may have passed through others unseen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FarTravel {
+    /// The body.
+    pub body: Entity,
+    /// How far any of its points travelled, in metres.
+    pub travel: f64,
+    /// The end of that tick in seconds.
+    pub time: f64,
 }
 
 /// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
 /// hold the new state.
 ///
 /// # Errors
-/// When a position, angle, velocity or spin stops being finite. The state stays as it was found then.
+/// When a position, angle, velocity or spin stops being finite, or energy comes out of nowhere. The state stays as it was found then.
 pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut sim = take(world, SimTick);
     let evaluate = take(world, Evaluate);
@@ -168,9 +162,36 @@ pub(super) fn integrate(world: &mut World) {
     drive.running = Some(running);
     drive.current = true;
     drive.stepped = true;
-    if !drive.travelled.is_finite() {
+    let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
+    if !travelled.is_finite() {
         note_failure(world);
+    } else if energy.is_due(clock.ticks + 1, travel) {
+        look_closer(world, energy, travel);
     }
+}
+
+/// Looks for a body that travelled too far, and at the energy.
+#[cold]
+fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
+    let created = energy.look(world, travel);
+    let clock = *world.resource::<Clock>();
+    let bodies = world.resource::<Bodies>();
+    let far = |body: usize| {
+        let travel = bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
+        let far = bodies.collides[body] && bodies.moves[body] && travel > bodies.smallest_radius;
+        far.then(|| FarTravel { body: bodies.entity[body], travel, time: clock.time() })
+    };
+    let far = (0..bodies.len()).find_map(far);
+    let failure = created.map(|(body, created)| Failure {
+        body: world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default(),
+        wrong: Wrong::Energy(created),
+        tick: clock.ticks,
+        time: clock.time(),
+    });
+    let mut drive = world.resource_mut::<Drive>();
+    drive.energy = energy;
+    drive.far = drive.far.or(far);
+    drive.failure = failure;
 }
 
 /// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
@@ -202,7 +223,7 @@ fn note_failure(world: &mut World) {
     let Some((body, quantity)) = finite::first_not_finite(bodies) else { return };
     let name = world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default();
     let clock = world.resource::<Clock>();
-    let failure = Failure { body: name, quantity, tick: clock.ticks, time: clock.time() };
+    let failure = Failure { body: name, wrong: Wrong::NotFinite(quantity), tick: clock.ticks, time: clock.time() };
     world.resource_mut::<Drive>().failure = Some(failure);
 }
 
@@ -214,6 +235,11 @@ pub fn set_method(world: &mut World, method: Method) {
 /// Greatest distance that any point of a body travelled in one tick so far, in metres.
 pub fn largest_travel(world: &World) -> f64 {
     world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)
+}
+
+/// The first body that travelled farther in one tick than the smallest radius.
+pub fn far_travel(world: &World) -> Option<FarTravel> {
+    world.get_resource::<Drive>().and_then(|drive| drive.far)
 }
 
 /// What an integrator may do inside a tick.

@@ -28,8 +28,6 @@ pub struct PackedWall {
     pub normal: DVec2,
     /// What it is made of.
     pub material: MaterialIndex,
-    /// Velocity of its surface in m/s, along the wall: a belt.
-    pub surface_velocity: DVec2,
 }
 
 /// All bodies, atoms and walls, packed.
@@ -111,8 +109,13 @@ pub struct Bodies {
     /// Body of each atom.
     pub atom_body: Vec<u32>,
 
+    /// Radius of the smallest atom in metres; infinite without atoms.
+    pub smallest_radius: f64,
+
     /// The walls in canonical order.
     pub walls: Vec<PackedWall>,
+    /// Velocity of the surface of each wall in m/s; empty if all stand.
+    pub belts: Vec<DVec2>,
 }
 
 impl Bodies {
@@ -134,11 +137,6 @@ impl Bodies {
     /// Atoms of body `body`.
     pub fn atoms_of(&self, body: usize) -> std::ops::Range<usize> {
         self.first_atom[body] as usize..self.first_atom[body + 1] as usize
-    }
-
-    /// Radius of the smallest atom in metres; infinite without atoms.
-    pub fn smallest_radius(&self) -> f64 {
-        self.atom_radius.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Velocity of a point that moves with body `body`, `arm` metres from its centre of mass.
@@ -397,16 +395,14 @@ pub fn rebuild(world: &mut World) {
         bodies.pose_atoms(place);
     }
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
+    bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);
     walls.sort_unstable_by_key(|(_, wall)| wall.key);
+    if walls.iter().any(|(_, wall)| wall.surface_velocity != DVec2::ZERO) {
+        bodies.belts = walls.iter().map(|(_, wall)| wall.surface_velocity).collect();
+    }
     bodies.walls = walls
         .into_iter()
-        .map(|(entity, wall)| PackedWall {
-            entity,
-            point: wall.left,
-            normal: wall.normal(),
-            material: wall.material,
-            surface_velocity: wall.surface_velocity,
-        })
+        .map(|(entity, wall)| PackedWall { entity, point: wall.left, normal: wall.normal(), material: wall.material })
         .collect();
     world.insert_resource(bodies);
 }

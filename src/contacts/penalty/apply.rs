@@ -4,6 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::contact::{Contact, Losses, Touch};
+use super::critical::Watch;
 use super::law::{LawTable, PairLaw, Side};
 use super::rest::Rest;
 use super::{Penalty, inelasticity::Mode};
@@ -26,6 +27,7 @@ pub struct PenaltyContacts {
     pub(super) touching_atoms: Vec<Touching>,
     pub(super) touching_walls: Vec<Touching>,
     pub(super) rest: Rest,
+    pub(super) watch: Watch,
 }
 
 /// A pair that touches in the present state.
@@ -158,7 +160,9 @@ impl Sink<'_> {
         let arm = end.arm - normal * height;
         self.on_body(end, arm, force);
         self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
-        self.balance.work += force.dot(self.bodies.walls[wall as usize].surface_velocity);
+        if let Some(&belt) = self.bodies.belts.get(wall as usize) {
+            self.balance.work += force.dot(belt);
+        }
         if let Some(forces) = &mut self.forces {
             forces.on_wall[wall as usize] -= force;
         }
@@ -175,9 +179,11 @@ fn touch_atoms(bodies: &Bodies, (a, b): (&End, &End), normal: DVec2, distance: f
 }
 
 #[inline]
-fn touch_wall(bodies: &Bodies, end: &End, wall: &PackedWall, height: f64, elapsed: f64) -> Touch {
-    let (displacement, turn) = end.displacement(bodies);
-    let (displacement, normal) = (displacement - wall.surface_velocity * elapsed, wall.normal);
+fn touch_wall(bodies: &Bodies, end: &End, normal: DVec2, height: f64, belt: Option<DVec2>) -> Touch {
+    let (mut displacement, turn) = end.displacement(bodies);
+    if let Some(belt) = belt {
+        displacement -= belt;
+    }
     let rolled_b = (end.radius, turn);
     Touch { normal, overlap: end.radius - height, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
 }
@@ -240,7 +246,8 @@ pub(super) fn apply_penalty(
         }
         let law = laws.get(contact.law);
         let end = End::of(sink.bodies, atom);
-        let touch = touch_wall(sink.bodies, &end, &packed, height, evaluation.elapsed);
+        let belt = sink.bodies.belts.get(wall as usize).map(|belt| *belt * evaluation.elapsed);
+        let touch = touch_wall(sink.bodies, &end, packed.normal, height, belt);
         contact.follow(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;

@@ -2,6 +2,7 @@
 
 pub mod apply;
 pub mod contact;
+mod critical;
 mod frame;
 pub mod hold;
 pub mod inelasticity;
@@ -21,7 +22,7 @@ use super::{ContactLaw, DeepestOverlap, StiffestContact};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
-use crate::tick::{Evaluate, EvaluateStage, Modes, TickAppExt};
+use crate::tick::{Evaluate, EvaluateStage, Modes, Stability, TickAppExt};
 use crate::world::{Bodies, Materials};
 
 /// `contacts: Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)`.
@@ -96,6 +97,9 @@ pub fn install(settings: Penalty, app: &mut App) {
     app.add_packed_systems(Evaluate, 1, system);
     app.add_systems(Modes, modes::choose_modes.in_set(EvaluateStage::Contacts));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
+    app.world_mut().get_resource_or_init::<Stability>().sources.push(|world| {
+        world.resource::<PenaltyContacts>().watch.found
+    });
     app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
 }
 

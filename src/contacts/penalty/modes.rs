@@ -58,8 +58,7 @@ impl Case {
     /// A wall whose surface moves.
     fn belt(&self, bodies: &Bodies) -> Option<Mover> {
         let Other::Wall(wall) = self.other else { return None };
-        let velocity = bodies.walls[wall as usize].surface_velocity;
-        (velocity != DVec2::ZERO).then(|| Mover { velocity, ..Mover::default() })
+        bodies.belts.get(wall as usize).map(|&velocity| Mover { velocity, ..Mover::default() })
     }
 
     fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
@@ -110,6 +109,7 @@ pub(super) fn choose_modes(
     mut forces: Option<ResMut<ContactForces>>,
     mut scratch: Local<Scratch>,
 ) {
+    contacts.watch(&bodies, &pairs, &clock);
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let mut choice = Choice { sink, contacts: &mut contacts, dt: clock.dt, losses: Losses::default() };
     choice.wake_touched(&pairs);
