@@ -6,8 +6,9 @@
 //! each of them alone, springs off its centre faster than `k/m` says.
 //!
 //! The largest eigenvalue of `M^-1/2 K M^-1/2` is found by Lanczos' method (1950; Golub and Van Loan, *Matrix
-//! Computations*, 2013, 10.1): a few products with the rows, never a matrix. What it finds lies below the eigenvalue by
-//! less than a hundredth as a rule; [`Springs::bound`] lies above it always.
+//! Computations*, 2013, 10.1): a few products with the rows, never a matrix. What it finds after `k` products lies below
+//! `omega^2` by a share of `0.103 (ln n/(k - 1))^2` on average, `n` degrees of freedom (Kuczynski and Wozniakowski 1992):
+//! 1.5 % for a hundred bodies. [`Springs::bound`] lies above it always.
 //!
 //! Left out: the stiffness that comes from turning the normal (force over radius, small beside `k` as long as overlaps
 //! are), and that a slipping contact has no tangential spring.
@@ -161,7 +162,7 @@ impl Springs {
             diagonal.push(alpha);
             coupling = dot(&next, &next).sqrt();
             let scale_so_far = diagonal.iter().copied().fold(0.0, f64::max);
-            if !(coupling > 1e-9 * scale_so_far) {
+            if coupling <= 1e-9 * scale_so_far {
                 break;
             }
             beside.push(coupling);
@@ -257,6 +258,59 @@ mod tests {
             let found = largest_of_tridiagonal(&vec![2.0; size], &vec![-1.0; size - 1]);
             let exact = 2.0 + 2.0 * libm::cos(std::f64::consts::PI / f64::from(length + 1));
             assert!((found - exact).abs() < 1e-11 * exact, "{length}: {found} {exact}");
+        }
+    }
+
+    /// Discs of different masses, each on a spring to some others and to the ground, in no order at all.
+    fn heap(count: usize) -> (Vec<Spring>, Bodies) {
+        let digit = |number: usize| (number as f64 * 0.618_033_988_749_894_9).fract();
+        let bodies = Bodies {
+            entity: vec![bevy_ecs::entity::Entity::PLACEHOLDER; count],
+            dynamic: vec![true; count],
+            inverse_mass: (0..count).map(|body| 1.0 + 3.0 * digit(body)).collect(),
+            inverse_inertia: (0..count).map(|body| 2.0 + 9.0 * digit(7 * body)).collect(),
+            ..Bodies::default()
+        };
+        let spring = |number: usize| {
+            let normal = DVec2::from_angle(6.3 * digit(3 * number));
+            let (a, b) = (number % count, (number * 7 + number / count + 1) % count);
+            let stiffness = (50.0 + 100.0 * digit(5 * number), 40.0);
+            let side = (number % 11 != 0 && a != b).then_some((a, normal * 0.4));
+            Spring { a: side, b: (b, DVec2::new(-0.3, 0.1 + digit(number))), normal, stiffness }
+        };
+        ((0..3 * count).map(spring).collect(), bodies)
+    }
+
+    #[test]
+    fn a_few_products_find_the_largest_frequency_and_the_bound_lies_above() {
+        for count in [1, 2, 5, 30, 100] {
+            let (list, bodies) = heap(count);
+            let mut springs = Springs::default();
+            springs.gather(list, &bodies);
+            // The power method, until it has all digits that are asked for.
+            let mut now: Vec<Scaled> = (0..springs.bodies.len()).map(start).collect();
+            let mut next = now.clone();
+            let mut exact = 0.0;
+            for _ in 0..20_000 {
+                springs.multiply(&now, &mut next);
+                exact = dot(&now, &next) / dot(&now, &now);
+                let length = dot(&next, &next).sqrt();
+                scale(&mut next, 1.0 / length);
+                std::mem::swap(&mut now, &mut next);
+            }
+            let (found, bound) = (springs.largest(), springs.bound());
+            let expected: f64 =
+                if 3 * count <= STEPS { 1e-9 } else { 0.103 * ((3.0 * count as f64).ln() / 15.0).powi(2) };
+            println!("{count}: {found} {exact} {} {}", 1.0 - found / exact, bound.squared / exact);
+            // On average; twice that for a single one.
+            assert!(
+                found <= exact * (1.0 + 1e-9) && found >= exact * (1.0 - 2.0 * expected),
+                "{count}: {found} {exact}"
+            );
+            assert!(
+                bound.squared >= exact * (1.0 - 1e-12) && bound.pair_squared <= exact * (1.0 + 1e-9),
+                "{count}: {bound:?}"
+            );
         }
     }
 }

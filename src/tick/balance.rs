@@ -20,6 +20,8 @@ pub struct Balance {
     pub drag: f64,
     /// Power that drives (thrust, torque, forces of plugins) bring, in watts.
     pub work: f64,
+    /// Set by a model that responds nearly as fast as the tick can bear: energy is looked at after each tick from then on.
+    pub alert: bool,
 }
 
 impl Balance {

@@ -145,8 +145,15 @@ pub(super) fn integrate(world: &mut World) {
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
     let clock = *world.resource::<Clock>();
     let Running { method, evaluate, modes, has_modes } = &mut *running;
-    let mut tick =
-        Tick { world, evaluate, modes, dt: clock.dt, begin: clock.time(), end: clock.time_of(clock.ticks + 1) };
+    let mut tick = Tick {
+        world,
+        evaluate,
+        modes,
+        dt: clock.dt,
+        begin: clock.time(),
+        end: clock.time_of(clock.ticks + 1),
+        alert: false,
+    };
     if !current || before.is_some() {
         tick.evaluate(0.0);
     }
@@ -157,11 +164,13 @@ pub(super) fn integrate(world: &mut World) {
         tick.modes.run(tick.world);
     }
     method.0.advance(&mut tick);
+    let alert = tick.alert;
     world.resource_mut::<Clock>().ticks += 1;
     let mut drive = world.resource_mut::<Drive>();
     drive.running = Some(running);
     drive.current = true;
     drive.stepped = true;
+    drive.energy.alert |= alert;
     let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
     if !travelled.is_finite() {
         note_failure(world);
@@ -253,6 +262,7 @@ pub struct Tick<'a> {
     /// Time at its beginning in seconds.
     pub begin: f64,
     end: f64,
+    alert: bool,
 }
 
 impl Tick<'_> {
@@ -297,6 +307,7 @@ impl Tick<'_> {
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
     pub fn kick(&mut self, dt: f64) {
         let balance = *self.world.resource::<Balance>();
+        self.alert |= balance.alert;
         self.world.resource_mut::<Ledger>().book(&balance, dt);
         self.world.resource_mut::<Bodies>().kick(dt);
     }

@@ -30,7 +30,10 @@ impl std::fmt::Display for Failure {
         match wrong {
             Wrong::NotFinite(quantity) => write!(f, "the {quantity} of `{body}` is no longer a finite number")?,
             Wrong::Energy(Created { energy, put_in }) => {
-                write!(f, "energy came out of nowhere, {energy:.1e} J where {put_in:.1e} J were put in, most of it in `{body}`,")?;
+                write!(
+                    f,
+                    "energy came out of nowhere, {energy:.1e} J where {put_in:.1e} J were put in, most of it in `{body}`,"
+                )?;
             }
         }
         write!(f, " at t = {time:?} s (tick {tick})")

@@ -7,8 +7,9 @@
 //! times what was put in and its tick is above the critical one, or [`ENORMOUS`] times whatever the tick is. Rounding of
 //! large energies counts as put in.
 //!
-//! It looks every [`EVERY`] ticks, when something travels farther in a tick than the smallest radius, and whenever that
-//! has doubled.
+//! It looks every [`EVERY`] ticks, when something travels farther in a tick than the smallest radius and whenever that
+//! has doubled, and at each tick since contacts were seen to respond nearly as fast as a method can bear: from the first
+//! touch on, before which nothing can be created.
 
 use bevy_ecs::prelude::*;
 
@@ -25,6 +26,8 @@ const ROUNDING: f64 = 1e-9;
 /// When energy is looked at next, and what was put in.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct EnergyGuard {
+    /// A model responds nearly as fast as the tick can bear: it looks at each tick.
+    pub alert: bool,
     next: u64,
     travel: f64,
     released: f64,
@@ -44,7 +47,7 @@ impl EnergyGuard {
     /// Whether it is time to look, after `ticks` ticks in which nothing travelled farther than `travel` metres per tick.
     #[inline]
     pub fn is_due(&self, ticks: u64, travel: f64) -> bool {
-        ticks >= self.next || travel > self.travel
+        ticks >= self.next || travel > self.travel || self.alert
     }
 
     /// Looks at the energy of the present state; returns the place of the body that has most of it if there is too much.
@@ -68,7 +71,8 @@ impl EnergyGuard {
         if put_in == 0.0 || energy <= too_much {
             return None;
         }
-        let most = (0..bodies.len()).max_by(|&a, &b| kinetic_energy_of(bodies, a).total_cmp(&kinetic_energy_of(bodies, b)));
+        let most =
+            (0..bodies.len()).max_by(|&a, &b| kinetic_energy_of(bodies, a).total_cmp(&kinetic_energy_of(bodies, b)));
         Some((most?, Created { energy, put_in }))
     }
 }

@@ -57,8 +57,10 @@ impl Responses {
     pub fn of(world: &World) -> Self {
         let all = world.resource::<Stability>().sources.iter().map(|source| source(world));
         all.fold(Self::default(), |known, found| {
-            let faster = |fastest: &Fastest| known.fastest.is_none_or(|k| k.angular_frequency < fastest.angular_frequency);
-            let briefer = |brief: &Briefest| known.briefest.is_none_or(|k| k.angular_frequency < brief.angular_frequency);
+            let faster =
+                |fastest: &Fastest| known.fastest.is_none_or(|k| k.angular_frequency < fastest.angular_frequency);
+            let briefer =
+                |brief: &Briefest| known.briefest.is_none_or(|k| k.angular_frequency < brief.angular_frequency);
             Self {
                 fastest: found.fastest.filter(faster).or(known.fastest),
                 briefest: found.briefest.filter(briefer).or(known.briefest),

@@ -171,7 +171,8 @@ mod tests {
     /// A cubic is met exactly, so motion under constant acceleration is.
     #[test]
     fn constant_acceleration_is_a_path_with_velocities() {
-        let end = PathPoint { time: 2.0, by: DVec2::new(3.0, 4.0), velocity: DVec2::new(2.5, 4.0), ..stop(2.0, 0.0, 0.0) };
+        let end =
+            PathPoint { time: 2.0, by: DVec2::new(3.0, 4.0), velocity: DVec2::new(2.5, 4.0), ..stop(2.0, 0.0, 0.0) };
         let path = Path::new(DVec2::new(0.5, 0.0), 0.0, &[end], false);
         for step in 0..=20 {
             let t = f64::from(step) / 10.0;
@@ -186,8 +187,7 @@ mod tests {
     #[test]
     fn the_velocity_is_the_derivative_of_the_place() {
         let path = Path::new(DVec2::X, -1.0, &[stop(1.0, 2.0, 0.5), stop(2.0, -1.0, 3.0)], true);
-        let motion =
-            Kinematic { since: 0.25, position: DVec2::ONE, angle: 0.3, center: DVec2::new(0.2, 0.1), path };
+        let motion = Kinematic { since: 0.25, position: DVec2::ONE, angle: 0.3, center: DVec2::new(0.2, 0.1), path };
         let h = 1e-5;
         for step in 1..600 {
             let t = 0.2503 + f64::from(step) * 0.01;

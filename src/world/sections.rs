@@ -29,7 +29,7 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
         let key = next.wall;
         next.wall += 1;
         let (left, right) = (wall.left.si(), wall.right.si());
-        let surface_velocity = wall.surface_velocity.si();
+        let surface_velocity = wall.belt();
         world.spawn((Wall { key, left, right, material, surface_velocity }, Name(wall.name)));
     }
 }

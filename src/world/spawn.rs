@@ -3,8 +3,8 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::atom::{Atom, AtomOf};
 use super::Kinematic;
+use super::atom::{Atom, AtomOf};
 use super::body::{Body, Mass, Motion, Name, Position, Rotation, Spin, Velocity};
 
 /// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.

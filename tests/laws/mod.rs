@@ -3,15 +3,18 @@
 
 mod support;
 
+mod belt;
 mod bounce;
 mod constant_acceleration;
 mod convergence;
 mod energy;
 mod forces;
 mod friction;
+mod kinematic;
 mod ledger;
 mod momentum;
 mod orbit;
 mod problems;
 mod restitution;
 mod rotation;
+mod stability;

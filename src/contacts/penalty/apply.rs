@@ -179,11 +179,8 @@ fn touch_atoms(bodies: &Bodies, (a, b): (&End, &End), normal: DVec2, distance: f
 }
 
 #[inline]
-fn touch_wall(bodies: &Bodies, end: &End, normal: DVec2, height: f64, belt: Option<DVec2>) -> Touch {
-    let (mut displacement, turn) = end.displacement(bodies);
-    if let Some(belt) = belt {
-        displacement -= belt;
-    }
+fn touch_wall(bodies: &Bodies, end: &End, normal: DVec2, height: f64) -> Touch {
+    let (displacement, turn) = end.displacement(bodies);
     let rolled_b = (end.radius, turn);
     Touch { normal, overlap: end.radius - height, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
 }
@@ -246,8 +243,10 @@ pub(super) fn apply_penalty(
         }
         let law = laws.get(contact.law);
         let end = End::of(sink.bodies, atom);
-        let belt = sink.bodies.belts.get(wall as usize).map(|belt| *belt * evaluation.elapsed);
-        let touch = touch_wall(sink.bodies, &end, packed.normal, height, belt);
+        let mut touch = touch_wall(sink.bodies, &end, packed.normal, height);
+        if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
+            touch.displacement -= belt * evaluation.elapsed;
+        }
         contact.follow(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;

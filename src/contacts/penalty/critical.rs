@@ -10,7 +10,7 @@ use super::apply::{End, PenaltyContacts, arms};
 use super::law::PairLaw;
 use crate::contacts::response::{Spring, Springs};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
-use crate::tick::{Briefest, Clock, Fastest, Responses};
+use crate::tick::{Balance, Briefest, Clock, Fastest, Responses};
 use crate::world::Bodies;
 
 /// Ticks after which an unchanged number of pairs is looked at again.
@@ -18,7 +18,10 @@ const PATIENCE: u64 = 512;
 /// A bound that has risen by this factor is followed up at once.
 const RISEN: f64 = 1.05;
 /// Ticks per pair between two solutions otherwise.
-const TICKS_PER_PAIR: u64 = 64;
+const TICKS_PER_PAIR: u64 = 32;
+
+/// Product of tick and angular frequency above which energy is watched at each tick; methods bear 2 and more.
+const ALERT: f64 = 1.5;
 
 /// When the contacts were looked at, and working memory.
 #[derive(Debug, Default)]
@@ -36,12 +39,14 @@ pub(super) struct Watch {
 impl PenaltyContacts {
     /// Looks at the touching pairs if it is time to.
     #[inline]
-    pub(super) fn watch(&mut self, bodies: &Bodies, pairs: &CandidatePairs, clock: &Clock) {
+    pub(super) fn watch(&mut self, bodies: &Bodies, pairs: &CandidatePairs, clock: &Clock, balance: &mut Balance) {
         let touching = self.touching_atoms.len() + self.touching_walls.len();
         let watch = &self.watch;
         let changed = touching != watch.pairs && clock.ticks >= watch.earliest;
         if touching > 0 && (changed || clock.ticks >= watch.next) {
             self.measure(bodies, pairs, clock);
+            let fastest = self.watch.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency);
+            balance.alert |= clock.dt * fastest > ALERT;
         }
     }
 
@@ -67,7 +72,8 @@ impl PenaltyContacts {
             let between = (a.map_or_else(wall, entity), entity(b));
             found.briefest = Some(Briefest { angular_frequency: bound.pair_squared.sqrt(), between, time });
         }
-        let due = bound.squared > RISEN * watch.bound || clock.ticks >= watch.solved + TICKS_PER_PAIR * watch.pairs as u64;
+        let due =
+            bound.squared > RISEN * watch.bound || clock.ticks >= watch.solved + TICKS_PER_PAIR * watch.pairs as u64;
         if due && bound.squared > fastest * fastest {
             watch.solved = clock.ticks;
             watch.bound = watch.bound.max(bound.squared);

@@ -97,9 +97,10 @@ pub fn install(settings: Penalty, app: &mut App) {
     app.add_packed_systems(Evaluate, 1, system);
     app.add_systems(Modes, modes::choose_modes.in_set(EvaluateStage::Contacts));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
-    app.world_mut().get_resource_or_init::<Stability>().sources.push(|world| {
-        world.resource::<PenaltyContacts>().watch.found
-    });
+    app.world_mut()
+        .get_resource_or_init::<Stability>()
+        .sources
+        .push(|world| world.resource::<PenaltyContacts>().watch.found);
     app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
 }
 

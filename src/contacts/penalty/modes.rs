@@ -109,7 +109,7 @@ pub(super) fn choose_modes(
     mut forces: Option<ResMut<ContactForces>>,
     mut scratch: Local<Scratch>,
 ) {
-    contacts.watch(&bodies, &pairs, &clock);
+    contacts.watch(&bodies, &pairs, &clock, &mut balance);
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let mut choice = Choice { sink, contacts: &mut contacts, dt: clock.dt, losses: Losses::default() };
     choice.wake_touched(&pairs);
@@ -263,7 +263,10 @@ impl Choice<'_> {
         }
         let frame = self.frame(island, &members, &movers[1..]);
         let place_of = |mover: usize, bodies: &Bodies| {
-            mover.checked_sub(1).and_then(|member| members.get(member)).map_or(DVec2::ZERO, |&body| bodies.position[body])
+            mover
+                .checked_sub(1)
+                .and_then(|member| members.get(member))
+                .map_or(DVec2::ZERO, |&body| bodies.position[body])
         };
         if let Some(frame) = frame {
             let each = movers.iter_mut().enumerate();

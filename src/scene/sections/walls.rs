@@ -1,6 +1,7 @@
 //! `walls`: half-planes that nothing enters.
 
 use bevy_app::App;
+use glam::DVec2;
 use serde::Deserialize;
 
 use crate::scene::units::{Position, Velocity};
@@ -57,6 +58,12 @@ impl Section for WallsSection {
 }
 
 impl WallEntry {
+    /// The velocity of its surface in m/s, without what rounding leaves across the wall.
+    pub fn belt(&self) -> DVec2 {
+        let along = (self.right.si() - self.left.si()).normalize_or_zero();
+        along * self.surface_velocity.si().dot(along)
+    }
+
     fn check(&self, outline: &Outline, report: &mut Report) {
         let (left, right) = (self.left.si(), self.right.si());
         let finite = report.finite_pair("left", left) & report.finite_pair("right", right);
@@ -67,11 +74,12 @@ impl WallEntry {
         }
         let velocity = self.surface_velocity.si();
         if report.finite_pair("surface_velocity", velocity) && finite && length > 0.0 {
-            let along = (right - left) / length;
-            let tangential = along * velocity.dot(along);
+            let tangential = self.belt();
             if (velocity - tangential).length() > ALONG * velocity.length() {
                 let message = "a surface moves along its wall, not into or out of it";
-                let help = format!("along this wall it would be ({:?}, {:?})", tangential.x, tangential.y);
+                let digits = |value: f64| (value * 1e6).round() / 1e6;
+                let (x, y) = (digits(tangential.x), digits(tangential.y));
+                let help = format!("along this wall it would be ({x:?}, {y:?})");
                 report.error("surface_velocity", message).help(help);
             }
         }
