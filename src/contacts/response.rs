@@ -275,7 +275,7 @@ mod tests {
             let normal = DVec2::from_angle(6.3 * digit(3 * number));
             let (a, b) = (number % count, (number * 7 + number / count + 1) % count);
             let stiffness = (50.0 + 100.0 * digit(5 * number), 40.0);
-            let side = (number % 11 != 0 && a != b).then_some((a, normal * 0.4));
+            let side = (!number.is_multiple_of(11) && a != b).then_some((a, normal * 0.4));
             Spring { a: side, b: (b, DVec2::new(-0.3, 0.1 + digit(number))), normal, stiffness }
         };
         ((0..3 * count).map(spring).collect(), bodies)
