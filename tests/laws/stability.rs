@@ -89,3 +89,24 @@ fn a_tick_above_the_critical_one_is_warned_of() {
     assert!(warned(0.9).iter().all(|warning| !warning.contains("critical")), "{:?}", warned(0.9));
     assert_eq!(warned(0.1), Vec::<String>::new());
 }
+
+/// Two pairs that touch one after the other, the second 25 times as stiff: the card has the stiffer. Two bodies on one
+/// spring have `w^2 = k (1/m + 1/m)`, `k` in series.
+#[test]
+fn a_brief_touch_among_others_is_not_missed() {
+    let mut simulation = load(
+        "Scene(format: 1, clock: (duration: 1, tick: 2e-4), materials: { \"soft\": (stiffness: 1e3), \"hard\": (stiffness: 25e3) },
+        bodies: [
+            (name: \"a\", at: (0, 0), velocity: (1, 0), material: \"soft\", atoms: Disc(radius: 0.1, mass: 0.5)),
+            (name: \"b\", at: (0.25, 0), material: \"soft\", atoms: Disc(radius: 0.1, mass: 0.5)),
+            (name: \"c\", at: (0, 1), velocity: (1, 0), material: \"hard\", atoms: Disc(radius: 0.1, mass: 0.5)),
+            (name: \"d\", at: (0.6, 1), material: \"hard\", atoms: Disc(radius: 0.1, mass: 0.5)),
+        ])",
+    );
+    simulation.run_to_tick(1500).expect("numbers stay finite");
+    // The products of two bodies find the eigenvalue to the digits in which the contact's normal is known.
+    let soft = 2.0 / f64::sqrt(1e3 / 2.0 * 4.0);
+    assert_near("soft", simulation.card().critical_tick.expect("a and b touched"), soft, 1e-9 * soft);
+    simulation.run_to_end().expect("numbers stay finite");
+    assert_near("hard", simulation.card().critical_tick.expect("they touched"), soft / 5.0, 1e-9 * soft);
+}

@@ -41,9 +41,14 @@ impl PenaltyContacts {
     #[inline]
     pub(super) fn watch(&mut self, bodies: &Bodies, pairs: &CandidatePairs, clock: &Clock, balance: &mut Balance) {
         let touching = self.touching_atoms.len() + self.touching_walls.len();
+        if touching == 0 {
+            // Whoever touches next is new.
+            self.watch.pairs = 0;
+            return;
+        }
         let watch = &self.watch;
         let changed = touching != watch.pairs && clock.ticks >= watch.earliest;
-        if touching > 0 && (changed || clock.ticks >= watch.next) {
+        if changed || clock.ticks >= watch.next {
             self.measure(bodies, pairs, clock);
             let fastest = self.watch.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency);
             balance.alert |= clock.dt * fastest > ALERT;
