@@ -44,7 +44,7 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>) {
         return;
     }
     if bounds.generation != bodies.generation {
-        let smallest = bodies.smallest_radius();
+        let smallest = bodies.smallest_radius;
         bounds.margin = if smallest.is_finite() { MARGIN_SHARE * smallest } else { 0.0 };
     }
     bounds.generation = bodies.generation;
@@ -75,6 +75,6 @@ impl Bounds {
             let left = allowed - turned;
             left >= 0.0 && (bodies.position[body] - self.position[body]).length_squared() <= left * left
         };
-        (0..bodies.len()).any(|body| bodies.dynamic[body] && !stayed(body))
+        (0..bodies.len()).any(|body| bodies.moves[body] && !stayed(body))
     }
 }

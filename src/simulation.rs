@@ -12,7 +12,7 @@ use crate::report::Card;
 use crate::report::card::{ChosenMethod, Notes};
 use crate::scene::sections::{ClockSection, FilmSection};
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
-use crate::tick::{Clock, Failure, TickAppExt, step};
+use crate::tick::{Clock, Failure, Stability, TickAppExt, step};
 use crate::world::{Name, packed};
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
@@ -136,7 +136,7 @@ impl Simulation {
     /// Runs until `tick` ticks are done in all; does nothing if they are.
     ///
     /// # Errors
-    /// When a number stops being finite.
+    /// When a number stops being finite, or energy comes out of nowhere.
     pub fn run_to_tick(&mut self, tick: u64) -> Result<(), Failure> {
         let missing = tick.saturating_sub(self.clock().ticks);
         if missing == 0 {
@@ -154,7 +154,7 @@ impl Simulation {
     /// Runs until the end of the scene's duration.
     ///
     /// # Errors
-    /// When a number stops being finite.
+    /// When a number stops being finite, or energy comes out of nowhere.
     pub fn run_to_end(&mut self) -> Result<(), Failure> {
         self.run_to_tick(self.ticks)
     }
@@ -280,6 +280,8 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Box<SceneE
     }
     world.insert_resource(Clock { dt, ticks: 0 });
     world.insert_resource(ChosenMethod(method.name));
+    let mut stability = world.resource_mut::<Stability>();
+    (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
     crate::tick::set_method(world, (method.make)());
     world.resource_mut::<Notes>().0.extend(notes);
     Ok(ticks as u64)

@@ -48,6 +48,9 @@ pub(super) fn tell(
         card.verdict = format!("Do not trust it: the run went wrong: {failure}; {remedy}.");
         exit = Exit::RunWrong;
     }
+    for warning in &card.warnings {
+        say(&format!("warning: {}: {warning}", request.name));
+    }
     let outcomes = simulation.outcomes();
     let broken = |outcome: &&Outcome| !(outcome.holds || cut && !outcome.judged);
     let broken: Vec<&Outcome> = outcomes.iter().filter(broken).collect();
@@ -75,14 +78,14 @@ pub(super) fn tell(
 fn remedy(card: &Card) -> String {
     match card.critical_tick {
         Some(critical) if card.tick > critical => format!(
-            "the tick of {} s is longer than the stiffest contact can bear, {} s: try `--tick {}`",
+            "the tick of {} s is longer than the contacts can bear, {} s: try `--tick {}`",
             number(card.tick),
             one_digit(critical),
             one_digit(critical / 10.0)
         ),
         _ => format!(
             "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near \
-             zero, or try `--tick {}`",
+             zero, for a plugin that does not book its work, or try `--tick {}`",
             one_digit(card.tick / 10.0)
         ),
     }

@@ -81,7 +81,7 @@ fn pairs(dynamic: &[bool]) -> impl Iterator<Item = (usize, usize)> + '_ {
 }
 
 fn apply_attraction(attractions: Res<Attractions>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    let Bodies { dynamic, position, mass, force: sums, .. } = &mut *bodies;
+    let Bodies { dynamic, moves, position, velocity, mass, force: sums, .. } = &mut *bodies;
     for attraction in &attractions.0 {
         for (a, b) in pairs(dynamic) {
             let between = position[b] - position[a];
@@ -96,9 +96,11 @@ fn apply_attraction(attractions: Res<Attractions>, mut bodies: ResMut<Bodies>, m
             sums[b] -= force;
             if !dynamic[a] {
                 balance.outside(position[b], -force, 0.0);
+                balance.work -= if moves[a] { force.dot(velocity[a]) } else { 0.0 };
             }
             if !dynamic[b] {
                 balance.outside(position[a], force, 0.0);
+                balance.work += if moves[b] { force.dot(velocity[b]) } else { 0.0 };
             }
         }
     }

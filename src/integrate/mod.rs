@@ -40,6 +40,8 @@ pub struct Description {
     pub order: u32,
     /// Largest stable product of tick and angular frequency.
     pub stability_limit: f64,
+    /// Largest stable product of tick and damping over mass, without a spring.
+    pub damping_limit: f64,
     /// Makes one.
     pub make: fn() -> Method,
 }

@@ -1,7 +1,7 @@
 //! Semi-implicit (symplectic) Euler: `v' = v + a(x) dt`, `x' = x + v' dt`.
 //!
 //! Order 1, symplectic, one evaluation per tick, stable while `omega dt < 2` (Hairer, Lubich, Wanner, *Geometric
-//! Numerical Integration*, 2006, I.1). The method of most games, and of the first recorded trajectories.
+//! Numerical Integration*, 2006, I.1), with damping `c` while `(omega dt)^2 + 2 c/m dt < 4`. The method of most games, and of the first recorded trajectories.
 
 use super::{Description, Integrator, Method};
 use crate::tick::Tick;
@@ -13,6 +13,7 @@ pub(super) const DESCRIPTION: Description = Description {
     name: "SemiImplicitEuler",
     order: 1,
     stability_limit: 2.0,
+    damping_limit: 2.0,
     make: || Method(Box::new(SemiImplicitEuler)),
 };
 

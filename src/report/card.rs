@@ -1,15 +1,16 @@
 //! The error card: it ends every run and says how far to trust it.
 
+use std::f64::consts::PI;
 use std::fmt;
 
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
 use super::energy::EnergyLedger;
+use super::warnings::{FEWEST_TICKS, warnings};
 use crate::contacts::{DeepestOverlap, StiffestContact};
-use crate::integrate::Methods;
 use crate::tick::balance::Totals;
-use crate::tick::{Clock, Ledger, largest_travel};
+use crate::tick::{Clock, Ledger, Responses, Stability, largest_travel};
 use crate::world::hash::state_hash;
 use crate::world::{Bodies, Name};
 
@@ -65,7 +66,8 @@ pub struct Card {
     pub method: String,
     /// Length of a tick in seconds.
     pub tick: f64,
-    /// Largest stable tick of a single contact in seconds; `null` without contacts.
+    /// Largest stable tick in seconds: the smallest that was measured on contacts of the run, or what a single contact
+    /// may need where nothing touched; `null` without contacts.
     pub critical_tick: Option<f64>,
     /// Events that were located inside ticks.
     pub events_located: u64,
@@ -93,6 +95,11 @@ pub struct Card {
     pub notes: Vec<String>,
     /// The estimated error; `null` until it is estimated.
     pub error: Option<ErrorEstimate>,
+    /// What the run has to be warned of; it stands in the notes too.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+    #[serde(skip)]
+    shortest_contact: Option<f64>,
     #[serde(skip)]
     ticks: u64,
     #[serde(skip)]
@@ -108,17 +115,23 @@ impl Card {
     pub fn of(world: &World, seconds_spent: f64) -> Self {
         let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.0);
-        let limit =
-            world.get_resource::<Methods>().and_then(|methods| methods.named(method)).map(|m| m.stability_limit);
-        let stiffest = world.get_resource::<StiffestContact>().filter(|stiffest| stiffest.angular_frequency > 0.0);
-        let critical_tick = stiffest.zip(limit).map(|(stiffest, limit)| limit / stiffest.angular_frequency);
+        let (responses, limit) = (Responses::of(world), world.resource::<Stability>().limit);
+        let possible = world.get_resource::<StiffestContact>().map(|stiffest| stiffest.angular_frequency);
+        let possible = possible.filter(|frequency| *frequency > 0.0);
+        let critical_tick = responses.fastest.map(|fastest| fastest.critical_tick(world));
+        let critical_tick = critical_tick.or(possible.map(|frequency| limit / frequency));
+        let shortest_contact = responses.briefest.map(|brief| brief.duration());
+        let shortest_contact = shortest_contact.or(possible.map(|frequency| PI / frequency));
+        let warnings = warnings(world);
+        let mut notes = world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone());
+        notes.extend(warnings.iter().map(|warning| format!("warning: {warning}")));
         let energy = EnergyLedger::of(world);
         let ledger = world.resource::<Ledger>();
         let now = Totals::of(world);
         let start = ledger.start.unwrap_or(now);
         let momentum = now.momentum - start.momentum;
         let atoms = bodies.atom_count().max(1) as f64 * clock.ticks.max(1) as f64;
-        let smallest = bodies.smallest_radius();
+        let smallest = bodies.smallest_radius;
         let share = |length: f64| if smallest.is_finite() { length / smallest } else { 0.0 };
         let mut card = Self {
             method: method.to_owned(),
@@ -135,8 +148,10 @@ impl Card {
             ns_per_atom_tick: seconds_spent * 1e9 / atoms,
             hash: format!("{:016x}", state_hash(bodies)),
             verdict: String::new(),
-            notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
+            notes,
+            warnings,
             error: None,
+            shortest_contact,
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
@@ -158,9 +173,9 @@ impl Card {
         if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
             return format!("Do not trust it: numbers are no longer finite. Use {finer} or finer.");
         }
-        let contact_ticks = self.critical_tick.map(|critical| std::f64::consts::PI / 2.0 * critical / self.tick);
+        let contact_ticks = self.shortest_contact.map(|shortest| shortest / self.tick);
         let overlap = &self.largest_overlap;
-        if contact_ticks.is_some_and(|ticks| ticks < std::f64::consts::PI / 2.0) {
+        if self.critical_tick.is_some_and(|critical| critical < self.tick) {
             return format!("Do not trust it: the tick is longer than the contacts can bear. Use {finer} or finer.");
         }
         if self.energy_error() > 0.05 {
@@ -175,7 +190,7 @@ impl Card {
                 overlap.share_of_radius * 100.0,
             );
         }
-        if contact_ticks.is_some_and(|ticks| ticks < 10.0) {
+        if contact_ticks.is_some_and(|ticks| ticks < FEWEST_TICKS) {
             let ticks = contact_ticks.unwrap_or_default();
             return format!("Trust it roughly: the stiffest contact lasts only {ticks:.1} ticks. Use {finer}.");
         }
@@ -194,7 +209,7 @@ impl Card {
 }
 
 /// A tick four times as fine, in as few digits as possible.
-fn finer_tick(tick: f64) -> f64 {
+pub(super) fn finer_tick(tick: f64) -> f64 {
     let quarter = tick / 4.0;
     let decade = 10f64.powf(quarter.log10().floor());
     let rounded = (quarter / decade * 4.0).round() / 4.0 * decade;
@@ -292,7 +307,7 @@ fn parts(parts: &[(&str, f64)]) -> String {
 }
 
 /// A number in at most five digits, as people write it.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
         let digits = (4 - value.abs().max(1e-300).log10().floor() as i32).clamp(0, 8) as usize;
         let text = format!("{value:.digits$}");

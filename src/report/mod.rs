@@ -2,5 +2,6 @@
 
 pub mod card;
 pub mod energy;
+pub mod warnings;
 
 pub use card::Card;

@@ -37,7 +37,7 @@ pub(crate) struct Walked<'a> {
 }
 
 /// Fields and choices inside sections that are kept for later versions of the language.
-const LATER: [&str; 4] = ["kinematic", "shape", "surface_velocity", "Dashpot"];
+const LATER: [&str; 1] = ["shape"];
 
 impl Walked<'_> {
     fn path(&self, id: Id) -> String {

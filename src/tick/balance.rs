@@ -20,6 +20,8 @@ pub struct Balance {
     pub drag: f64,
     /// Power that drives (thrust, torque, forces of plugins) bring, in watts.
     pub work: f64,
+    /// Set by a model that responds nearly as fast as the tick can bear: energy is looked at after each tick from then on.
+    pub alert: bool,
 }
 
 impl Balance {
@@ -159,10 +161,17 @@ pub fn angular_momentum(bodies: &Bodies) -> f64 {
 
 /// Kinetic energy of all dynamic bodies in J.
 pub fn kinetic_energy(bodies: &Bodies) -> f64 {
-    let of = |b: usize| {
-        0.5 * (bodies.mass[b] * bodies.velocity[b].length_squared() + bodies.inertia[b] * bodies.spin[b].powi(2))
-    };
-    dynamic(bodies).map(of).fold(0.0, |sum, term| sum + term)
+    (0..bodies.len()).map(|body| kinetic_energy_of(bodies, body)).fold(0.0, |sum, term| sum + term)
+}
+
+/// Kinetic energy of one body in J, zero if it does not move by forces.
+#[inline]
+pub fn kinetic_energy_of(bodies: &Bodies, body: usize) -> f64 {
+    if !bodies.dynamic[body] {
+        return 0.0;
+    }
+    let (velocity, spin) = (bodies.velocity[body], bodies.spin[body]);
+    0.5 * (bodies.mass[body] * velocity.length_squared() + bodies.inertia[body] * spin.powi(2))
 }
 
 fn dynamic(bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {

@@ -5,31 +5,11 @@ use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 use glam::DVec2;
 
 use super::balance::Totals;
+use super::failure::{Failure, Wrong};
+use super::guard::EnergyGuard;
 use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
 use crate::integrate::Method;
 use crate::world::{Bodies, Force, Name, Slot, Torque, finite, packed};
-
-/// A run that went wrong: a number is not finite.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// Name of the first body that went wrong.
-    pub body: String,
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// The tick that made it.
-    pub tick: u64,
-    /// Its time in seconds.
-    pub time: f64,
-}
-
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let Self { body, quantity, tick, time } = self;
-        write!(f, "the {quantity} of `{body}` is no longer a finite number at t = {time:?} s (tick {tick})")
-    }
-}
-
-impl std::error::Error for Failure {}
 
 /// What is taken out of the world while a batch of ticks runs.
 struct Running {
@@ -56,14 +36,28 @@ pub(super) struct Drive {
     travel: f64,
     /// Sum over all bodies of the travel in the last tick: not finite as soon as one of them is.
     travelled: f64,
+    /// The first body that travelled farther than the smallest radius in one tick.
+    far: Option<FarTravel>,
+    energy: EnergyGuard,
     failure: Option<Failure>,
+}
+
+/// A body that travelled farther in one tick than the smallest radius: it may have passed through others unseen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FarTravel {
+    /// The body.
+    pub body: Entity,
+    /// How far any of its points travelled, in metres.
+    pub travel: f64,
+    /// The end of that tick in seconds.
+    pub time: f64,
 }
 
 /// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
 /// hold the new state.
 ///
 /// # Errors
-/// When a position, angle, velocity or spin stops being finite. The state stays as it was found then.
+/// When a position, angle, velocity or spin stops being finite, or energy comes out of nowhere. The state stays as it was found then.
 pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut sim = take(world, SimTick);
     let evaluate = take(world, Evaluate);
@@ -151,8 +145,15 @@ pub(super) fn integrate(world: &mut World) {
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
     let clock = *world.resource::<Clock>();
     let Running { method, evaluate, modes, has_modes } = &mut *running;
-    let mut tick =
-        Tick { world, evaluate, modes, dt: clock.dt, begin: clock.time(), end: clock.time_of(clock.ticks + 1) };
+    let mut tick = Tick {
+        world,
+        evaluate,
+        modes,
+        dt: clock.dt,
+        begin: clock.time(),
+        end: clock.time_of(clock.ticks + 1),
+        alert: false,
+    };
     if !current || before.is_some() {
         tick.evaluate(0.0);
     }
@@ -163,14 +164,43 @@ pub(super) fn integrate(world: &mut World) {
         tick.modes.run(tick.world);
     }
     method.0.advance(&mut tick);
+    let alert = tick.alert;
     world.resource_mut::<Clock>().ticks += 1;
     let mut drive = world.resource_mut::<Drive>();
     drive.running = Some(running);
     drive.current = true;
     drive.stepped = true;
-    if !drive.travelled.is_finite() {
+    drive.energy.alert |= alert;
+    let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
+    if !travelled.is_finite() {
         note_failure(world);
+    } else if energy.is_due(clock.ticks + 1, travel) {
+        look_closer(world, energy, travel);
     }
+}
+
+/// Looks for a body that travelled too far, and at the energy.
+#[cold]
+fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
+    let created = energy.look(world, travel);
+    let clock = *world.resource::<Clock>();
+    let bodies = world.resource::<Bodies>();
+    let far = |body: usize| {
+        let travel = bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
+        let far = bodies.collides[body] && bodies.moves[body] && travel > bodies.smallest_radius;
+        far.then(|| FarTravel { body: bodies.entity[body], travel, time: clock.time() })
+    };
+    let far = (0..bodies.len()).find_map(far);
+    let failure = created.map(|(body, created)| Failure {
+        body: world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default(),
+        wrong: Wrong::Energy(created),
+        tick: clock.ticks,
+        time: clock.time(),
+    });
+    let mut drive = world.resource_mut::<Drive>();
+    drive.energy = energy;
+    drive.far = drive.far.or(far);
+    drive.failure = failure;
 }
 
 /// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
@@ -202,7 +232,7 @@ fn note_failure(world: &mut World) {
     let Some((body, quantity)) = finite::first_not_finite(bodies) else { return };
     let name = world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default();
     let clock = world.resource::<Clock>();
-    let failure = Failure { body: name, quantity, tick: clock.ticks, time: clock.time() };
+    let failure = Failure { body: name, wrong: Wrong::NotFinite(quantity), tick: clock.ticks, time: clock.time() };
     world.resource_mut::<Drive>().failure = Some(failure);
 }
 
@@ -216,6 +246,11 @@ pub fn largest_travel(world: &World) -> f64 {
     world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)
 }
 
+/// The first body that travelled farther in one tick than the smallest radius.
+pub fn far_travel(world: &World) -> Option<FarTravel> {
+    world.get_resource::<Drive>().and_then(|drive| drive.far)
+}
+
 /// What an integrator may do inside a tick.
 pub struct Tick<'a> {
     /// The world, for state of the integrator's own.
@@ -227,6 +262,7 @@ pub struct Tick<'a> {
     /// Time at its beginning in seconds.
     pub begin: f64,
     end: f64,
+    alert: bool,
 }
 
 impl Tick<'_> {
@@ -252,11 +288,17 @@ impl Tick<'_> {
         if elapsed == 0.0 {
             bodies.accept();
         }
-        bodies.pose();
-        bodies.swap_estimate();
-        *self.world.resource_mut::<Balance>() = Balance::default();
         // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
+        let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
+        bodies.pose();
+        bodies.swap_estimate();
+        if let Some((greatest, sum)) = driven {
+            let mut drive = self.world.resource_mut::<Drive>();
+            drive.travel = drive.travel.max(greatest);
+            drive.travelled += sum;
+        }
+        *self.world.resource_mut::<Balance>() = Balance::default();
         *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed };
         self.evaluate.run(self.world);
         self.world.resource_mut::<Bodies>().swap_estimate();
@@ -265,6 +307,7 @@ impl Tick<'_> {
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
     pub fn kick(&mut self, dt: f64) {
         let balance = *self.world.resource::<Balance>();
+        self.alert |= balance.alert;
         self.world.resource_mut::<Ledger>().book(&balance, dt);
         self.world.resource_mut::<Bodies>().kick(dt);
     }

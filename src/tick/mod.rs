@@ -25,6 +25,9 @@
 pub mod balance;
 pub mod clock;
 mod drive;
+mod failure;
+mod guard;
+pub mod stability;
 
 use bevy_app::App;
 use bevy_ecs::intern::Interned;
@@ -33,7 +36,10 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation};
-pub use drive::{Failure, Tick, largest_travel, set_method, step};
+pub use drive::{FarTravel, Tick, far_travel, largest_travel, set_method, step};
+pub use failure::{Failure, Wrong};
+pub use guard::Created;
+pub use stability::{Briefest, Fastest, Responses, Stability};
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -147,6 +153,7 @@ impl TickAppExt for App {
             .init_resource::<Evaluation>()
             .init_resource::<Balance>()
             .init_resource::<Ledger>()
+            .init_resource::<Stability>()
             .init_resource::<drive::Drive>()
             .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
         self.add_packed_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))

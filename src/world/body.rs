@@ -18,6 +18,8 @@ pub enum Motion {
     Dynamic,
     /// Never.
     Fixed,
+    /// As its [`Kinematic`](super::Kinematic) says; without one it stands still.
+    Kinematic,
 }
 
 /// A body. Its key is its identity: the order of keys is the order of every sum.

@@ -4,6 +4,7 @@ pub mod atom;
 pub mod body;
 pub mod finite;
 pub mod hash;
+pub mod kinematic;
 pub mod material;
 pub mod packed;
 pub mod sections;
@@ -12,6 +13,7 @@ pub mod wall;
 
 pub use atom::{Atom, AtomOf, Atoms};
 pub use body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
+pub use kinematic::Kinematic;
 pub use material::{MaterialIndex, Materials};
 pub use packed::{Bodies, PackedWall, Slot};
 pub use sections::plugin;

@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::atom::{Atom, Atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
+use super::kinematic::{Kinematic, Prescribed};
 use super::material::MaterialIndex;
 use super::wall::Wall;
 
@@ -48,6 +49,10 @@ pub struct Bodies {
     pub key: Vec<u64>,
     /// Whether the body moves by forces.
     pub dynamic: Vec<bool>,
+    /// Whether it ever moves: by forces, or as prescribed.
+    pub moves: Vec<bool>,
+    /// The bodies that move as prescribed.
+    pub prescribed: Prescribed,
     /// Whether its atoms touch anything.
     pub collides: Vec<bool>,
     /// Mass in kg.
@@ -104,8 +109,13 @@ pub struct Bodies {
     /// Body of each atom.
     pub atom_body: Vec<u32>,
 
+    /// Radius of the smallest atom in metres; infinite without atoms.
+    pub smallest_radius: f64,
+
     /// The walls in canonical order.
     pub walls: Vec<PackedWall>,
+    /// Velocity of the surface of each wall in m/s; empty if all stand.
+    pub belts: Vec<DVec2>,
 }
 
 impl Bodies {
@@ -127,11 +137,6 @@ impl Bodies {
     /// Atoms of body `body`.
     pub fn atoms_of(&self, body: usize) -> std::ops::Range<usize> {
         self.first_atom[body] as usize..self.first_atom[body + 1] as usize
-    }
-
-    /// Radius of the smallest atom in metres; infinite without atoms.
-    pub fn smallest_radius(&self) -> f64 {
-        self.atom_radius.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Velocity of a point that moves with body `body`, `arm` metres from its centre of mass.
@@ -159,7 +164,7 @@ impl Bodies {
         for body in 0..self.len() {
             self.force[body] = DVec2::ZERO;
             self.torque[body] = 0.0;
-            if self.dynamic[body] {
+            if self.moves[body] {
                 self.pose_atoms(body);
             }
         }
@@ -222,6 +227,27 @@ impl Bodies {
             greatest = greatest.max(travel);
             sum += travel;
         }
+        (greatest, sum)
+    }
+
+    /// Puts the bodies that move as prescribed where they are at `time` seconds, in a tick that began at `begin`.
+    /// Returns the greatest travel of any of their points in the tick, and the sum over all, in metres.
+    pub fn prescribe(&mut self, begin: f64, time: f64) -> (f64, f64) {
+        let prescribed = std::mem::take(&mut self.prescribed);
+        let (mut greatest, mut sum) = (0.0_f64, 0.0);
+        for (body, motion) in &prescribed.motions {
+            let (body, from, now) = (*body, motion.state(begin), motion.state(time));
+            (self.position[body], self.angle[body]) = (now.position, now.angle);
+            (self.velocity[body], self.spin[body]) = (now.velocity, now.spin);
+            if !self.estimated_velocity.is_empty() {
+                (self.estimated_velocity[body], self.estimated_spin[body]) = (now.velocity, now.spin);
+            }
+            (self.drift[body], self.turn[body]) = (now.position - from.position, now.angle - from.angle);
+            let travel = self.drift[body].length() + self.turn[body].abs() * self.extent[body];
+            greatest = greatest.max(travel);
+            sum += travel;
+        }
+        self.prescribed = Prescribed { time, ..prescribed };
         (greatest, sum)
     }
 
@@ -321,6 +347,9 @@ pub fn rebuild(world: &mut World) {
         bodies.entity.push(entity);
         bodies.key.push(key);
         bodies.dynamic.push(dynamic);
+        let prescribed = body.get::<Kinematic>().filter(|_| motion == Motion::Kinematic);
+        bodies.moves.push(dynamic || prescribed.is_some());
+        bodies.prescribed.motions.extend(prescribed.map(|motion| (place, motion.clone())));
         bodies.collides.push(collides);
         bodies.mass.push(mass);
         bodies.inertia.push(inertia);
@@ -366,7 +395,11 @@ pub fn rebuild(world: &mut World) {
         bodies.pose_atoms(place);
     }
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
+    bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);
     walls.sort_unstable_by_key(|(_, wall)| wall.key);
+    if walls.iter().any(|(_, wall)| wall.surface_velocity != DVec2::ZERO) {
+        bodies.belts = walls.iter().map(|(_, wall)| wall.surface_velocity).collect();
+    }
     bodies.walls = walls
         .into_iter()
         .map(|(entity, wall)| PackedWall { entity, point: wall.left, normal: wall.normal(), material: wall.material })

@@ -29,7 +29,8 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
         let key = next.wall;
         next.wall += 1;
         let (left, right) = (wall.left.si(), wall.right.si());
-        world.spawn((Wall { key, left, right, material }, Name(wall.name)));
+        let surface_velocity = wall.belt();
+        world.spawn((Wall { key, left, right, material, surface_velocity }, Name(wall.name)));
     }
 }
 
@@ -38,13 +39,16 @@ pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World
     for entry in section.0 {
         let template = Template::of(world, &entry.atoms, entry.material.as_deref());
         let properties = entry.mass_properties(template.density);
+        let kinematic = entry.prescribed(&properties);
+        let start = kinematic.as_ref().map(|motion| motion.state(0.0));
         let body = NewBody {
             position: entry.start(&properties),
             motion: if entry.fixed { Motion::Fixed } else { Motion::Dynamic },
             collides: entry.collides,
             angle: entry.angle.si(),
-            velocity: entry.velocity.si(),
-            spin: entry.spin.si(),
+            velocity: start.map_or(entry.velocity.si(), |start| start.velocity),
+            spin: start.map_or(entry.spin.si(), |start| start.spin),
+            kinematic,
             name: entry.name,
             ..template.body(&properties)
         };

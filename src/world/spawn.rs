@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::Kinematic;
 use super::atom::{Atom, AtomOf};
 use super::body::{Body, Mass, Motion, Name, Position, Rotation, Spin, Velocity};
 
@@ -34,6 +35,9 @@ pub struct NewBody {
     pub name: String,
     /// How it moves.
     pub motion: Motion,
+    /// How it moves if that is prescribed: then it is [`Motion::Kinematic`] from the beginning, and starts where this
+    /// says.
+    pub kinematic: Option<Kinematic>,
     /// Whether its atoms touch anything.
     pub collides: bool,
     /// Centre of mass in metres.
@@ -58,6 +62,7 @@ impl Default for NewBody {
         Self {
             name: String::new(),
             motion: Motion::Dynamic,
+            kinematic: None,
             collides: true,
             position: DVec2::ZERO,
             angle: 0.0,
@@ -83,9 +88,10 @@ impl NewBody {
     pub fn spawn_with_key(self, world: &mut World, key: u64) -> Entity {
         let mut next = world.get_resource_or_init::<NextKey>();
         next.body = next.body.max(key + 1);
+        let motion = if self.kinematic.is_some() { Motion::Kinematic } else { self.motion };
         let body = world
             .spawn((
-                Body { key, motion: self.motion, collides: self.collides },
+                Body { key, motion, collides: self.collides },
                 Name(self.name),
                 Position(self.position),
                 Rotation(self.angle),
@@ -94,6 +100,9 @@ impl NewBody {
                 Mass { mass: self.mass, inertia: self.inertia },
             ))
             .id();
+        if let Some(kinematic) = self.kinematic {
+            world.entity_mut(body).insert(kinematic);
+        }
         for atom in self.atoms {
             world.spawn((atom, AtomOf(body)));
         }

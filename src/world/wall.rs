@@ -18,6 +18,8 @@ pub struct Wall {
     pub right: DVec2,
     /// What it is made of.
     pub material: MaterialIndex,
+    /// Velocity of its surface in m/s, along the wall: a belt. Zero: it stands.
+    pub surface_velocity: DVec2,
 }
 
 impl Wall {
@@ -36,7 +38,8 @@ mod tests {
 
     #[test]
     fn the_open_side_is_where_left_is_left() {
-        let wall = |left, right| Wall { key: 0, left, right, material: MaterialIndex::default() };
+        let material = MaterialIndex::default();
+        let wall = |left, right| Wall { key: 0, left, right, material, surface_velocity: DVec2::ZERO };
         let normal = |l: (f64, f64), r: (f64, f64)| wall(DVec2::new(l.0, l.1), DVec2::new(r.0, r.1)).normal();
         assert_eq!(normal((6.0, 0.0), (0.0, 0.0)), DVec2::Y);
         assert_eq!(normal((0.0, 6.0), (1.0, 6.0)), DVec2::NEG_Y);

@@ -1,21 +1,36 @@
 //! Runs that go wrong: exit code 3, the frames and rows so far kept, and a message with body, tick, time, likely cause
 //! and remedy. Expectations that break: exit code 1.
 
-use super::harness::{EXPLOSION, FALL, Folder};
+use super::harness::{EXPLOSION, FALL, Folder, OVERFLOW};
 
-/// A scene whose numbers explode.
+/// A scene whose energy explodes.
 #[test]
 fn a_run_that_explodes_says_where_why_and_what_to_try() {
     let folder = Folder::new("explosion").with("boom.ron", EXPLOSION);
     let ended = folder
         .jostle("run boom.ron")
         .code(3)
-        .says("error: boom.ron: the run went wrong: the ")
-        .says(" is no longer a finite number at t = ")
-        .says("help: the tick of 0.01 s is longer than the stiffest contact can bear, 6e-6 s: try `--tick 6e-7`\n")
+        .says("error: boom.ron: the run went wrong: energy came out of nowhere, ")
+        .says(" J were put in, most of it in ")
+        .says("help: the tick of 0.01 s is longer than the contacts can bear, 6e-6 s: try `--tick 6e-7`\n")
         .says("Do not trust it: the run went wrong: ");
     let names = ["`first`", "`second`"];
     assert!(names.iter().any(|name| ended.err.contains(name)) && ended.err.contains(" s (tick "), "{ended:?}");
+}
+
+/// A scene whose numbers stop being numbers.
+#[test]
+fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
+    Folder::new("overflow")
+        .with("over.ron", OVERFLOW)
+        .jostle("run over.ron")
+        .code(3)
+        .says("error: over.ron: the run went wrong: the ")
+        .says(" of `ball` is no longer a finite number at t = 1.")
+        .says(
+            "help: numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses \
+             near zero, for a plugin that does not book its work, or try `--tick 0.001`\n",
+        );
 }
 
 /// The remedy that is advised helps: with that tick the run ends well.
@@ -61,7 +76,7 @@ fn a_run_that_went_wrong_is_told_in_json_too() {
         let ended = folder.jostle(command).code(3).says("the run went wrong");
         let [result] = &ended.json()[..] else { panic!("{ended:?}") };
         let verdict = result["card"]["verdict"].as_str().unwrap();
-        assert!(verdict.starts_with("Do not trust it: the run went wrong: the "), "{verdict}");
+        assert!(verdict.starts_with("Do not trust it: the run went wrong: energy "), "{verdict}");
     }
 }
 

@@ -32,6 +32,15 @@ pub const EXPLOSION: &str = r#"Scene(
     sensors: [Pose(of: "first")],
 )"#;
 
+/// Forces so large that velocities are no numbers after one tick.
+pub const OVERFLOW: &str = r#"Scene(
+    format: 1,
+    clock: (duration: 4, tick: "10 ms", method: VelocityVerlet),
+    film: (fps: 10, size: (64, 36)),
+    forces: [Thrust(of: "ball", force: (1e308, 0), from: 1)],
+    bodies: [(name: "ball", at: (0, 1), atoms: Disc(radius: 0.1, mass: 0.001))],
+)"#;
+
 /// A folder of its own, empty at the beginning.
 pub struct Folder(PathBuf);
 

@@ -13,3 +13,4 @@ mod outputs;
 mod scene_files;
 mod streams;
 mod values;
+mod warnings;

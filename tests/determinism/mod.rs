@@ -51,6 +51,16 @@ fn clumps() -> String {
     (0..12).map(clump).collect()
 }
 
+/// The same with a mill that moves as prescribed, on a belt.
+fn stirred(method: &str) -> String {
+    let mill = "(name: \"mill\", at: (0.5, 0.5), material: \"stone\", atoms: Disc(radius: 0.08),
+        kinematic: (spin: 2, repeat: true, path: [(time: 0.3, by: (0.4, 0.1), spin: -1), (time: 0.7, turn: 1, spin: 2)])),";
+    let standing = "right: (0, 0), material: \"stone\"";
+    let text = scene(method, "", &(mill.to_owned() + &clumps()));
+    assert!(text.contains(standing), "no floor to move");
+    text.replace(standing, "right: (0, 0), material: \"stone\", surface_velocity: (0.3, 0)")
+}
+
 const MATERIALS: [&str; 2] = ["stone", "wood"];
 
 fn place(number: usize) -> (f64, f64) {

@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use jostle::tick::{Evaluate, EvaluateStage, SimTick, Stage, TickAppExt};
 use jostle::world::{Body, Force, Position};
 
-use super::{clumps, hash, load, new_clump, run, scene};
+use super::{clumps, hash, load, new_clump, run, scene, stirred};
 
 const TICKS: u64 = 4000;
 const METHODS: [&str; 2] = ["SemiImplicitEuler", "VelocityVerlet"];
@@ -72,8 +72,7 @@ fn components_of_others_do_not_matter() {
 
 #[test]
 fn batches_do_not_matter() {
-    for method in METHODS {
-        let text = scene(method, "", &clumps());
+    for text in METHODS.into_iter().flat_map(|method| [scene(method, "", &clumps()), stirred(method)]) {
         let whole = hash_of(&text);
         let mut simulation = load(&text, |_| {});
         let mut tick = 0;
@@ -84,7 +83,7 @@ fn batches_do_not_matter() {
                 break;
             }
         }
-        assert_eq!(hash(&simulation), whole, "{method}");
+        assert_eq!(hash(&simulation), whole, "{text}");
     }
 }
 
@@ -166,8 +165,7 @@ fn systems_that_only_look_do_not_matter_to_drag() {
 /// depend on batches.
 #[test]
 fn batches_do_not_matter_with_a_force_of_a_plugin() {
-    for method in METHODS {
-        let text = scene(method, "", &clumps());
+    for text in METHODS.into_iter().flat_map(|method| [scene(method, "", &clumps()), stirred(method)]) {
         let hashes = [TICKS, 1, 13].map(|size| {
             let mut simulation = load(&text, |app| {
                 app.add_force(push_with_nothing);
@@ -177,7 +175,7 @@ fn batches_do_not_matter_with_a_force_of_a_plugin() {
             }
             hash(&simulation)
         });
-        assert_eq!(hashes[0], hashes[1], "{method}");
-        assert_eq!(hashes[0], hashes[2], "{method}");
+        assert_eq!(hashes[0], hashes[1], "{text}");
+        assert_eq!(hashes[0], hashes[2], "{text}");
     }
 }

@@ -3,15 +3,18 @@
 
 mod support;
 
+mod belt;
 mod bounce;
 mod clumps;
 mod constant_acceleration;
 mod convergence;
 mod cradle;
+mod critical_tick;
 mod energy;
 mod forces;
 mod friction;
 mod impacts;
+mod kinematic;
 mod ledger;
 mod million;
 mod momentum;

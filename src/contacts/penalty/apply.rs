@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::Penalty;
 use super::contact::{Contact, Losses, Touch};
+use super::critical::Watch;
 use super::law::{LawTable, PairLaw, Side};
 use super::normal::{Approach, Mode, NormalForce};
 use super::rest::Rest;
@@ -28,6 +29,7 @@ pub struct PenaltyContacts {
     pub(super) touching_atoms: Vec<Touching>,
     pub(super) touching_walls: Vec<Touching>,
     pub(super) rest: Rest,
+    pub(super) watch: Watch,
 }
 
 /// A pair that touches in the present state.
@@ -157,9 +159,19 @@ impl Sink<'_> {
         // What a fixed body gives comes from outside.
         if !self.bodies.dynamic[a.body] {
             self.balance.outside(self.bodies.position[b.body] + arm_b, force, 0.0);
+            self.driven(a, arm_a, force);
         }
         if !self.bodies.dynamic[b.body] {
             self.balance.outside(self.bodies.position[a.body] + arm_a, -force, 0.0);
+            self.driven(b, arm_b, -force);
+        }
+    }
+
+    /// Books the work of a body that moves as prescribed and gives `force`.
+    #[inline]
+    fn driven(&mut self, end: &End, arm: DVec2, force: DVec2) {
+        if self.bodies.moves[end.body] {
+            self.balance.work += force.dot(self.bodies.velocity_at(end.body, arm));
         }
     }
 
@@ -169,6 +181,9 @@ impl Sink<'_> {
         let arm = end.arm - normal * height;
         self.on_body(end, arm, force);
         self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
+        if let Some(&belt) = self.bodies.belts.get(wall as usize) {
+            self.balance.work += force.dot(belt);
+        }
         if let Some(forces) = &mut self.forces {
             forces.on_wall[wall as usize] -= force;
         }
@@ -259,7 +274,10 @@ pub(super) fn apply_penalty<N: NormalForce>(
         }
         let law = laws.get(contact.law);
         let end = End::of(sink.bodies, atom);
-        let touch = touch_wall::<N>(sink.bodies, &end, packed.normal, height);
+        let mut touch = touch_wall::<N>(sink.bodies, &end, packed.normal, height);
+        if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
+            touch.displacement -= belt * evaluation.elapsed;
+        }
         contact.follow::<N>(law, &touch, evaluation.elapsed, &mut losses);
         if contact.mode == Mode::Open {
             continue;

@@ -28,6 +28,13 @@ pub enum Damping {
     Coefficient(f64),
 }
 
+impl Default for Damping {
+    /// None.
+    fn default() -> Self {
+        Self::Ratio(0.0)
+    }
+}
+
 /// The law.
 pub struct Dashpot;
 
@@ -48,11 +55,7 @@ impl NormalForce for Dashpot {
 
     #[inline]
     fn force(law: &PairLaw, _: Mode, overlap: f64, approach: Approach) -> f64 {
-        let damping = match law.damping {
-            Damping::Ratio(ratio) => 2.0 * ratio * (law.stiffness / approach.mobility).sqrt(),
-            Damping::Coefficient(damping) => damping,
-        };
-        (law.stiffness * overlap - damping * approach.parting).max(0.0)
+        (law.stiffness * overlap - damping(law, approach.mobility) * approach.parting).max(0.0)
     }
 
     /// The force has one value at rest: that of the spring.
@@ -65,10 +68,23 @@ impl NormalForce for Dashpot {
         lost_work(law, before, after)
     }
 
+    fn response(law: &PairLaw, mobility: f64) -> (f64, f64) {
+        (law.stiffness, damping(law, mobility))
+    }
+
     fn dissipates(law: &PairLaw) -> bool {
         match law.damping {
             Damping::Ratio(damping) | Damping::Coefficient(damping) => damping > 0.0,
         }
+    }
+}
+
+/// In N s/m, for a contact with this mobility in 1/kg.
+#[inline]
+fn damping(law: &PairLaw, mobility: f64) -> f64 {
+    match law.damping {
+        Damping::Ratio(ratio) => 2.0 * ratio * (law.stiffness / mobility).sqrt(),
+        Damping::Coefficient(damping) => damping,
     }
 }
 

@@ -54,6 +54,10 @@ impl NormalForce for Inelasticity {
         share * elastic_energy(law, after) - share * elastic_energy(law, before)
     }
 
+    fn response(law: &PairLaw, _: f64) -> (f64, f64) {
+        (law.stiffness * (1.0 + law.inelasticity), 0.0)
+    }
+
     fn dissipates(law: &PairLaw) -> bool {
         law.inelasticity > 0.0
     }

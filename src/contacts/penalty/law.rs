@@ -9,7 +9,7 @@ use super::normal::NormalForce;
 use crate::world::{MaterialIndex, Materials};
 
 /// Coefficients of one kind of pair.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairLaw {
     /// Stiffness of both sides in series, `1/(1/ka + 1/kb)`, in N/m.
     pub stiffness: f64,
@@ -88,13 +88,12 @@ fn pair_law<N: NormalForce>(a: Side, b: Side, materials: &Materials, settings: &
     let friction = |coefficient: f64| if ratio.is_some() { coefficient } else { 0.0 };
     let mut law = PairLaw {
         stiffness,
-        inelasticity: 0.0,
-        damping: Damping::Ratio(0.0),
         friction_static: friction(pair.friction_static),
         friction_dynamic: friction(pair.friction_dynamic),
         tangential_stiffness: ratio.unwrap_or(0.0) * stiffness,
         share_a: stiffness / a.stiffness,
         share_b: stiffness / b.stiffness,
+        ..PairLaw::default()
     };
     N::set_up(&mut law, pair.inelasticity, settings);
     law

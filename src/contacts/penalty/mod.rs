@@ -3,7 +3,9 @@
 pub mod apply;
 pub mod contact;
 pub mod coulomb;
+mod critical;
 pub mod dashpot;
+mod frame;
 pub mod hold;
 pub mod inelasticity;
 pub mod law;
@@ -21,6 +23,7 @@ pub use dashpot::Dashpot;
 pub use inelasticity::Inelasticity;
 pub use rolling::RollingContacts;
 
+use law::PairLaw;
 use normal::NormalForce;
 
 use super::search::{self, FindPairs};
@@ -30,7 +33,7 @@ use crate::scene::units::Damping;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
-use crate::tick::{Evaluate, EvaluateStage, Modes, TickAppExt};
+use crate::tick::{Evaluate, EvaluateStage, Modes, Stability, TickAppExt};
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
 
@@ -129,6 +132,7 @@ fn add_systems<N: NormalForce>(app: &mut App) {
     if N::DEPENDS_ON_VELOCITY {
         app.need_velocities();
     }
+    app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare::<N>);
 }
 
 /// Where penalty contacts are applied.
@@ -152,7 +156,10 @@ pub fn install(settings: Penalty, app: &mut App) {
         app.add_packed_systems(Evaluate, 1, system);
         app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(rolling_energy);
     }
-    app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare);
+    app.world_mut()
+        .get_resource_or_init::<Stability>()
+        .sources
+        .push(|world| world.resource::<PenaltyContacts>().watch.found);
 }
 
 impl Entry for Penalty {
@@ -189,12 +196,12 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// Takes up what the scene says of materials, once all sections stand.
-fn prepare(world: &mut World) {
+fn prepare<N: NormalForce>(world: &mut World) {
     let (materials, settings) = (world.resource::<Materials>().clone(), *world.resource::<Penalty>());
     let mut contacts = world.resource_mut::<PenaltyContacts>();
     (contacts.materials, contacts.settings) = (materials, settings);
     note_limits(world);
-    let stiffest = stiffest_contact(world.resource(), world.resource(), world.resource());
+    let stiffest = stiffest_contact::<N>(world.resource(), world.resource(), world.resource());
     world.insert_resource(stiffest);
 }
 
@@ -232,20 +239,24 @@ fn note_limits(world: &mut World) {
 /// direction; between two moving bodies it is a weighted mean of both sides' values, so no pair exceeds the greatest.
 /// Normal and tangential spring turn the same body, so their values are added. Many contacts on one body at once
 /// respond faster still.
-pub fn stiffest_contact(bodies: &Bodies, materials: &Materials, settings: &Penalty) -> StiffestContact {
-    let inelasticity = match settings.normal {
-        NormalLaw::Inelasticity => materials.largest_inelasticity(),
-        NormalLaw::Dashpot => 0.0,
-    };
+///
+/// Damping counts as if the method were the default one, the strictest: with `g = 2 c w` the frequency is
+/// `g/2 + sqrt(g^2/4 + omega^2)` (see [`Stability::damping_limit`]).
+fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, settings: &Penalty) -> StiffestContact {
     let ratio = settings.tangential.ratio().filter(|_| materials.any_friction()).unwrap_or(0.0);
-    let squared = |atom: usize| {
+    let weight = Stability::default().weight_of_damping();
+    let mut law = PairLaw::default();
+    N::set_up(&mut law, materials.largest_inelasticity(), settings);
+    let mut frequency = |atom: usize| {
         let body = bodies.atom_body[atom] as usize;
         let distance = bodies.atom_offset[atom].length();
         let mobility = |arm: f64| bodies.inverse_mass[body] + arm * arm * bodies.inverse_inertia[body];
-        let radius = bodies.atom_radius[atom];
-        let normal = (1.0 + inelasticity) * mobility(distance);
-        bodies.atom_stiffness[atom] * (normal + ratio * mobility(distance + radius))
+        law.stiffness = bodies.atom_stiffness[atom];
+        let (stiffness, damping) = N::response(&law, mobility(distance));
+        let across = ratio * law.stiffness * mobility(distance + bodies.atom_radius[atom]);
+        let damped = 0.5 * weight * damping * mobility(distance);
+        damped + (damped * damped + stiffness * mobility(distance) + across).sqrt()
     };
     let colliding = (0..bodies.atom_count()).filter(|&atom| bodies.collides[bodies.atom_body[atom] as usize]);
-    StiffestContact { angular_frequency: colliding.map(squared).fold(0.0, f64::max).sqrt() }
+    StiffestContact { angular_frequency: colliding.map(&mut frequency).fold(0.0, f64::max) }
 }

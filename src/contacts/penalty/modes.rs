@@ -6,13 +6,14 @@ use glam::DVec2;
 use super::apply::{End, PenaltyContacts, Sink, Touching, approach, arms};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
+use super::frame::Frame;
 use super::hold::{self, Candidate, Mover, Seen, Verdict};
 use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
-use crate::tick::{Balance, Clock, Ledger};
+use crate::tick::{Balance, Clock, Ledger, Stability};
 use crate::world::Bodies;
 
 /// What stands on side A of a contact.
@@ -50,6 +51,12 @@ impl Case {
             Other::Atom(other) => arms((other, &self.end), self.normal, overlap, law),
             Other::Wall(_) => (DVec2::ZERO, self.end.arm - self.normal * (self.end.radius - overlap)),
         }
+    }
+
+    /// A wall whose surface moves.
+    fn belt(&self, bodies: &Bodies) -> Option<Mover> {
+        let Other::Wall(wall) = self.other else { return None };
+        bodies.belts.get(wall as usize).map(|&velocity| Mover { velocity, ..Mover::default() })
     }
 
     fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
@@ -105,9 +112,11 @@ pub(super) fn choose_modes<N: NormalForce>(
     mut balance: ResMut<Balance>,
     mut ledger: ResMut<Ledger>,
     clock: Res<Clock>,
+    stability: Res<Stability>,
     mut forces: Option<ResMut<ContactForces>>,
     mut scratch: Local<Scratch>,
 ) {
+    contacts.watch::<N>(&bodies, &pairs, &clock, &stability, &mut balance);
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
     let mut choice = Choice { sink, contacts, rolling, dt: clock.dt, losses: Losses::default() };
@@ -293,9 +302,26 @@ impl Choice<'_> {
         let mut movers = vec![Mover::default()];
         movers.extend(members.iter().map(|&body| mover(self.sink.bodies, body, self.dt)));
         let mut candidates = Vec::with_capacity(island.len());
+        // Walls whose surface moves stand behind the bodies.
+        let belts = movers.len();
+        movers.extend(island.iter().filter_map(|case| case.belt(self.sink.bodies)));
+        let mut belt = belts..;
         for case in island {
-            let seen = self.seen::<N>(case, (case.other_body().map_or(0, place), place(case.end.body)));
+            let belt = case.belt(self.sink.bodies).and_then(|_| belt.next());
+            let ends = (case.other_body().map_or(belt.unwrap_or(0), place), place(case.end.body));
+            let seen = self.seen::<N>(case, ends);
             candidates.push(Candidate::new(&movers, &seen, self.dt));
+        }
+        let frame = self.frame(island, &members, &movers[1..]);
+        let place_of = |mover: usize, bodies: &Bodies| {
+            mover
+                .checked_sub(1)
+                .and_then(|member| members.get(member))
+                .map_or(DVec2::ZERO, |&body| bodies.position[body])
+        };
+        if let Some(frame) = frame {
+            let each = movers.iter_mut().enumerate();
+            each.for_each(|(place, mover)| frame.enter(mover, place_of(place, self.sink.bodies)));
         }
         let may_rest = members.iter().all(|body| moved.binary_search(body).is_err());
         hold::solve(&mut candidates, &mut movers, may_rest, self.dt);
@@ -323,6 +349,10 @@ impl Choice<'_> {
         if !entirely {
             return;
         }
+        if let Some(frame) = frame {
+            let each = movers.iter_mut().enumerate();
+            each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
+        }
         let loads = hold::loads(&candidates, movers.len());
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
@@ -332,6 +362,19 @@ impl Choice<'_> {
         if members.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
             self.lay_to_rest(&members, &loads[1..], ledger);
         }
+    }
+
+    /// What carries an island: its first member that moves as prescribed, or its first belt. `movers` are those of its
+    /// members and belts.
+    fn frame(&self, island: &[Case], members: &[usize], movers: &[Mover]) -> Option<Frame> {
+        let bodies = &*self.sink.bodies;
+        let carries = |mover: &Mover| mover.inverse_mass == 0.0 && (mover.velocity != DVec2::ZERO || mover.spin != 0.0);
+        let place = movers.iter().position(carries)?;
+        // A wall has no centre to turn about.
+        let turns = island.iter().all(|case| case.other_body().is_some());
+        let Mover { velocity, spin, .. } = movers[place];
+        let origin = members.get(place).map_or(DVec2::ZERO, |&body| bodies.position[body]);
+        Some(Frame { origin, velocity, spin: if turns { spin } else { 0.0 } })
     }
 
     fn lay_to_rest(&mut self, members: &[usize], loads: &[f64], ledger: &mut Ledger) {
@@ -364,6 +407,9 @@ fn members(island: &[Case]) -> Vec<usize> {
 
 /// A body with the velocities it will have after `dt` seconds under the present forces.
 fn mover(bodies: &Bodies, body: usize, dt: f64) -> Mover {
+    if let Some(state) = bodies.prescribed.ahead(body, dt) {
+        return Mover { velocity: state.velocity, spin: state.spin, ..Mover::default() };
+    }
     let (inverse_mass, inverse_inertia) = (bodies.inverse_mass[body], bodies.inverse_inertia[body]);
     Mover {
         velocity: bodies.velocity[body] + bodies.force[body] * (inverse_mass * dt),

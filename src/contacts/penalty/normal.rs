@@ -46,6 +46,9 @@ pub trait NormalForce: Send + Sync + 'static {
     /// Energy in J that is lost between two states of one mode, each an overlap in metres and a force in newtons.
     fn loss(law: &PairLaw, mode: Mode, before: (f64, f64), after: (f64, f64)) -> f64;
 
+    /// The greatest stiffness in N/m and the damping in N s/m of a contact with this mobility in 1/kg.
+    fn response(law: &PairLaw, mobility: f64) -> (f64, f64);
+
     /// Whether the law takes energy from a pair. What takes none never comes to rest, and keeps its springs' motion.
     fn dissipates(law: &PairLaw) -> bool;
 }

@@ -8,7 +8,9 @@ use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
 use crate::shapes::mass_properties::{self, MassProperties};
-use crate::world::{material, sections};
+use crate::world::{Kinematic, material, sections};
+
+use super::KinematicEntry;
 
 pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 
@@ -39,6 +41,9 @@ pub struct BodyEntry {
     /// Whether it never moves. Default: `false`.
     #[serde(default)]
     pub fixed: bool,
+    /// How it moves, if nothing is to push it. Default: it moves by forces.
+    #[serde(default)]
+    pub kinematic: Option<KinematicEntry>,
     /// Whether it touches others; without, it still feels forces. Default: `true`.
     #[serde(default = "yes")]
     pub collides: bool,
@@ -114,7 +119,7 @@ impl BodyEntry {
             let message = "its mass or moment of inertia is too large to be a number";
             report.error("atoms", message).help("sizes are in metres and masses in kg: look for a zero too many");
         }
-        if self.inertia == InertiaRule::Points && specs.len() == 1 && !self.fixed {
+        if self.inertia == InertiaRule::Points && specs.len() == 1 && !self.fixed && self.kinematic.is_none() {
             let message = "one atom counted as a point has no moment of inertia";
             report.error("inertia", message).help("leave `inertia` out, or give a number in kg m2");
         }
@@ -122,11 +127,24 @@ impl BodyEntry {
             let message = "with `Union` the mass follows from the covered area, but atoms have masses of their own";
             report.error("inertia", message).help("remove the atoms' `mass`; the body's own `mass` may stay");
         }
-        if self.fixed {
+        if let Some(kinematic) = &self.kinematic {
+            report.within("kinematic", |report| kinematic.check(report));
+        }
+        let held = match (&self.kinematic, self.fixed) {
+            (Some(_), true) => {
+                report.error("kinematic", "a fixed body does not move").help("remove this, or remove `fixed: true`");
+                None
+            }
+            (Some(_), false) => {
+                Some(("a kinematic body moves as `kinematic` says", "write it into `kinematic: (..)`, and remove this"))
+            }
+            (None, true) => Some(("a fixed body does not move", "remove this, or remove `fixed: true`")),
+            (None, false) => None,
+        };
+        if let Some((message, help)) = held {
             for (path, moves) in [("velocity", self.velocity.si() != DVec2::ZERO), ("spin", self.spin.si() != 0.0)] {
                 if moves {
-                    let message = "a fixed body does not move";
-                    report.error(path, message).help("remove this, or remove `fixed: true`");
+                    report.error(path, message).help(help);
                 }
             }
         }
@@ -147,6 +165,14 @@ impl BodyEntry {
                 at + DVec2::new(cosine, sine).rotate(properties.center)
             }
         }
+    }
+
+    /// How it moves, if that is prescribed. What is led along a path is the point that `at` names.
+    pub fn prescribed(&self, properties: &MassProperties) -> Option<Kinematic> {
+        let entry = self.kinematic.as_ref()?;
+        let center = if self.datum == Datum::Origin { properties.center } else { DVec2::ZERO };
+        let position = self.at.unwrap_or_default().si();
+        Some(Kinematic { since: 0.0, position, angle: self.angle.si(), center, path: entry.path() })
     }
 
     /// The places that `fill` must keep clear of.

@@ -9,6 +9,7 @@ pub mod clock;
 pub mod fill;
 pub mod film;
 mod install;
+pub mod kinematic;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -17,4 +18,5 @@ pub use clock::{ClockSection, EventTiming};
 pub use fill::{FillEntry, FillSection};
 pub use film::FilmSection;
 pub use install::plugin;
+pub use kinematic::{KinematicEntry, PathEntry};
 pub use walls::{WallEntry, WallsSection};

@@ -1,9 +1,10 @@
 //! `walls`: half-planes that nothing enters.
 
 use bevy_app::App;
+use glam::DVec2;
 use serde::Deserialize;
 
-use crate::scene::units::Position;
+use crate::scene::units::{Position, Velocity};
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
@@ -20,7 +21,13 @@ pub struct WallEntry {
     /// The name of its material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
+    /// The velocity of its surface along the wall, in m/s: a belt. Default: (0, 0).
+    #[serde(default)]
+    pub surface_velocity: Velocity,
 }
+
+/// How far a surface velocity may point out of its wall, as a share of itself: digits that people leave out.
+const ALONG: f64 = 1e-6;
 
 /// The section `walls`.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -51,6 +58,12 @@ impl Section for WallsSection {
 }
 
 impl WallEntry {
+    /// The velocity of its surface in m/s, without what rounding leaves across the wall.
+    pub fn belt(&self) -> DVec2 {
+        let along = (self.right.si() - self.left.si()).normalize_or_zero();
+        along * self.surface_velocity.si().dot(along)
+    }
+
     fn check(&self, outline: &Outline, report: &mut Report) {
         let (left, right) = (self.left.si(), self.right.si());
         let finite = report.finite_pair("left", left) & report.finite_pair("right", right);
@@ -58,6 +71,17 @@ impl WallEntry {
         if finite && !(length > 0.0 && length.is_finite()) {
             let message = format!("must differ from `left`, got ({}, {}) for both", right.x, right.y);
             report.error("right", message).help("a wall is the line through two points, seen from the open side");
+        }
+        let velocity = self.surface_velocity.si();
+        if report.finite_pair("surface_velocity", velocity) && finite && length > 0.0 {
+            let tangential = self.belt();
+            if (velocity - tangential).length() > ALONG * velocity.length() {
+                let message = "a surface moves along its wall, not into or out of it";
+                let digits = |value: f64| (value * 1e6).round() / 1e6;
+                let (x, y) = (digits(tangential.x), digits(tangential.y));
+                let help = format!("along this wall it would be ({x:?}, {y:?})");
+                report.error("surface_velocity", message).help(help);
+            }
         }
         material::require(self.material.as_deref(), outline, report);
     }

@@ -224,3 +224,98 @@ error: fill[0].name: the name "gas_3" is taken by another body
 "#,
     );
 }
+
+#[test]
+fn a_kinematic_body_that_moves_in_two_ways() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [
+        (name: "a", at: (0, 0), velocity: (1, 0), kinematic: (spin: 2), atoms: Disc(radius: 0.1)),
+        (name: "b", at: (1, 0), fixed: true, kinematic: (spin: 2), atoms: Disc(radius: 0.1)),
+    ],
+)"#,
+        r#"
+error: bodies[0].velocity: a kinematic body moves as `kinematic` says
+ --> a.ron:5:43
+  |
+5 |         (name: "a", at: (0, 0), velocity: (1, 0), kinematic: (spin: 2), atoms: Disc(radius: 0.1)),
+  |                                           ^^^^^^ this value
+  |
+  = help: write it into `kinematic: (..)`, and remove this
+
+error: bodies[1].kinematic: a fixed body does not move
+ --> a.ron:6:57
+  |
+6 |         (name: "b", at: (1, 0), fixed: true, kinematic: (spin: 2), atoms: Disc(radius: 0.1)),
+  |                                                         ^^^^^^^^^ this value
+  |
+  = help: remove this, or remove `fixed: true`
+"#,
+    );
+}
+
+#[test]
+fn paths_that_cannot_be() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    bodies: [
+        (name: "a", at: (0, 0), kinematic: (path: [(time: 1), (time: 1)]), atoms: Disc(radius: 0.1)),
+        (name: "b", at: (1, 0), kinematic: (spin: 2, path: [(time: 1)], repeat: true), atoms: Disc(radius: 0.1)),
+        (name: "c", at: (2, 0), kinematic: (repeat: true), atoms: Disc(radius: 0.1)),
+    ],
+)"#,
+        r#"
+error: bodies[0].kinematic.path[1].time: must be above the time before it, 1 s, got 1 s
+ --> a.ron:5:70
+  |
+5 |         (name: "a", at: (0, 0), kinematic: (path: [(time: 1), (time: 1)]), atoms: Disc(radius: 0.1)),
+  |                                                                      ^ this value
+  |
+  = help: the points of a path stand in the order of their times
+
+error: bodies[1].kinematic.repeat: a path that is repeated must end with the velocity and spin it begins with
+ --> a.ron:6:81
+  |
+6 |         (name: "b", at: (1, 0), kinematic: (spin: 2, path: [(time: 1)], repeat: true), atoms: Disc(radius: 0.1)),
+  |                                                                                 ^^^^ this value
+  |
+  = help: give its last point the same `velocity` and `spin` as the start; both are zero by default
+
+error: bodies[2].kinematic.repeat: there is no path to repeat
+ --> a.ron:7:53
+  |
+7 |         (name: "c", at: (2, 0), kinematic: (repeat: true), atoms: Disc(radius: 0.1)),
+  |                                                     ^^^^ this value
+  |
+  = help: add `path: [(time: 1, by: (2, 0))]`
+"#,
+    );
+}
+
+#[test]
+fn a_belt_that_moves_out_of_its_wall() {
+    wrong(
+        r#"
+Scene(
+    format: 1,
+    clock: (duration: 1),
+    walls: [(name: "belt", left: (1, 1), right: (0, 0), surface_velocity: (2, 0))],
+    bodies: [(name: "a", at: (0, 0), atoms: Disc(radius: 0.1))],
+)"#,
+        r#"
+error: walls[0].surface_velocity: a surface moves along its wall, not into or out of it
+ --> a.ron:4:75
+  |
+4 |     walls: [(name: "belt", left: (1, 1), right: (0, 0), surface_velocity: (2, 0))],
+  |                                                                           ^^^^^^ this value
+  |
+  = help: along this wall it would be (1.0, 1.0)
+"#,
+    );
+}

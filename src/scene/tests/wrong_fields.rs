@@ -40,7 +40,7 @@ error: bodies[0].mas: `bodies[0]` has no field `mas`
 4 |     bodies: [(name: "ball", at: (0, 1), mas: 2, atoms: Disc(radius: 0.1))],
   |                                         ^^^ unknown field
   |
-  = help: did you mean `mass`? fields: `name`, `atoms`, `at`, `angle`, `velocity`, `spin`, `material`, `fixed`, `collides`, `datum`, `mass`, `inertia`
+  = help: did you mean `mass`? fields: `name`, `atoms`, `at`, `angle`, `velocity`, `spin`, `material`, `fixed`, `kinematic`, `collides`, `datum`, `mass`, `inertia`
 "#,
     );
 }
@@ -61,7 +61,7 @@ error: bodies[0].zebra: `bodies[0]` has no field `zebra`
 4 |     bodies: [(name: "ball", at: (0, 1), zebra: 2, atoms: Disc(radius: 0.1))],
   |                                         ^^^^^ unknown field
   |
-  = help: fields: `name`, `atoms`, `at`, `angle`, `velocity`, `spin`, `material`, `fixed`, `collides`, `datum`, `mass`, `inertia`
+  = help: fields: `name`, `atoms`, `at`, `angle`, `velocity`, `spin`, `material`, `fixed`, `kinematic`, `collides`, `datum`, `mass`, `inertia`
 "#,
     );
 }

@@ -545,23 +545,14 @@ fn fields_and_choices_of_later_versions() {
 Scene(
     format: 1,
     clock: (duration: 1),
-    walls: [(name: "belt", left: (1, 0), right: (0, 0), surface_velocity: 3)],
-    bodies: [(name: "ball", at: (0, 0), atoms: Disc(radius: 0.1), kinematic: (velocity: (1, 0)))],
+    bodies: [(name: "ball", at: (0, 0), shape: Capsule(length: 1, radius: 0.1))],
 )"#,
         r#"
-error: walls[0].surface_velocity: `surface_velocity` is not available yet
- --> a.ron:4:57
+error: bodies[0].shape: `shape` is not available yet
+ --> a.ron:4:41
   |
-4 |     walls: [(name: "belt", left: (1, 0), right: (0, 0), surface_velocity: 3)],
-  |                                                         ^^^^^^^^^^^^^^^^ not available yet
-  |
-  = help: the name is reserved for a later version; remove it
-
-error: bodies[0].kinematic: `kinematic` is not available yet
- --> a.ron:5:67
-  |
-5 |     bodies: [(name: "ball", at: (0, 0), atoms: Disc(radius: 0.1), kinematic: (velocity: (1, 0)))],
-  |                                                                   ^^^^^^^^^ not available yet
+4 |     bodies: [(name: "ball", at: (0, 0), shape: Capsule(length: 1, radius: 0.1))],
+  |                                         ^^^^^ not available yet
   |
   = help: the name is reserved for a later version; remove it
 "#,

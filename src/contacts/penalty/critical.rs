@@ -1,0 +1,160 @@
+//! Measures how fast the contacts of a run respond, at some of its ticks: all ticks would cost as much as the contacts
+//! themselves.
+//!
+//! A tick is looked at when the number of touching pairs has changed and as many ticks have passed as there are pairs,
+//! and every [`PATIENCE`] ticks. A bound of the frequency is cheap; where it lies above what was found before, the
+//! eigenvalue itself is worked out, which costs some ten times as much, and so is done less often unless the bound has
+//! risen clearly.
+
+use super::apply::{End, PenaltyContacts, arms};
+use super::law::PairLaw;
+use super::normal::NormalForce;
+use crate::contacts::response::{Spring, Springs};
+use crate::contacts::{AtomPair, CandidatePairs, WallPair};
+use crate::tick::{Balance, Briefest, Clock, Fastest, Responses, Stability};
+use crate::world::Bodies;
+
+/// Ticks after which an unchanged number of pairs is looked at again.
+const PATIENCE: u64 = 512;
+/// A bound that has risen by this factor is followed up at once.
+const RISEN: f64 = 1.05;
+/// Ticks per pair between two solutions otherwise.
+const TICKS_PER_PAIR: u64 = 32;
+
+/// Rounds in which the tick is sought where forces depend on velocities.
+const ROUNDS: usize = 12;
+
+/// Product of tick and angular frequency above which energy is watched at each tick; methods bear 2 and more.
+const ALERT: f64 = 1.5;
+
+/// When the contacts were looked at, and working memory.
+#[derive(Debug, Default)]
+pub(super) struct Watch {
+    next: u64,
+    earliest: u64,
+    pairs: usize,
+    solved: u64,
+    /// The greatest bound whose eigenvalue was worked out.
+    bound: f64,
+    springs: Springs,
+    pub found: Responses,
+}
+
+impl PenaltyContacts {
+    /// Looks at the touching pairs if it is time to.
+    #[inline]
+    pub(super) fn watch<N: NormalForce>(
+        &mut self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+        clock: &Clock,
+        stability: &Stability,
+        balance: &mut Balance,
+    ) {
+        let touching = self.touching_atoms.len() + self.touching_walls.len();
+        if touching == 0 {
+            // Whoever touches next is new.
+            self.watch.pairs = 0;
+            return;
+        }
+        let watch = &self.watch;
+        let changed = touching != watch.pairs && clock.ticks >= watch.earliest;
+        if changed || clock.ticks >= watch.next {
+            self.measure::<N>(bodies, pairs, clock, stability);
+            let fastest = self.watch.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency);
+            balance.alert |= clock.dt * fastest > ALERT;
+        }
+    }
+
+    #[cold]
+    fn measure<N: NormalForce>(
+        &mut self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+        clock: &Clock,
+        stability: &Stability,
+    ) {
+        let mut watch = std::mem::take(&mut self.watch);
+        let weight = |angular_frequency: f64| angular_frequency * stability.weight_of_damping();
+        watch.springs.gather(self.springs::<N>(bodies, pairs, weight(stability.limit / clock.dt)), bodies);
+        watch.pairs = self.touching_atoms.len() + self.touching_walls.len();
+        watch.earliest = clock.ticks + watch.pairs as u64;
+        watch.next = clock.ticks + PATIENCE;
+        let found = &mut watch.found;
+        let bound = watch.springs.bound();
+        let time = clock.time();
+        let (fastest, briefest) =
+            (found.fastest.map_or(0.0, |f| f.angular_frequency), found.briefest.map_or(0.0, |b| b.angular_frequency));
+        if bound.pair_squared > briefest * briefest {
+            let entity = |body: usize| bodies.entity[body];
+            let (a, b) = watch.springs.pair(bound.pair);
+            let wall = || {
+                let touching = self.touching_walls[bound.pair - self.touching_atoms.len()];
+                bodies.walls[pairs.walls[touching.place as usize].wall as usize].entity
+            };
+            let between = (a.map_or_else(wall, entity), entity(b));
+            found.briefest = Some(Briefest { angular_frequency: bound.pair_squared.sqrt(), between, time });
+        }
+        let due =
+            bound.squared > RISEN * watch.bound || clock.ticks >= watch.solved + TICKS_PER_PAIR * watch.pairs as u64;
+        if due && bound.squared > fastest * fastest {
+            watch.solved = clock.ticks;
+            watch.bound = watch.bound.max(bound.squared);
+            let mut squared = watch.springs.largest();
+            if N::DEPENDS_ON_VELOCITY {
+                // Damping counts by the tick that is sought; each round halves at least what is missing.
+                for _ in 0..ROUNDS {
+                    watch.springs.gather(self.springs::<N>(bodies, pairs, weight(squared.sqrt())), bodies);
+                    squared = watch.springs.largest();
+                }
+            }
+            if squared > fastest * fastest {
+                let body = bodies.entity[bound.body];
+                found.fastest = Some(Fastest { angular_frequency: squared.sqrt(), body, time });
+            }
+        }
+        self.watch = watch;
+    }
+
+    /// The springs of all touching pairs: those between bodies, then those at walls. Damping counts as stiffness, as
+    /// `weight` newtons per metre for each N s/m.
+    fn springs<N: NormalForce>(
+        &self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+        weight: f64,
+    ) -> impl Iterator<Item = Spring> {
+        let stiffness = move |law: &PairLaw, mobility: f64| {
+            let (stiffness, damping) = N::response(law, mobility);
+            (stiffness, law.held_across(), damping * weight)
+        };
+        let atoms = self.touching_atoms.iter().map(move |touching| {
+            let AtomPair { a, b } = pairs.atoms[touching.place as usize];
+            let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+            let contact = &self.atoms[touching.place as usize];
+            let law = self.laws.get(contact.law);
+            let (arm_a, arm_b) = arms((&a, &b), touching.normal, contact.overlap, law);
+            let mobility = a.mobility(bodies, touching.normal) + b.mobility(bodies, touching.normal);
+            let (stiffness, across, damped) = stiffness(law, mobility);
+            let (a, b) = (Some((a.body, arm_a)), (b.body, arm_b));
+            Spring { a, b, normal: touching.normal, stiffness: (stiffness, across), damped }
+        });
+        let walls = self.touching_walls.iter().map(move |touching| {
+            let WallPair { atom, .. } = pairs.walls[touching.place as usize];
+            let end = End::of(bodies, atom);
+            let contact = &self.walls[touching.place as usize];
+            let arm = end.arm - touching.normal * (end.radius - contact.overlap);
+            let law = self.laws.get(contact.law);
+            let (stiffness, across, damped) = stiffness(law, end.mobility(bodies, touching.normal));
+            Spring { a: None, b: (end.body, arm), normal: touching.normal, stiffness: (stiffness, across), damped }
+        });
+        atoms.chain(walls)
+    }
+}
+
+impl PairLaw {
+    /// Stiffness of the tangential spring in N/m, if there is friction that stretches it.
+    fn held_across(&self) -> f64 {
+        if self.friction_static > 0.0 || self.friction_dynamic > 0.0 { self.tangential_stiffness } else { 0.0 }
+    }
+}

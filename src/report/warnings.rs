@@ -1,0 +1,56 @@
+//! What a run has to be warned of although it came to its end: limits of its tick that it went beyond.
+
+use bevy_ecs::prelude::*;
+
+use super::card::{finer_tick, number};
+use crate::contacts::ContactLaw;
+use crate::tick::{Clock, Responses, far_travel};
+use crate::world::{Bodies, Name};
+
+/// Contacts that last fewer ticks are not resolved.
+pub(super) const FEWEST_TICKS: f64 = 10.0;
+
+/// The warnings of a run, one sentence each with body, time, likely cause and remedy.
+pub fn warnings(world: &World) -> Vec<String> {
+    let name = |entity| world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone());
+    let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
+    let mut warnings = Vec::new();
+    let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
+    if let Some(fastest) = beyond {
+        let critical = fastest.critical_tick(world);
+        warnings.push(format!(
+            "the tick of {} s is above the critical one of {} s that the contacts of `{}` had at t = {} s: they can gain \
+             energy at each tick; use --tick {}",
+            number(clock.dt),
+            number(critical),
+            name(fastest.body),
+            number(fastest.time),
+            finer_tick(critical / 2.0),
+        ));
+    }
+    // Where the tick is above the critical one this goes without saying.
+    let brief = responses.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
+    if let Some(brief) = brief {
+        let ticks = brief.duration() / clock.dt;
+        warnings.push(format!(
+            "the contact of `{}` and `{}` at t = {} s lasts {ticks:.1} ticks: below {FEWEST_TICKS} its impact is not \
+             resolved; use --tick {}",
+            name(brief.between.0),
+            name(brief.between.1),
+            number(brief.time),
+            finer_tick(clock.dt * ticks / FEWEST_TICKS),
+        ));
+    }
+    let far = far_travel(world).filter(|_| world.contains_resource::<ContactLaw>());
+    if let Some(far) = far {
+        let radii = far.travel / world.resource::<Bodies>().smallest_radius;
+        warnings.push(format!(
+            "`{}` travelled {radii:.1} times the smallest radius in the tick before t = {} s and may have passed through \
+             others unseen; use --tick {}",
+            name(far.body),
+            number(far.time),
+            finer_tick(clock.dt / radii),
+        ));
+    }
+    warnings
+}

@@ -1,0 +1,43 @@
+//! A run that went wrong.
+
+use super::guard::Created;
+
+/// A run that went wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Name of the first body that went wrong, or of the one that has most of the energy.
+    pub body: String,
+    /// What is wrong.
+    pub wrong: Wrong,
+    /// The tick that made it.
+    pub tick: u64,
+    /// Its time in seconds.
+    pub time: f64,
+}
+
+/// What can go wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wrong {
+    /// This quantity is no longer a finite number.
+    NotFinite(&'static str),
+    /// Energy came out of nowhere.
+    Energy(Created),
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { body, wrong, tick, time } = self;
+        match wrong {
+            Wrong::NotFinite(quantity) => write!(f, "the {quantity} of `{body}` is no longer a finite number")?,
+            Wrong::Energy(Created { energy, put_in }) => {
+                write!(
+                    f,
+                    "energy came out of nowhere, {energy:.1e} J where {put_in:.1e} J were put in, most of it in `{body}`,"
+                )?;
+            }
+        }
+        write!(f, " at t = {time:?} s (tick {tick})")
+    }
+}
+
+impl std::error::Error for Failure {}

@@ -1,0 +1,78 @@
+//! The guard against energy out of nowhere.
+//!
+//! What a run creates is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. What was
+//! put into it is its kinetic and elastic energy at the beginning, what its fields released since, and the work of
+//! drives. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`, fifty times at 99 %
+//! of it, so a factor that no stable run reaches must be far above: a run is stopped when it has created [`BEYOND`]
+//! times what was put in and its tick is above the critical one, or [`ENORMOUS`] times whatever the tick is. Rounding of
+//! large energies counts as put in.
+//!
+//! It looks every [`EVERY`] ticks, when something travels farther in a tick than the smallest radius and whenever that
+//! has doubled, and at each tick since contacts were seen to respond nearly as fast as a method can bear: from the first
+//! touch on, before which nothing can be created.
+
+use bevy_ecs::prelude::*;
+
+use super::balance::{Ledger, Totals, kinetic_energy_of};
+use super::{Clock, Responses};
+use crate::world::Bodies;
+
+const BEYOND: f64 = 1e3;
+const ENORMOUS: f64 = 1e9;
+const EVERY: u64 = 256;
+/// What rounding may leave of energies that cancel.
+const ROUNDING: f64 = 1e-9;
+
+/// When energy is looked at next, and what was put in.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct EnergyGuard {
+    /// A model responds nearly as fast as the tick can bear: it looks at each tick.
+    pub alert: bool,
+    next: u64,
+    travel: f64,
+    released: f64,
+    worked: f64,
+}
+
+/// More energy than there can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Created {
+    /// Energy in J that came out of nowhere.
+    pub energy: f64,
+    /// Energy in J that was put in.
+    pub put_in: f64,
+}
+
+impl EnergyGuard {
+    /// Whether it is time to look, after `ticks` ticks in which nothing travelled farther than `travel` metres per tick.
+    #[inline]
+    pub fn is_due(&self, ticks: u64, travel: f64) -> bool {
+        ticks >= self.next || travel > self.travel || self.alert
+    }
+
+    /// Looks at the energy of the present state; returns the place of the body that has most of it if there is too much.
+    pub fn look(&mut self, world: &World, travel: f64) -> Option<(usize, Created)> {
+        let (bodies, ledger) = (world.resource::<Bodies>(), world.resource::<Ledger>());
+        let clock = world.resource::<Clock>();
+        self.next = (clock.ticks / EVERY + 1) * EVERY;
+        // From the smallest radius on it looks each time the travel has doubled.
+        self.travel = if travel > bodies.smallest_radius { 2.0 * travel } else { bodies.smallest_radius };
+        let (now, start) = (Totals::of(world), ledger.start?);
+        let lost = ledger.friction.value() + ledger.inelasticity.value() + ledger.drag.value();
+        let work = ledger.work.value();
+        self.released = self.released.max(start.potential - now.potential);
+        self.worked = self.worked.max(work);
+        let rounding = ROUNDING * (start.potential.abs() + now.potential.abs() + work.abs());
+        let put_in = start.kinetic + start.elastic + self.released + self.worked + rounding;
+        let energy = now.energy() + lost - work - start.energy();
+        let unstable = Responses::of(world).fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(world));
+        let too_much = if unstable { BEYOND } else { ENORMOUS } * put_in;
+        // Written so that energies that are no numbers are too much; without anything put in there is no measure.
+        if put_in == 0.0 || energy <= too_much {
+            return None;
+        }
+        let most =
+            (0..bodies.len()).max_by(|&a, &b| kinetic_energy_of(bodies, a).total_cmp(&kinetic_energy_of(bodies, b)));
+        Some((most?, Created { energy, put_in }))
+    }
+}

@@ -1,0 +1,210 @@
+//! Bodies that move as prescribed: uniformly, or along a path. They push others and are pushed by nobody.
+//!
+//! The state is a function of time, evaluated anew for each state and never added up, so a million ticks are as exact as
+//! one. A path leads from point to point as a cubic (Hermite): place and velocity are those of the points, the velocity
+//! is the derivative of the place everywhere, and where nothing is said of it a point is a stop. After its last point a
+//! path goes on uniformly with the velocity it has there, or begins again where it stands.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::body::mark_changed;
+
+/// A point of a path, or the motion at any time: counted from where the path begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PathPoint {
+    /// Seconds since the path began.
+    pub time: f64,
+    /// Displacement in metres.
+    pub by: DVec2,
+    /// Turn in radians, counter-clockwise.
+    pub turn: f64,
+    /// Velocity in m/s.
+    pub velocity: DVec2,
+    /// Spin in rad/s.
+    pub spin: f64,
+}
+
+/// A motion as a function of time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    points: Vec<PathPoint>,
+    repeat: bool,
+}
+
+impl Path {
+    /// A motion that begins with `velocity` in m/s and `spin` in rad/s and leads through `points`, at ascending times
+    /// above zero. Without points it is uniform. With `repeat` it begins again at the last point, from where it stands
+    /// then.
+    pub fn new(velocity: DVec2, spin: f64, points: &[PathPoint], repeat: bool) -> Self {
+        let start = PathPoint { velocity, spin, ..PathPoint::default() };
+        Self { points: std::iter::once(start).chain(points.iter().copied()).collect(), repeat }
+    }
+
+    /// The motion `time` seconds after the beginning.
+    pub fn at(&self, time: f64) -> PathPoint {
+        let last = self.points[self.points.len() - 1];
+        if time < last.time {
+            return self.within(time);
+        }
+        if !self.repeat || last.time == 0.0 {
+            return uniform(&last, time);
+        }
+        let rounds = (time / last.time).floor();
+        let within = self.within((time - rounds * last.time).max(0.0));
+        PathPoint { time, by: within.by + last.by * rounds, turn: within.turn + last.turn * rounds, ..within }
+    }
+
+    fn within(&self, time: f64) -> PathPoint {
+        let next = self.points.partition_point(|point| point.time <= time);
+        match self.points.get(next) {
+            Some(to) => between(&self.points[next - 1], to, time),
+            None => uniform(&self.points[next - 1], time),
+        }
+    }
+}
+
+fn uniform(from: &PathPoint, time: f64) -> PathPoint {
+    let passed = time - from.time;
+    PathPoint { time, by: from.by + from.velocity * passed, turn: from.turn + from.spin * passed, ..*from }
+}
+
+/// The cubic through two points with their velocities (Hermite).
+fn between(from: &PathPoint, to: &PathPoint, time: f64) -> PathPoint {
+    let length = to.time - from.time;
+    let s = (time - from.time) / length;
+    let rest = 1.0 - s;
+    // Weights of the way, and of both velocities: for the place, and for the velocity.
+    let (way, first, second) = (s * s * (3.0 - 2.0 * s), length * s * rest * rest, -length * s * s * rest);
+    let (speed, at_first, at_second) = (6.0 * s * rest / length, rest * (1.0 - 3.0 * s), s * (3.0 * s - 2.0));
+    let (by, turn) = (to.by - from.by, to.turn - from.turn);
+    PathPoint {
+        time,
+        by: from.by + by * way + from.velocity * first + to.velocity * second,
+        turn: from.turn + turn * way + from.spin * first + to.spin * second,
+        velocity: by * speed + from.velocity * at_first + to.velocity * at_second,
+        spin: turn * speed + from.spin * at_first + to.spin * at_second,
+    }
+}
+
+/// Makes a body move as prescribed. Its position, angle, velocity and spin follow from time alone: whoever wants it to
+/// move otherwise inserts another one, changing those components does nothing.
+#[derive(Component, Clone, Debug, PartialEq)]
+#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
+pub struct Kinematic {
+    /// When the path begins, in seconds.
+    pub since: f64,
+    /// The point that is led along the path, where the path begins, in metres.
+    pub position: DVec2,
+    /// The angle there in radians.
+    pub angle: f64,
+    /// The body's centre of mass from that point, in the body's frame, in metres.
+    pub center: DVec2,
+    /// How that point moves, and how the body turns about it.
+    pub path: Path,
+}
+
+/// State of a body that moves as prescribed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrescribedState {
+    /// Centre of mass in metres.
+    pub position: DVec2,
+    /// Angle in radians.
+    pub angle: f64,
+    /// Velocity of the centre of mass in m/s.
+    pub velocity: DVec2,
+    /// Spin in rad/s.
+    pub spin: f64,
+}
+
+impl Kinematic {
+    /// The state at `time` seconds.
+    pub fn state(&self, time: f64) -> PrescribedState {
+        let point = self.path.at(time - self.since);
+        let angle = self.angle + point.turn;
+        let led = self.position + point.by;
+        if self.center == DVec2::ZERO {
+            return PrescribedState { position: led, angle, velocity: point.velocity, spin: point.spin };
+        }
+        let (sin, cos) = libm::sincos(angle);
+        let arm = DVec2::new(cos, sin).rotate(self.center);
+        let velocity = point.velocity + arm.perp() * point.spin;
+        PrescribedState { position: led + arm, angle, velocity, spin: point.spin }
+    }
+}
+
+/// The prescribed bodies of the packed state.
+#[derive(Clone, Debug, Default)]
+pub struct Prescribed {
+    /// Places of the bodies, ascending, and their motions.
+    pub motions: Vec<(usize, Kinematic)>,
+    /// Time in seconds of the state they were last put in.
+    pub time: f64,
+}
+
+impl Prescribed {
+    /// The state of body `body` in `ahead` seconds, if it moves as prescribed.
+    pub fn ahead(&self, body: usize, ahead: f64) -> Option<PrescribedState> {
+        let place = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;
+        Some(self.motions[place].1.state(self.time + ahead))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stop(time: f64, x: f64, turn: f64) -> PathPoint {
+        PathPoint { time, by: DVec2::new(x, 0.0), turn, ..PathPoint::default() }
+    }
+
+    #[test]
+    fn a_path_goes_through_its_points_and_stops_there() {
+        let path = Path::new(DVec2::ZERO, 0.0, &[stop(1.0, 2.0, 0.5), stop(3.0, -1.0, 0.0)], false);
+        for (time, x, turn) in [(0.0, 0.0, 0.0), (1.0, 2.0, 0.5), (3.0, -1.0, 0.0), (7.0, -1.0, 0.0)] {
+            let point = path.at(time);
+            assert_eq!((point.by.x, point.turn, point.velocity, point.spin), (x, turn, DVec2::ZERO, 0.0), "{time}");
+        }
+        assert_eq!(path.at(0.5).by.x, 1.0);
+    }
+
+    /// A cubic is met exactly, so motion under constant acceleration is.
+    #[test]
+    fn constant_acceleration_is_a_path_with_velocities() {
+        let end =
+            PathPoint { time: 2.0, by: DVec2::new(3.0, 4.0), velocity: DVec2::new(2.5, 4.0), ..stop(2.0, 0.0, 0.0) };
+        let path = Path::new(DVec2::new(0.5, 0.0), 0.0, &[end], false);
+        for step in 0..=20 {
+            let t = f64::from(step) / 10.0;
+            let (point, a) = (path.at(t), DVec2::new(1.0, 2.0));
+            let exact = DVec2::new(0.5 * t, 0.0) + a * (t * t / 2.0);
+            assert!((point.by - exact).length() < 1e-14, "{t}: {:?}", point.by);
+            assert!((point.velocity - DVec2::new(0.5, 0.0) - a * t).length() < 1e-14, "{t}: {:?}", point.velocity);
+        }
+    }
+
+    /// Central differences of the place, error h^2/6 of the third derivative (at most 12 x 3 here).
+    #[test]
+    fn the_velocity_is_the_derivative_of_the_place() {
+        let path = Path::new(DVec2::X, -1.0, &[stop(1.0, 2.0, 0.5), stop(2.0, -1.0, 3.0)], true);
+        let motion = Kinematic { since: 0.25, position: DVec2::ONE, angle: 0.3, center: DVec2::new(0.2, 0.1), path };
+        let h = 1e-5;
+        for step in 1..600 {
+            let t = 0.2503 + f64::from(step) * 0.01;
+            let (before, now, after) = (motion.state(t - h), motion.state(t), motion.state(t + h));
+            let velocity = (after.position - before.position) / (2.0 * h);
+            assert!((velocity - now.velocity).length() < 1e-7, "{t}: {velocity} {}", now.velocity);
+            assert!(((after.angle - before.angle) / (2.0 * h) - now.spin).abs() < 1e-7, "{t}");
+        }
+    }
+
+    #[test]
+    fn a_repeated_path_goes_on_from_where_it_stands() {
+        let path = Path::new(DVec2::ZERO, 0.0, &[stop(0.5, 1.0, 2.0)], true);
+        for rounds in 0..1000 {
+            let point = path.at(0.5 * f64::from(rounds));
+            assert_eq!((point.by.x, point.turn), (f64::from(rounds), 2.0 * f64::from(rounds)));
+        }
+        assert!((path.at(7.25).by.x - 14.5).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,75 @@
+//! Runs that end, but went beyond a limit of their tick: a line each on standard error, a note on the card, exit code 0.
+
+use super::harness::Folder;
+
+/// A ball of 1 kg on a spring of 10 kN/m: its contact lasts pi/100 s, the critical tick is 1/50 s.
+const BOUNCE: &str = r#"Scene(
+    format: 1,
+    clock: (duration: 0.5, tick: "1 ms", method: VelocityVerlet),
+    film: (fps: 10, size: (64, 36)),
+    gravity: (0, -10),
+    materials: { "rubber": (stiffness: "10 kN/m") },
+    walls: [(name: "floor", left: (1, 0), right: (0, 0), material: "rubber")],
+    bodies: [(name: "ball", at: (0, 0.3), material: "rubber", atoms: Disc(radius: 0.1, mass: 1))],
+)"#;
+
+const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks: below 10 its impact is not \
+                     resolved; use --tick ";
+const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s that the contacts of `ball` had at t = ";
+const FAR: &str = "`ball` travelled 1.1 times the smallest radius in the tick before t = 0.25 s and may have passed \
+                   through others unseen; use --tick ";
+
+/// Runs with a tick; the warning is told in a line, and as a note in the JSON.
+#[track_caller]
+fn warns(folder: &str, tick: &str, warning: &str) {
+    let folder = Folder::new(folder).with("bounce.ron", BOUNCE);
+    for command in ["run", "run --quiet", "render", "render --quiet", "check --run"] {
+        let ended = folder.jostle(&format!("{command} bounce.ron --tick {tick}")).code(0);
+        let line = format!("warning: bounce.ron: {warning}");
+        assert_eq!(ended.err.matches(&line).count(), 1, "{command}: {line}\n{ended:#?}");
+    }
+    let ended = folder.jostle(&format!("run bounce.ron --tick {tick} --json")).code(0);
+    let note = ended.json()[0]["card"]["notes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .any(|note| note.as_str().unwrap().starts_with(&format!("warning: {warning}")));
+    assert!(note, "{ended:#?}");
+}
+
+#[test]
+fn a_contact_of_few_ticks() {
+    warns("brief", "5ms", BRIEF);
+}
+
+#[test]
+fn a_tick_above_the_critical_one() {
+    warns("above", "25ms", ABOVE);
+}
+
+#[test]
+fn a_body_that_travels_farther_than_the_smallest_radius() {
+    warns("far", "50ms", FAR);
+}
+
+/// With the tick that is advised nothing is left to warn of.
+#[test]
+fn the_advised_tick_helps() {
+    let folder = Folder::new("advised").with("bounce.ron", BOUNCE);
+    for tick in ["5ms", "25ms"] {
+        let ended = folder.jostle(&format!("run bounce.ron --tick {tick}"));
+        let line = ended.err.lines().find(|line| line.starts_with("warning: ")).unwrap();
+        let advice = line.split("use --tick ").nth(1).unwrap();
+        let again = folder.jostle(&format!("run bounce.ron --tick {advice}")).code(0);
+        assert!(!again.err.contains("warning: "), "{again:#?}");
+    }
+}
+
+#[test]
+fn a_good_run_has_none() {
+    let folder = Folder::new("no_warning").with("bounce.ron", BOUNCE);
+    for scene in ["bounce.ron", "example:tetris", "example:billiards", "example:kepler"] {
+        let ended = folder.jostle(&format!("run {scene}")).code(0);
+        assert!(!ended.err.contains("warning"), "{ended:#?}");
+    }
+}
