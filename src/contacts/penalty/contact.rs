@@ -88,7 +88,7 @@ impl Contact {
             share = touch.share_in_touch();
         }
         self.overlap = touch.overlap.max(0.0);
-        losses.inelasticity += if self.mode == Mode::Hold {
+        losses.inelasticity += if self.mode == Mode::Hold && N::SET_VALUED {
             lost_work(law, before, (self.overlap, self.normal_force))
         } else {
             self.normal_force = N::force(law, self.mode, self.overlap, touch.approach);

@@ -40,6 +40,7 @@ pub struct Dashpot;
 
 impl NormalForce for Dashpot {
     const DEPENDS_ON_VELOCITY: bool = true;
+    const SET_VALUED: bool = false;
 
     fn set_up(law: &mut PairLaw, inelasticity: f64, settings: &Penalty) {
         law.damping = match settings.damping {

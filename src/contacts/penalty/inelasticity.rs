@@ -18,6 +18,7 @@ pub struct Inelasticity;
 
 impl NormalForce for Inelasticity {
     const DEPENDS_ON_VELOCITY: bool = false;
+    const SET_VALUED: bool = true;
 
     fn set_up(law: &mut PairLaw, inelasticity: f64, _: &Penalty) {
         law.inelasticity = inelasticity;

@@ -31,6 +31,9 @@ pub trait NormalForce: Send + Sync + 'static {
     /// Whether the force depends on velocities. If not, [`Approach`] is not filled in.
     const DEPENDS_ON_VELOCITY: bool;
 
+    /// Whether the force may have several values at rest. If not, a contact that is held follows its law all the same.
+    const SET_VALUED: bool;
+
     /// Fills in the coefficients of the law for a pair of materials with this inelasticity.
     fn set_up(law: &mut PairLaw, inelasticity: f64, settings: &Penalty);
 
