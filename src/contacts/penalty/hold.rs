@@ -138,12 +138,12 @@ impl Candidate {
     /// greatest change of velocity over what counts as rounding.
     fn relax(&mut self, movers: &mut [Mover], dt: f64) -> f64 {
         let wanted = self.normal_force - self.normal.velocity(movers, self.ends) / (self.normal.mobility * dt);
-        let change = self.set_normal(movers, wanted.clamp(self.band.0, self.band.1), dt);
+        let change = self.set_normal(movers, bounded(wanted, self.band), dt);
         if self.friction == 0.0 {
             return change;
         }
         let wanted = self.tangential_force - self.tangent.velocity(movers, self.ends) / (self.tangent.mobility * dt);
-        change.max(self.set_tangential(movers, wanted.clamp(-self.limit(), self.limit()), dt))
+        change.max(self.set_tangential(movers, bounded(wanted, (-self.limit(), self.limit())), dt))
     }
 
     fn set_normal(&mut self, movers: &mut [Mover], force: f64, dt: f64) -> f64 {
@@ -177,6 +177,12 @@ impl Candidate {
             Verdict::Rests
         }
     }
+}
+
+/// The force nearest to the one wanted within its bounds. Where overlaps have grown beyond all numbers the bounds are
+/// none: the force then is none either, and the run ends with that.
+fn bounded(wanted: f64, (least, greatest): (f64, f64)) -> f64 {
+    if least <= greatest { wanted.clamp(least, greatest) } else { f64::NAN }
 }
 
 /// Finds the forces of an island of candidates for the `dt` seconds to come. `movers` hold the velocities at their end
