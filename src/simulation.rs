@@ -311,8 +311,10 @@ fn chosen_tick(stiffest: Option<&StiffestContact>) -> Result<(f64, &'static str)
         return Ok((COARSEST_TICK, "nothing in the scene asks for a finer one"));
     }
     if !wanted.is_normal() {
-        let error =
-            SceneError::new("clock", format!("no tick is short enough for the stiffest contact: {omega:?} rad/s"));
+        let error = SceneError::new(
+            "clock",
+            format!("no tick is short enough for the stiffest contact, which vibrates at {omega:?} rad/s"),
+        );
         return Err(Box::new(error.with_help("give the bodies less `stiffness` or more mass, or give a `tick`")));
     }
     let exponent = wanted.log10().floor() as i32;
