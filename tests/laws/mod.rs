@@ -15,3 +15,5 @@ mod orbit;
 mod problems;
 mod restitution;
 mod rotation;
+mod standing;
+mod sticking;
