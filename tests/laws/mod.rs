@@ -17,3 +17,4 @@ mod restitution;
 mod rotation;
 mod standing;
 mod sticking;
+mod uniform_motion;

@@ -8,30 +8,36 @@ use crate::tokens::{Token, tokens};
 /// Scenes larger than this many bytes are left out: they would only make every mutant slow.
 const LARGEST: u64 = 20_000;
 
-/// A scene in tokens.
-pub struct Seed {
-    /// The pieces, blanks and comments included.
-    pub tokens: Vec<Token>,
-}
+/// A scene in tokens: the pieces, blanks and comments included.
+pub type Seed = Vec<Token>;
 
 /// All scenes below the folders, in the order of their paths.
+pub struct Corpus {
+    /// Scenes that are meant to be good.
+    pub good: Vec<Seed>,
+    /// Scenes beside which a message stands, `NAME.txt`: they are wrong.
+    pub wrong: Vec<Seed>,
+}
+
+/// Reads the corpus.
 ///
 /// # Errors
 /// When a folder or file cannot be read.
-pub fn read(folders: &[PathBuf]) -> io::Result<Vec<Seed>> {
+pub fn read(folders: &[PathBuf]) -> io::Result<Corpus> {
     let mut files = Vec::new();
     for folder in folders {
         collect(folder, &mut files)?;
     }
     files.sort();
     files.dedup();
-    let mut seeds = Vec::new();
+    let mut corpus = Corpus { good: Vec::new(), wrong: Vec::new() };
     for file in files {
         // Wrong scenes need not be UTF-8; a mutant is.
-        let text = String::from_utf8_lossy(&std::fs::read(file)?).into_owned();
-        seeds.push(Seed { tokens: tokens(&text) });
+        let text = String::from_utf8_lossy(&std::fs::read(&file)?).into_owned();
+        let kind = if file.with_extension("txt").exists() { &mut corpus.wrong } else { &mut corpus.good };
+        kind.push(tokens(&text));
     }
-    Ok(seeds)
+    Ok(corpus)
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {

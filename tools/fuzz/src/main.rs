@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 
-use corpus::Seed;
+use corpus::Corpus;
 use watch::{Break, watch};
 
 /// Scenes per child: few enough that a child lasts some seconds.
@@ -68,7 +68,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let corpus = match corpus::read(&flags.corpus()) {
-        Ok(corpus) if !corpus.is_empty() => corpus,
+        Ok(corpus) if !(corpus.good.is_empty() && corpus.wrong.is_empty()) => corpus,
         Ok(_) => return refuse("there are no scenes to begin with"),
         Err(error) => return refuse(&format!("scenes to begin with cannot be read: {error}")),
     };
@@ -119,7 +119,7 @@ impl<'a> Hunt<'a> {
     }
 
     /// Whether nothing was found.
-    fn go(mut self, corpus: &[Seed]) -> std::io::Result<bool> {
+    fn go(mut self, corpus: &Corpus) -> std::io::Result<bool> {
         let begin = Instant::now();
         let end = Duration::from_secs(self.flags.seconds);
         if self.flags.only.is_empty() {
@@ -165,7 +165,7 @@ impl<'a> Hunt<'a> {
     }
 
     /// Runs one child; returns the number of the next mutant.
-    fn batch(&mut self, corpus: &[Seed], from: u64) -> std::io::Result<u64> {
+    fn batch(&mut self, corpus: &Corpus, from: u64) -> std::io::Result<u64> {
         let mut arguments = vec![format!("--seed={}", self.flags.seed), format!("--batch-from={from}")];
         arguments.extend(self.flags.corpus().iter().map(|path| format!("--corpus={}", path.display())));
         let report = watch(&arguments, &self.scratch)?;

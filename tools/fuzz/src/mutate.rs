@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use crate::corpus::Seed;
+use crate::corpus::{Corpus, Seed};
 use crate::tokens::{Form, Token, closing, joined};
 
 /// No mutant is longer, in bytes.
@@ -101,6 +101,13 @@ impl Chance {
         from[self.below(from.len())]
     }
 
+    /// A scene to begin with: mostly a good one, so that many mutants are still good enough to run.
+    fn seed<'a>(&mut self, corpus: &'a Corpus) -> &'a Seed {
+        let wrong = corpus.good.is_empty() || !corpus.wrong.is_empty() && self.below(8) == 0;
+        let seeds = if wrong { &corpus.wrong } else { &corpus.good };
+        &seeds[self.below(seeds.len())]
+    }
+
     /// A place for which `wanted` holds, if there is one.
     fn place(&mut self, tokens: &[Token], wanted: impl Fn(&Token) -> bool) -> Option<usize> {
         let places: Vec<usize> = (0..tokens.len()).filter(|&place| wanted(&tokens[place])).collect();
@@ -109,17 +116,17 @@ impl Chance {
 }
 
 /// Mutant `number` of a seed: a scene with one to five changes.
-pub fn mutant(corpus: &[Seed], seed: u64, number: u64) -> String {
+pub fn mutant(corpus: &Corpus, seed: u64, number: u64) -> String {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(number);
     let mut chance = Chance(random);
-    let mut scene = corpus[chance.below(corpus.len())].tokens.clone();
+    let mut scene = chance.seed(corpus).clone();
     let changes = 1 + chance.below(5).min(chance.below(5));
     for _ in 0..changes {
         if scene.is_empty() {
             break;
         }
-        let other = &corpus[chance.below(corpus.len())].tokens;
+        let other = chance.seed(corpus);
         change(&mut scene, other, &mut chance);
     }
     let mut text = joined(&scene);
@@ -286,9 +293,9 @@ mod tests {
     use super::*;
     use crate::tokens::tokens;
 
-    fn corpus() -> Vec<Seed> {
+    fn corpus() -> Corpus {
         let scenes = ["Scene(format: 1, clock: (duration: 2), bodies: [(name: \"a\", at: (0, 1))])", "f([1, 2], x: 3)"];
-        scenes.iter().map(|text| Seed { tokens: tokens(text) }).collect()
+        Corpus { good: vec![tokens(scenes[0])], wrong: vec![tokens(scenes[1])] }
     }
 
     #[test]

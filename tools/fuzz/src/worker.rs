@@ -9,7 +9,7 @@ use jostle::Simulation;
 use jostle::cli::{CommandLine, Exit};
 use jostle::scene::Source;
 
-use crate::corpus::Seed;
+use crate::corpus::Corpus;
 use crate::mutate::mutant;
 
 /// Ticks of a short run.
@@ -29,7 +29,7 @@ fn mark(number: u64, word: &str) {
 }
 
 /// Works through `count` mutants from number `from` on.
-pub fn batch(corpus: &[Seed], seed: u64, from: u64, count: u64, scratch: &Path) {
+pub fn batch(corpus: &Corpus, seed: u64, from: u64, count: u64, scratch: &Path) {
     for number in from..from + count {
         one(&mutant(corpus, seed, number), number, scratch);
     }
