@@ -12,6 +12,7 @@ mod watch;
 mod worker;
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -59,6 +60,13 @@ struct Flags {
     child: Option<PathBuf>,
 }
 
+/// Prints a line. Whoever reads no further needs to be told nothing.
+macro_rules! say {
+    ($($words:tt)*) => {
+        let _ = writeln!(std::io::stdout(), $($words)*);
+    };
+}
+
 fn main() -> ExitCode {
     let flags = Flags::parse();
     let scratch = std::env::current_dir().unwrap_or_default();
@@ -84,7 +92,7 @@ fn main() -> ExitCode {
 }
 
 fn refuse(why: &str) -> ExitCode {
-    eprintln!("error: {why}");
+    esay!("error: {why}");
     ExitCode::from(2)
 }
 
@@ -128,7 +136,7 @@ impl<'a> Hunt<'a> {
                 next = self.batch(corpus, next)?;
                 if begin.elapsed() > told + Duration::from_secs(60) {
                     told = begin.elapsed();
-                    println!("{:>6} s: {}", told.as_secs(), self.summary());
+                    say!("{:>6} s: {}", told.as_secs(), self.summary());
                 }
             }
         } else {
@@ -138,17 +146,19 @@ impl<'a> Hunt<'a> {
                 self.tried += 1;
                 match broke {
                     Some(broke) => {
-                        println!("{}: {broke}", scene.display());
+                        say!("{}: {broke}", scene.display());
                         *self.found.entry(broke).or_default() += 1;
                     }
-                    None => println!("{}: good", scene.display()),
+                    None => {
+                        say!("{}: good", scene.display());
+                    }
                 }
             }
         }
         std::fs::remove_dir_all(&self.scratch)?;
-        println!("{}", self.summary());
+        say!("{}", self.summary());
         for (broke, times) in &self.found {
-            println!("  {times} x {broke}");
+            say!("  {times} x {broke}");
         }
         Ok(self.found.is_empty())
     }
@@ -216,7 +226,7 @@ impl<'a> Hunt<'a> {
             return Ok(());
         }
         let seed = self.flags.seed;
-        println!("scene {number} of seed {seed}: {broke}{note}");
+        say!("scene {number} of seed {seed}: {broke}{note}");
         std::fs::create_dir_all(&self.flags.out)?;
         let stem = self.flags.out.join(format!("{}_{seed}_{number}", broke.kind));
         std::fs::write(stem.with_extension("ron"), small)?;
