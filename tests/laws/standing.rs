@@ -134,9 +134,9 @@ fn a_disc_on_a_steep_slope_slides_with_the_acceleration_of_coulomb() {
 #[test]
 fn a_disc_at_rest_gives_way_to_a_new_load() {
     for method in METHODS {
-        for inelasticity in [0.0, 0.3] {
+        for (inelasticity, tangent) in [(0.0, -0.2), (0.3, -0.2), (0.0, 0.0), (0.3, 0.0)] {
             let more = "forces: [Thrust(of: \"disc\", force: (8, 0), from: 2)],";
-            let (friction, tangent) = ("(static: 0.5, dynamic: 0.3)", -0.2);
+            let friction = "(static: 0.5, dynamic: 0.3)";
             let mut simulation = Slope { method, inelasticity, friction, tangent, more, ..PLAIN }.load();
             let mut lost = 0.0;
             for tick in 1..=4000 {
@@ -144,16 +144,20 @@ fn a_disc_at_rest_gives_way_to_a_new_load() {
                 let now = simulation.card().energy.friction;
                 // Sums of a few terms of at most the energy of the spring at its limit.
                 let rounding = 1e-12 * (0.5 * GRAVITY).powi(2) / TANGENTIAL;
-                assert!(now >= lost - rounding, "{method}, mu_e {inelasticity}, tick {tick}: {lost:e} to {now:e}");
+                assert!(
+                    now >= lost - rounding,
+                    "{method}, mu_e {inelasticity}, {tangent}, tick {tick}: {lost:e} to {now:e}"
+                );
                 lost = now;
             }
             let found = simulation.bodies().velocity[0].x;
-            let acceleration = (0.8 - 0.2 - 0.3) * GRAVITY;
-            // It moves through the elastic offset first, from -2 F/k_t to slip at the static limit: on that way it is
-            // slowed by between -0.5 and 0.5 in place of 0.3 of its weight, for the time it takes from rest.
+            let acceleration = (0.8 + tangent - 0.3) * GRAVITY;
+            // It moves through the elastic offset first, from -2 F/k_t at most to slip at the static limit: on that way
+            // it is slowed by between -0.5 and 0.5 in place of 0.3 of its weight, for the time it takes from rest with
+            // the least that is left of the load.
             let way = (2.0 * 0.2 + 0.5) * GRAVITY / TANGENTIAL;
             let time = (2.0 * way / (0.1 * GRAVITY)).sqrt() + TICK;
-            let what = format!("{method}, mu_e {inelasticity}: speed");
+            let what = format!("{method}, mu_e {inelasticity}, pull {tangent}: speed");
             assert_near(&what, found, acceleration * 2.0, 0.8 * GRAVITY * time);
         }
     }

@@ -92,7 +92,7 @@ fn main() -> ExitCode {
 }
 
 fn refuse(why: &str) -> ExitCode {
-    esay!("error: {why}");
+    eprintln!("error: {why}");
     ExitCode::from(2)
 }
 
