@@ -162,3 +162,32 @@ fn a_disc_at_rest_gives_way_to_a_new_load() {
         }
     }
 }
+
+/// A load that comes up slowly, from tick to tick, is noticed too: a heavy body flies past and pulls the disc that
+/// stands. Its pull leaves the cone in the fourth second; from then on the disc slides. Only that it slides is tested,
+/// and with half of the speed by Coulomb at least: the sum of `(pull - 0.5 (weight - lift)) dt` while that is positive.
+#[test]
+fn a_disc_at_rest_gives_way_to_a_load_that_grows() {
+    let (strength, at, velocity) = (2000.0, glam::DVec2::new(50.0, 0.1), glam::DVec2::new(-10.0, 20.0));
+    for method in METHODS {
+        let more = "forces: [Attraction(constant: 2e-3)],";
+        let sun = format!(
+            "(name: \"sun\", at: ({:?}, {:?}), velocity: ({:?}, {:?}), collides: false,
+              atoms: Disc(radius: 1, mass: 1e6))",
+            at.x, at.y, velocity.x, velocity.y
+        );
+        let mut simulation = Slope { method, more, bodies: &sun, ..PLAIN }.load();
+        run_to(&mut simulation, 4.0);
+        let slid: f64 = (0..4000)
+            .map(|tick| {
+                let time = f64::from(tick) * TICK;
+                let away =
+                    at + velocity * time - glam::DVec2::Y * (0.5 * GRAVITY * time * time) - RADIUS * glam::DVec2::Y;
+                let pull = away * (strength / away.length().powi(3));
+                (pull.x - 0.5 * (GRAVITY - pull.y)).max(0.0) * TICK
+            })
+            .sum();
+        let found = simulation.bodies().velocity[0].x;
+        assert!(slid > 1.0 && found > 0.5 * slid, "{method}: {found} m/s, by Coulomb {slid} m/s");
+    }
+}
