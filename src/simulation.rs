@@ -208,8 +208,7 @@ pub(crate) fn begin(
     for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
         finish(world);
     }
-    let ticks =
-        set_clock(world, overrides).map_err(|error| SceneErrors::new(source.clone(), vec![*error], Vec::new()))?;
+    let ticks = set_clock(world, overrides).map_err(|error| scene::found_later(source, *error))?;
     observe_all(world);
     Ok(ticks)
 }
@@ -238,7 +237,7 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Box<SceneE
         }
         (None, Some(tick)) => tick.si(),
         (None, None) => {
-            let (tick, why) = chosen_tick(world.get_resource());
+            let (tick, why) = chosen_tick(world.get_resource())?;
             let tick = tick.min(duration);
             notes.push(format!("tick {tick} s chosen: {why}"));
             tick
@@ -267,7 +266,15 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Box<SceneE
     };
     let exact = duration / dt;
     if exact > MOST_TICKS {
-        let error = SceneError::new("clock", format!("{duration:?} s in ticks of {dt:?} s are {exact:.1e} ticks"));
+        // Behind the largest number a quotient is no number to show.
+        let many = if exact.is_finite() { format!("{exact:.1e} ticks") } else { "beyond counting".to_owned() };
+        let path = match (overrides.duration, overrides.tick) {
+            (Some(_), _) => "--duration",
+            (None, Some(_)) => "--tick",
+            (None, None) if clock.tick.is_some() => "clock.tick",
+            (None, None) => "clock.duration",
+        };
+        let error = SceneError::new(path, format!("{duration:?} s in ticks of {dt:?} s are {many}"));
         return Err(Box::new(
             error.with_help("a run takes at most 1e15 ticks; choose a longer tick or a shorter duration"),
         ));
@@ -299,15 +306,25 @@ fn positive(flag: &str, value: f64) -> Result<f64, Box<SceneError>> {
 }
 
 /// Forty ticks per half period of the stiffest contact, rounded down to 1, 2 or 5 times a power of ten.
-fn chosen_tick(stiffest: Option<&StiffestContact>) -> (f64, &'static str) {
+fn chosen_tick(stiffest: Option<&StiffestContact>) -> Result<(f64, &'static str), Box<SceneError>> {
     let omega = stiffest.map_or(0.0, |stiffest| stiffest.angular_frequency);
     let wanted = std::f64::consts::PI / (TICKS_PER_CONTACT * omega);
     if wanted >= COARSEST_TICK {
-        return (COARSEST_TICK, "nothing in the scene asks for a finer one");
+        return Ok((COARSEST_TICK, "nothing in the scene asks for a finer one"));
+    }
+    if !wanted.is_normal() {
+        let error = SceneError::new(
+            "clock",
+            format!("no tick is short enough for the stiffest contact, which vibrates at {omega:?} rad/s"),
+        );
+        return Err(Box::new(error.with_help("give the bodies less `stiffness` or more mass, or give a `tick`")));
     }
     let exponent = wanted.log10().floor() as i32;
     let decade = libm::exp10(f64::from(exponent));
     let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= wanted).unwrap_or(1.0);
     // Read back from decimal digits, so that 2e-4 is the same number as in a scene.
-    (format!("{step}e{exponent}").parse().unwrap_or(step * decade), "the stiffest contact lasts at least 40 of them")
+    Ok((
+        format!("{step}e{exponent}").parse().unwrap_or(step * decade),
+        "the stiffest contact lasts at least 40 of them",
+    ))
 }

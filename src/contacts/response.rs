@@ -1,6 +1,6 @@
 //! How fast bodies that touch respond: the largest angular frequency of all contact springs together.
 //!
-//! With the springs' rows `j` (normal and tangential, lever arms included), stiffnesses `k` and the masses `M` the
+//! With the springs' rows `j` (normal, tangential and rolling, lever arms included), stiffnesses `k` and the masses `M` the
 //! motion of small displacements is `K phi = omega^2 M phi`, `K = sum k j j^T`. A method that is stable up to
 //! `omega dt = limit` bears no longer tick than `limit/omega_max`. Springs that hold one body together are faster than
 //! each of them alone, springs off its centre faster than `k/m` says.
@@ -33,6 +33,8 @@ pub struct Spring {
     pub stiffness: (f64, f64),
     /// What damping along the normal adds to the stiffness as the method feels it, in N/m.
     pub damped: f64,
+    /// Stiffness against turning one side over the other, in N m.
+    pub turning: f64,
 }
 
 /// A velocity and spin, or a force and torque; scaled by the roots of mass and inertia.
@@ -132,7 +134,11 @@ impl Springs {
             let times = if a != NOBODY && b != NOBODY { 2.0 } else { 1.0 };
             for (slot, mobility) in [(a, of_a), (b, of_b)] {
                 if let Some(sum) = self.sums.get_mut(slot as usize) {
-                    *sum += times * ((normal + spring.damped) * mobility.0 + across * mobility.1);
+                    let inertia = self.roots[slot as usize].1;
+                    *sum += times
+                        * ((normal + spring.damped) * mobility.0
+                            + across * mobility.1
+                            + spring.turning * inertia * inertia);
                 }
             }
         }
@@ -189,11 +195,14 @@ impl Springs {
             let apart = velocity(b, spring.b.1) - velocity(a, arm_a);
             let along = spring.normal * apart.dot(spring.normal);
             let force = along * (spring.stiffness.0 + spring.damped) + (apart - along) * spring.stiffness.1;
-            for (slot, arm, force) in [(a, arm_a, -force), (b, spring.b.1, force)] {
+            let turn =
+                |slot: u32| from.get(slot as usize).map_or(0.0, |side| side.angular * self.roots[slot as usize].1);
+            let torque = spring.turning * (turn(b) - turn(a));
+            for (slot, arm, force, torque) in [(a, arm_a, -force, -torque), (b, spring.b.1, force, torque)] {
                 if let Some(side) = to.get_mut(slot as usize) {
                     let (mass, inertia) = self.roots[slot as usize];
                     side.linear += force * mass;
-                    side.angular += arm.perp_dot(force) * inertia;
+                    side.angular += (arm.perp_dot(force) + torque) * inertia;
                 }
             }
         }
@@ -284,6 +293,7 @@ mod tests {
                 normal,
                 stiffness,
                 damped: 10.0 * digit(9 * number),
+                turning: digit(13 * number),
             }
         };
         ((0..3 * count).map(spring).collect(), bodies)

@@ -1,5 +1,5 @@
-//! The broad phase: who may touch whom. Bounding boxes are swept along x (sort and sweep: Cohen, Lin, Manocha, Ponamgi
-//! 1995), atoms of overlapping boxes are compared one by one.
+//! The broad phase: who may touch whom. Bounding boxes are swept along the axis along which they spread farther (sort
+//! and sweep: Cohen, Lin, Manocha, Ponamgi 1995), atoms of overlapping boxes are compared one by one.
 //!
 //! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. When the
 //! list is made anew every pair that was in the old one is told its old place, so that whoever keeps history beside
@@ -7,6 +7,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 
 use crate::bounds::{self, Bounds};
 use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
@@ -125,14 +126,17 @@ fn carry<P: Ord + Copy>(new: &[P], old: &[P], renamed: impl Fn(P) -> Option<P>) 
 fn atom_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {
     let touching = |&body: &usize| bodies.collides[body] && !bodies.atoms_of(body).is_empty();
     let mut order: Vec<usize> = (0..bodies.len()).filter(touching).collect();
-    order.sort_by(|&a, &b| bounds.low[a].x.total_cmp(&bounds.low[b].x));
+    let axis = wider_axis(bounds, &order);
+    let across = 1 - axis;
+    order.sort_by(|&a, &b| bounds.low[a][axis].total_cmp(&bounds.low[b][axis]));
     let mut pairs = Vec::new();
     for (rank, &first) in order.iter().enumerate() {
         for &second in &order[rank + 1..] {
-            if bounds.low[second].x > bounds.high[first].x {
+            if bounds.low[second][axis] > bounds.high[first][axis] {
                 break;
             }
-            let apart = bounds.low[second].y > bounds.high[first].y || bounds.low[first].y > bounds.high[second].y;
+            let apart = bounds.low[second][across] > bounds.high[first][across]
+                || bounds.low[first][across] > bounds.high[second][across];
             if !apart && (bodies.dynamic[first] || bodies.dynamic[second]) {
                 compare_atoms(bodies, bounds, first.min(second), first.max(second), &mut pairs);
             }
@@ -140,6 +144,15 @@ fn atom_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {
     }
     pairs.sort_unstable();
     pairs
+}
+
+/// The axis along which boxes spread farther: 0 for x, 1 for y. A tall pile swept along x would be compared each with
+/// each. The list of pairs is sorted afterwards and does not depend on it.
+fn wider_axis(bounds: &Bounds, bodies: &[usize]) -> usize {
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) =
+        bodies.iter().fold(none, |(low, high), &body| (low.min(bounds.low[body]), high.max(bounds.low[body])));
+    usize::from((high - low).y > (high - low).x)
 }
 
 fn compare_atoms(bodies: &Bodies, bounds: &Bounds, first: usize, second: usize, pairs: &mut Vec<AtomPair>) {

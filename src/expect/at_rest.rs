@@ -27,6 +27,7 @@ impl Entry for AtRest {
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);
+        report.not_negative("from", self.from.si());
         report.positive("speed_below", self.speed_below.si());
     }
 

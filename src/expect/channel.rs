@@ -29,6 +29,7 @@ impl Entry for Channel {
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         sensors::check_channel(&self.name, "name", outline, report);
+        report.not_negative("from", self.from.si());
         report.positive("below", self.below.si());
     }
 

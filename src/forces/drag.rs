@@ -33,6 +33,9 @@ impl Entry for Drag {
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.not_negative("linear", self.linear);
         report.not_negative("quadratic", self.quadratic);
+        if self.linear.si() == 0.0 && self.quadratic.si() == 0.0 {
+            report.error("", "this drag slows nothing").help("give `linear` or `quadratic`, or remove it");
+        }
         check_targets(self.of.as_ref(), outline, report);
     }
 

@@ -125,7 +125,10 @@ impl Walked<'_> {
                 SceneError::new(self.path(parent), message).at(key, "no name here").with_help(for_example)
             }
             Error::InvalidValueForType { expected, .. } => wrong(behind, expected),
-            Error::ExpectedDifferentLength { expected, .. } => wrong(at, expected),
+            Error::ExpectedDifferentLength { expected, .. } => {
+                let count = expected.strip_prefix("a tuple of size ");
+                wrong(at, &count.map_or(expected.clone(), |count| format!("{count} values in round brackets")))
+            }
             Error::Message(message) => {
                 SceneError::new(self.path(behind), message.clone()).at(self.tree.head_or_value(behind), "this value")
             }

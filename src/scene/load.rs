@@ -74,6 +74,21 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
     Ok(header)
 }
 
+/// One mistake that only turned out when the scene was put together, at its place in the text.
+pub(crate) fn found_later(source: &Source, mut error: SceneError) -> SceneErrors {
+    let found = scan(&source.text);
+    let is_flag = error.path.starts_with("--");
+    if let Some(place) = found.tree.find(&error.path, &source.text).filter(|_| !is_flag) {
+        let (span, label) = if place.whole {
+            (found.tree.head_or_value(place.node), "this value")
+        } else {
+            (found.tree.head(place.node), "in here")
+        };
+        error = error.at(span, label);
+    }
+    SceneErrors::new(source.clone(), vec![error], Vec::new())
+}
+
 struct WholeSection {
     order: usize,
     scope: String,

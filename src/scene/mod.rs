@@ -71,6 +71,7 @@ pub mod units;
 pub mod values;
 
 pub use error::{SceneError, SceneErrors};
+pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub use outline::{Kind, Mention, Obstacle, Outline};
 pub use registry::{Arity, SceneAppExt, SceneRegistry};

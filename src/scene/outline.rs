@@ -43,7 +43,7 @@ impl Kind {
         self.noun
     }
 
-    fn plural(self) -> Cow<'static, str> {
+    pub(crate) fn plural(self) -> Cow<'static, str> {
         match self.noun.strip_suffix('y') {
             Some(stem) => format!("{stem}ies").into(),
             None => format!("{}s", self.noun).into(),
@@ -191,7 +191,16 @@ impl Outline {
     pub fn require(&self, kind: Kind, name: &str, path: &str, report: &mut Report) -> Option<usize> {
         let found = self.position(kind, name);
         if found.is_none() {
-            self.report_unknown(kind, name, path, report);
+            self.report_unknown(&[kind], name, path, report);
+        }
+        found
+    }
+
+    /// Whether one thing of these kinds has the name; if none has, that is reported at `path`.
+    pub fn require_any(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Report) -> bool {
+        let found = kinds.iter().any(|&kind| self.position(kind, name).is_some());
+        if !found {
+            self.report_unknown(kinds, name, path, report);
         }
         found
     }
@@ -200,26 +209,29 @@ impl Outline {
     pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Report) -> Vec<usize> {
         let found = self.matching(kind, pattern);
         if found.is_empty() {
-            self.report_unknown(kind, pattern, path, report);
+            self.report_unknown(&[kind], pattern, path, report);
         }
         found
     }
 
-    fn report_unknown(&self, kind: Kind, name: &str, path: &str, report: &mut Report) {
+    fn report_unknown(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Report) {
         if !self.complete {
             return;
         }
-        let noun = kind.noun;
-        let message = if name.contains('*') {
+        let noun = kinds.iter().map(|kind| kind.noun).collect::<Vec<_>>().join(" or ");
+        let plural = kinds.iter().map(|kind| kind.plural()).collect::<Vec<_>>().join(" and ");
+        let message = if kinds.iter().any(|&kind| !self.matching(kind, name).is_empty()) {
+            format!("expected the name of one {noun}, found the choice \"{name}\"")
+        } else if name.contains('*') {
             format!("no {noun} has a name that fits \"{name}\"")
         } else {
             format!("there is no {noun} named \"{name}\"")
         };
-        let names = self.names(kind);
+        let names: Vec<&str> = kinds.iter().flat_map(|&kind| self.names(kind)).map(String::as_str).collect();
         let help = if names.is_empty() {
-            format!("this scene has no {}", kind.plural())
+            format!("this scene has no {plural}: add one of that name, or remove this")
         } else {
-            suggest::among(name, names.iter().map(String::as_str), &kind.plural(), '"')
+            suggest::among(name, names.into_iter(), &plural, '"')
         };
         report.error(path, message).help(help);
     }

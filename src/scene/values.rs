@@ -131,6 +131,10 @@ impl Names {
 
     /// The places of all names that fit, each once, in canonical order. A pattern that fits nothing is reported.
     pub fn require(&self, kind: Kind, outline: &Outline, path: &str, report: &mut Report) -> Vec<usize> {
+        if self.patterns.is_empty() {
+            let help = format!("write `{path}: [\"*\"]` for all {}", kind.plural());
+            report.error(path, format!("must name at least one {}, or `*`", kind.noun())).help(help);
+        }
         let mut found = Vec::new();
         for (index, pattern) in self.patterns.iter().enumerate() {
             let path = if self.listed { format!("{path}[{index}]") } else { path.to_owned() };

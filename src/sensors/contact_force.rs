@@ -27,9 +27,7 @@ impl Entry for ContactForce {
     const EXAMPLE: &'static str = "ContactForce(on: \"floor\")";
 
     fn check(&self, outline: &Outline, report: &mut Report) {
-        if outline.position(Kind::WALL, &self.on).is_none() {
-            outline.require(Kind::BODY, &self.on, "on", report);
-        }
+        outline.require_any(&[Kind::WALL, Kind::BODY], &self.on, "on", report);
     }
 
     fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {

@@ -88,10 +88,8 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Rep
     };
     if ["energy", "overlap"].contains(&owner) {
         Word(name.to_owned()).check(outline, CHANNELS, path, report);
-    } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report)
-        && outline.position(Kind::WALL, owner).is_none()
-    {
-        outline.require(Kind::BODY, owner, path, report);
+    } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report) {
+        outline.require_any(&[Kind::WALL, Kind::BODY], owner, path, report);
     }
 }
 

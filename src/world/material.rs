@@ -396,7 +396,8 @@ impl Section for PairsSection {
                 }
                 if let Some(first) = seen.insert((a.min(b), a.max(b)), index) {
                     let message = format!("the pair of \"{a}\" and \"{b}\" stands here twice");
-                    report.error("between", message).also(format!("pairs[{first}].between"), "the first time");
+                    let twice = report.error("between", message);
+                    twice.also(format!("pairs[{first}].between"), "the first time").help("keep one of the two");
                 }
             });
         }

@@ -29,3 +29,6 @@ mod rotation;
 mod scales;
 mod slope;
 mod stability;
+mod standing;
+mod sticking;
+mod uniform_motion;

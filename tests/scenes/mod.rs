@@ -1,4 +1,6 @@
 //! The scenes that come with the program, and films of them.
 
+mod extremes;
 mod film;
 mod shipped;
+mod wrong;

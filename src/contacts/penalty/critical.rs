@@ -9,6 +9,7 @@
 use super::apply::{End, PenaltyContacts, arms};
 use super::law::PairLaw;
 use super::normal::NormalForce;
+use super::rolling;
 use crate::contacts::response::{Spring, Springs};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::{Balance, Briefest, Clock, Fastest, Responses, Stability};
@@ -124,6 +125,7 @@ impl PenaltyContacts {
         pairs: &CandidatePairs,
         weight: f64,
     ) -> impl Iterator<Item = Spring> {
+        let ratio = self.settings.rolling.ratio().unwrap_or(0.0);
         let stiffness = move |law: &PairLaw, mobility: f64| {
             let (stiffness, damping) = N::response(law, mobility);
             (stiffness, law.held_across(), damping * weight)
@@ -136,8 +138,10 @@ impl PenaltyContacts {
             let (arm_a, arm_b) = arms((&a, &b), touching.normal, contact.overlap, law);
             let mobility = a.mobility(bodies, touching.normal) + b.mobility(bodies, touching.normal);
             let (stiffness, across, damped) = stiffness(law, mobility);
+            let radius = rolling::rolling_radius(Some(&a), &b);
             let (a, b) = (Some((a.body, arm_a)), (b.body, arm_b));
-            Spring { a, b, normal: touching.normal, stiffness: (stiffness, across), damped }
+            let turning = rolling::stiffness(ratio, law.stiffness, radius);
+            Spring { a, b, normal: touching.normal, stiffness: (stiffness, across), damped, turning }
         });
         let walls = self.touching_walls.iter().map(move |touching| {
             let WallPair { atom, .. } = pairs.walls[touching.place as usize];
@@ -146,7 +150,9 @@ impl PenaltyContacts {
             let arm = end.arm - touching.normal * (end.radius - contact.overlap);
             let law = self.laws.get(contact.law);
             let (stiffness, across, damped) = stiffness(law, end.mobility(bodies, touching.normal));
-            Spring { a: None, b: (end.body, arm), normal: touching.normal, stiffness: (stiffness, across), damped }
+            let turning = rolling::stiffness(ratio, law.stiffness, rolling::rolling_radius(None, &end));
+            let b = (end.body, arm);
+            Spring { a: None, b, normal: touching.normal, stiffness: (stiffness, across), damped, turning }
         });
         atoms.chain(walls)
     }

@@ -210,7 +210,7 @@ impl Candidate {
 
     /// Sets the normal force to what is wanted, as far as its band allows. Returns the change over what counts as rounding.
     fn set_normal(&mut self, movers: &mut [Mover], wanted: f64, dt: f64) -> f64 {
-        let force = wanted.clamp(self.band.0, self.band.1);
+        let force = nearest(wanted, self.band);
         self.at_limit = force != wanted;
         let change = force - self.normal_force;
         self.normal_force = force;
@@ -221,7 +221,7 @@ impl Candidate {
     fn set_bounded(&mut self, movers: &mut [Mover], place: usize, wanted: f64, dt: f64) -> f64 {
         let bounded = &mut self.bounded[place];
         let limit = bounded.coefficient * self.normal_force;
-        let force = wanted.clamp(-limit, limit);
+        let force = nearest(wanted, (-limit, limit));
         bounded.at_limit = force != wanted;
         let change = force - bounded.force;
         bounded.force = force;
@@ -249,6 +249,12 @@ impl Candidate {
         let [tangential, rolling] = [held(&self.bounded[0]), held(&self.bounded[1])];
         Verdict::Rests { normal: self.normal_force, tangential, rolling, entirely }
     }
+}
+
+/// The force nearest to the one wanted within its bounds. Where overlaps have grown beyond all numbers the bounds are
+/// none: the force then is none either, and the run ends with that.
+fn nearest(wanted: f64, (least, greatest): (f64, f64)) -> f64 {
+    if least <= greatest { wanted.clamp(least, greatest) } else { f64::NAN }
 }
 
 /// Finds the forces of an island of candidates for the `dt` seconds to come. `movers` hold the velocities at their end

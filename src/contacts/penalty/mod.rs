@@ -112,6 +112,15 @@ pub enum RollingLaw {
     },
 }
 
+impl RollingLaw {
+    fn ratio(self) -> Option<f64> {
+        match self {
+            Self::None => None,
+            Self::Spring { ratio, .. } => Some(ratio),
+        }
+    }
+}
+
 fn default_ratio() -> f64 {
     0.8
 }
@@ -244,6 +253,7 @@ fn note_limits(world: &mut World) {
 /// `g/2 + sqrt(g^2/4 + omega^2)` (see [`Stability::damping_limit`]).
 fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, settings: &Penalty) -> StiffestContact {
     let ratio = settings.tangential.ratio().filter(|_| materials.any_friction()).unwrap_or(0.0);
+    let turning = settings.rolling.ratio().unwrap_or(0.0);
     let weight = Stability::default().weight_of_damping();
     let mut law = PairLaw::default();
     N::set_up(&mut law, materials.largest_inelasticity(), settings);
@@ -253,7 +263,9 @@ fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, sett
         let mobility = |arm: f64| bodies.inverse_mass[body] + arm * arm * bodies.inverse_inertia[body];
         law.stiffness = bodies.atom_stiffness[atom];
         let (stiffness, damping) = N::response(&law, mobility(distance));
-        let across = ratio * law.stiffness * mobility(distance + bodies.atom_radius[atom]);
+        let radius = bodies.atom_radius[atom];
+        let rolling = rolling::stiffness(turning, law.stiffness, radius) * bodies.inverse_inertia[body];
+        let across = ratio * law.stiffness * mobility(distance + radius) + rolling;
         let damped = 0.5 * weight * damping * mobility(distance);
         damped + (damped * damped + stiffness * mobility(distance) + across).sqrt()
     };

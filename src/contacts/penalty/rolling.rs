@@ -41,10 +41,10 @@ impl RollingContacts {
     /// The law of a pair: torques in N m over angles in radians.
     #[inline]
     pub(super) fn law(&self, pair: &PairLaw, a: Option<&End>, b: &End) -> SliderLaw {
-        let radius = a.map_or(b.radius, |a| 1.0 / (1.0 / a.radius + 1.0 / b.radius));
+        let radius = rolling_radius(a, b);
         let coefficient = self.friction * radius;
         SliderLaw {
-            stiffness: self.ratio * pair.stiffness * radius * radius,
+            stiffness: stiffness(self.ratio, pair.stiffness, radius),
             friction_static: coefficient,
             friction_dynamic: coefficient,
         }
@@ -67,17 +67,30 @@ impl RollingContacts {
     }
 }
 
-/// `torque` acts on side A, the opposite on side B. What does not move by forces gives or takes it from outside.
+/// In metres; `None` is a wall.
+#[inline]
+pub(super) fn rolling_radius(a: Option<&End>, b: &End) -> f64 {
+    a.map_or(b.radius, |a| 1.0 / (1.0 / a.radius + 1.0 / b.radius))
+}
+
+/// Stiffness of a rolling spring in N m.
+#[inline]
+pub(super) fn stiffness(ratio: f64, normal: f64, radius: f64) -> f64 {
+    ratio * normal * radius * radius
+}
+
+/// `torque` acts on side A, the opposite on side B. What does not move by forces gives it from outside, and
+/// works as it turns.
 pub(super) fn twist(bodies: &mut Bodies, balance: &mut Balance, a: Option<&End>, b: &End, torque: f64) {
     bodies.torque[b.body] -= torque;
     match a {
         Some(a) => {
             bodies.torque[a.body] += torque;
-            if !bodies.dynamic[a.body] {
-                balance.outside(DVec2::ZERO, DVec2::ZERO, -torque);
-            }
-            if !bodies.dynamic[b.body] {
-                balance.outside(DVec2::ZERO, DVec2::ZERO, torque);
+            for (end, given) in [(a, -torque), (b, torque)] {
+                if !bodies.dynamic[end.body] {
+                    balance.outside(DVec2::ZERO, DVec2::ZERO, given);
+                    balance.work += given * bodies.spin[end.body];
+                }
             }
         }
         None => balance.outside(DVec2::ZERO, DVec2::ZERO, -torque),

@@ -40,7 +40,7 @@ impl Scanner<'_> {
                 let bare = word.trim_matches('"');
                 return Err(self
                     .fault("field names stand without quotes", before.clone(), "a field name in quotes")
-                    .help(format!("write `{bare}: ..`")));
+                    .help(format!("write `{bare}: ..`; where you choose the names, `{{ \"{bare}\": .. }}`")));
             }
         }
         if before_form == Some(Form::Word) && matches!(found, '[' | '{') {
@@ -105,8 +105,17 @@ impl Scanner<'_> {
             let fault = self.fault("decimals take a point, not a comma", span, "two numbers");
             return Err(self.about(before, fault).help(format!("write `{number}.{decimals}`")));
         }
+        if self.text[self.token().start..].starts_with('#') {
+            return Err(self.no_comment());
+        }
         let fault = self.fault("expected a field name and `:`", self.token(), "no field name");
         Err(fault.help("every field here has a name, as in `name: value`"))
+    }
+
+    /// A comment as other languages write them.
+    fn no_comment(&self) -> Box<SceneError> {
+        let fault = self.fault("`#` begins no comment here", self.token(), "not expected here");
+        fault.help("comments begin with `//` and last to the end of the line")
     }
 
     pub(super) fn unclosed(&self) -> Box<SceneError> {
@@ -129,9 +138,14 @@ impl Scanner<'_> {
                 .fault(&format!("`{name}` has no value"), key.clone(), "a value is missing after this")
                 .help(format!("write `{name}: ..`, or remove it"));
         }
+        if found == '#' {
+            return self.no_comment();
+        }
         let span = self.token();
         let help = if found == ',' {
             "one comma is enough"
+        } else if matches!(found, '“' | '”' | '„' | '«' | '»' | '‘' | '’') {
+            "texts stand between straight double quotes: write `\"..\"`"
         } else {
             "a value is a number, a \"text\", a word, `(..)`, `[..]` or `{..}`"
         };

@@ -13,8 +13,9 @@ use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
 use crate::world::{material, sections};
 
-/// The largest number of bodies of all entries together.
-pub const LARGEST_COUNT: u64 = 1_000_000;
+/// The largest number of bodies of all entries together. A body takes some 1.3 kB, and a film reads its scene twice: this
+/// many stay well below 1 GiB.
+pub const LARGEST_COUNT: u64 = 200_000;
 /// How often a place is tried for one body before the box counts as full.
 const TRIES: usize = 20_000;
 /// Cells of the search grid along one side, at most.
@@ -164,7 +165,8 @@ impl FillEntry {
         if !(low.x <= high.x && low.y <= high.y) {
             return placed;
         }
-        let mut grid = Grid::new(low, high, radius);
+        let standing = taken.len() as u64 + self.count.0.min(LARGEST_COUNT);
+        let mut grid = Grid::new(low, high, radius, standing);
         for obstacle in taken {
             grid.insert(*obstacle);
         }
@@ -193,15 +195,20 @@ struct Grid {
     rows: usize,
     radius: f64,
     near: Vec<Vec<Obstacle>>,
+    /// What concerns every cell.
+    walls: Vec<Obstacle>,
 }
 
 impl Grid {
-    fn new(low: DVec2, high: DVec2, radius: f64) -> Self {
+    /// A grid for a box in which `standing` bodies stand in the end: it has no more cells along a side than there are
+    /// bodies, and not many more in all.
+    fn new(low: DVec2, high: DVec2, radius: f64, standing: u64) -> Self {
         let size = high - low;
-        let count = |length: f64| ((length / (2.0 * radius)) as usize).clamp(1, CELLS);
+        let most = ((4.0 * standing as f64).sqrt() as usize).clamp(1, CELLS);
+        let count = |length: f64| ((length / (2.0 * radius)) as usize).clamp(1, most);
         let (columns, rows) = (count(size.x), count(size.y));
         let cell = size / DVec2::new(columns as f64, rows as f64);
-        Self { low, high, cell, columns, rows, radius, near: vec![Vec::new(); columns * rows] }
+        Self { low, high, cell, columns, rows, radius, near: vec![Vec::new(); columns * rows], walls: Vec::new() }
     }
 
     fn column_and_row(&self, at: DVec2) -> (usize, usize) {
@@ -212,7 +219,10 @@ impl Grid {
     fn insert(&mut self, obstacle: Obstacle) {
         let (low, high) = match obstacle {
             Obstacle::Disc { center, radius } => (center - radius - self.radius, center + radius + self.radius),
-            Obstacle::Wall { .. } => (self.low, self.high),
+            Obstacle::Wall { .. } => {
+                self.walls.push(obstacle);
+                return;
+            }
         };
         // A body far outside the box concerns none of its cells.
         if low.x > self.high.x || low.y > self.high.y || high.x < self.low.x || high.y < self.low.y {
@@ -229,7 +239,7 @@ impl Grid {
 
     fn is_free(&self, at: DVec2) -> bool {
         let (column, row) = self.column_and_row(at);
-        self.near[row * self.columns + column].iter().all(|obstacle| match *obstacle {
+        self.walls.iter().chain(&self.near[row * self.columns + column]).all(|obstacle| match *obstacle {
             Obstacle::Disc { center, radius } => center.distance(at) >= radius + self.radius,
             Obstacle::Wall { left, right } => {
                 // The open side is to the left of one who goes from the right point to the left point.
@@ -274,6 +284,18 @@ mod tests {
             assert!(placed[..index].iter().all(|other| other.position.distance(body.position) >= 0.04));
             assert!((body.velocity.length() - 3.0).abs() < 1e-14);
         }
+    }
+
+    /// Neither many walls nor many entries may take memory and time for cells in which nothing stands.
+    #[test]
+    fn a_grid_is_not_much_larger_than_what_stands_in_it() {
+        let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 10);
+        assert_eq!(grid.near.len(), 36);
+        for _ in 0..1000 {
+            grid.insert(Obstacle::Wall { left: DVec2::X, right: DVec2::ZERO });
+        }
+        assert!(grid.near.iter().all(Vec::is_empty));
+        assert!(grid.is_free(DVec2::new(5.0, 1e-3)) && !grid.is_free(DVec2::new(5.0, 0.9e-3)));
     }
 
     #[test]

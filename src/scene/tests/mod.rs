@@ -3,13 +3,7 @@
 mod display;
 mod plugins;
 mod reading;
-mod wrong_bodies;
-mod wrong_fields;
-mod wrong_kinds;
-mod wrong_names;
-mod wrong_separators;
-mod wrong_text;
-mod wrong_values;
+mod wrong;
 
 use bevy_app::App;
 

@@ -1,0 +1,58 @@
+//! The scenes that mutants are made from: every `.ron` file below the folders given.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::tokens::{Token, tokens};
+
+/// Scenes larger than this many bytes are left out: they would only make every mutant slow.
+const LARGEST: u64 = 20_000;
+
+/// A scene in tokens: the pieces, blanks and comments included.
+pub type Seed = Vec<Token>;
+
+/// All scenes below the folders, in the order of their paths.
+pub struct Corpus {
+    /// Scenes that are meant to be good.
+    pub good: Vec<Seed>,
+    /// Scenes beside which a message stands, `NAME.txt`: they are wrong.
+    pub wrong: Vec<Seed>,
+}
+
+/// Reads the corpus.
+///
+/// # Errors
+/// When a folder or file cannot be read.
+pub fn read(folders: &[PathBuf]) -> io::Result<Corpus> {
+    let mut files = Vec::new();
+    for folder in folders {
+        collect(folder, &mut files)?;
+    }
+    files.sort();
+    files.dedup();
+    let mut corpus = Corpus { good: Vec::new(), wrong: Vec::new() };
+    for file in files {
+        // Wrong scenes need not be UTF-8; a mutant is.
+        let text = String::from_utf8_lossy(&std::fs::read(&file)?).into_owned();
+        let kind = if file.with_extension("txt").exists() { &mut corpus.wrong } else { &mut corpus.good };
+        kind.push(tokens(&text));
+    }
+    Ok(corpus)
+}
+
+fn collect(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+    let about = std::fs::metadata(path)?;
+    if about.is_dir() {
+        for entry in std::fs::read_dir(path)? {
+            let entry = entry?.path();
+            let hidden = entry.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            // Build results are no scenes.
+            if !hidden && entry.file_name().is_none_or(|name| name != "target") {
+                collect(&entry, files)?;
+            }
+        }
+    } else if path.extension().is_some_and(|ending| ending == "ron") && about.len() <= LARGEST {
+        files.push(path.to_owned());
+    }
+    Ok(())
+}
