@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::Exit;
 use super::load::Request;
-use super::say::{count, number, print_line, say};
+use super::say::{count, print_line, say};
 use crate::expect::Outcome;
 use crate::report::Card;
+use crate::report::card::number;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
@@ -80,20 +81,15 @@ fn remedy(card: &Card) -> String {
         Some(critical) if card.tick > critical => format!(
             "the tick of {} s is longer than the contacts can bear, {} s: try `--tick {}`",
             number(card.tick),
-            one_digit(critical),
-            one_digit(critical / 10.0)
+            number(critical),
+            number(card.advised_tick())
         ),
         _ => format!(
             "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near \
              zero, for a plugin that does not book its work, or try `--tick {}`",
-            one_digit(card.tick / 10.0)
+            number(card.advised_tick())
         ),
     }
-}
-
-/// A number in its first digit: what stands here is advice, not measurement.
-fn one_digit(value: f64) -> String {
-    number(format!("{value:.0e}").parse().unwrap_or(value))
 }
 
 /// A body in `--json`.
@@ -142,18 +138,6 @@ fn print_json(scene: &str, simulation: &Simulation, card: &Card, expect: &[Outco
         Err(error) => {
             say(&format!("error: the result cannot be written as JSON: {error}"));
             Exit::RunWrong
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::one_digit;
-
-    #[test]
-    fn advice_has_one_digit() {
-        for (value, digit) in [(9.1e-5, "9e-5"), (0.00123, "0.001"), (1e-3 / 10.0, "0.0001"), (0.96, "1")] {
-            assert_eq!(one_digit(value), digit);
         }
     }
 }

@@ -6,6 +6,7 @@ use std::fmt;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
+use super::advice::Known;
 use super::energy::EnergyLedger;
 use super::warnings::{FEWEST_TICKS, warnings};
 use crate::contacts::{DeepestOverlap, StiffestContact};
@@ -122,9 +123,6 @@ impl Card {
         let critical_tick = critical_tick.or(possible.map(|frequency| limit / frequency));
         let shortest_contact = responses.briefest.map(|brief| brief.duration());
         let shortest_contact = shortest_contact.or(possible.map(|frequency| PI / frequency));
-        let warnings = warnings(world);
-        let mut notes = world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone());
-        notes.extend(warnings.iter().map(|warning| format!("warning: {warning}")));
         let energy = EnergyLedger::of(world);
         let ledger = world.resource::<Ledger>();
         let now = Totals::of(world);
@@ -148,8 +146,8 @@ impl Card {
             ns_per_atom_tick: seconds_spent * 1e9 / atoms,
             hash: format!("{:016x}", state_hash(bodies)),
             verdict: String::new(),
-            notes,
-            warnings,
+            notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
+            warnings: Vec::new(),
             error: None,
             shortest_contact,
             ticks: clock.ticks,
@@ -157,6 +155,8 @@ impl Card {
             seconds_spent,
             energy_scale: energy.turned_over(world),
         };
+        card.warnings = warnings(world, card.advised_tick());
+        card.notes.extend(card.warnings.iter().map(|warning| format!("warning: {warning}")));
         card.verdict = card.judge();
         card
     }
@@ -166,10 +166,18 @@ impl Card {
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
     }
 
+    /// The tick in seconds that this run is advised to try next.
+    pub fn advised_tick(&self) -> f64 {
+        self.known().advised_tick()
+    }
+
+    fn known(&self) -> Known {
+        let Self { tick, critical_tick: critical, shortest_contact, largest_travel_share: travel, .. } = *self;
+        Known { tick, critical, shortest_contact, travel }
+    }
+
     fn judge(&self) -> String {
-        // Twenty ticks per radian of the stiffest contact are plenty, however far the tick is from that.
-        let finer = self.critical_tick.map_or(self.tick, |critical| self.tick.min(critical / 5.0));
-        let finer = format!("--tick {}", finer_tick(finer));
+        let finer = format!("--tick {}", number(self.advised_tick()));
         if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
             return format!("Do not trust it: numbers are no longer finite. Use {finer} or finer.");
         }
@@ -206,15 +214,6 @@ impl Card {
         }
         format!("Trust it: energy is accounted for to {error}; {finer} would show whether anything changes.")
     }
-}
-
-/// A tick four times as fine, in as few digits as possible.
-pub(super) fn finer_tick(tick: f64) -> f64 {
-    let quarter = tick / 4.0;
-    let decade = 10f64.powf(quarter.log10().floor());
-    let rounded = (quarter / decade * 4.0).round() / 4.0 * decade;
-    // The shortest decimal that is the same to a few parts in 1e12.
-    format!("{rounded:.12e}").parse().unwrap_or(quarter)
 }
 
 fn percent(share: f64) -> String {
@@ -307,14 +306,16 @@ fn parts(parts: &[(&str, f64)]) -> String {
 }
 
 /// A number in at most five digits, as people write it.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
+    let short = |text: &str| {
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
+    };
     if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
         let digits = (4 - value.abs().max(1e-300).log10().floor() as i32).clamp(0, 8) as usize;
-        let text = format!("{value:.digits$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    } else {
-        format!("{value:.4e}")
+        return short(&format!("{value:.digits$}"));
     }
+    let text = format!("{value:.4e}");
+    text.split_once('e').map_or_else(|| text.clone(), |(digits, exponent)| format!("{}e{exponent}", short(digits)))
 }
 
 #[cfg(test)]
@@ -322,17 +323,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_finer_tick_has_few_digits() {
-        for (tick, finer) in [(1e-3, 2.5e-4), (2e-3, 5e-4), (1e-2, 2.5e-3), (4e-4, 1e-4)] {
-            assert_eq!(finer_tick(tick), finer);
-        }
-    }
-
-    #[test]
     fn numbers_are_written_as_people_do() {
         assert_eq!(number(20.0), "20");
         assert_eq!(number(0.001), "0.001");
         assert_eq!(number(0.0123456), "0.012346");
-        assert_eq!(number(1.5e-7), "1.5000e-7");
+        assert_eq!(number(1.5e-7), "1.5e-7");
+        assert_eq!(number(5e-7), "5e-7");
     }
 }

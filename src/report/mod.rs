@@ -1,7 +1,8 @@
 //! How wrong the result is.
 
+mod advice;
 pub mod card;
 pub mod energy;
-pub mod warnings;
+mod warnings;
 
 pub use card::Card;

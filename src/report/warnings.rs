@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 
-use super::card::{finer_tick, number};
+use super::card::number;
 use crate::contacts::ContactLaw;
 use crate::tick::{Clock, Responses, far_travel};
 use crate::world::{Bodies, Name};
@@ -11,9 +11,12 @@ use crate::world::{Bodies, Name};
 pub(super) const FEWEST_TICKS: f64 = 10.0;
 
 /// The warnings of a run, one sentence each with body, time, likely cause and remedy.
-pub fn warnings(world: &World) -> Vec<String> {
+///
+/// `advised` is the tick in seconds that mends them all.
+pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
     let name = |entity| world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone());
     let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
+    let advised = number(advised);
     let mut warnings = Vec::new();
     let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
     if let Some(fastest) = beyond {
@@ -25,7 +28,7 @@ pub fn warnings(world: &World) -> Vec<String> {
             number(critical),
             name(fastest.body),
             number(fastest.time),
-            finer_tick(critical / 2.0),
+            advised,
         ));
     }
     // Where the tick is above the critical one this goes without saying.
@@ -38,18 +41,18 @@ pub fn warnings(world: &World) -> Vec<String> {
             name(brief.between.0),
             name(brief.between.1),
             number(brief.time),
-            finer_tick(clock.dt * ticks / FEWEST_TICKS),
+            advised,
         ));
     }
     let far = far_travel(world).filter(|_| world.contains_resource::<ContactLaw>());
     if let Some(far) = far {
         let radii = far.travel / world.resource::<Bodies>().smallest_radius;
         warnings.push(format!(
-            "`{}` travelled {radii:.1} times the smallest radius in the tick before t = {} s and may have passed through \
+            "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s and may have passed through \
              others unseen; use --tick {}",
             name(far.body),
             number(far.time),
-            finer_tick(clock.dt / radii),
+            advised,
         ));
     }
     warnings

@@ -16,7 +16,7 @@ const BOUNCE: &str = r#"Scene(
 const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks: below 10 its impact is not \
                      resolved; use --tick ";
 const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s that the contacts of `ball` had at t = ";
-const FAR: &str = "`ball` travelled 1.1 times the smallest radius in the tick before t = 0.25 s and may have passed \
+const FAR: &str = "`ball` travelled 1.12 times the smallest radius in the tick before t = 0.25 s and may have passed \
                    through others unseen; use --tick ";
 
 /// Runs with a tick; the warning is told in a line, and as a note in the JSON.

@@ -1,6 +1,7 @@
 //! Penalty contacts: overlap makes force. A normal law, a tangential law and a rolling law are chosen one by one.
 
 pub mod apply;
+mod case;
 pub mod contact;
 pub mod coulomb;
 mod critical;
@@ -8,6 +9,7 @@ pub mod dashpot;
 mod frame;
 pub mod hold;
 pub mod inelasticity;
+mod islands;
 pub mod law;
 mod modes;
 pub mod normal;

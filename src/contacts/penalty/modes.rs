@@ -3,11 +3,13 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts, Sink, Touching, approach, arms};
+use super::apply::{End, PenaltyContacts, Sink, Touching, approach};
+use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::frame::Frame;
 use super::hold::{self, Candidate, Mover, Seen, Verdict};
+use super::islands::{islands, members};
 use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
 use super::rest::Rest;
@@ -15,83 +17,6 @@ use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
 use crate::tick::{Balance, Clock, Ledger, Stability};
 use crate::world::Bodies;
-
-/// What stands on side A of a contact.
-#[derive(Clone, Copy)]
-enum Other {
-    Atom(End),
-    Wall(u32),
-}
-
-/// A touching pair that may come to rest in the tick to come.
-#[derive(Clone, Copy)]
-struct Case {
-    place: u32,
-    normal: DVec2,
-    other: Other,
-    end: End,
-}
-
-impl Case {
-    /// Side A unless it is a wall.
-    fn other_end(&self) -> Option<&End> {
-        match &self.other {
-            Other::Atom(end) => Some(end),
-            Other::Wall(_) => None,
-        }
-    }
-
-    fn other_body(&self) -> Option<usize> {
-        self.other_end().map(|end| end.body)
-    }
-
-    /// Arms of both sides.
-    fn arms(&self, law: &PairLaw, overlap: f64) -> (DVec2, DVec2) {
-        match &self.other {
-            Other::Atom(other) => arms((other, &self.end), self.normal, overlap, law),
-            Other::Wall(_) => (DVec2::ZERO, self.end.arm - self.normal * (self.end.radius - overlap)),
-        }
-    }
-
-    /// A wall whose surface moves.
-    fn belt(&self, bodies: &Bodies) -> Option<Mover> {
-        let Other::Wall(wall) = self.other else { return None };
-        bodies.belts.get(wall as usize).map(|&velocity| Mover { velocity, ..Mover::default() })
-    }
-
-    fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
-        match &self.other {
-            Other::Atom(other) => sink.between((other, &self.end), self.normal, overlap, law, force),
-            Other::Wall(wall) => {
-                sink.wall_pushes(&self.end, *wall, self.normal, self.end.radius - overlap, force);
-            }
-        }
-    }
-
-    /// Whether the contact could stop within `dt` seconds: its normal velocity can be reversed by a force within the
-    /// bounds of its law, or by what its neighbours may do at the same time (as much again).
-    fn could_stop<N: NormalForce>(
-        &self,
-        contact: &Contact,
-        law: &PairLaw,
-        bodies: &Bodies,
-        parting: f64,
-        dt: f64,
-    ) -> bool {
-        if !N::dissipates(law) {
-            return false;
-        }
-        if contact.mode == Mode::Hold {
-            return true;
-        }
-        let acceleration = |body: usize| bodies.force[body] * bodies.inverse_mass[body];
-        let other = self.other_body();
-        let relative = acceleration(self.end.body) - other.map_or(DVec2::ZERO, acceleration);
-        let inverse_mass = bodies.inverse_mass[self.end.body] + other.map_or(0.0, |body| bodies.inverse_mass[body]);
-        let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-        parting.abs() <= 2.0 * dt * (relative.dot(self.normal).abs() + (greatest - least) * inverse_mass)
-    }
-}
 
 /// Working memory of the search for rest.
 #[derive(Default)]
@@ -146,36 +71,6 @@ pub(super) fn choose_modes<N: NormalForce>(
     }
     ledger.friction.add(choice.losses.friction);
     ledger.inelasticity.add(choice.losses.inelasticity);
-}
-
-/// Groups cases that share a body that moves by forces, in canonical order.
-fn islands(cases: &[Case], bodies: &Bodies) -> Vec<Vec<Case>> {
-    if cases.is_empty() {
-        return Vec::new();
-    }
-    let mut root: Vec<usize> = (0..bodies.len()).collect();
-    fn find(root: &mut [usize], mut body: usize) -> usize {
-        while root[body] != body {
-            root[body] = root[root[body]];
-            body = root[body];
-        }
-        body
-    }
-    let joined =
-        |case: &Case| case.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[case.end.body]);
-    for case in cases {
-        if let Some(other) = joined(case) {
-            let (a, b) = (find(&mut root, other), find(&mut root, case.end.body));
-            root[a.max(b)] = a.min(b);
-        }
-    }
-    let mut sorted: Vec<(usize, Case)> = Vec::with_capacity(cases.len());
-    for case in cases {
-        let body = if bodies.dynamic[case.end.body] { Some(case.end.body) } else { case.other_body() };
-        sorted.push((find(&mut root, body.unwrap_or(case.end.body)), *case));
-    }
-    sorted.sort_by_key(|(root, _)| *root);
-    sorted.chunk_by(|a, b| a.0 == b.0).map(|chunk| chunk.iter().map(|(_, case)| *case).collect()).collect()
 }
 
 /// The choice of modes under way.
@@ -394,15 +289,6 @@ impl Choice<'_> {
             self.contacts.rest.lay(body, load, bodies);
         }
     }
-}
-
-/// The bodies of an island in canonical order.
-fn members(island: &[Case]) -> Vec<usize> {
-    let mut members: Vec<usize> =
-        island.iter().flat_map(|case| [Some(case.end.body), case.other_body()]).flatten().collect();
-    members.sort_unstable();
-    members.dedup();
-    members
 }
 
 /// A body with the velocities it will have after `dt` seconds under the present forces.

@@ -1,0 +1,66 @@
+//! The tick that a run is advised to try next: one number for all warnings of a run.
+
+/// What is known of a run's tick, in seconds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Known {
+    /// The tick of the run.
+    pub tick: f64,
+    /// The largest that is stable, if anything limits it.
+    pub critical: Option<f64>,
+    /// How long the briefest contact lasts, if there may be any.
+    pub shortest_contact: Option<f64>,
+    /// The longest way in a tick over the smallest radius.
+    pub travel: f64,
+}
+
+impl Known {
+    /// A quarter of the tick, or less where that would still be too long: a tenth of the critical tick, a twentieth of the
+    /// briefest contact, half a radius of travel. Rounded down to few digits.
+    ///
+    /// Above the critical tick nothing else counts: what flies about then is what came of that.
+    pub fn advised_tick(&self) -> f64 {
+        let critical = self.critical.map_or(f64::INFINITY, |critical| critical / 10.0);
+        let wanted = if critical < self.tick / 10.0 {
+            critical
+        } else {
+            let contact = self.shortest_contact.map_or(f64::INFINITY, |shortest| shortest / 20.0);
+            let travel = if self.travel > 1.0 && self.travel.is_finite() {
+                self.tick / (2.0 * self.travel)
+            } else {
+                f64::INFINITY
+            };
+            (self.tick / 4.0).min(critical).min(contact).min(travel)
+        };
+        rounded_down(wanted)
+    }
+}
+
+/// The next lower of 1, 2, 2.5 and 5 times a power of ten.
+fn rounded_down(value: f64) -> f64 {
+    let exponent = value.log10().floor() as i32;
+    let candidates = [(5.0, exponent), (2.5, exponent), (2.0, exponent), (1.0, exponent), (5.0, exponent - 1)];
+    // Read back from decimal digits, so that it is the same number as on a command line; a part in 1e12 is rounding.
+    let numbers = candidates.into_iter().filter_map(|(digits, exponent)| format!("{digits}e{exponent}").parse().ok());
+    numbers.into_iter().find(|number: &f64| *number <= value * (1.0 + 1e-12)).unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tick_four_times_as_fine_has_few_digits() {
+        for (tick, finer) in [(1e-3, 2.5e-4), (2e-3, 5e-4), (1e-2, 2.5e-3), (4e-4, 1e-4), (3e-4, 5e-5)] {
+            assert_eq!(Known { tick, ..Known::default() }.advised_tick(), finer);
+        }
+    }
+
+    #[test]
+    fn each_limit_that_the_tick_breaks_counts() {
+        let known = Known { tick: 1e-3, critical: Some(6e-3), shortest_contact: Some(9e-3), travel: 0.5 };
+        assert_eq!(known.advised_tick(), 2.5e-4);
+        assert_eq!(Known { shortest_contact: Some(4e-3), ..known }.advised_tick(), 2e-4);
+        assert_eq!(Known { travel: 3.0, ..known }.advised_tick(), 1e-4);
+        assert_eq!(Known { critical: Some(9e-4), travel: 1e6, ..known }.advised_tick(), 5e-5);
+    }
+}
