@@ -10,6 +10,7 @@ mod constant_acceleration;
 mod convergence;
 mod cradle;
 mod critical_tick;
+mod dashpot;
 mod energy;
 mod forces;
 mod friction;
