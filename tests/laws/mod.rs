@@ -26,6 +26,7 @@ mod properties;
 mod rest;
 mod restitution;
 mod rolling;
+mod rolling_resistance;
 mod rotation;
 mod scales;
 mod slope;
