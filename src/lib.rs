@@ -71,3 +71,8 @@ pub use simulation::Simulation;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// So are those of the manual of plugins.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/plugins.md")]
+struct Plugins;

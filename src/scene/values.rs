@@ -136,13 +136,18 @@ impl Names {
             report.error(path, format!("must name at least one {}, or `*`", kind.noun())).help(help);
         }
         let mut found = Vec::new();
-        for (index, pattern) in self.patterns.iter().enumerate() {
-            let path = if self.listed { format!("{path}[{index}]") } else { path.to_owned() };
+        for (pattern, path) in self.with_paths(path) {
             found.extend(outline.require_matching(kind, pattern, &path, report));
         }
         found.sort_unstable();
         found.dedup();
         found
+    }
+
+    /// Each pattern with where it stands: `path`, or an item of the list there.
+    pub fn with_paths(&self, path: &str) -> impl Iterator<Item = (&String, String)> {
+        let place = move |index| if self.listed { format!("{path}[{index}]") } else { path.to_owned() };
+        self.patterns.iter().enumerate().map(move |(index, pattern)| (pattern, place(index)))
     }
 
     /// The places of all names that fit, each once, in canonical order.

@@ -1,6 +1,8 @@
 //! `Contacts(of: "ball")`: how many bodies and walls touch a body or wall, `ball.contacts`, and how often one began to
 //! since the start, `ball.contacts.begun`. A pair touches as long as any of its atoms do.
 
+use std::collections::BTreeSet;
+
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Deserialize;
@@ -19,7 +21,7 @@ const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
-    /// Names of bodies (`*` matches), or of one wall.
+    /// Names of bodies, `*` matches, and of walls, which are named in full.
     of: Names,
 }
 
@@ -28,12 +30,19 @@ struct Contacts {
 struct Begun(Vec<(Entity, u64)>);
 
 impl Contacts {
-    /// Names of what it measures: walls are named one by one.
-    fn owners(&self, outline: &Outline) -> Vec<String> {
-        let bodies = self.of.matching(Kind::BODY, outline);
-        let (kind, places) =
-            if bodies.is_empty() { (Kind::WALL, self.of.matching(Kind::WALL, outline)) } else { (Kind::BODY, bodies) };
-        places.into_iter().map(|place| outline.names(kind)[place].clone()).collect()
+    /// Names of what it measures, each once, in the order of the file.
+    fn owners(&self, outline: &Outline, report: &mut Report) -> Vec<String> {
+        let mut owners: Vec<String> = Vec::new();
+        for (pattern, path) in self.of.with_paths("of") {
+            let bodies = outline.matching(Kind::BODY, pattern);
+            if bodies.is_empty() && outline.require_any(&[Kind::WALL, Kind::BODY], pattern, &path, report) {
+                owners.push(pattern.clone());
+            }
+            owners.extend(bodies.into_iter().map(|place| outline.names(Kind::BODY)[place].clone()));
+        }
+        let mut known = BTreeSet::new();
+        owners.retain(|owner| known.insert(owner.clone()));
+        owners
     }
 }
 
@@ -43,14 +52,14 @@ impl Entry for Contacts {
     const EXAMPLE: &'static str = "Contacts(of: \"ball\")";
 
     fn check(&self, outline: &Outline, report: &mut Report) {
-        if self.of.matching(Kind::WALL, outline).is_empty() {
-            self.of.require(Kind::BODY, outline, "of", report);
+        if self.owners(outline, report).is_empty() && self.of.patterns.is_empty() {
+            report.error("of", "must name at least one body or wall").help("write `of: \"*\"` for all bodies");
         }
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let owners = entry.value.owners(outline);
+            let owners = entry.value.owners(outline, &mut Report::new());
             let names = owners.iter().flat_map(|owner| QUANTITIES.iter().map(move |q| format!("{owner}.{q}")));
             add_found(app.world_mut(), names);
         }

@@ -32,6 +32,8 @@ fn a_scene_schedules_what_it_names_and_nothing_else() {
         ("materials: { \"m\": (friction: 0.5) }, walls: [(name: \"floor\", left: (1, 0), right: (0, 0))],", [0, 0, 0]),
         ("sensors: [Pose(of: \"*\"), Velocity(of: \"*\"), Energy(), Overlap()],", [0, 0, 0]),
         ("contacts: None,", [0, 0, 0]),
+        // Who asks for contacts has them found, and counted.
+        ("sensors: [Contacts(of: \"ball\"), Contacts(of: \"*\")],", [2, 0, 0]),
         // One system per kind of force, however many entries there are.
         ("gravity: (0, -9.81),", [0, 1, 0]),
         ("forces: [Drag(linear: 0.1)],", [0, 1, 0]),

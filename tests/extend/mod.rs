@@ -2,3 +2,5 @@
 
 mod axis_wise;
 mod bevy_app;
+mod contact_events;
+mod film_layer;

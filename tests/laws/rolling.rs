@@ -8,7 +8,7 @@
 //! rest on a slope, the speed `mu N/sqrt(k_t m)` (see `slope`). With an inelastic contact, which holds, the disc rolls
 //! exactly: the point of contact stands.
 //!
-//! Not tested: rolling resistance.
+//! Not tested: rolling resistance (see `rolling_resistance`).
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;

@@ -2,10 +2,12 @@
 //!
 //! In a scene: `forces: [HomeSpring(of: "ball", home: (0, 0), stiffness: 2)]`; its sensor
 //! `sensors: [HomeSpringStretch(of: "ball")]` gives the greatest stretch so far, the channel `ball.home_spring.stretch`.
+//! Films show the spring.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use jostle::record::{FilmAppExt, Mark, MarkShape};
 use jostle::scene::units::{Position as At, Stiffness};
 use jostle::scene::values::Names;
 use jostle::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
@@ -65,6 +67,7 @@ impl Entry for HomeSpring {
         }
         app.insert_resource(springs).add_force(pull_home);
         app.add_systems(SimTick, note_stretch.in_set(Stage::Observe));
+        app.add_layer(draw_springs);
     }
 }
 
@@ -83,6 +86,22 @@ fn note_stretch(mut springs: ResMut<Springs>, bodies: Query<&Position>) {
         if let Ok(position) = bodies.get(spring.body) {
             spring.greatest = spring.greatest.max(position.0.distance(spring.home));
         }
+    }
+}
+
+/// Called once for each frame: it looks and adds marks. A spring is a zigzag from a ring at home to the body.
+fn draw_springs(world: &World, marks: &mut Vec<Mark>) {
+    for spring in world.get_resource::<Springs>().into_iter().flat_map(|springs| &springs.0) {
+        let Some(body) = world.get::<Position>(spring.body) else { continue };
+        let way = body.0 - spring.home;
+        let across = 0.05 * way.normalize_or_zero().perp();
+        let corner = |step: usize| {
+            let share = step as f64 / 16.0;
+            spring.home + share * way + across * [0.0, 1.0, 0.0, -1.0][step % 4]
+        };
+        let zigzag = (0..16).map(|step| MarkShape::Line(corner(step), corner(step + 1)));
+        let shapes = zigzag.chain([MarkShape::Circle(spring.home, 0.03)]);
+        marks.extend(shapes.map(|shape| Mark { shape, color: Some("vermilion".to_owned()) }));
     }
 }
 

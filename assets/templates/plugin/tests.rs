@@ -3,7 +3,10 @@
 //!
 //! Not tested: contacts, other integrators.
 
+use glam::DVec2;
 use jostle::Simulation;
+use jostle::raster::{Camera, Painter, Scratch, Theme, View};
+use jostle::record::Recorder;
 use jostle::scene::{SceneErrors, Source};
 use jostle::simulation::Overrides;
 
@@ -53,6 +56,30 @@ fn the_sensor_gives_the_greatest_stretch() {
     assert_eq!((channel.name.as_str(), channel.unit), ("ball.home_spring.stretch", "m"));
     let stretch = (channel.read)(simulation.world());
     assert!((stretch - V / W).abs() < V / W * (W * 0.001_f64).powi(2) / 4.0, "{stretch}");
+}
+
+/// Half a second later the body stands at 1 + 1.5 sin(1) m, and the spring is drawn between home and there.
+#[test]
+fn a_film_shows_the_spring() {
+    let mut simulation = load("2", 0.001).unwrap();
+    let mut frame = Recorder::default().frame(&mut simulation, 0.5).unwrap();
+    let camera = Camera::look(DVec2::new(1.5, 0.0), 2.0, (640, 360));
+    let view = View { camera, theme: Theme::named("paper").unwrap(), frame_step: 0.1 };
+    let painter = Painter::new(&view, &frame).unwrap();
+    let mut paint = || {
+        let mut picture = painter.backdrop().clone();
+        painter.paint(&frame, &mut picture, &mut Scratch::default());
+        frame.marks.clear();
+        picture
+    };
+    let (with, without) = (paint(), paint());
+    // Corners in the middle of the zigzag lie on the line from home to the body, clear of both.
+    for corner in [4, 6, 8, 10, 12] {
+        let place = camera.to_picture(DVec2::new(1.0 + V / W * (W * 0.5).sin() * f64::from(corner) / 16.0, 0.0));
+        let (x, y) = (place.x as u32, place.y as u32);
+        assert_ne!(with.pixel(x, y), without.pixel(x, y), "corner {corner} at {place}");
+    }
+    assert_eq!(with.pixel(20, 20), without.pixel(20, 20), "nothing is drawn elsewhere");
 }
 
 #[test]

@@ -9,7 +9,9 @@
 //!
 //! The damping `c` is that of the ratio for the effective mass of the contact, `c = 2 zeta sqrt(k m)`, so that a single
 //! contact has the restitution that was asked for, also off the centre of a body. A body that lands on n atoms at once
-//! rebounds less than from one: its damping ratio is then `sqrt(n)` times as large. The run notes it on its card.
+//! rebounds less than from one: with a damping in N s/m its damping ratio is `sqrt(n)` times as large, with a restitution
+//! up to that, as atoms far from the centre of mass have less damping (two of them where one feels nothing of the other,
+//! `m x^2 = I`, rebound as one does). The run notes it on its card.
 
 use super::Penalty;
 use super::law::PairLaw;

@@ -51,7 +51,7 @@ pub fn loads(candidates: &[Candidate], movers: usize) -> Vec<f64> {
     let mut loads = vec![0.0; movers];
     for candidate in candidates {
         for place in [candidate.ends.0, candidate.ends.1] {
-            loads[place] += candidate.normal_force + candidate.noise / ROUNDING;
+            loads[place] += candidate.normal_force + candidate.rounding / ROUNDING;
         }
     }
     loads
@@ -141,6 +141,9 @@ pub struct Candidate {
     band: (f64, f64),
     /// Whether the normal force would have to leave its band to stop the contact.
     at_limit: bool,
+    /// Force in newtons that rounding of positions makes.
+    rounding: f64,
+    /// Force in newtons too small to be told from none when the verdict is found.
     noise: f64,
     normal_force: f64,
     bounded: [Bounded; 2],
@@ -187,6 +190,7 @@ impl Candidate {
             normal: along(seen.normal),
             band: seen.band,
             at_limit: false,
+            rounding: seen.noise,
             noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
             normal_force: seen.normal_force,
             bounded: [bounded(along(-seen.normal.perp()), seen.tangential), bounded(turn, seen.rolling)],

@@ -235,7 +235,7 @@ fn note_limits(world: &mut World) {
     let least = restitution_of(world.resource::<Materials>().largest_inelasticity());
     let mut notes = Vec::new();
     if clumps {
-        notes.push("contacts: under Dashpot the restitution is that of one atom; a body that lands on n at once rebounds less, its damping ratio is sqrt(n) times as large".to_owned());
+        notes.push("contacts: under Dashpot the restitution is that of one atom; a body that lands on n at once rebounds less, its damping ratio is up to sqrt(n) times as large".to_owned());
     }
     if settings.damping.is_none() && least < dashpot::LEAST_RESTITUTION {
         let limit = dashpot::LEAST_RESTITUTION;
