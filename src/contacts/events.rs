@@ -9,6 +9,8 @@ use std::collections::BTreeSet;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
+use super::ContactLaw;
+use crate::report::card::Notes;
 use crate::tick::{Clock, add_packed_observer};
 use crate::world::Bodies;
 
@@ -27,12 +29,15 @@ pub struct Touching {
 pub struct Touches {
     /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
     pairs: Vec<(bool, u32, u32)>,
+    /// Whether a law has ever begun a list.
+    told: bool,
 }
 
 impl Touches {
     /// Begins a new list.
     pub fn clear(&mut self) {
         self.pairs.clear();
+        self.told = true;
     }
 
     /// Two bodies touch, given by their places.
@@ -98,7 +103,17 @@ fn find_contact_events(
     mut touches: ResMut<Touches>,
     mut events: ResMut<ContactEvents>,
     clock: Res<Clock>,
+    law: Option<Res<ContactLaw>>,
+    mut notes: ResMut<Notes>,
+    mut warned: Local<bool>,
 ) {
+    if let Some(law) = law.filter(|_| !touches.told && !*warned) {
+        *warned = true;
+        let name = law.0;
+        notes
+            .0
+            .push(format!("contacts: `{name}` does not tell who touches: contact events and `Contacts` see nothing"));
+    }
     touches.pairs.sort_unstable();
     touches.pairs.dedup();
     let entities = |&(is_wall, a, b): &(bool, u32, u32)| {

@@ -146,3 +146,24 @@ fn the_recorded_trajectory_with_gravity_is_reproduced_for_one_second() {
     let (pose, motion) = deviation(-3.0, include_str!("../../assets/trajectories/tetris_g3.json"));
     assert!(pose < 1e-6 && motion < 1e-3, "off by {pose:.2e} m or rad, {motion:.2e} m/s or rad/s");
 }
+
+/// A law that does not fill `Touches` is told of, where somebody asks for contacts.
+#[test]
+fn a_law_that_does_not_tell_who_touches_is_noted() {
+    let noted = |sensors: &str| {
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 0.1, tick: 1e-3), contacts: AxisWise(), {sensors}
+            bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.1))])"
+        );
+        let register = |app: &mut App| {
+            app.register_entry::<AxisWise>();
+        };
+        let mut simulation = Simulation::load_with(&Source::new("axis.ron", text), &Overrides::default(), register)
+            .expect("it is right");
+        simulation.run_to_end().expect("numbers stay finite");
+        let notes = simulation.card().notes;
+        notes.iter().filter(|note| note.contains("`AxisWise` does not tell who touches")).count()
+    };
+    assert_eq!(noted("sensors: [Contacts(of: \"ball\")],"), 1);
+    assert_eq!(noted(""), 0);
+}

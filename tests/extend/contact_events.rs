@@ -5,7 +5,7 @@
 //! Times of an elastic ball's impacts are those of free fall and of half a swing (textbook), to a share `s^2`, `s = w dt`, of
 //! all speeds (see `bounce` among the laws).
 //!
-//! Not tested: laws from outside that do not note who touches.
+//! Laws from outside that do not note who touches: see `axis_wise`.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
