@@ -13,6 +13,7 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer};
 
 use super::{AtomSpec, union};
+use crate::scene::Report;
 use crate::scene::units::Inertia;
 
 /// What the places of a body's atoms are counted from.
@@ -72,6 +73,17 @@ pub struct MassProperties {
     pub inertia: f64,
     /// The atoms with their places counted from the centre of mass; their masses add up to `mass`.
     pub atoms: Vec<AtomSpec>,
+}
+
+impl MassProperties {
+    /// Reports atoms, at `atoms`, that are so large that these are no numbers.
+    pub fn check(&self, report: &mut Report) {
+        let sizes = [self.mass, self.inertia, self.center.x, self.center.y];
+        if report.is_clean() && !sizes.iter().all(|size| size.is_finite()) {
+            let message = "its mass or moment of inertia is too large to be a number";
+            report.error("atoms", message).help("sizes are in metres and masses in kg: look for a zero too many");
+        }
+    }
 }
 
 /// Works out mass, centre and inertia. `mass` wins over the sum of the atoms; `density` is the material's, in kg/m2.

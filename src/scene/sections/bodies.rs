@@ -113,12 +113,7 @@ impl BodyEntry {
         }
         material::require(self.material.as_deref(), outline, report);
         let specs = self.atoms.specs();
-        let properties = self.mass_properties(1.0);
-        let sizes = [properties.mass, properties.inertia, properties.center.x, properties.center.y];
-        if report.is_clean() && !sizes.iter().all(|size| size.is_finite()) {
-            let message = "its mass or moment of inertia is too large to be a number";
-            report.error("atoms", message).help("sizes are in metres and masses in kg: look for a zero too many");
-        }
+        self.mass_properties(1.0).check(report);
         if self.inertia == InertiaRule::Points && specs.len() == 1 && !self.fixed && self.kinematic.is_none() {
             let message = "one atom counted as a point has no moment of inertia";
             report.error("inertia", message).help("leave `inertia` out, or give a number in kg m2");

@@ -10,7 +10,7 @@ use crate::scene::units::{Position, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
-use crate::shapes::mass_properties;
+use crate::shapes::mass_properties::{self, InertiaRule};
 use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together. A body takes some 1.3 kB, and a film reads its scene twice: this
@@ -138,6 +138,7 @@ impl FillEntry {
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.within("atoms", |report| self.atoms.check(report));
+        mass_properties::of(&self.atoms.specs(), None, InertiaRule::Discs, 1.0).check(report);
         material::require(self.material.as_deref(), outline, report);
         if !(1..=LARGEST_COUNT).contains(&self.count.0) {
             report.error("count", format!("must be from 1 to {LARGEST_COUNT}, got {}", self.count.0));
