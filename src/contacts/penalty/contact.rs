@@ -88,12 +88,14 @@ impl Contact {
             share = touch.share_in_touch();
         }
         self.overlap = touch.overlap.max(0.0);
-        losses.inelasticity += if self.mode == Mode::Hold && N::SET_VALUED {
+        let loss = if self.mode == Mode::Hold && N::SET_VALUED {
             lost_work(law, before, (self.overlap, self.normal_force))
         } else {
             self.normal_force = N::force(law, self.mode, self.overlap, touch.approach);
             N::loss(law, self.mode, before, (self.overlap, self.normal_force))
         };
+        // Bodies that are put into each other, at the start or by hand, have done no work.
+        losses.inelasticity += if elapsed > 0.0 { loss } else { 0.0 };
         let slider = law.tangential();
         if slider.acts() {
             let displacement = (elapsed > 0.0).then(|| share * touch.tangential_displacement(law, before.0));
