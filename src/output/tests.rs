@@ -61,7 +61,7 @@ fn frames(count: usize) -> Vec<Frame> {
         let time = 0.04 * place as f64;
         let pose = |x, y, angle| Pose { position: DVec2::new(x, y), angle };
         let poses = vec![pose(2.0, 0.5, 0.0), pose(0.5 + time, 1.5, 2.0 * time), pose(3.5 - time, 2.0, -time)];
-        Frame { time, cast: cast.clone(), poses, marks: Vec::new() }
+        Frame { time, cast: cast.clone(), poses, marks: Vec::new(), center: None }
     };
     (0..count).map(frame).collect()
 }
@@ -74,7 +74,7 @@ fn drawn(frame: &Frame) -> Pixmap {
 }
 
 fn begin(path: &Path, threads: usize) -> Result<Box<dyn Film>, OutputError> {
-    open(&Target::new(path)?, &FilmSettings { frames_per_second: 30.0, threads }, view())
+    open(&Target::new(path)?, &FilmSettings { frames_per_second: 30.0, threads, ..FilmSettings::default() }, view())
 }
 
 fn film(path: &Path, threads: usize, frames: &[Frame]) -> Result<Written, OutputError> {
@@ -232,18 +232,18 @@ fn a_still_is_the_last_frame() {
 
 #[test]
 fn wrong_targets_and_settings_are_refused_before_the_run() {
-    let unknown = Target::new("film.mp4").expect_err("no such format").to_string();
-    assert!(unknown.contains("film.mp4") && unknown.contains(".gif, .png, /"), "{unknown}");
+    let unknown = Target::new("film.avi").expect_err("no such format").to_string();
+    assert!(unknown.contains("film.avi") && unknown.contains(".gif, .apng, .mp4, .webm, .rgba, .png, /"), "{unknown}");
 
     let folder = Folder::new("refused");
     let target = Target::new(folder.path("film.gif")).expect("a GIF");
     for rate in [f64::NAN, 0.0, -30.0, 60.0, f64::INFINITY] {
-        let refused = open(&target, &FilmSettings { frames_per_second: rate, threads: 1 }, view()).err();
+        let refused = open(&target, &FilmSettings { frames_per_second: rate, ..FilmSettings::default() }, view()).err();
         assert!(matches!(refused, Some(OutputError::Rate { .. })), "{rate}");
     }
     for (size, longest) in [((70_000, 10), 65_535), ((0, 10), 0), ((10, 0), 0)] {
         let view = View { camera: Camera::look(DVec2::ZERO, 1.0, size), ..view() };
-        let refused = open(&target, &FilmSettings { frames_per_second: 30.0, threads: 1 }, view).err();
+        let refused = open(&target, &FilmSettings { frames_per_second: 30.0, ..FilmSettings::default() }, view).err();
         assert!(matches!(refused, Some(OutputError::Size { longest: said, .. }) if said == longest), "{size:?}");
     }
     let nowhere = begin(&folder.path("no/such/film.gif"), 1).err().expect("no directory").to_string();
