@@ -104,6 +104,9 @@ impl Run {
     }
 }
 
+/// Endings of what `render` writes.
+const PICTURES: [&str; 6] = ["gif", "png", "apng", "mp4", "webm", "rgba"];
+
 /// What speaks against writing channels to a path.
 fn objection(request: Request, path: &Path) -> Option<String> {
     let name = path.display();
@@ -114,7 +117,7 @@ fn objection(request: Request, path: &Path) -> Option<String> {
         Some(format!("`{name}` is the scene itself: write the channels to another file, such as channels.csv"))
     } else if is_directory(path) {
         Some(format!("`{name}` is a directory: name a file in it, such as `{}`", path.join("channels.csv").display()))
-    } else if ending.as_deref().is_some_and(|ending| ["gif", "png"].contains(&ending)) {
+    } else if ending.as_deref().is_some_and(|ending| PICTURES.contains(&ending)) {
         Some(format!("`run` writes comma-separated values, not `{name}`: use `jostle render` for pictures"))
     } else {
         takes_no_file(path)

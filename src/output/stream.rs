@@ -10,8 +10,8 @@ use super::{Film, FilmSettings, OutputError, Written, crew};
 use crate::raster::{Painter, View};
 use crate::record::frame::Frame;
 
-/// Frames drawn at once, for each thread.
-const FRAMES_PER_THREAD: usize = 4;
+/// Frames drawn at once, for each thread. They are whole pictures: more of them would take more memory than time is won.
+const FRAMES_PER_THREAD: usize = 2;
 
 /// How a format packs pictures, and where they go.
 pub(super) trait Sink: Send + Sync {

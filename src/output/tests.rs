@@ -136,6 +136,54 @@ fn a_gif_shows_the_frames_that_were_drawn() {
     }
 }
 
+/// Frames that change, stand still and change again; a single frame; whole groups and parts of them. Decoded by the
+/// `image` crate, which composes the frames by itself.
+#[test]
+fn an_apng_shows_exactly_the_frames_that_were_drawn() {
+    use image::AnimationDecoder;
+    let folder = Folder::new("apng-shows");
+    let path = folder.path("film.apng");
+    for (count, threads) in [(1, 1), (4, 2), (11, 3)] {
+        let mut frames = frames(count);
+        for place in 5..8.min(count) {
+            frames[place] = frames[4].clone();
+        }
+        let written = film(&path, threads, &frames).expect("a film");
+        assert_eq!((written.frames, written.seconds), (count as u64, count as f64 / 30.0));
+        assert_eq!(written.bytes, fs::metadata(&path).expect("the film").len());
+        let file = std::io::BufReader::new(File::open(&path).expect("the film"));
+        let decoder = image::codecs::png::PngDecoder::new(file).and_then(|decoder| decoder.apng()).expect("an APNG");
+        let shown = decoder.into_frames().collect_frames().expect("good frames");
+        assert_eq!(shown.len(), count);
+        for (frame, shown) in frames.iter().zip(&shown) {
+            assert!(shown.buffer().as_raw() == drawn(frame).data(), "at {} s", frame.time);
+            assert_eq!(shown.delay().numer_denom_ms(), (1000, 30));
+        }
+    }
+    assert_eq!(folder.names(), ["film.apng"]);
+}
+
+/// A film that may have few bytes is given up, and nothing is left of it; one of few colours is smaller.
+#[test]
+fn a_gif_keeps_to_its_limits() {
+    let folder = Folder::new("limits");
+    let path = folder.path("film.gif");
+    let make = |settings: FilmSettings| {
+        let mut film = open(&Target::new(&path).expect("a GIF"), &settings, view())?;
+        frames(60).into_iter().try_for_each(|frame| film.push(frame))?;
+        film.finish()
+    };
+    let whole = make(FilmSettings::default()).expect("a film").bytes;
+    let few = make(FilmSettings { colors: 15, ..FilmSettings::default() }).expect("a film").bytes;
+    assert!(few < whole, "{few} bytes, {whole} with all colours");
+    let kept = make(FilmSettings { most_bytes: Some(whole), ..FilmSettings::default() }).expect("it fits").bytes;
+    assert_eq!(kept, whole);
+    let given_up = make(FilmSettings { most_bytes: Some(whole / 2), ..FilmSettings::default() });
+    let Err(OutputError::TooLarge { bytes, frames, .. }) = given_up else { panic!("{given_up:?}") };
+    assert!(bytes > whole / 2 && frames < 60, "{bytes} bytes after {frames} frames");
+    assert_eq!((folder.names(), fs::metadata(&path).expect("the film before").len()), (vec!["film.gif".into()], whole));
+}
+
 #[test]
 fn bytes_do_not_depend_on_threads() {
     let folder = Folder::new("threads");
@@ -157,8 +205,10 @@ fn a_film_may_end_early() {
         let written = film(&path, 2, &frames(count)).expect("a shorter film");
         assert_eq!((written.frames, watch(&path).len()), (count as u64, count));
     }
-    let nothing = film(&folder.path("nothing.gif"), 1, &[]);
-    assert!(matches!(nothing, Err(OutputError::NoFrames { .. })));
+    for name in ["nothing.gif", "nothing.apng", "nothing.rgba"] {
+        let nothing = film(&folder.path(name), 1, &[]);
+        assert!(matches!(nothing, Err(OutputError::NoFrames { .. })), "{name}");
+    }
     assert_eq!(folder.names(), ["film.gif"], "nothing is left of a film without frames");
 }
 
@@ -254,7 +304,7 @@ fn wrong_targets_and_settings_are_refused_before_the_run() {
 #[test]
 fn a_frame_without_its_poses_is_refused() {
     let folder = Folder::new("poses");
-    for name in ["film.gif", "picture.png", "pictures/"] {
+    for name in ["film.gif", "film.apng", "film.rgba", "picture.png", "pictures/"] {
         let mut film = begin(&folder.path(name), 1).expect("a film");
         let mut frame = frames(1).remove(0);
         frame.poses.pop();

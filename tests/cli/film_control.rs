@@ -168,6 +168,21 @@ fn wrong_sizes_are_refused() {
     assert_eq!(folder.names(), ["fall.ron"]);
 }
 
+/// Whoever reads the raw pictures of a film at the speed of the clock has the first one while the film still runs.
+#[test]
+fn paced_frames_come_one_by_one() {
+    let folder = Folder::new("live").with("drop.ron", DROP.replace("film: (", "film: (speed: 0.2, "));
+    let mut command = folder.command("render drop.ron -o - --pace --quiet");
+    let mut child = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let mut reader = child.stdout.take().unwrap();
+    let mut rest = vec![0; FRAME];
+    std::io::Read::read_exact(&mut reader, &mut rest).unwrap();
+    assert!(child.try_wait().unwrap().is_none(), "the film of five seconds had ended");
+    std::io::Read::read_to_end(&mut reader, &mut rest).unwrap();
+    assert_eq!(rest.len(), 100 * FRAME);
+    assert!(child.wait().unwrap().success());
+}
+
 /// A run at the speed of the clock lasts as long as its physics, a film as long as it is to be watched; the last frame
 /// is shown one frame before the end. How late single frames are depends on the machine and is not tested.
 #[test]

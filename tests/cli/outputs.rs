@@ -86,6 +86,10 @@ fn what_cannot_be_written_is_usage_with_a_remedy() {
         ("run fall.ron -o fall.ron", "error: `fall.ron` is the scene itself"),
         ("run fall.ron -o ./fall.ron", "error: `./fall.ron` is the scene itself"),
         ("run fall.ron -o fall.gif", "use `jostle render` for pictures"),
+        ("run fall.ron -o fall.mp4", "use `jostle render` for pictures"),
+        ("render fall.ron -o none/film.apng", "create its directory first"),
+        ("render fall.ron -o none/film.rgba", "create its directory first"),
+        ("render fall.ron -o none/strip.png --strip 0,0.1", "create its directory first"),
     ] {
         let ended = folder.jostle(arguments).code(2).says(message);
         assert_eq!(ended.out, "");
