@@ -6,6 +6,7 @@ use super::Exit;
 use super::aim::Aim;
 use super::load::Request;
 use super::progress::Progress;
+use super::projector::Projector;
 use super::say::say;
 use super::squeeze::Squeeze;
 use super::target::Place;
@@ -13,7 +14,6 @@ use super::wall_clock::WallClock;
 use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
 use crate::raster::{Camera, Theme, View};
 use crate::record::follow::Follower;
-use crate::record::frame::Frame;
 use crate::record::spool::Spool;
 use crate::record::{Recorder, Schedule};
 use crate::scene::Source;
@@ -191,12 +191,8 @@ impl Set<'_> {
     ) -> Result<Made, Exit> {
         let order = self.order;
         let backwards = order.shot.is_film() && simulation.film().is_backwards();
-        let mut projector = Projector {
-            follower,
-            wall_clock: order.pace.then(WallClock::default),
-            step: 1.0 / self.settings.frames_per_second,
-            frames: 0,
-        };
+        let wall_clock = order.pace.then(WallClock::default);
+        let mut projector = Projector::new(follower, wall_clock, 1.0 / self.settings.frames_per_second);
         let mut spool = match (backwards || order.most_bytes.is_some()).then(Spool::new).transpose() {
             Ok(spool) => spool,
             Err(error) => return Err(order.refuse_spool(&error)),
@@ -252,46 +248,6 @@ impl Set<'_> {
             Err(Trouble::Spool(error)) => Err(order.refuse_spool(&error)),
             Err(Trouble::Run(failure)) => Ok(Made { written: None, failure: Some(failure) }),
             Err(Trouble::Told) => Err(Exit::Usage),
-        }
-    }
-}
-
-/// Shows frames to a film: aims the camera and keeps to the clock.
-#[derive(Default)]
-struct Projector {
-    follower: Option<Follower>,
-    wall_clock: Option<WallClock>,
-    /// Seconds of film from frame to frame.
-    step: f64,
-    frames: u64,
-}
-
-impl Projector {
-    fn show(&mut self, film: &mut dyn Film, mut frame: Frame) -> Result<(), Trouble> {
-        if let Some(follower) = &mut self.follower {
-            follower.aim(&mut frame);
-        }
-        if let Some(clock) = &mut self.wall_clock {
-            clock.wait(self.frames as f64 * self.step);
-        }
-        self.frames += 1;
-        Ok(film.push(frame)?)
-    }
-
-    /// At the beginning once more, to show every so manieth frame.
-    fn rewound(&self, every: u64) -> Projector {
-        let step = self.step * every as f64;
-        let follower = self.follower.as_ref().map(|follower| follower.rewound(step));
-        Projector { follower, wall_clock: None, step, frames: 0 }
-    }
-
-    /// Plays every so manieth of the frames that were kept aside.
-    fn play(&mut self, spool: &mut Spool, backwards: bool, every: u64, film: &mut dyn Film) -> Result<(), Trouble> {
-        let mut show = |frame: io::Result<Frame>| self.show(film, frame.map_err(Trouble::Spool)?);
-        if backwards {
-            spool.backwards().map_err(Trouble::Spool)?.step_by(every as usize).try_for_each(&mut show)
-        } else {
-            spool.forwards().map_err(Trouble::Spool)?.step_by(every as usize).try_for_each(&mut show)
         }
     }
 }

@@ -10,6 +10,7 @@ mod moments;
 mod new;
 mod pace;
 mod progress;
+mod projector;
 mod render;
 mod result;
 mod run;

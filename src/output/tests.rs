@@ -157,7 +157,8 @@ fn an_apng_shows_exactly_the_frames_that_were_drawn() {
         assert_eq!(shown.len(), count);
         for (frame, shown) in frames.iter().zip(&shown) {
             assert!(shown.buffer().as_raw() == drawn(frame).data(), "at {} s", frame.time);
-            assert_eq!(shown.delay().numer_denom_ms(), (1000, 30));
+            // In milliseconds: a thirtieth of a second, in lowest terms.
+            assert_eq!(shown.delay().numer_denom_ms(), (100, 3));
         }
     }
     assert_eq!(folder.names(), ["film.apng"]);

@@ -105,6 +105,21 @@ fn a_film_played_backwards_of_a_run_that_goes_wrong_begins_where_it_did() {
     assert_eq!(folder.names(), ["boom.gif", "boom.ron"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_film_that_cannot_be_kept_aside_says_where() {
+    let folder = Folder::new("no_spool").with("drop.ron", DROP.replace("film: (", "film: (speed: -1, "));
+    for flags in ["", "--max-size 1MB"] {
+        let mut command = folder.command(&format!("render drop.ron --quiet {flags}"));
+        let output = command.env("TMPDIR", folder.path("none")).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.starts_with("error: the frames could not be kept aside in `"), "{said}");
+        assert!(said.ends_with("or set TMPDIR to another directory\n"), "{said}");
+        assert_eq!(folder.names(), ["drop.ron"]);
+    }
+}
+
 fn gif(folder: &Folder, name: &str) -> (u16, u16, usize, u32) {
     let mut decoder = gif::DecodeOptions::new().read_info(std::io::Cursor::new(folder.read(name))).unwrap();
     let (mut frames, mut hundredths) = (0, 0);
