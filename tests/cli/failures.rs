@@ -29,7 +29,7 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
         .says(" of `ball` is no longer a finite number at t = 1.")
         .says(
             "help: numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses \
-             near zero, for a plugin that does not book its work, or try `--tick 0.0025`\n",
+             near zero, for drag that stops a body within a tick, for a plugin that does not book its work, or try `--tick 0.0025`\n",
         );
 }
 
