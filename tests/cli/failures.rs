@@ -33,6 +33,15 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
         );
 }
 
+/// Velocities are numbers, but their squares are not.
+#[test]
+fn a_run_whose_energy_is_no_number_ends_with_that() {
+    let fast = "Scene(format: 1, clock: (duration: 1, tick: 0.001),
+        bodies: [(name: \"ray\", at: (0, 0), velocity: (1e200, 0), atoms: Disc(radius: 0.1))])";
+    let told = "the kinetic energy of `ray` is no longer a finite number";
+    Folder::new("fast").with("fast.ron", fast).jostle("run fast.ron").code(3).says(told);
+}
+
 /// The remedy that is advised helps: with that tick the run ends well.
 #[test]
 fn the_advised_tick_helps() {
