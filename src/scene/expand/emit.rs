@@ -14,8 +14,12 @@ use crate::scene::tree::{Form, Id, Tree};
 const TEXTS: [&str; 9] = ["name", "title", "notes", "rows", "color", "material", "of", "on", "between"];
 /// Fields whose texts are never names of things.
 const WORDS: [&str; 4] = ["title", "notes", "rows", "color"];
-/// What a text counts beside its length, where work is counted.
-const WORK: usize = 64;
+/// What a value counts, where work is counted: it may leave three pieces.
+pub(super) const WORK: usize = 128;
+/// What a byte of a text counts, as it may have to be worked out: about as long takes it to copy twelve.
+pub(super) const WORK_OF_TEXT: usize = 12;
+/// What a byte counts that is copied as it stands, so that the scene stays below its largest size.
+const WORK_OF_COPY: usize = 8;
 /// Values in values: parameters that stand for brackets can hold each other.
 const DEEPEST: u32 = 300;
 
@@ -151,10 +155,11 @@ impl Expander {
         let (tree, text) = (&file.tree, &file.source.text);
         let span = tree.span(id);
         if file.plain[id as usize] && patches.is_empty() {
-            self.spend(context, id, 0, span.len())?;
+            self.spend(context, id, 0, WORK / 2 + WORK_OF_COPY * span.len())?;
             out.verbatim(&file, span, context.step);
             return Ok(());
         }
+        self.spend(context, id, 0, WORK)?;
         match tree.node(id).form {
             Form::Text if patches.is_empty() => self.text(context, out, id, key),
             Form::List if patches.is_empty() => {
@@ -284,7 +289,7 @@ impl Expander {
             return Ok(());
         };
         let name = self.filled(context, id, &text, shift)?;
-        self.spend(context, id, 0, text.len() + WORK)?;
+        self.spend(context, id, 0, WORK + WORK_OF_TEXT * (text.len() + name.len()))?;
         let full = quoted(&format!("{}{name}", context.place.prefix));
         out.made(&full, context.file.number, context.file.tree.span(id), context.step);
         Ok(())
@@ -293,7 +298,7 @@ impl Expander {
     fn text(&mut self, context: &Context, out: &mut Buffer, id: Id, key: &str) -> Outcome<()> {
         let file = &context.file;
         let span = file.tree.span(id);
-        self.spend(context, id, 0, span.len() + WORK)?;
+        self.spend(context, id, 0, WORK_OF_TEXT * span.len())?;
         let Some((written, shift)) = context.text(id) else {
             out.verbatim(file, span, context.step);
             return Ok(());
@@ -338,6 +343,7 @@ impl Expander {
         if text == written {
             out.verbatim(file, span, context.step);
         } else {
+            self.spend(context, id, 0, WORK_OF_COPY * text.len())?;
             out.made(&quoted(&text), file.number, span, context.step);
         }
         Ok(())

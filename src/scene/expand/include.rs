@@ -47,7 +47,7 @@ impl Expander {
         self.settings(&context, params)?;
         if let Some((from, with)) = given {
             let names = self.param_names(&context, params);
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            let names: BTreeSet<&str> = names.iter().map(String::as_str).collect();
             let mut values = std::mem::take(&mut self.scopes[scope]);
             self.give_values(from, with, &names, &format!("`{}`", file.source.name), &mut values)?;
             self.scopes[scope] = values;
@@ -131,7 +131,7 @@ impl Expander {
         &mut self,
         context: &Context,
         with: Id,
-        known: &[&str],
+        known: &BTreeSet<&str>,
         whose: &str,
         scope: &mut Scope,
     ) -> Outcome<()> {
@@ -143,7 +143,7 @@ impl Expander {
         }
         for &id in tree.children(with) {
             let name = text[tree.key(id)].trim_matches('"');
-            if !known.contains(&name) {
+            if !known.contains(name) {
                 let mut error = self.wrong(context, tree.key(id), format!("{whose} takes no value `{name}`"));
                 error.label = "unknown name".into();
                 return Err(Box::new(error.with_help(suggest::among(name, known.iter().copied(), "values", '`'))));

@@ -4,10 +4,11 @@ use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use super::emit::{Context, Override, Place};
+use super::emit::{Context, Override, Place, WORK};
 use super::include::Holder;
 use super::scope::Scope;
 use super::{Cause, Expander, Outcome};
+use crate::scene::outline::fits;
 use crate::scene::suggest;
 use crate::scene::tree::{Form, Id};
 
@@ -86,7 +87,11 @@ impl Expander {
         };
         self.open_params(&inner, &template)?;
         let inherited = context.place.overrides.iter().filter_map(|patch| {
-            let target = patch.target.strip_prefix(&format!("{name}/"))?.to_owned();
+            let target = match patch.target.split_once('/') {
+                Some((first, rest)) if fits(first, &name) => rest.to_owned(),
+                None if patch.target == "*" => patch.target.clone(),
+                _ => return None,
+            };
             let Override { fields, context, value, used, .. } = &**patch;
             Some(Rc::new(Override {
                 target,
@@ -164,14 +169,14 @@ impl Expander {
             let keys = file.tree.children(params).iter().map(|&child| &file.source.text[file.tree.key(child)]);
             keys.map(|key| key.trim_matches('"').to_owned()).collect()
         });
+        self.spend(context, id, 0, WORK * (template.args.len() + optional.len()))?;
         let mut scope = Scope::around(template.context.scope);
         let with = self.field(context, id, "with");
         if let Some(with) = with {
-            let known: Vec<&str> = template.args.iter().chain(&optional).map(String::as_str).collect();
+            let known: BTreeSet<&str> = template.args.iter().chain(&optional).map(String::as_str).collect();
             self.give_values(context, with, &known, &format!("the template `{called}`"), &mut scope)?;
         }
-        let given: Vec<String> = scope.names().map(str::to_owned).collect();
-        if let Some(missing) = template.args.iter().find(|arg| !given.contains(arg)) {
+        if let Some(missing) = template.args.iter().find(|arg| !scope.has(arg)) {
             let at = with.unwrap_or(id);
             let message = format!("the template `{called}` needs a value for `{missing}`");
             let mut error = self.wrong(context, context.file.tree.head(at), message);

@@ -9,6 +9,8 @@ use crate::scene::error::{Mark, SceneError, SceneErrors};
 use crate::scene::source::Source;
 use crate::scene::tree::{Form, Tree};
 
+const REPETITION: &str = "in the repetition";
+
 /// The way from a step back to the scene, nearest first.
 pub(super) fn chain(steps: &[Step], step: u32) -> Vec<Mark> {
     let mut chain = Vec::new();
@@ -16,8 +18,8 @@ pub(super) fn chain(steps: &[Step], step: u32) -> Vec<Mark> {
     while let Some(Step { before, file, at: (from, to), cause: Some(cause), .. }) = steps.get(at as usize) {
         let label = match cause {
             Cause::Instance { name, template } => format!("in the instance `{name}` of the template `{template}`"),
-            Cause::Repetition { i, j: None } => format!("in the repetition i = {i}"),
-            Cause::Repetition { i, j: Some(j) } => format!("in the repetition i = {i}, j = {j}"),
+            Cause::Repetition { i, j: None } => format!("{REPETITION} i = {i}"),
+            Cause::Repetition { i, j: Some(j) } => format!("{REPETITION} i = {i}, j = {j}"),
             Cause::Included => "included here".to_owned(),
         };
         chain.push(Mark { source: *file, span: *from as usize..*to as usize, label });
@@ -90,6 +92,11 @@ impl Expanded {
         error.source = number;
         error.file = (number > 0).then(|| file.source.name.clone());
         error.chain = chain(&self.steps, piece.step);
+        let repeated = error.chain.iter().any(|mark| mark.label.starts_with(REPETITION));
+        if repeated && error.message.contains("is taken by") {
+            error.help =
+                Some("give every thing its own name: in a `Repeat` put its index in, as in \"ball_{i}\"".into());
+        }
         if piece.made && file.tree.node(node).form == Form::Text && there == file.tree.span(node) {
             let value = &self.text[piece.start as usize..];
             let value = &value[..made.span(made.innermost(piece.start as usize, false)).len().min(value.len())];
@@ -103,11 +110,17 @@ impl Expanded {
             }
         } else if let Some(reason) = self.reasons.get(&(number, there.start))
             && ["a word", "a map", "a list", "round", "`true`"].iter().all(|other| !error.message.contains(other))
-            && ["found the text", "has no unit", "unknown unit"].iter().any(|told| error.message.contains(told))
+            && ["found the text", "has no unit", "unknown unit", "is not a unit"]
+                .iter()
+                .any(|told| error.message.contains(told))
         {
+            let written = &text[file.tree.span(node)];
+            let expected = error.message.find("expected ").map_or("", |start| &error.message[start..]);
+            let expected = expected.split(", found").next().unwrap_or_default().to_owned();
+            error.help = reason.help.clone().or(Some(expected));
+            error.message = format!("in {written}: {}", reason.message);
             error.span.clone_from(&reason.span);
             error.label.clone_from(&reason.message);
-            error.help.clone_from(&reason.help);
             self.place_also(error);
             return;
         }

@@ -33,8 +33,8 @@ use write::{Buffer, Merged};
 pub(super) const SECTIONS: [&str; 4] = ["include", "params", "templates", "instances"];
 /// How many things repetitions and instances may make in all: as many as the bodies of `fill`.
 const MOST_MADE: u64 = super::sections::fill::LARGEST_COUNT;
-/// How many bytes of the scene may be read over and over to make it.
-const MOST_READ: usize = 4 * LARGEST_SCENE;
+/// How much work the making may be, about in bytes that are copied: some seconds, and some 100 MiB.
+const MOST_WORK: usize = 8 * LARGEST_SCENE;
 /// Templates in templates, files in files: this deep.
 const DEEPEST: u32 = 32;
 /// A scene is made of at most this many files.
@@ -120,7 +120,7 @@ struct Expander {
     /// The files that are being opened, each included by the one before.
     open_files: Vec<PathBuf>,
     made: u64,
-    read: usize,
+    work: usize,
     /// How many values stand in each other by name.
     depth: u32,
     /// Whether nobody will read why an expression is wrong.
@@ -203,26 +203,40 @@ impl Expander {
     fn step(&mut self, context: &Context, span: std::ops::Range<usize>, cause: Cause) -> Outcome<u32> {
         let depth = self.steps[context.step as usize].depth + 1;
         if depth > DEEPEST {
-            let message = format!("templates, files and repetitions stand in each other more than {DEEPEST} deep");
-            let error = self.wrong(context, span, message);
-            return Err(Box::new(error.with_help("does one make itself, over others?")));
+            let message = match &cause {
+                Cause::Instance { template, .. } if self.makes(context.step, template) => {
+                    format!("the template `{template}` makes itself, more than {DEEPEST} deep")
+                }
+                _ => format!("templates, files and repetitions stand in each other more than {DEEPEST} deep"),
+            };
+            let mut error = self.wrong(context, span, message);
+            error.chain.truncate(1);
+            return Err(Box::new(error.with_help("let it end: a template may make itself only so often")));
         }
         let at = (span.start as u32, span.end as u32);
         self.steps.push(Step { before: context.step, depth, file: context.file.number, at, cause: Some(cause) });
         Ok(self.steps.len() as u32 - 1)
     }
 
-    /// Counts what is made and read, so that a small text cannot ask for endless work.
-    fn spend(&mut self, context: &Context, id: Id, made: u64, read: usize) -> Outcome<()> {
+    /// Whether a step is within an instance of a template.
+    fn makes(&self, step: u32, name: &str) -> bool {
+        let ways = std::iter::successors(Some(step), |&step| (step > 0).then(|| self.steps[step as usize].before));
+        ways.into_iter().any(|step| {
+            matches!(&self.steps[step as usize].cause, Some(Cause::Instance { template, .. }) if template == name)
+        })
+    }
+
+    /// Counts what is made, and the work it is, so that a small text cannot ask for endless work.
+    fn spend(&mut self, context: &Context, id: Id, made: u64, work: usize) -> Outcome<()> {
         self.made += made;
-        self.read += read;
+        self.work += work;
         let span = context.file.tree.head(id);
         if self.made > MOST_MADE {
             let message = format!("the scene makes more than {MOST_MADE} things by `Repeat` and `instances`");
             let error = self.wrong(context, span, message);
             return Err(Box::new(error.with_help("repeat less often")));
         }
-        if self.read > MOST_READ {
+        if self.work > MOST_WORK {
             let error = self.wrong(context, span, "the scene becomes too large");
             return Err(Box::new(error.with_help("repeat less often, or make smaller things")));
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::emit::Context;
+use super::emit::{Context, WORK, WORK_OF_TEXT};
 use super::expression::{self, Wrong};
 use super::number::Number;
 use super::{Expander, Outcome};
@@ -56,6 +56,10 @@ impl Scope {
 
     pub(super) fn give(&mut self, name: &str, text: &str) {
         self.bindings.insert(name.to_owned(), Binding::Given(text.to_owned()));
+    }
+
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.bindings.contains_key(name)
     }
 
     pub(super) fn names(&self) -> impl Iterator<Item = &str> + Clone {
@@ -143,7 +147,7 @@ impl Expander {
     /// The value of a number, text or anything else that stands where a parameter or argument gets its value.
     pub(super) fn read_value(&mut self, context: &Context, id: Id) -> Outcome<Value> {
         let tree = &context.file.tree;
-        self.spend(context, id, 0, tree.span(id).len())?;
+        self.spend(context, id, 0, WORK + WORK_OF_TEXT * tree.span(id).len())?;
         match tree.node(id).form {
             Form::Number => self.number(context, id).map(Value::Number),
             Form::Text => {
@@ -200,7 +204,7 @@ impl Expander {
             Ok(Value::Text(text)) => Err((format!("`{name}` is the text \"{text}\", not a number"), None)),
             Ok(Value::Node(..)) => Err((format!("`{name}` is not a number"), None)),
             Err(Missing::Unknown) if self.quiet => Err((String::new(), None)),
-            Err(Missing::Unknown) => Err((format!("there is no parameter `{name}`"), Some(self.known(scope, name)))),
+            Err(Missing::Unknown) => Err((format!("`{name}` has no value here"), Some(self.known(scope, name)))),
             Err(Missing::Elsewhere(error)) => {
                 elsewhere = Some(error);
                 Err((String::new(), None))
@@ -241,7 +245,11 @@ impl Expander {
                 wrong.range = wrong.range.start + brace + 1..wrong.range.end + brace + 1;
                 Failed::Here(wrong)
             };
-            let value = if is_name(inner) { self.find(scope, inner.trim(), asked).ok() } else { None };
+            let value = match is_name(inner).then(|| self.find(scope, inner.trim(), asked)) {
+                Some(Ok(value)) => Some(value),
+                Some(Err(Missing::Elsewhere(error))) => return Err(Failed::Elsewhere(error)),
+                Some(Err(Missing::Unknown)) | None => None,
+            };
             match value {
                 Some(Value::Text(text)) => filled.push_str(&text),
                 _ => {
