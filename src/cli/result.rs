@@ -78,7 +78,7 @@ pub(super) fn tell(
 /// The likely cause of a run that went wrong, and what to try.
 fn remedy(card: &Card) -> String {
     match card.critical_tick {
-        Some(critical) if card.tick > critical => format!(
+        Some(critical) if card.has_touched() && card.tick > critical => format!(
             "the tick of {} s is longer than the contacts can bear, {} s: try `--tick {}`",
             number(card.tick),
             number(critical),
@@ -86,8 +86,8 @@ fn remedy(card: &Card) -> String {
         ),
         _ => format!(
             "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near \
-             zero, for a plugin that does not book its work, or try `--tick {}`",
-            number(card.advised_tick())
+             zero, for drag that stops a body within a tick, for a plugin that does not book its work, or try `--tick {}`",
+            number(card.tick / 4.0)
         ),
     }
 }

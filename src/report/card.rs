@@ -102,6 +102,8 @@ pub struct Card {
     #[serde(skip)]
     shortest_contact: Option<f64>,
     #[serde(skip)]
+    touched: bool,
+    #[serde(skip)]
     ticks: u64,
     #[serde(skip)]
     time: f64,
@@ -110,6 +112,9 @@ pub struct Card {
     #[serde(skip)]
     energy_scale: f64,
 }
+
+/// Share of the energy that went round.
+const UNACCOUNTED: f64 = 0.05;
 
 impl Card {
     /// The card of the present state, after `seconds_spent` seconds of computing.
@@ -150,12 +155,14 @@ impl Card {
             warnings: Vec::new(),
             error: None,
             shortest_contact,
+            touched: responses.fastest.is_some(),
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
             energy_scale: energy.turned_over(world),
         };
         card.warnings = warnings(world, card.advised_tick());
+        card.warnings.extend(card.unaccounted());
         card.notes.extend(card.warnings.iter().map(|warning| format!("warning: {warning}")));
         card.verdict = card.judge();
         card
@@ -164,6 +171,11 @@ impl Card {
     /// Energy residual over the energy that went round.
     pub fn energy_error(&self) -> f64 {
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
+    }
+
+    /// Whether anything has touched, as far as that was measured: only then can contacts be to blame.
+    pub fn has_touched(&self) -> bool {
+        self.touched
     }
 
     /// The tick in seconds that this run is advised to try next.
@@ -176,6 +188,14 @@ impl Card {
         Known { tick, critical, shortest_contact, travel }
     }
 
+    /// The largest part of energy that may be unaccounted for without a warning is [`UNACCOUNTED`].
+    fn unaccounted(&self) -> Option<String> {
+        let percent = self.energy_error() * 100.0;
+        let advised = number(self.advised_tick());
+        (self.energy_error() > UNACCOUNTED)
+            .then(|| format!("{percent:.1} % of the energy is unaccounted for; use --tick {advised}"))
+    }
+
     fn judge(&self) -> String {
         let finer = format!("--tick {}", number(self.advised_tick()));
         if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
@@ -186,9 +206,8 @@ impl Card {
         if self.critical_tick.is_some_and(|critical| critical < self.tick) {
             return format!("Do not trust it: the tick is longer than the contacts can bear. Use {finer} or finer.");
         }
-        if self.energy_error() > 0.05 {
-            let percent = self.energy_error() * 100.0;
-            return format!("Do not trust it: {percent:.1} % of the energy is unaccounted for. Use {finer}.");
+        if let Some(unaccounted) = self.unaccounted() {
+            return format!("Do not trust it: {unaccounted}.");
         }
         if overlap.share_of_radius > 1.0 {
             return format!(

@@ -68,7 +68,7 @@ impl EnergyGuard {
         let unstable = Responses::of(world).fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(world));
         let too_much = if unstable { BEYOND } else { ENORMOUS } * put_in;
         // Written so that energies that are no numbers are too much; without anything put in there is no measure.
-        if put_in == 0.0 || energy <= too_much {
+        if put_in == 0.0 || energy <= too_much && put_in.is_finite() {
             return None;
         }
         let most =

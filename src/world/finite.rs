@@ -13,9 +13,16 @@ pub fn first_not_finite(bodies: &Bodies) -> Option<(usize, &'static str)> {
             "velocity"
         } else if !bodies.spin[body].is_finite() {
             "spin"
+        } else if bodies.dynamic[body] && !twice_kinetic(bodies, body).is_finite() {
+            "kinetic energy"
         } else {
             return None;
         };
         Some((body, quantity))
     })
+}
+
+fn twice_kinetic(bodies: &Bodies, body: usize) -> f64 {
+    let (velocity, spin) = (bodies.velocity[body], bodies.spin[body]);
+    bodies.mass[body] * velocity.length_squared() + bodies.inertia[body] * spin * spin
 }

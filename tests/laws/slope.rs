@@ -9,6 +9,9 @@
 //! `mu N s/2` that is missing), and its way longer by `u t`. Where friction begins it is missing for one tick more, and for
 //! another one while the load shifts forward, as friction pitches the block.
 //!
+//! Wide blocks of 4 to 16 discs, whose contacts share the load unevenly, hold up to the static coefficient like narrow ones,
+//! on slopes and under loads that begin suddenly. There the coefficients differ, so that what is let go slides away.
+//!
 //! Not tested: blocks that topple.
 
 use jostle::problems::Truth;
@@ -167,5 +170,61 @@ fn a_sliding_block_stops_and_stays() {
         }
         assert_near("stopping distance", state(&simulation, 0.0).0, truth.number("stopping distance"), 1e-3);
         assert_rest("block", &mut simulation, 5.0, 5.0);
+    }
+}
+
+/// A row of `count` discs of 1 kg in all that stands on a wall which falls by `angle`; static 0.6, dynamic 0.3. The ticks are
+/// a twentieth of what a contact lasts or less.
+fn wide(method: &str, count: usize, angle: f64, forces: &str) -> String {
+    let stiffness = 1e6;
+    let (sin, cos) = libm::sincos(angle);
+    let height = RADIUS - GRAVITY * cos / (count as f64 * stiffness);
+    let (x, y, row) = (height * sin, height * cos, "#".repeat(count));
+    format!(
+        "Scene(format: 1, clock: (duration: 1000, tick: 2e-5, method: {method}), gravity: (0, -{GRAVITY:?}), {forces}
+        materials: {{ \"m\": (stiffness: {stiffness:?}, friction: (static: 0.6, dynamic: 0.3), inelasticity: 0.3) }},
+        walls: [(name: \"slope\", left: ({cos:?}, {:?}), right: (0, 0), material: \"m\")],
+        bodies: [(name: \"block\", at: ({x:?}, {y:?}), angle: {:?}, material: \"m\",
+                  atoms: Picture(spacing: 0.1, mass: {:?}, rows: [\"{row}\"]))])",
+        -sin,
+        -angle,
+        1.0 / count as f64
+    )
+}
+
+#[test]
+fn wide_blocks_hold_up_to_the_static_coefficient() {
+    for method in METHODS {
+        for count in [4, 8, 16] {
+            for (slope, stays) in [(0.59, true), (0.61, false)] {
+                let mut simulation = load(&wide(method, count, libm::atan(slope), ""));
+                run_to(&mut simulation, 0.2);
+                let stands = simulation.bodies().velocity[0] == glam::DVec2::ZERO;
+                assert_eq!(stands, stays, "{method}, {count} discs, tan {slope}");
+            }
+        }
+    }
+}
+
+/// What it moves before it is caught: while the velocity of one tick, `F dt/m`, is braked by what is left of the cone.
+#[test]
+fn a_sudden_load_is_held_up_to_the_static_coefficient() {
+    for method in METHODS {
+        for count in [4, 8, 16] {
+            for (share, stays) in [(0.6, true), (0.95, true), (1.05, false)] {
+                let load_of = 0.6 * GRAVITY * share;
+                let forces = format!("forces: [Thrust(of: \"block\", force: ({load_of:?}, 0), from: 0.1)],");
+                let mut simulation = load(&wide(method, count, 0.0, &forces));
+                run_to(&mut simulation, 0.3);
+                let bodies = simulation.bodies();
+                let caught = 0.5 * (load_of * 2e-5).powi(2) / (0.6 * GRAVITY * (1.0 - share)) + 2.0 * load_of * 4e-10;
+                if stays {
+                    assert_eq!(bodies.velocity[0], glam::DVec2::ZERO, "{method}, {count} discs, {share} of the limit");
+                    assert!(bodies.position[0].x.abs() <= caught, "{}: {caught:e}", bodies.position[0].x);
+                } else {
+                    assert!(bodies.velocity[0].x > 0.5 * (load_of - 0.3 * GRAVITY) * 0.2, "{method}, {count} discs");
+                }
+            }
+        }
     }
 }

@@ -69,10 +69,18 @@ struct Row {
 }
 
 impl Row {
-    fn new(movers: &[Mover], (a, b): (usize, usize), (lever_a, lever_b): (f64, f64), direction: DVec2) -> Self {
-        let linear = direction.length_squared();
+    fn new(movers: &[Mover], ends: (usize, usize), (lever_a, lever_b): (f64, f64), direction: DVec2) -> Self {
+        let mut row = Self { direction, lever_a, lever_b, mobility: 0.0 };
+        let (of_a, of_b) = row.mobilities(movers, ends);
+        row.mobility = of_a + of_b;
+        row
+    }
+
+    /// What each side gives to the mobility.
+    fn mobilities(&self, movers: &[Mover], (a, b): (usize, usize)) -> (f64, f64) {
+        let linear = self.direction.length_squared();
         let share = |mover: &Mover, lever: f64| linear * mover.inverse_mass + lever * lever * mover.inverse_inertia;
-        Self { direction, lever_a, lever_b, mobility: share(&movers[a], lever_a) + share(&movers[b], lever_b) }
+        (share(&movers[a], self.lever_a), share(&movers[b], self.lever_b))
     }
 
     fn velocity(&self, movers: &[Mover], (a, b): (usize, usize)) -> f64 {
@@ -101,11 +109,19 @@ struct Bounded {
     /// leave that to rounding.
     at_limit: bool,
     force: f64,
+    /// Velocity at the beginning of the tick.
+    begin: f64,
 }
 
 impl Bounded {
     fn is_free(&self) -> bool {
         self.engaged && !self.at_limit
+    }
+
+    /// Whether it brakes without stopping: `velocity` at the end of the tick is less than at the beginning, and the force
+    /// is against it. So a body that is taken by surprise is caught within some ticks by what could hold it.
+    fn brakes(&self, velocity: f64) -> bool {
+        self.engaged && self.force * velocity < 0.0 && velocity.abs() < self.begin.abs()
     }
 }
 
@@ -131,6 +147,28 @@ pub struct Seen {
     pub tangential: (f64, f64),
     /// Coefficient of rolling friction times rolling radius in metres, and the present torque in N m, against B's turn.
     pub rolling: (f64, f64),
+}
+
+/// The bodies around the contacts of an island.
+struct Movers<'a> {
+    begin: &'a [Mover],
+    end: &'a [Mover],
+    /// For each the greatest tangential force and the greatest rolling torque of all its contacts.
+    grips: Vec<[f64; 2]>,
+}
+
+/// Sets up contacts for the `dt` seconds to come. `begin` and `end` hold the velocities at their beginning, and at their end
+/// under the present forces.
+pub fn candidates(begin: &[Mover], end: &[Mover], seen: &[Seen], dt: f64) -> Vec<Candidate> {
+    let mut grips = vec![[0.0; 2]; end.len()];
+    for Seen { ends, band, tangential, rolling, .. } in seen {
+        for place in [ends.0, ends.1] {
+            grips[place][0] += tangential.0 * band.1;
+            grips[place][1] += rolling.0 * band.1;
+        }
+    }
+    let movers = Movers { begin, end, grips };
+    seen.iter().map(|seen| Candidate::new(&movers, seen, dt)).collect()
 }
 
 /// A contact that may come to rest.
@@ -161,9 +199,9 @@ pub enum Verdict {
     Rests {
         /// Normal force in newtons.
         normal: f64,
-        /// Tangential force in newtons if it rests along the tangent too.
+        /// Tangential force in newtons if it rests along the tangent too, or is braked by all that friction can hold.
         tangential: Option<f64>,
-        /// Rolling torque in N m if it does not roll.
+        /// Rolling torque in N m if it does not roll, or is braked likewise.
         rolling: Option<f64>,
         /// Whether nothing in it moves that friction could hold.
         entirely: bool,
@@ -171,19 +209,20 @@ pub enum Verdict {
 }
 
 impl Candidate {
-    /// Sets up the rows of a contact for the `dt` seconds to come.
-    pub fn new(movers: &[Mover], seen: &Seen, dt: f64) -> Self {
+    fn new(movers: &Movers, seen: &Seen, dt: f64) -> Self {
         let along = |direction: DVec2| {
             let levers = (seen.arms.0.perp_dot(direction), seen.arms.1.perp_dot(direction));
-            Row::new(movers, seen.ends, levers, direction)
+            Row::new(movers.end, seen.ends, levers, direction)
         };
-        let turn = Row::new(movers, seen.ends, (-1.0, -1.0), DVec2::ZERO);
-        // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
-        let bounded = |row: Row, (coefficient, force): (f64, f64)| {
-            let reach = 4.0 * coefficient * seen.band.1 * row.mobility * dt;
-            let engaged =
-                (seen.engaged || force == 0.0) && coefficient > 0.0 && row.velocity(movers, seen.ends).abs() <= reach;
-            Bounded { row, coefficient, engaged, at_limit: false, force }
+        let turn = Row::new(movers.end, seen.ends, (-1.0, -1.0), DVec2::ZERO);
+        let bounded = |place: usize, row: Row, (coefficient, force): (f64, f64)| {
+            // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
+            let (of_a, of_b) = row.mobilities(movers.end, seen.ends);
+            let reach = 4.0 * (movers.grips[seen.ends.0][place] * of_a + movers.grips[seen.ends.1][place] * of_b) * dt;
+            let velocity = row.velocity(movers.end, seen.ends);
+            let engaged = (seen.engaged || force == 0.0) && coefficient > 0.0 && velocity.abs() <= reach;
+            let begin = row.velocity(movers.begin, seen.ends);
+            Bounded { row, coefficient, engaged, at_limit: false, force, begin }
         };
         Self {
             ends: seen.ends,
@@ -193,7 +232,7 @@ impl Candidate {
             rounding: seen.noise,
             noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
             normal_force: seen.normal_force,
-            bounded: [bounded(along(-seen.normal.perp()), seen.tangential), bounded(turn, seen.rolling)],
+            bounded: [bounded(0, along(-seen.normal.perp()), seen.tangential), bounded(1, turn, seen.rolling)],
         }
     }
 
@@ -247,10 +286,12 @@ impl Candidate {
         }
         let held = |bounded: &Bounded| {
             let holds = bounded.engaged && (bounded.is_free() || stands(&bounded.row));
-            holds.then_some(bounded.force)
+            let brakes = bounded.brakes(bounded.row.velocity(movers, self.ends));
+            (holds || brakes).then_some((bounded.force, holds))
         };
-        let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || held(bounded).is_some());
-        let [tangential, rolling] = [held(&self.bounded[0]), held(&self.bounded[1])];
+        let stops = |bounded: &Bounded| held(bounded).is_some_and(|(_, holds)| holds);
+        let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || stops(bounded));
+        let [tangential, rolling] = [0, 1].map(|place| held(&self.bounded[place]).map(|(force, _)| force));
         Verdict::Rests { normal: self.normal_force, tangential, rolling, entirely }
     }
 }

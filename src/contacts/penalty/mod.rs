@@ -227,6 +227,10 @@ fn rolling_energy(world: &World) -> f64 {
 /// What the law cannot give is said on the card.
 fn note_limits(world: &mut World) {
     let settings = *world.resource::<Penalty>();
+    if settings.tangential == TangentialLaw::None && world.resource::<Materials>().any_friction() {
+        let note = "contacts: with `tangential: None` the friction of the materials does not act";
+        world.resource_mut::<Notes>().0.push(note.to_owned());
+    }
     if settings.normal != NormalLaw::Dashpot {
         return;
     }

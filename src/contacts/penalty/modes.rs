@@ -8,7 +8,7 @@ use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::frame::Frame;
-use super::hold::{self, Candidate, Mover, Seen, Verdict};
+use super::hold::{self, Mover, Seen, Verdict};
 use super::islands::{islands, members};
 use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
@@ -194,19 +194,23 @@ impl Choice<'_> {
     fn stop<N: NormalForce>(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger) {
         let members = members(island);
         let place = |body: usize| members.binary_search(&body).map_or(0, |place| place + 1);
+        let bodies = &*self.sink.bodies;
+        let mut begin = vec![Mover::default()];
+        begin.extend(members.iter().map(|&body| mover(bodies, body, 0.0)));
         let mut movers = vec![Mover::default()];
-        movers.extend(members.iter().map(|&body| mover(self.sink.bodies, body, self.dt)));
-        let mut candidates = Vec::with_capacity(island.len());
+        movers.extend(members.iter().map(|&body| mover(bodies, body, self.dt)));
         // Walls whose surface moves stand behind the bodies.
-        let belts = movers.len();
-        movers.extend(island.iter().filter_map(|case| case.belt(self.sink.bodies)));
-        let mut belt = belts..;
+        let mut belt = movers.len()..;
+        for list in [&mut begin, &mut movers] {
+            list.extend(island.iter().filter_map(|case| case.belt(bodies)));
+        }
+        let mut seen = Vec::with_capacity(island.len());
         for case in island {
             let belt = case.belt(self.sink.bodies).and_then(|_| belt.next());
             let ends = (case.other_body().map_or(belt.unwrap_or(0), place), place(case.end.body));
-            let seen = self.seen::<N>(case, ends);
-            candidates.push(Candidate::new(&movers, &seen, self.dt));
+            seen.push(self.seen::<N>(case, ends));
         }
+        let mut candidates = hold::candidates(&begin, &movers, &seen, self.dt);
         let frame = self.frame(island, &members, &movers[1..]);
         let place_of = |mover: usize, bodies: &Bodies| {
             mover
