@@ -5,7 +5,7 @@ use clap::Args;
 use super::Exit;
 use super::flags::OverrideFlags;
 use super::load::Request;
-use super::pace::run_to;
+use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail};
 use super::say::{count, print_line, say};
@@ -58,8 +58,7 @@ impl Check {
     fn run(&self, request: Request, mut simulation: Simulation) -> Exit {
         let progress = Progress::new(simulation.ticks(), "ticks", self.json);
         let end = simulation.ticks();
-        let failure = run_to(&mut simulation, end, &progress).err();
-        drop(progress);
+        let failure = Runner { progress, wall_clock: None }.run_to(&mut simulation, end).err();
         let exit = result::tell(request, &simulation, failure.as_ref(), false, Detail::of(self.json, true));
         if exit == Exit::Good && !self.json {
             let holding = match simulation.outcomes().len() {

@@ -1,30 +1,61 @@
 //! Making one film: its frames, its camera, its file.
 
+use std::io;
+
 use super::Exit;
+use super::aim::Aim;
 use super::load::Request;
 use super::progress::Progress;
-use super::say::number;
+use super::projector::Projector;
+use super::say::say;
+use super::squeeze::Squeeze;
 use super::target::Place;
-use crate::output::{self, Film, FilmSettings, OutputError, Written};
-use crate::raster::{Bounds, Camera, Theme, View};
+use super::wall_clock::WallClock;
+use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
+use crate::raster::{Camera, Theme, View};
+use crate::record::follow::Follower;
+use crate::record::spool::Spool;
 use crate::record::{Recorder, Schedule};
 use crate::scene::Source;
-use crate::scene::sections::{CameraChoice, FitCamera};
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::Failure;
 
-/// More frames than anybody watches: nine hours at 30 frames per second.
-const MOST_FRAMES: f64 = 1e6;
-
 /// What the threads that draw may take together, in bytes.
 const MEMORY: usize = 2 << 30;
-/// What one of them takes for each pixel: a picture, its colours by place of the palette for each frame of its
-/// group, and what packing needs. Measured generously.
-const BYTES_PER_PIXEL: usize = 24;
+/// What one of them takes for each pixel: a picture, those of its group, and what packing needs. Measured generously.
+const BYTES_PER_PIXEL: usize = 32;
 
-/// How large the picture may grow, in its size at the beginning, when the run is known to go wrong: a body that
-/// leaves at enormous speed must not shrink all others to a point.
-const WILDEST_GROWTH: f64 = 100.0;
+/// A sheet without a size of its own is at most so wide, in pixels.
+const SHEET_WIDTH: u64 = 1920;
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shot {
+    /// The film.
+    Film,
+    /// `--at`: one picture.
+    At(f64),
+    /// `--strip`: pictures of these moments side by side.
+    Strip(Vec<f64>),
+    /// `--sheet`: columns and rows of moments spread evenly over the film.
+    Sheet((u32, u32)),
+}
+
+impl Shot {
+    /// Whether it is a film, not a still.
+    pub fn is_film(&self) -> bool {
+        *self == Shot::Film
+    }
+
+    /// Columns and rows of a picture made of several frames.
+    fn places(&self) -> Option<(u32, u32)> {
+        match self {
+            Shot::Strip(moments) => Some((moments.len() as u32, 1)),
+            Shot::Sheet(places) => Some(*places),
+            Shot::Film | Shot::At(_) => None,
+        }
+    }
+}
 
 /// What is to be filmed.
 pub(super) struct Order<'a> {
@@ -32,13 +63,18 @@ pub(super) struct Order<'a> {
     pub source: &'a Source,
     pub overrides: &'a Overrides,
     pub place: &'a Place,
-    /// `--at`: one picture, at this time.
-    pub at: Option<f64>,
+    pub shot: &'a Shot,
     pub size: Option<(u32, u32)>,
     pub frames_per_second: Option<f64>,
     pub threads: Option<usize>,
+    /// `--max-size`, in bytes.
+    pub most_bytes: Option<u64>,
+    /// `--pace`.
+    pub pace: bool,
     /// No progress bar.
     pub silent: bool,
+    /// Messages only if something is wrong.
+    pub quiet: bool,
 }
 
 /// A film, and how the run went.
@@ -48,9 +84,27 @@ pub(super) struct Made {
     pub failure: Option<Failure>,
 }
 
-enum Trouble {
+/// Why a film was not made.
+pub(super) enum Trouble {
     Run(Failure),
     Output(OutputError),
+    /// The frames could not be kept aside.
+    Spool(io::Error),
+    /// It was told already.
+    Told,
+}
+
+impl From<OutputError> for Trouble {
+    fn from(error: OutputError) -> Self {
+        Self::Output(error)
+    }
+}
+
+/// How pictures are made of frames.
+struct Set<'a> {
+    order: &'a Order<'a>,
+    settings: FilmSettings,
+    view: View,
 }
 
 impl Order<'_> {
@@ -58,84 +112,52 @@ impl Order<'_> {
     pub fn make(&self, simulation: &mut Simulation) -> Result<Made, Exit> {
         let film = simulation.film();
         let frames_per_second = self.frames_per_second.unwrap_or_else(|| film.frames_per_second());
-        let size = self.size.unwrap_or_else(|| film.size());
-        let schedule = self.schedule(simulation, frames_per_second)?;
+        let size = self.size.unwrap_or_else(|| self.size_within(film.size()));
+        let step = film.speed() / frames_per_second;
+        let threads = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
         let theme = Theme::names()
             .first()
             .and_then(|name| Theme::named(name))
             .expect("a program without a theme fails its tests");
-        let settings = |threads| FilmSettings { frames_per_second, threads };
-        let view = |camera| View { camera, theme: theme.clone(), frame_step: schedule.step };
         // A target that cannot be written is to be known before the first run, not after it.
-        let trial = Camera::look(glam::DVec2::ZERO, 1.0, size);
+        let settings = FilmSettings { frames_per_second, threads: 1, live: self.pace, ..FilmSettings::default() };
+        let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step };
+        let mut set = Set { order: self, settings, view };
         if let Some(folder) = &self.place.folder {
             let made = std::fs::create_dir_all(folder);
             made.map_err(|cause| self.request.usage(&format!("`{}` cannot be made: {cause}", folder.display())))?;
         }
-        let target = &self.place.target;
-        output::open(target, &settings(1), view(trial)).map_err(|error| self.refuse(&error))?;
+        set.open().map_err(|error| self.refuse(&error))?;
+        let (schedule, step) = self.moments(simulation, frames_per_second)?;
         // A still shows what the film shows at that moment, so its camera looks at the whole run too.
-        let looked_at = if self.at.is_some() { whole_run(simulation, schedule.step) } else { schedule };
-        let camera = self.camera(simulation, &looked_at, size)?;
-        let threads = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
-        let settings = settings(threads.min(affordable_threads(size)));
-        let mut film = output::open(target, &settings, view(camera)).map_err(|error| self.refuse(&error))?;
-        let recorded = self.record(film.as_mut(), simulation, &schedule);
-        let failure = match recorded {
-            Err(Trouble::Output(error)) => return Err(self.refuse(&error)),
-            Err(Trouble::Run(failure)) => Some(failure),
-            // What follows the last frame still counts for the card.
-            Ok(()) if self.at.is_none() => simulation.run_to_end().err(),
-            Ok(()) => None,
-        };
-        match film.finish() {
-            Ok(written) => Ok(Made { written: Some(written), failure }),
-            Err(OutputError::NoFrames { .. }) if failure.is_some() => Ok(Made { written: None, failure }),
-            Err(error) => Err(self.refuse(&error)),
+        let whole = whole_run(simulation, film_step(simulation, frames_per_second));
+        let looked_at = if self.shot.is_film() { &schedule } else { &whole };
+        let Aim { camera, follower } = self.aim(simulation, looked_at, size, 1.0 / frames_per_second)?;
+        set.view = View { camera, frame_step: step, ..set.view };
+        set.settings.threads = threads.min(affordable_threads(size));
+        if self.place.target.is_raw() && !self.quiet {
+            let (width, height) = size;
+            say(&format!(
+                "raw pictures: {width} x {height} pixels, {frames_per_second} frames per second, 4 bytes each pixel (red, \
+                 green, blue, 255); to watch them: ffplay -f rawvideo -pixel_format rgba -video_size {width}x{height} \
+                 -framerate {frames_per_second} FILE"
+            ));
         }
+        set.shoot(simulation, &schedule, follower)
     }
 
-    /// The moments to draw.
-    fn schedule(&self, simulation: &Simulation, frames_per_second: f64) -> Result<Schedule, Exit> {
-        let film = simulation.film();
-        let end = simulation.ticks() as f64 * simulation.clock().dt;
-        // The last moment of a run is a product of ticks; what people write differs in the last digits.
-        let beyond = |time: f64| time > end * (1.0 + 1e-9);
-        if let Some(at) = self.at {
-            let step = film.speed() / frames_per_second;
-            return if beyond(at) {
-                Err(self.request.usage(&format!(
-                    "--at {} s is after the end: the run lasts {} s",
-                    number(at),
-                    number(end)
-                )))
-            } else {
-                Ok(Schedule { from: at.min(end), step, frames: 1 })
-            };
+    /// The size of a frame when only the scene says one: a sheet of many is not to become larger than a screen.
+    fn size_within(&self, (width, height): (u32, u32)) -> (u32, u32) {
+        let Some((columns, _)) = self.shot.places() else { return (width, height) };
+        let narrow = (SHEET_WIDTH / u64::from(columns)) as u32;
+        if narrow >= width {
+            return (width, height);
         }
-        let (from, exit) = (film.begin(), if self.is_overridden() { Exit::Usage } else { Exit::SceneWrong });
-        if beyond(from) {
-            let message = format!("the film begins at {} s, but the run ends at {} s", number(from), number(end));
-            let help = "begin earlier, or let the run last longer: `clock: (duration: ..)` or `--duration`";
-            return Err(self.request.refuse(exit, "film.from", &message, help));
-        }
-        let to = film.end().min(end);
-        let frames = (to - from) / film.speed() * frames_per_second;
-        if frames > MOST_FRAMES {
-            let (seconds, frames) = (number(to - from), number(frames.round()));
-            let message = format!("{seconds} s of physics would be {frames} frames, more than {MOST_FRAMES}");
-            let help = "choose fewer frames per second (`fps`), a higher `speed`, or an earlier end (`to`)";
-            return Err(self.request.refuse(exit, "film", &message, help));
-        }
-        Ok(Schedule::new(from, to, film.speed(), frames_per_second))
+        let side = |side: u32| (u64::from(side) * u64::from(narrow) / u64::from(width)).max(16) as u32;
+        (side(width), side(height))
     }
 
-    /// Whether the command line, not the scene, says how long the run and the film are.
-    fn is_overridden(&self) -> bool {
-        self.frames_per_second.is_some() || self.overrides.duration.is_some()
-    }
-
-    fn refuse(&self, error: &OutputError) -> Exit {
+    pub(super) fn refuse(&self, error: &OutputError) -> Exit {
         let remedy = match error {
             OutputError::Rate { .. } => ", use `--fps 50`, or write pictures: `-o DIR/`",
             _ => "",
@@ -143,53 +165,90 @@ impl Order<'_> {
         self.request.usage(&format!("{error}{remedy}"))
     }
 
-    fn record(&self, film: &mut dyn Film, simulation: &mut Simulation, schedule: &Schedule) -> Result<(), Trouble> {
-        let progress = Progress::new(schedule.frames, "frames", self.silent);
-        let mut recorder = Recorder::default();
-        for frame in 0..schedule.frames {
-            let frame = recorder.frame(simulation, schedule.time(frame)).map_err(Trouble::Run)?;
-            film.push(frame).map_err(Trouble::Output)?;
-            progress.step();
+    fn refuse_spool(&self, error: &io::Error) -> Exit {
+        self.request.usage(&format!(
+            "the frames could not be kept aside in `{}`: {error}; free some space there, or set TMPDIR to another \
+             directory",
+            Spool::folder().display()
+        ))
+    }
+}
+
+impl Set<'_> {
+    fn open(&self) -> Result<Box<dyn Film>, OutputError> {
+        let target = &self.order.place.target;
+        match self.order.shot.places() {
+            Some(places) => sheet::open(target, self.view.clone(), places),
+            None => output::open(target, &self.settings, self.view.clone()),
         }
-        Ok(())
     }
 
-    /// The camera that the scene asks for. One that fits everything has to know the whole motion beforehand, so the
-    /// scene is run once without being drawn: time is spent, memory is not.
-    fn camera(&self, simulation: &Simulation, schedule: &Schedule, size: (u32, u32)) -> Result<Camera, Exit> {
-        let margin = match simulation.world().get_resource::<CameraChoice>() {
-            Some(CameraChoice::Look(look)) => return Ok(Camera::look(look.center.si(), look.height.si(), size)),
-            Some(CameraChoice::Fit(fit)) => fit.margin.si(),
-            None => FitCamera::default().margin.si(),
+    fn shoot(
+        &self,
+        simulation: &mut Simulation,
+        schedule: &Schedule,
+        follower: Option<Follower>,
+    ) -> Result<Made, Exit> {
+        let order = self.order;
+        let backwards = order.shot.is_film() && simulation.film().is_backwards();
+        let wall_clock = order.pace.then(WallClock::default);
+        let mut projector = Projector::new(follower, wall_clock, 1.0 / self.settings.frames_per_second);
+        let mut spool = match (backwards || order.most_bytes.is_some()).then(Spool::new).transpose() {
+            Ok(spool) => spool,
+            Err(error) => return Err(order.refuse_spool(&error)),
         };
-        let again = Simulation::load_with(self.source, self.overrides, |_| {});
-        let mut ahead = again.map_err(|errors| self.request.refuse_scene(&errors))?;
-        let progress = Progress::new(schedule.frames, "frames looked ahead", self.silent);
+        // A film that is kept aside first is opened when it is played.
+        let mut film = if spool.is_none() { Some(self.open().map_err(|error| order.refuse(&error))?) } else { None };
+        let progress = Progress::new(schedule.frames(), "frames", order.silent);
         let mut recorder = Recorder::default();
-        // The bounds of all frames, and of those before anything leaves at enormous speed.
-        let (mut all, mut tame) = (None, None);
-        let mut room = f64::INFINITY;
-        for frame in 0..schedule.frames {
-            let Ok(frame) = recorder.frame(&mut ahead, schedule.time(frame)) else {
-                // What goes wrong is told by the run that is drawn.
-                all = tame;
-                break;
-            };
-            if let Some(now) = Bounds::of_frame(&frame) {
-                all = Some(all.map_or(now, |before: Bounds| before.union(now)));
-                if tame.is_none() {
-                    room = WILDEST_GROWTH * extent(now);
-                }
-                if extent(now) <= room {
-                    tame = all;
-                } else {
-                    room = f64::NEG_INFINITY;
-                }
+        let recorded = schedule.times().try_for_each(|time| {
+            let frame = recorder.frame(simulation, time).map_err(Trouble::Run)?;
+            match (&mut film, &mut spool) {
+                (Some(film), _) => projector.show(film.as_mut(), frame)?,
+                (None, Some(spool)) => spool.push(&frame).map_err(Trouble::Spool)?,
+                (None, None) => (),
             }
             progress.step();
+            Ok(())
+        });
+        drop(progress);
+        let failure = match recorded {
+            Err(Trouble::Output(error)) => return Err(order.refuse(&error)),
+            Err(Trouble::Spool(error)) => return Err(order.refuse_spool(&error)),
+            Err(Trouble::Told) => return Err(Exit::Usage),
+            Err(Trouble::Run(failure)) => Some(failure),
+            // What follows the last frame still counts for the card.
+            Ok(()) if order.shot.is_film() => simulation.run_to_end().err(),
+            Ok(()) => None,
+        };
+        let finished = match (film, spool) {
+            (Some(film), _) => film.finish().map_err(Trouble::Output),
+            (None, Some(mut spool)) => match order.most_bytes {
+                Some(most) => {
+                    let frames = spool.frames();
+                    let squeeze = Squeeze { settings: self.settings, view: &self.view, most, frames };
+                    squeeze.make(order, |film, every| projector.rewound(every).play(&mut spool, backwards, every, film))
+                }
+                None => self.open().map_err(Trouble::Output).and_then(|mut film| {
+                    projector.play(&mut spool, backwards, 1, film.as_mut())?;
+                    Ok(film.finish()?)
+                }),
+            },
+            (None, None) => return Ok(Made { written: None, failure }),
+        };
+        if let Some(clock) = projector.wall_clock.filter(|_| !order.quiet) {
+            clock.report("frame", "frames");
         }
-        let nothing = Bounds { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
-        Ok(Camera::fit(all.unwrap_or(nothing), margin, size))
+        match finished {
+            Ok(written) => Ok(Made { written: Some(written), failure }),
+            Err(Trouble::Output(OutputError::NoFrames { .. })) if failure.is_some() => {
+                Ok(Made { written: None, failure })
+            }
+            Err(Trouble::Output(error)) => Err(order.refuse(&error)),
+            Err(Trouble::Spool(error)) => Err(order.refuse_spool(&error)),
+            Err(Trouble::Run(failure)) => Ok(Made { written: None, failure: Some(failure) }),
+            Err(Trouble::Told) => Err(Exit::Usage),
+        }
     }
 }
 
@@ -200,8 +259,9 @@ fn whole_run(simulation: &Simulation, step: f64) -> Schedule {
     Schedule::new(0.0, end, step.max(end / ENOUGH), 1.0)
 }
 
-fn extent(bounds: Bounds) -> f64 {
-    (bounds.high - bounds.low).max_element()
+/// Seconds of physics from frame to frame of the film.
+fn film_step(simulation: &Simulation, frames_per_second: f64) -> f64 {
+    simulation.film().speed() / frames_per_second
 }
 
 /// How many threads may draw pictures of this size without taking all of the memory.

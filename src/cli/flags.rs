@@ -12,6 +12,9 @@ use crate::tick::TickAppExt;
 /// More threads than any machine of today makes use of.
 const MOST_THREADS: usize = 1024;
 
+/// More frames in one picture nobody can tell apart.
+const MOST_FRAMES_IN_A_PICTURE: u32 = 400;
+
 /// Flags that override the scene.
 #[derive(Args, Clone, Debug)]
 pub(super) struct OverrideFlags {
@@ -93,6 +96,59 @@ pub(super) fn rate(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| "expected frames per second, from 0.01 to 1000".to_owned())
 }
 
+/// Times from early to late, separated by commas.
+pub(super) fn moments(text: &str) -> Result<Moments, String> {
+    let times = text.split(',').map(moment).collect::<Result<Vec<f64>, _>>();
+    let times = times.map_err(|_| "expected times separated by commas, such as 0,0.5,1 or 0,20ms".to_owned())?;
+    if times.len() as u32 > MOST_FRAMES_IN_A_PICTURE {
+        return Err(format!("expected at most {MOST_FRAMES_IN_A_PICTURE} times, got {}", times.len()));
+    }
+    match times.windows(2).find(|pair| pair[1] <= pair[0]) {
+        Some(pair) => Err(format!("expected times from early to late, but {} comes after {}", pair[1], pair[0])),
+        None => Ok(Moments(times)),
+    }
+}
+
+/// The value of `--strip`: one value, not several of a list.
+#[derive(Clone, Debug)]
+pub(super) struct Moments(pub Vec<f64>);
+
+/// Columns and rows of a contact sheet.
+pub(super) fn sheet(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=MOST_FRAMES_IN_A_PICTURE).contains(side));
+    let sides = text.split_once(['x', 'X']).and_then(|(columns, rows)| Some((side(columns)?, side(rows)?)));
+    let sides = sides.filter(|(columns, rows)| columns * rows <= MOST_FRAMES_IN_A_PICTURE);
+    sides.ok_or_else(|| {
+        format!("expected columns and rows such as 4x3, at most {MOST_FRAMES_IN_A_PICTURE} frames in all")
+    })
+}
+
+/// The units of `--max-size`, in bytes.
+const UNITS: [(&str, f64); 7] = [
+    ("GiB", 1_073_741_824.0),
+    ("MiB", 1_048_576.0),
+    ("KiB", 1024.0),
+    ("GB", 1e9),
+    ("MB", 1e6),
+    ("kB", 1e3),
+    ("B", 1.0),
+];
+
+/// The size of a file in bytes.
+pub(super) fn bytes(text: &str) -> Result<u64, String> {
+    let lower = text.trim().to_lowercase();
+    let unit = UNITS.iter().find_map(|(unit, bytes)| Some((lower.strip_suffix(&unit.to_lowercase())?, *bytes)));
+    let (number, unit) = unit.unwrap_or((&lower, 1.0));
+    let bytes = number.trim().parse::<f64>().ok().map(|number| number * unit);
+    let bytes = bytes.filter(|bytes| (1.0..=1e15).contains(bytes));
+    bytes.map(|bytes| bytes as u64).ok_or_else(|| "expected a size such as 2MB, 500kB or 1.5MiB".to_owned())
+}
+
+/// A size in the unit that suits it.
+pub(super) fn bytes_in_words(bytes: f64) -> String {
+    if bytes < 1e6 { format!("{:.0} kB", (bytes / 1e3).ceil()) } else { format!("{:.1} MB", bytes / 1e6) }
+}
+
 /// A number of threads.
 pub(super) fn threads(text: &str) -> Result<usize, String> {
     let threads = text.parse().ok().filter(|threads| (1..=MOST_THREADS).contains(threads));
@@ -113,6 +169,30 @@ mod tests {
         }
         assert_eq!(moment("0"), Ok(0.0));
         assert!(moment("-0.1").is_err());
+    }
+
+    #[test]
+    fn sizes_of_files_are_read_with_their_units() {
+        for (text, expected) in
+            [("2MB", 2_000_000), ("1.5 mb", 1_500_000), ("500kB", 500_000), ("1KiB", 1024), ("7", 7)]
+        {
+            assert_eq!(bytes(text), Ok(expected), "{text}");
+        }
+        for text in ["", "MB", "0", "-1MB", "2 apples", "nan", "1e99GB"] {
+            assert!(bytes(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn strips_and_sheets_are_bounded() {
+        assert_eq!(moments("0,0.5, 20 s").map(|moments| moments.0), Ok(vec![0.0, 0.5, 20.0]));
+        for text in ["", "0,,1", "1,0.5", "1,1", "-1,2"] {
+            assert!(moments(text).is_err(), "{text}");
+        }
+        assert_eq!(sheet("4x3"), Ok((4, 3)));
+        for text in ["0x3", "4", "4x", "x3", "400x2", "99999999999x1"] {
+            assert!(sheet(text).is_err(), "{text}");
+        }
     }
 
     #[test]

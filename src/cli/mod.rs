@@ -1,18 +1,23 @@
 //! The command line: one file per command.
 
+mod aim;
 mod check;
 mod examples;
 mod film;
 mod flags;
 mod load;
+mod moments;
 mod new;
 mod pace;
 mod progress;
+mod projector;
 mod render;
 mod result;
 mod run;
 mod say;
+mod squeeze;
 mod target;
+mod wall_clock;
 
 use clap::{Parser, Subcommand};
 
@@ -73,7 +78,7 @@ pub struct CommandLine {
 enum Command {
     /// Run a scene and print its error card; with -o also write its channels as CSV
     Run(run::Run),
-    /// Run scenes and draw them: films (GIF), single pictures and sequences (PNG)
+    /// Run scenes and draw them: films (GIF, APNG, MP4, WebM, raw), pictures, strips, contact sheets and sequences (PNG)
     Render(render::Render),
     /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),

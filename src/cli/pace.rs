@@ -1,27 +1,51 @@
-//! Running without drawing, with a progress bar that moves.
+//! Running without drawing, with a progress bar that moves, as fast as possible or at the speed of the clock.
 
 use std::time::{Duration, Instant};
 
 use super::progress::Progress;
+use super::wall_clock::WallClock;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
 /// How often the bar is moved, at most.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// Runs to a tick in batches that last about a beat: a fixed share of an enormous run would keep the bar still.
-pub(super) fn run_to(simulation: &mut Simulation, tick: u64, progress: &Progress) -> Result<(), Failure> {
-    let mut batch = 1;
-    while simulation.clock().ticks < tick {
-        let start = Instant::now();
-        let next = simulation.clock().ticks.saturating_add(batch);
-        simulation.run_to_tick(next.min(tick))?;
-        progress.at(simulation.clock().ticks);
-        if start.elapsed() < BEAT / 2 {
-            batch = batch.saturating_mul(2);
-        } else if start.elapsed() > BEAT {
-            batch = (batch / 2).max(1);
+/// Seconds of physics after which a run at the speed of the clock waits for it.
+const STEP: f64 = 0.01;
+
+/// Runs with a bar, and if asked for no faster than the clock.
+pub(super) struct Runner {
+    pub progress: Progress,
+    /// `--pace`.
+    pub wall_clock: Option<WallClock>,
+}
+
+impl Runner {
+    /// Runs to a tick in batches that last about a beat: a fixed share of an enormous run would keep the bar still.
+    pub fn run_to(&mut self, simulation: &mut Simulation, tick: u64) -> Result<(), Failure> {
+        let step = ((STEP / simulation.clock().dt).round() as u64).max(1);
+        let mut batch = if self.wall_clock.is_some() { step } else { 1 };
+        while simulation.clock().ticks < tick {
+            if let Some(clock) = &mut self.wall_clock {
+                clock.wait(simulation.clock().time());
+            }
+            let start = Instant::now();
+            let next = simulation.clock().ticks.saturating_add(batch);
+            simulation.run_to_tick(next.min(tick))?;
+            self.progress.at(simulation.clock().ticks);
+            if self.wall_clock.is_some() {
+                continue;
+            }
+            if start.elapsed() < BEAT / 2 {
+                batch = batch.saturating_mul(2);
+            } else if start.elapsed() > BEAT {
+                batch = (batch / 2).max(1);
+            }
         }
+        // The last state is due too.
+        if let Some(clock) = self.wall_clock.as_mut().filter(|_| tick == simulation.ticks()) {
+            clock.wait(simulation.clock().time());
+        }
+        Ok(())
     }
-    Ok(())
 }

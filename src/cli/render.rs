@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Exit;
-use super::film::{Made, Order};
+use super::film::{Made, Order, Shot};
 use super::flags::{self, OverrideFlags};
 use super::load::Request;
 use super::result::{self, Detail};
-use super::say::{count, say};
+use super::say::{count as in_words, say};
 use super::target::{Place, Wish, places};
-use crate::output::Written;
+use crate::output::{Target, Written};
 
 /// The command `render`.
 #[derive(Args, Debug)]
@@ -20,17 +20,33 @@ pub(super) struct Render {
     /// Scene files, or example:NAME for a scene that comes with the program
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Where to: FILM.gif, PICTURE.png (with --at), or a directory DIR/ (one scene: DIR/frame_00000.png and so on;
-    /// several: DIR/<scene>.gif each). Default: <scene>.gif in the current directory
+    /// Where to: FILM.gif, .apng, .mp4 or .webm (the last two need the program ffmpeg), PICTURE.png (with --at, --strip
+    /// or --sheet), a directory DIR/ (one scene: DIR/frame_00000.png and so on; several: DIR/<scene>.gif each), FILM.rgba
+    /// or - for raw pictures to a file or standard output. Default: <scene>.gif in the current directory
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     /// Draw only the picture at this time of the physics, in seconds; the run ends there
     #[arg(long, value_name = "T", value_parser = flags::moment, allow_negative_numbers = true)]
     at: Option<f64>,
+    /// Draw the pictures at these times of the physics, in seconds, side by side
+    #[arg(long, value_name = "T,T,T", value_parser = flags::moments, allow_hyphen_values = true, conflicts_with = "at")]
+    strip: Option<flags::Moments>,
+    /// Draw a contact sheet of so many columns and rows: pictures spread evenly over the film
+    #[arg(long, value_name = "4x3", value_parser = flags::sheet, conflicts_with_all = ["at", "strip"])]
+    sheet: Option<(u32, u32)>,
+    /// Make the GIF no larger than this, such as 2MB: with fewer colours, smaller, with fewer frames; what was done is
+    /// said
+    #[arg(long, value_name = "SIZE", value_parser = flags::bytes, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["at", "strip", "sheet", "png", "pace"])]
+    max_size: Option<u64>,
+    /// Draw no faster than the film is to be watched, for a program that shows it live (`-o - --pace`); frames that come
+    /// too late are counted. Otherwise as fast as possible
+    #[arg(long, conflicts_with_all = ["at", "strip", "sheet"])]
+    pace: bool,
     /// PNG sequences instead of GIFs; of several scenes each in a directory of its own, DIR/<scene>/
     #[arg(long)]
     png: bool,
-    /// Size of the picture in pixels, instead of the scene's
+    /// Size of the picture in pixels, instead of the scene's; of each one in a strip or sheet
     #[arg(long, value_name = "WxH", value_parser = flags::size, allow_negative_numbers = true)]
     size: Option<(u32, u32)>,
     /// Frames per second of the film, instead of the scene's; a GIF shows at most 50
@@ -53,19 +69,57 @@ const EXAMPLES: &str = "\
 Examples:
   jostle render example:tetris                        the film tetris.gif
   jostle render my.ron -o still.png --at 1.5          one picture, after 1.5 s
+  jostle render my.ron -o strip.png --strip 0,0.5,1   three pictures side by side
+  jostle render my.ron -o sheet.png --sheet 4x3       twelve moments of the film with their times
+  jostle render my.ron --max-size 2MB                 a GIF that fits
+  jostle render my.ron -o film.mp4                    a video, if ffmpeg is installed
+  jostle render my.ron -o - --size 640x360 | ffplay -f rawvideo -pixel_format rgba -video_size 640x360 -
   jostle render my.ron -o frames/ --size 1920x1080    frames/frame_00000.png and so on
   jostle render scenes/*.ron -o films/                films/<scene>.gif, one for each scene";
 
 impl Render {
     pub(super) fn execute(self) -> Exit {
         let scenes: Vec<Request> = self.scenes.iter().map(|name| Request { name, json: self.json }).collect();
-        let wish = Wish { output: self.output.as_deref(), still: self.at.is_some(), png: self.png };
+        let wish = Wish { output: self.output.as_deref(), still: self.still(), png: self.png };
         match places(&scenes, &wish) {
             Ok(places) => {
+                if let Some(message) = places.iter().find_map(|place| self.objection(&place.target)) {
+                    say(&format!("error: {message}"));
+                    return Exit::Usage;
+                }
                 let ends = scenes.into_iter().zip(&places).map(|(scene, place)| self.render(scene, place));
                 ends.fold(Exit::Good, Exit::worse)
             }
             Err(exit) => exit,
+        }
+    }
+
+    /// The flag that asks for one picture.
+    fn still(&self) -> Option<&'static str> {
+        let at = self.at.map(|_| "--at");
+        at.or(self.strip.as_ref().map(|_| "--strip")).or(self.sheet.map(|_| "--sheet"))
+    }
+
+    fn shot(&self) -> Shot {
+        match (self.at, &self.strip, self.sheet) {
+            (Some(at), ..) => Shot::At(at),
+            (_, Some(moments), _) => Shot::Strip(moments.0.clone()),
+            (.., Some(places)) => Shot::Sheet(places),
+            _ => Shot::Film,
+        }
+    }
+
+    /// What speaks against a target, seen from the other flags.
+    fn objection(&self, target: &Target) -> Option<String> {
+        let path = target.path();
+        if self.json && target.is_standard_output() {
+            Some(
+                "--json and the raw pictures of `-o -` both need standard output: write the film to a .rgba".to_owned(),
+            )
+        } else if self.max_size.is_some() && !target.is_gif() {
+            Some(format!("--max-size is for GIFs: `{}` is none", path.display()))
+        } else {
+            None
         }
     }
 
@@ -80,11 +134,14 @@ impl Render {
             source: &source,
             overrides: &overrides,
             place,
-            at: self.at,
+            shot: &self.shot(),
             size: self.size,
             frames_per_second: self.fps,
             threads: self.threads,
+            most_bytes: self.max_size,
+            pace: self.pace,
             silent: self.quiet || self.json,
+            quiet: self.quiet,
         };
         let Made { written, failure } = match order.make(&mut simulation) {
             Ok(made) => made,
@@ -96,30 +153,28 @@ impl Render {
         {
             report(written, failure.is_some());
         }
-        result::tell(request, &simulation, failure.as_ref(), self.at.is_some(), detail)
+        result::tell(request, &simulation, failure.as_ref(), self.still().is_some(), detail)
     }
 }
 
 /// Says what was written.
 fn report(written: &Written, cut: bool) {
-    let Written { path, frames, bytes, seconds, left_over } = written;
-    let size = if *bytes < 1_000_000 {
-        format!("{} kB", bytes.div_ceil(1000))
-    } else {
-        format!("{:.1} MB", *bytes as f64 / 1e6)
-    };
+    let Written { path, frames: count, bytes, seconds, left_over } = written;
+    let size = flags::bytes_in_words(*bytes as f64);
     let path = path.display();
-    let frames = count(*frames as usize, "frame", "frames");
+    let frames = in_words(*count as usize, "frame", "frames");
     // A still lasts no time.
-    if *seconds == 0.0 {
+    if *seconds == 0.0 && *count == 1 {
         say(&format!("{path}: one picture, {size}"));
+    } else if *seconds == 0.0 {
+        say(&format!("{path}: {frames} in one picture, {size}"));
     } else if cut {
         say(&format!("{path}: the {frames} before the run went wrong, {seconds:.2} s, {size}"));
     } else {
         say(&format!("{path}: {frames}, {seconds:.2} s, {size}"));
     }
     if *left_over > 0 {
-        let pictures = count(*left_over as usize, "picture", "pictures");
+        let pictures = in_words(*left_over as usize, "picture", "pictures");
         say(&format!("note: after them still stand {pictures} of an earlier, longer sequence"));
     }
 }

@@ -7,11 +7,12 @@ use clap::Args;
 use super::Exit;
 use super::flags::{self, OverrideFlags};
 use super::load::Request;
-use super::pace::run_to;
+use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail};
 use super::say::say;
 use super::target::{is_directory, takes_no_file};
+use super::wall_clock::WallClock;
 use crate::output::OutputError;
 use crate::output::csv::Table;
 use crate::sensors::Channels;
@@ -31,6 +32,10 @@ pub(super) struct Run {
     output: Option<PathBuf>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    /// Run no faster than the clock on the wall: a second of physics takes a second. What comes too late is counted.
+    /// Otherwise as fast as possible
+    #[arg(long)]
+    pace: bool,
     /// Threads; a run uses one so far
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
@@ -46,7 +51,8 @@ const EXAMPLES: &str = "\
 Examples:
   jostle run example:projectile                 the error card: how far to trust the result
   jostle run my.ron -o channels.csv             what the sensors measured
-  jostle run my.ron --tick 0.1ms --json         another tick; the result for a program";
+  jostle run my.ron --tick 0.1ms --json         another tick; the result for a program
+  jostle run my.ron --pace                      at the speed of the clock on the wall";
 
 enum Trouble {
     Run(Failure),
@@ -76,14 +82,19 @@ impl Run {
                 "note: the scene has no sensors, so there are only times to write: add `sensors: [Energy()]` or others",
             );
         }
+        let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {
-            Some(path) => write_channels(&mut simulation, path, &progress),
+            Some(path) => write_channels(&mut simulation, path, &mut runner),
             None => {
                 let end = simulation.ticks();
-                run_to(&mut simulation, end, &progress).map_err(Trouble::Run)
+                runner.run_to(&mut simulation, end).map_err(Trouble::Run)
             }
         };
+        let Runner { progress, wall_clock } = runner;
         drop(progress);
+        if let Some(clock) = wall_clock.filter(|_| !self.quiet) {
+            clock.report("step", "steps");
+        }
         let failure = match ran {
             Ok(()) => None,
             Err(Trouble::Run(failure)) => Some(failure),
@@ -92,6 +103,9 @@ impl Run {
         result::tell(request, &simulation, failure.as_ref(), false, Detail::of(self.json, self.quiet))
     }
 }
+
+/// Endings of what `render` writes.
+const PICTURES: [&str; 6] = ["gif", "png", "apng", "mp4", "webm", "rgba"];
 
 /// What speaks against writing channels to a path.
 fn objection(request: Request, path: &Path) -> Option<String> {
@@ -103,7 +117,7 @@ fn objection(request: Request, path: &Path) -> Option<String> {
         Some(format!("`{name}` is the scene itself: write the channels to another file, such as channels.csv"))
     } else if is_directory(path) {
         Some(format!("`{name}` is a directory: name a file in it, such as `{}`", path.join("channels.csv").display()))
-    } else if ending.as_deref().is_some_and(|ending| ["gif", "png"].contains(&ending)) {
+    } else if ending.as_deref().is_some_and(|ending| PICTURES.contains(&ending)) {
         Some(format!("`run` writes comma-separated values, not `{name}`: use `jostle render` for pictures"))
     } else {
         takes_no_file(path)
@@ -111,7 +125,7 @@ fn objection(request: Request, path: &Path) -> Option<String> {
 }
 
 /// Runs, and writes a row now, after each frame of the film, and at the end.
-fn write_channels(simulation: &mut Simulation, path: &Path, progress: &Progress) -> Result<(), Trouble> {
+fn write_channels(simulation: &mut Simulation, path: &Path, runner: &mut Runner) -> Result<(), Trouble> {
     let none = Channels::default();
     let channels = simulation.world().get_resource::<Channels>().unwrap_or(&none);
     let columns = channels.0.iter().map(|channel| (channel.name.as_str(), channel.unit));
@@ -125,7 +139,7 @@ fn write_channels(simulation: &mut Simulation, path: &Path, progress: &Progress)
         if done == end {
             break Ok(());
         }
-        if let Err(failure) = run_to(simulation, done.saturating_add(every).min(end), progress) {
+        if let Err(failure) = runner.run_to(simulation, done.saturating_add(every).min(end)) {
             break Err(Trouble::Run(failure));
         }
     };

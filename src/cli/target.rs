@@ -12,8 +12,8 @@ use crate::output::{OutputError, Target};
 pub(super) struct Wish<'a> {
     /// `-o`.
     pub output: Option<&'a Path>,
-    /// Whether only one picture is drawn.
-    pub still: bool,
+    /// The flag by which only one picture is drawn: `--at`, `--strip` or `--sheet`.
+    pub still: Option<&'static str>,
     /// `--png`.
     pub png: bool,
 }
@@ -58,7 +58,7 @@ fn usage(message: String) -> Exit {
 impl Wish<'_> {
     fn place(&self, scene: Request, scenes: usize) -> Result<Place, String> {
         let stem = scene.stem();
-        let file = if self.still {
+        let file = if self.still.is_some() {
             format!("{stem}.png")
         } else if self.png {
             format!("{stem}/")
@@ -69,10 +69,13 @@ impl Wish<'_> {
         let path = match self.output {
             None => PathBuf::from(&file),
             // A sequence of one scene needs no folder of its own.
-            Some(output) if scenes == 1 && !(self.still && is_directory(output)) => output.to_owned(),
+            Some(output) if scenes == 1 && !(self.still.is_some() && is_directory(output)) => output.to_owned(),
             Some(output) if is_directory(output) => {
                 folder = Some(output.to_owned());
                 output.join(&file)
+            }
+            Some(output) if output == Path::new("-") => {
+                return Err(format!("standard output takes one film, not {scenes}; name one scene"));
             }
             Some(output) => {
                 let better = output.with_extension("");
@@ -81,8 +84,8 @@ impl Wish<'_> {
         };
         let target = Target::new(path).map_err(|error| match error {
             OutputError::UnknownFormat { path, .. } => format!(
-                "the ending of `{}` names no format: .gif is a film, .png one picture (with --at), / a directory of \
-                 pictures",
+                "the ending of `{}` names no format: .gif, .apng, .mp4 and .webm are films, .png is one picture (with --at, \
+                 --strip or --sheet), / a directory of pictures, .rgba or the name - (standard output) raw pictures",
                 path.display()
             ),
             error => error.to_string(),
@@ -97,18 +100,28 @@ impl Wish<'_> {
 
     fn check(&self, target: &Target) -> Result<(), String> {
         let path = target.path();
+        if target.is_standard_output() {
+            return match self.still.or(self.png.then_some("--png")) {
+                Some(flag) => Err(format!("{flag} makes PNG files; standard output (`-o -`) takes raw films")),
+                None => Ok(()),
+            };
+        }
         if let Some(message) = takes_no_file(path) {
             return Err(message);
         }
         let directory = is_directory(path);
         let picture = !directory && path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        if self.still && !picture {
-            return Err(format!("--at makes one picture: write it to a .png instead of `{}`", path.display()));
+        if let Some(flag) = self.still.filter(|_| !picture) {
+            return Err(format!("{flag} makes one picture: write it to a .png instead of `{}`", path.display()));
         }
-        if !self.still && picture {
-            return Err("a .png holds one picture: add --at T, or write a film to a .gif".to_owned());
+        if self.still.is_none() && picture {
+            return Err(
+                "a .png holds one picture: add --at T, --strip T,T,T or --sheet 4x3, or write a film to a .gif \
+                        or .apng"
+                    .to_owned(),
+            );
         }
-        if self.png && !self.still && !directory {
+        if self.png && self.still.is_none() && !directory {
             let path = path.display();
             return Err(format!(
                 "--png makes pictures: they need a directory instead of `{path}`, such as `-o frames/`"

@@ -25,6 +25,15 @@ pub enum OutputError {
         /// The longest side the format allows, in pixels; 0 if it is not the format that objects.
         longest: u32,
     },
+    /// A sheet of so many frames is larger than programs show.
+    Sheet {
+        /// Width in pixels.
+        width: u64,
+        /// Height in pixels.
+        height: u64,
+        /// Columns and rows.
+        frames: (u32, u32),
+    },
     /// The format cannot show so many, or so few, frames in a second.
     Rate {
         /// Frames per second.
@@ -55,6 +64,29 @@ pub enum OutputError {
         /// Where the frames so far lie, if any were written.
         kept: Option<PathBuf>,
     },
+    /// The program that makes videos is not installed.
+    NoEncoder {
+        /// The target.
+        path: PathBuf,
+    },
+    /// The program that makes videos has failed.
+    Encoder {
+        /// The target.
+        path: PathBuf,
+        /// How it ended.
+        ended: String,
+        /// What it said last.
+        said: String,
+    },
+    /// The film has grown beyond the size it may have.
+    TooLarge {
+        /// The target.
+        path: PathBuf,
+        /// Its size so far in bytes.
+        bytes: u64,
+        /// How many frames that are.
+        frames: u64,
+    },
     /// Writing went on after it had failed.
     GivenUp {
         /// The target.
@@ -82,6 +114,13 @@ impl fmt::Display for OutputError {
                 write!(f, "a picture of {width} x {height} pixels does not fit the format; ")?;
                 write!(f, "its sides may be {longest} pixels long at most")
             }
+            OutputError::Sheet { width, height, frames: (columns, rows) } => {
+                write!(
+                    f,
+                    "{columns} x {rows} frames would be a picture of {width} x {height} pixels, more than can be "
+                )?;
+                write!(f, "shown; take fewer frames, or smaller ones with --size")
+            }
             OutputError::Rate { frames_per_second, allowed: (lowest, highest) } => {
                 write!(f, "{frames_per_second} frames per second cannot be shown in this format; ")?;
                 write!(f, "from {lowest} to {highest} can. For slow motion lower the film's `speed` instead")
@@ -100,6 +139,21 @@ impl fmt::Display for OutputError {
                     None => Ok(()),
                 }
             }
+            OutputError::NoEncoder { path } => {
+                write!(
+                    f,
+                    "`{}` needs the program `ffmpeg`, which is not installed (not found on PATH); ",
+                    path.display()
+                )?;
+                write!(f, "install it, or write a .gif or .apng, which need nothing else")
+            }
+            OutputError::Encoder { path, ended, said } => {
+                write!(f, "`{}` could not be written: `ffmpeg` {ended}", path.display())?;
+                if said.is_empty() { write!(f, " and said nothing") } else { write!(f, " and said:\n{said}") }
+            }
+            OutputError::TooLarge { path, bytes, frames } => {
+                write!(f, "`{}` was given up: it had {bytes} bytes after {frames} frames", path.display())
+            }
             OutputError::GivenUp { path } => write!(f, "`{}` was given up after an earlier error", path.display()),
         }
     }
@@ -117,6 +171,7 @@ fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
             Some("free some space, choose another disk, or make the film smaller or shorter")
         }
+        io::ErrorKind::BrokenPipe => Some("whoever read it went away before the film's end"),
         _ => None,
     }
 }

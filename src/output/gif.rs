@@ -41,7 +41,9 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
     if !(allowed.0..=allowed.1).contains(&rate) {
         return Err(OutputError::Rate { frames_per_second: rate, allowed });
     }
-    let file = PartFile::create(path, Unfinished::Kept)?;
+    // Whoever limits the size has no use for what is beyond it.
+    let unfinished = if settings.most_bytes.is_some() { Unfinished::Removed } else { Unfinished::Kept };
+    let file = PartFile::create(path, unfinished)?;
     let studio = Studio::new(view);
     let workers = (0..settings.threads.max(1)).map(|_| studio.easel().map(Worker::new));
     Ok(Box::new(Gif {
@@ -56,7 +58,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
         waiting: Vec::new(),
         last: Vec::new(),
         frames: 0,
-        frames_per_second: rate,
+        settings: *settings,
     }))
 }
 
@@ -73,7 +75,7 @@ struct Gif {
     /// The last frame written, as places of the palette; empty before the first.
     last: Vec<u8>,
     frames: u64,
-    frames_per_second: f64,
+    settings: FilmSettings,
 }
 
 /// How far the film is.
@@ -183,7 +185,7 @@ impl Gif {
         for (_, _, own) in jobs {
             histogram.merge(own);
         }
-        let palette = Palette::new(&pinned, histogram);
+        let palette = Palette::new(&pinned, histogram, self.settings.colors);
         let encoder = gif::Encoder::new(file, self.width as u16, self.height as u16, &palette.table());
         let endless = encoder.and_then(|mut encoder| encoder.set_repeat(gif::Repeat::Infinite).map(|()| encoder));
         Ok((palette, endless.map_err(|cause| self.failed(cause))?))
@@ -216,7 +218,7 @@ impl Gif {
         });
         for packed in pairs.into_iter().filter_map(|(_, _, packed)| packed) {
             let frame = gif::Frame {
-                delay: delay(self.frames, self.frames_per_second),
+                delay: delay(self.frames, self.settings.frames_per_second),
                 transparent: Some(palette.transparent()),
                 left: packed.patch.left as u16,
                 top: packed.patch.top as u16,
@@ -227,6 +229,10 @@ impl Gif {
             };
             encoder.write_lzw_pre_encoded_frame(&frame).map_err(|cause| self.failed(cause))?;
             self.frames += 1;
+            let bytes = encoder.get_ref().bytes();
+            if self.settings.most_bytes.is_some_and(|most| bytes > most) {
+                return Err(OutputError::TooLarge { path: self.path.clone(), bytes, frames: self.frames });
+            }
         }
         self.last = jobs.pop().map(|job| job.places).unwrap_or_default();
         Ok(())
@@ -268,7 +274,7 @@ impl Film for Gif {
         };
         let file = encoder.into_inner().map_err(|cause| self.failed(cause))?;
         let bytes = file.complete()?;
-        let seconds = end(self.frames, self.frames_per_second) / 100.0;
+        let seconds = end(self.frames, self.settings.frames_per_second) / 100.0;
         Ok(Written { path: self.path, frames: self.frames, bytes, seconds, left_over: 0 })
     }
 }

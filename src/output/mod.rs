@@ -1,9 +1,10 @@
-//! Frames -> files: films as GIF, pictures as PNG. One format, one file.
+//! Frames -> files: films as GIF, APNG, video or raw pictures; stills as PNG. One format, one file.
 //!
 //! Frames stream: they are drawn and packed in small groups, several at once, and written in order, so the memory
 //! needed does not grow with the length of the film, and the bytes do not depend on the number of threads. A file is
 //! written beside its target as `<name>.part` and takes the target's name when it is complete.
 
+mod apng;
 mod crew;
 pub mod csv;
 mod delta;
@@ -13,7 +14,11 @@ mod lzw;
 mod palette;
 mod part;
 mod png;
+mod raw;
+pub mod sheet;
+mod stream;
 mod studio;
+mod video;
 
 use std::path::{Path, PathBuf};
 
@@ -29,6 +34,20 @@ pub struct FilmSettings {
     pub frames_per_second: f64,
     /// How many threads draw and pack; 0 counts as 1. The bytes do not depend on it.
     pub threads: usize,
+    /// Each frame is written as soon as it is pushed, for a reader that shows it at once; otherwise several are drawn
+    /// together. Only raw pictures and videos heed it.
+    pub live: bool,
+    /// Colours of a GIF, from 3 to 255; other formats have them all.
+    pub colors: usize,
+    /// A GIF that grows beyond so many bytes is given up.
+    pub most_bytes: Option<u64>,
+}
+
+impl Default for FilmSettings {
+    /// 30 frames per second by one thread, of any size, in as many colours as there can be.
+    fn default() -> FilmSettings {
+        FilmSettings { frames_per_second: 30.0, threads: 1, live: false, colors: 255, most_bytes: None }
+    }
 }
 
 /// A film in the making.
@@ -76,7 +95,8 @@ struct Format {
 type Opened = Result<Box<dyn Film>, OutputError>;
 
 /// Every format, the directory of a sequence last.
-const FORMATS: [&Format; 3] = [&gif::FORMAT, &png::STILL, &png::SEQUENCE];
+const FORMATS: [&Format; 7] =
+    [&gif::FORMAT, &apng::FORMAT, &video::MP4, &video::WEBM, &raw::FORMAT, &png::STILL, &png::SEQUENCE];
 
 /// Where a film goes, and in which format.
 #[derive(Clone, Debug)]
@@ -86,8 +106,9 @@ pub struct Target {
 }
 
 impl Target {
-    /// The target at a path; its ending tells the format. `film.gif` is a film; `picture.png` is the last frame
-    /// pushed; a path that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
+    /// The target at a path; its ending tells the format. `film.gif` is a film, and so are `.apng`, `.mp4`, `.webm` and
+    /// `.rgba` (raw pictures); `-` is raw pictures to standard output; `picture.png` is the last frame pushed; a path
+    /// that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
     ///
     /// # Errors
     /// [`OutputError::UnknownFormat`] names the known endings.
@@ -96,15 +117,31 @@ impl Target {
         let name = path.to_string_lossy().to_lowercase();
         let known = FORMATS.into_iter().find(|format| name.ends_with(format.ending));
         match known {
+            _ if path == Path::new(raw::STANDARD_OUTPUT) => Ok(Target { path, format: &raw::FORMAT }),
             _ if path.is_dir() => Ok(Target { path, format: &png::SEQUENCE }),
             Some(format) => Ok(Target { path, format }),
             None => Err(OutputError::UnknownFormat { path, known: Target::endings() }),
         }
     }
 
-    /// The known endings: `.gif`, `.png`, and `/` for a sequence of pictures.
+    /// The known endings, `/` for a sequence of pictures.
     pub fn endings() -> Vec<&'static str> {
         FORMATS.iter().map(|format| format.ending).collect()
+    }
+
+    /// Whether it is raw pictures to standard output.
+    pub fn is_standard_output(&self) -> bool {
+        self.path == Path::new(raw::STANDARD_OUTPUT)
+    }
+
+    /// Whether it is a GIF.
+    pub fn is_gif(&self) -> bool {
+        self.format.ending == gif::FORMAT.ending
+    }
+
+    /// Whether it is raw pictures, which tell nothing of their size and rate.
+    pub fn is_raw(&self) -> bool {
+        self.format.ending == raw::FORMAT.ending
     }
 
     /// The path of the file or directory.

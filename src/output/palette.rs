@@ -8,8 +8,9 @@ use crate::record::frame::Rgb;
 /// Colours beside the transparent one.
 const MOST_COLORS: usize = 255;
 
-/// Places that flat colours may take; the rest is for blends, without which every edge would be ragged.
-const MOST_PINNED: usize = 190;
+/// The share of places that flat colours may take, in quarters; the rest is for blends, without which every edge would
+/// be ragged.
+const PINNED_QUARTERS: usize = 3;
 
 /// How often each colour occurs.
 #[derive(Debug, Default)]
@@ -52,10 +53,11 @@ impl Palette {
     /// Takes the pinned colours, then again and again the sampled colour that is worst served: by its distance to the
     /// nearest one taken times the square root of its count, so that large areas and rare but strong edges both get
     /// their share.
-    pub(super) fn new(pinned: &[Rgb], sampled: Histogram) -> Palette {
-        let mut colors: Vec<Rgb> = pinned.iter().copied().take(MOST_PINNED).collect();
+    pub(super) fn new(pinned: &[Rgb], sampled: Histogram, most: usize) -> Palette {
+        let most = most.clamp(3, MOST_COLORS);
+        let mut colors: Vec<Rgb> = pinned.iter().copied().take(most * PINNED_QUARTERS / 4).collect();
         let mut open: Vec<Served> = sampled.sorted().into_iter().map(|color| Served::new(color, &colors)).collect();
-        while colors.len() < MOST_COLORS {
+        while colors.len() < most {
             let worst = open.iter().max_by(|a, b| a.need().total_cmp(&b.need()).then(b.color.cmp(&a.color)));
             let Some(worst) = worst.filter(|worst| worst.error > 0) else { break };
             let color = worst.color;
@@ -205,7 +207,7 @@ mod tests {
         for red in 0..=255 {
             histogram.count(&[red, 0, 0, 255]);
         }
-        let palette = Palette::new(&pinned, histogram);
+        let palette = Palette::new(&pinned, histogram, MOST_COLORS);
         assert_eq!(palette.colors.len(), MOST_COLORS);
         assert_eq!((palette.transparent(), palette.bits(), palette.table().len()), (255, 8, 768));
         for (place, color) in pinned.into_iter().enumerate() {
@@ -220,13 +222,13 @@ mod tests {
 
     #[test]
     fn few_colours_make_a_small_palette() {
-        let palette = Palette::new(&[Rgb(0, 0, 0), Rgb(9, 9, 9)], Histogram::default());
+        let palette = Palette::new(&[Rgb(0, 0, 0), Rgb(9, 9, 9)], Histogram::default(), MOST_COLORS);
         assert_eq!((palette.transparent(), palette.bits()), (2, 2));
     }
 
     #[test]
     fn places_are_the_same_with_and_without_backdrop_and_memory() {
-        let palette = Palette::new(&[Rgb(250, 249, 246)], grey_ramp());
+        let palette = Palette::new(&[Rgb(250, 249, 246)], grey_ramp(), MOST_COLORS);
         let backdrop: Vec<u8> = (0..1000_u32).flat_map(|place| [(place / 5) as u8, 7, 9, 255]).collect();
         let mut pixels = backdrop.clone();
         for place in (0..4000).step_by(37) {

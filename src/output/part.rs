@@ -1,7 +1,7 @@
 //! A file that gets its name when it is complete.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
@@ -55,8 +55,30 @@ impl PartFile {
         &self.part
     }
 
+    /// How many bytes were written so far.
+    pub(super) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
     fn is_kept(&self) -> bool {
         self.unfinished == Unfinished::Kept && self.bytes > 0
+    }
+
+    /// Writes over what was written at a place.
+    pub(super) fn overwrite(&mut self, place: u64, bytes: &[u8]) -> io::Result<()> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        // Seeking writes out what waits.
+        let end = file.stream_position()?;
+        file.seek(SeekFrom::Start(place))?;
+        file.write_all(bytes)?;
+        file.seek(SeekFrom::Start(end)).map(|_| ())
+    }
+
+    /// The same as [`PartFile::complete`] for a file that another program has written.
+    pub(super) fn complete_elsewhere(mut self) -> Result<u64, OutputError> {
+        let length = fs::metadata(&self.part).map(|written| written.len());
+        self.bytes = length.map_err(|cause| OutputError::io(&self.target, cause))?;
+        self.complete()
     }
 
     /// Gives the file its name; returns its length in bytes.

@@ -5,6 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use tiny_skia::Pixmap;
+
 use super::part::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
 use super::{Film, FilmSettings, Format, Opened, OutputError, Written, crew};
@@ -47,7 +49,7 @@ impl Film for Still {
         let painter = self.studio.painter(&frame)?;
         let mut easel = self.studio.easel()?;
         easel.paint(&painter, &frame);
-        let packed = pack(&easel, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
+        let packed = pack(&easel.picture, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
         self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
         let bytes = self.file.complete()?;
         Ok(Written { path: self.path, frames: 1, bytes, seconds: 0.0, left_over: 0 })
@@ -101,7 +103,8 @@ struct Job {
 impl Job {
     fn write(&self, worker: &mut Worker) -> Result<u64, OutputError> {
         worker.easel.paint(&self.painter, &self.frame);
-        let packed = pack(&worker.easel, &mut worker.rgb).map_err(|cause| OutputError::io(&self.path, cause))?;
+        let packed =
+            pack(&worker.easel.picture, &mut worker.rgb).map_err(|cause| OutputError::io(&self.path, cause))?;
         let mut file = PartFile::create(&self.path, Unfinished::Removed)?;
         file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
         file.complete()
@@ -164,11 +167,11 @@ impl Film for Sequence {
 /// A picture as the bytes of a PNG file. `rgb` is room for its pixels, kept to spare allocations.
 ///
 /// Fast compression wants the Paeth filter: without a filter it would store the picture nearly as it is.
-fn pack(easel: &Easel, rgb: &mut Vec<u8>) -> Result<Vec<u8>, png::EncodingError> {
+pub(super) fn pack(picture: &Pixmap, rgb: &mut Vec<u8>) -> Result<Vec<u8>, png::EncodingError> {
     rgb.clear();
-    rgb.extend(easel.picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]));
+    rgb.extend(picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]));
     let mut packed = Vec::with_capacity(rgb.len() / 8);
-    let mut encoder = png::Encoder::new(&mut packed, easel.picture.width(), easel.picture.height());
+    let mut encoder = png::Encoder::new(&mut packed, picture.width(), picture.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Fast);

@@ -61,7 +61,7 @@ fn frames(count: usize) -> Vec<Frame> {
         let time = 0.04 * place as f64;
         let pose = |x, y, angle| Pose { position: DVec2::new(x, y), angle };
         let poses = vec![pose(2.0, 0.5, 0.0), pose(0.5 + time, 1.5, 2.0 * time), pose(3.5 - time, 2.0, -time)];
-        Frame { time, cast: cast.clone(), poses, marks: Vec::new() }
+        Frame { time, cast: cast.clone(), poses, marks: Vec::new(), center: None }
     };
     (0..count).map(frame).collect()
 }
@@ -74,7 +74,7 @@ fn drawn(frame: &Frame) -> Pixmap {
 }
 
 fn begin(path: &Path, threads: usize) -> Result<Box<dyn Film>, OutputError> {
-    open(&Target::new(path)?, &FilmSettings { frames_per_second: 30.0, threads }, view())
+    open(&Target::new(path)?, &FilmSettings { frames_per_second: 30.0, threads, ..FilmSettings::default() }, view())
 }
 
 fn film(path: &Path, threads: usize, frames: &[Frame]) -> Result<Written, OutputError> {
@@ -136,6 +136,55 @@ fn a_gif_shows_the_frames_that_were_drawn() {
     }
 }
 
+/// Frames that change, stand still and change again; a single frame; whole groups and parts of them. Decoded by the
+/// `image` crate, which composes the frames by itself.
+#[test]
+fn an_apng_shows_exactly_the_frames_that_were_drawn() {
+    use image::AnimationDecoder;
+    let folder = Folder::new("apng-shows");
+    let path = folder.path("film.apng");
+    for (count, threads) in [(1, 1), (4, 2), (11, 3)] {
+        let mut frames = frames(count);
+        for place in 5..8.min(count) {
+            frames[place] = frames[4].clone();
+        }
+        let written = film(&path, threads, &frames).expect("a film");
+        assert_eq!((written.frames, written.seconds), (count as u64, count as f64 / 30.0));
+        assert_eq!(written.bytes, fs::metadata(&path).expect("the film").len());
+        let file = std::io::BufReader::new(File::open(&path).expect("the film"));
+        let decoder = image::codecs::png::PngDecoder::new(file).and_then(|decoder| decoder.apng()).expect("an APNG");
+        let shown = decoder.into_frames().collect_frames().expect("good frames");
+        assert_eq!(shown.len(), count);
+        for (frame, shown) in frames.iter().zip(&shown) {
+            assert!(shown.buffer().as_raw() == drawn(frame).data(), "at {} s", frame.time);
+            // In milliseconds: a thirtieth of a second, in lowest terms.
+            assert_eq!(shown.delay().numer_denom_ms(), (100, 3));
+        }
+    }
+    assert_eq!(folder.names(), ["film.apng"]);
+}
+
+/// A film that may have few bytes is given up, and nothing is left of it; one of few colours is smaller.
+#[test]
+fn a_gif_keeps_to_its_limits() {
+    let folder = Folder::new("limits");
+    let path = folder.path("film.gif");
+    let make = |settings: FilmSettings| {
+        let mut film = open(&Target::new(&path).expect("a GIF"), &settings, view())?;
+        frames(60).into_iter().try_for_each(|frame| film.push(frame))?;
+        film.finish()
+    };
+    let whole = make(FilmSettings::default()).expect("a film").bytes;
+    let few = make(FilmSettings { colors: 15, ..FilmSettings::default() }).expect("a film").bytes;
+    assert!(few < whole, "{few} bytes, {whole} with all colours");
+    let kept = make(FilmSettings { most_bytes: Some(whole), ..FilmSettings::default() }).expect("it fits").bytes;
+    assert_eq!(kept, whole);
+    let given_up = make(FilmSettings { most_bytes: Some(whole / 2), ..FilmSettings::default() });
+    let Err(OutputError::TooLarge { bytes, frames, .. }) = given_up else { panic!("{given_up:?}") };
+    assert!(bytes > whole / 2 && frames < 60, "{bytes} bytes after {frames} frames");
+    assert_eq!((folder.names(), fs::metadata(&path).expect("the film before").len()), (vec!["film.gif".into()], whole));
+}
+
 #[test]
 fn bytes_do_not_depend_on_threads() {
     let folder = Folder::new("threads");
@@ -157,8 +206,10 @@ fn a_film_may_end_early() {
         let written = film(&path, 2, &frames(count)).expect("a shorter film");
         assert_eq!((written.frames, watch(&path).len()), (count as u64, count));
     }
-    let nothing = film(&folder.path("nothing.gif"), 1, &[]);
-    assert!(matches!(nothing, Err(OutputError::NoFrames { .. })));
+    for name in ["nothing.gif", "nothing.apng", "nothing.rgba"] {
+        let nothing = film(&folder.path(name), 1, &[]);
+        assert!(matches!(nothing, Err(OutputError::NoFrames { .. })), "{name}");
+    }
     assert_eq!(folder.names(), ["film.gif"], "nothing is left of a film without frames");
 }
 
@@ -232,18 +283,18 @@ fn a_still_is_the_last_frame() {
 
 #[test]
 fn wrong_targets_and_settings_are_refused_before_the_run() {
-    let unknown = Target::new("film.mp4").expect_err("no such format").to_string();
-    assert!(unknown.contains("film.mp4") && unknown.contains(".gif, .png, /"), "{unknown}");
+    let unknown = Target::new("film.avi").expect_err("no such format").to_string();
+    assert!(unknown.contains("film.avi") && unknown.contains(".gif, .apng, .mp4, .webm, .rgba, .png, /"), "{unknown}");
 
     let folder = Folder::new("refused");
     let target = Target::new(folder.path("film.gif")).expect("a GIF");
     for rate in [f64::NAN, 0.0, -30.0, 60.0, f64::INFINITY] {
-        let refused = open(&target, &FilmSettings { frames_per_second: rate, threads: 1 }, view()).err();
+        let refused = open(&target, &FilmSettings { frames_per_second: rate, ..FilmSettings::default() }, view()).err();
         assert!(matches!(refused, Some(OutputError::Rate { .. })), "{rate}");
     }
     for (size, longest) in [((70_000, 10), 65_535), ((0, 10), 0), ((10, 0), 0)] {
         let view = View { camera: Camera::look(DVec2::ZERO, 1.0, size), ..view() };
-        let refused = open(&target, &FilmSettings { frames_per_second: 30.0, threads: 1 }, view).err();
+        let refused = open(&target, &FilmSettings { frames_per_second: 30.0, ..FilmSettings::default() }, view).err();
         assert!(matches!(refused, Some(OutputError::Size { longest: said, .. }) if said == longest), "{size:?}");
     }
     let nowhere = begin(&folder.path("no/such/film.gif"), 1).err().expect("no directory").to_string();
@@ -254,7 +305,7 @@ fn wrong_targets_and_settings_are_refused_before_the_run() {
 #[test]
 fn a_frame_without_its_poses_is_refused() {
     let folder = Folder::new("poses");
-    for name in ["film.gif", "picture.png", "pictures/"] {
+    for name in ["film.gif", "film.apng", "film.rgba", "picture.png", "pictures/"] {
         let mut film = begin(&folder.path(name), 1).expect("a film");
         let mut frame = frames(1).remove(0);
         frame.poses.pop();

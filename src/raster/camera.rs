@@ -71,6 +71,20 @@ impl Camera {
         Camera { center, pixels_per_meter: f64::from(size.1) / height, size }
     }
 
+    /// The same camera, looking at another place (m).
+    #[must_use]
+    pub fn moved_to(self, center: DVec2) -> Camera {
+        Camera { center, ..self }
+    }
+
+    /// The same view in a picture of another size. What it shows is as high as before, and as wide if the picture has
+    /// the same proportions.
+    #[must_use]
+    pub fn resized(self, size: (u32, u32)) -> Camera {
+        let pixels_per_meter = self.pixels_per_meter * f64::from(size.1) / f64::from(self.size.1.max(1));
+        Camera { pixels_per_meter, size, ..self }
+    }
+
     /// Width and height of the picture in pixels.
     pub fn size(&self) -> (u32, u32) {
         self.size

@@ -68,6 +68,8 @@ pub struct Painter {
     cast: Arc<Cast>,
     /// The moving bodies, by their place in the cast.
     figures: Vec<(usize, Figure)>,
+    /// The fixed ones.
+    fixed: Vec<(usize, Figure)>,
     title: Title,
     clock: Clock,
     labels: Column,
@@ -82,33 +84,51 @@ impl Painter {
     pub fn new(view: &View, frame: &Frame) -> Result<Painter, SizeError> {
         let (camera, theme, cast) = (&view.camera, &view.theme, &frame.cast);
         let (width, height) = camera.size();
-        let mut picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
+        let picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
         let weights = Weights::of(camera);
-        backdrop::draw(&mut picture, camera, theme);
-        walls::draw(&mut picture, &cast.walls, camera, theme, weights.band, weights.line);
-
-        let mut figures = Vec::new();
-        let mut field = Field::default();
         let colors = fills(cast, theme);
-        for (place, (look, pose)) in cast.bodies.iter().zip(&frame.poses).enumerate() {
-            let figure = Figure::new(look, colors[place], camera, theme, weights.line);
-            if look.fixed {
-                figure.draw(pose, camera, &mut Canvas::new(&mut picture), &mut field);
-            } else {
-                figures.push((place, figure));
-            }
-        }
+        let figure = |place: usize| Figure::new(&cast.bodies[place], colors[place], camera, theme, weights.line);
+        let all = (0..cast.bodies.len()).map(|place| (place, figure(place)));
+        let (fixed, figures): (Vec<_>, Vec<_>) = all.partition(|(place, _)| cast.bodies[*place].fixed);
 
         let clock = Clock::new(weights.clock, clock::decimals(view.frame_step), theme);
-        let room = walls::room(&cast.walls, camera, theme);
+        // Walls pass by a camera that moves: its labels keep to the corner.
+        let walls = if frame.center.is_some() { &[][..] } else { &cast.walls };
+        let room = walls::room(walls, camera, theme);
         let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
         let needed = clock.width().max(longest_word(&cast.title, &lettering));
         let column = Column::beside_or_in(room, weights.band, needed, weights.pad);
         let title = Title::new(&cast.title, &lettering, &column, theme);
-        if !column.in_room {
-            title.draw(&mut picture);
+        let mut painter = Painter {
+            view: view.clone(),
+            cast: cast.clone(),
+            figures,
+            fixed,
+            title,
+            clock,
+            labels: column,
+            backdrop: picture,
+        };
+        let mut backdrop = painter.backdrop.clone();
+        painter.paint_scenery(frame, &painter.camera(frame), &mut backdrop, &mut Field::default());
+        if !painter.labels.in_room {
+            painter.title.draw(&mut backdrop);
         }
-        Ok(Painter { view: view.clone(), cast: cast.clone(), figures, title, clock, labels: column, backdrop: picture })
+        painter.backdrop = backdrop;
+        Ok(painter)
+    }
+
+    /// The camera of a frame.
+    fn camera(&self, frame: &Frame) -> Camera {
+        frame.center.map_or(self.view.camera, |center| self.view.camera.moved_to(center))
+    }
+
+    /// Draws what never moves in the world: background, grid, walls, fixed bodies.
+    fn paint_scenery(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, field: &mut Field) {
+        let (theme, weights) = (&self.view.theme, Weights::of(camera));
+        backdrop::draw(picture, camera, theme);
+        walls::draw(picture, &self.cast.walls, camera, theme, weights.band, weights.line);
+        paint_figures(&self.fixed, frame, camera, picture, field);
     }
 
     /// Whether this painter can draw that frame: it has the same cast.
@@ -116,7 +136,7 @@ impl Painter {
         Arc::ptr_eq(&self.cast, &frame.cast)
     }
 
-    /// What never moves, drawn once.
+    /// What never moves, drawn once. A camera that moves sees it anew in each frame.
     pub fn backdrop(&self) -> &Pixmap {
         &self.backdrop
     }
@@ -129,13 +149,11 @@ impl Painter {
         } else {
             *picture = self.backdrop.clone();
         }
-        let mut canvas = Canvas::new(picture);
-        for (place, figure) in &self.figures {
-            if let Some(pose) = frame.poses.get(*place) {
-                figure.draw(pose, &self.view.camera, &mut canvas, &mut scratch.field);
-            }
+        let (camera, theme) = (&self.camera(frame), &self.view.theme);
+        if frame.center.is_some() {
+            self.paint_scenery(frame, camera, picture, &mut scratch.field);
         }
-        let (camera, theme) = (&self.view.camera, &self.view.theme);
+        paint_figures(&self.figures, frame, camera, picture, &mut scratch.field);
         marks::draw(picture, &frame.marks, camera, theme, Weights::of(camera).line);
         if self.labels.in_room {
             self.title.draw(picture);
@@ -162,6 +180,16 @@ impl Painter {
             }
         }
         once
+    }
+}
+
+/// Draws bodies where the frame has them.
+fn paint_figures(figures: &[(usize, Figure)], frame: &Frame, camera: &Camera, picture: &mut Pixmap, field: &mut Field) {
+    let mut canvas = Canvas::new(picture);
+    for (place, figure) in figures {
+        if let Some(pose) = frame.poses.get(*place) {
+            figure.draw(pose, camera, &mut canvas, field);
+        }
     }
 }
 

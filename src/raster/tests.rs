@@ -22,7 +22,13 @@ fn frame() -> Frame {
     };
     let cast =
         Cast { title: "Peg".to_owned(), bodies: vec![ball("peg", true), ball("ball", false)], walls: vec![floor] };
-    Frame { time: 1.25, cast: Arc::new(cast), poses: vec![pose(1.0, 3.0), pose(4.0, 2.0)], marks: Vec::new() }
+    Frame {
+        time: 1.25,
+        cast: Arc::new(cast),
+        poses: vec![pose(1.0, 3.0), pose(4.0, 2.0)],
+        marks: Vec::new(),
+        center: None,
+    }
 }
 
 fn view() -> View {

@@ -78,4 +78,6 @@ pub struct Frame {
     pub poses: Vec<Pose>,
     /// What layers add, from back to front.
     pub marks: Vec<Mark>,
+    /// Where the camera looks if it moves, in metres; `None`: where the film's camera looks.
+    pub center: Option<DVec2>,
 }

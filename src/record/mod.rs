@@ -1,9 +1,13 @@
 //! World -> plain frames and channels. Behind this border nothing knows the ECS.
 
 pub mod between;
+pub mod follow;
 pub mod frame;
 pub mod layers;
 mod recorder;
+mod schedule;
+pub mod spool;
 
 pub use layers::{FilmAppExt, Mark, MarkShape};
-pub use recorder::{Recorder, Schedule};
+pub use recorder::Recorder;
+pub use schedule::Schedule;

@@ -11,32 +11,6 @@ use crate::simulation::Simulation;
 use crate::tick::Failure;
 use crate::world::{Bodies, Materials, Motion, Name, Wall};
 
-/// The times of a film's frames.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Schedule {
-    /// First moment in seconds of physics.
-    pub from: f64,
-    /// Seconds of physics from frame to frame.
-    pub step: f64,
-    /// Number of frames.
-    pub frames: u64,
-}
-
-impl Schedule {
-    /// The frames of the physics between `from` and `to` seconds, at `speed` seconds of physics per second of film.
-    /// Their number is that which gives the film its exact length; there is at least one.
-    pub fn new(from: f64, to: f64, speed: f64, frames_per_second: f64) -> Self {
-        let step = speed / frames_per_second;
-        let frames = ((to - from) / step).round().max(1.0) as u64;
-        Self { from, step, frames }
-    }
-
-    /// Time of frame `k` in seconds of physics: a product, so that rounding does not add up.
-    pub fn time(&self, frame: u64) -> f64 {
-        self.from + frame as f64 * self.step
-    }
-}
-
 /// Takes frames of a running simulation.
 #[derive(Default)]
 pub struct Recorder {
@@ -69,7 +43,7 @@ impl Recorder {
             Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
         };
         let marks = Layers::marks(simulation.world());
-        Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect(), marks })
+        Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect(), marks, center: None })
     }
 
     fn refresh_cast(&mut self, simulation: &Simulation) {

@@ -19,8 +19,11 @@ fn help_of_a_command_names_its_flags() {
     let folder = Folder::new("help_flags");
     let shared = "--duration <T> --tick <DT> --method <NAME> --tolerance <X> --json";
     for (command, flags) in [
-        ("run", "--output <channels.csv> --threads <N>"),
-        ("render", "--output <OUT> --at <T> --size <WxH> --fps <N> --threads <N> --quiet --png"),
+        ("run", "--output <channels.csv> --threads <N> --pace"),
+        (
+            "render",
+            "--output <OUT> --at <T> --size <WxH> --fps <N> --threads <N> --quiet --png --strip <T,T,T> --sheet <4x3> --max-size <SIZE> --pace",
+        ),
         ("check", "--run"),
     ] {
         let ended = folder.jostle(&format!("{command} --help")).code(0);

@@ -2,7 +2,9 @@
 
 mod check;
 mod failures;
+mod film_control;
 mod flags;
+mod formats;
 mod harness;
 mod help;
 mod interrupt;
@@ -11,6 +13,8 @@ mod new;
 mod numbers;
 mod outputs;
 mod scene_files;
+mod stills;
 mod streams;
 mod values;
 mod warnings;
+mod whole_files;

@@ -24,10 +24,14 @@ fn the_ending_tells_the_format() {
         assert!(folder.read(picture).starts_with(b"\x89PNG\r\n"), "{picture}");
     }
     assert!(!folder.has("c/frame_00002.png"));
-    let message = "error: the ending of `e.mp4` names no format: .gif is a film, .png one picture (with --at), / a \
-                   directory of pictures\n";
-    assert_eq!(folder.jostle("render fall.ron -o e.mp4").code(2).err, message);
-    folder.jostle("render fall.ron -o e.png").code(2).says("a .png holds one picture: add --at T");
+    let message = "error: the ending of `e.avi` names no format: .gif, .apng, .mp4 and .webm are films, .png is one \
+                   picture (with --at, --strip or --sheet), / a directory of pictures, .rgba or the name - (standard \
+                   output) raw pictures\n";
+    assert_eq!(folder.jostle("render fall.ron -o e.avi").code(2).err, message);
+    folder
+        .jostle("render fall.ron -o e.png")
+        .code(2)
+        .says("a .png holds one picture: add --at T, --strip T,T,T or --sheet 4x3");
     folder.jostle("render fall.ron -o e.gif --at 0.1").code(2).says("--at makes one picture: write it to a .png");
     folder.jostle("render fall.ron -o e.gif --png").code(2).says("--png makes pictures: they need a directory");
     assert_eq!(folder.names(), ["a.gif", "b.PNG", "c", "d", "fall.ron"]);
@@ -82,6 +86,10 @@ fn what_cannot_be_written_is_usage_with_a_remedy() {
         ("run fall.ron -o fall.ron", "error: `fall.ron` is the scene itself"),
         ("run fall.ron -o ./fall.ron", "error: `./fall.ron` is the scene itself"),
         ("run fall.ron -o fall.gif", "use `jostle render` for pictures"),
+        ("run fall.ron -o fall.mp4", "use `jostle render` for pictures"),
+        ("render fall.ron -o none/film.apng", "create its directory first"),
+        ("render fall.ron -o none/film.rgba", "create its directory first"),
+        ("render fall.ron -o none/strip.png --strip 0,0.1", "create its directory first"),
     ] {
         let ended = folder.jostle(arguments).code(2).says(message);
         assert_eq!(ended.out, "");

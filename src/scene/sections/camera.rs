@@ -1,18 +1,16 @@
-//! `camera`: which part of the world the film shows. Entries `Fit` and `Look`; `Follow` is reserved.
+//! `camera`: which part of the world the film shows. Entries `Fit`, `Look` and `Follow`.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use serde::Deserialize;
 
-use crate::scene::units::{Length, Position, Scalar};
-use crate::scene::{Entry, Outline, Report, Written};
+use crate::scene::units::{Length, Position, Scalar, Time};
+use crate::scene::{Entry, Kind, Outline, Report, Written};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
 /// One correct use of the section.
 pub const EXAMPLE: &str = "camera: Fit(margin: 0.05)";
-/// Cameras of the language that are not available yet.
-pub const RESERVED: [&str; 1] = ["Follow"];
 
 /// `camera: Fit(margin: 0.05)`: everything that moves stays in the picture.
 #[derive(Clone, Debug, Deserialize)]
@@ -78,6 +76,38 @@ impl Entry for LookCamera {
     }
 }
 
+/// `camera: Follow(of: "cart", height: 3, smoothing: "0.3 s")`: a body stays in the picture.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct FollowCamera {
+    /// The name of the body.
+    pub of: String,
+    /// The height of the picture, in m. Above zero.
+    pub height: Length,
+    /// How far the camera is behind, in s of film. Default: 0, the body is always in the middle.
+    #[serde(default)]
+    pub smoothing: Time,
+}
+
+impl Entry for FollowCamera {
+    const SECTION: &'static str = SECTION;
+    const NAME: &'static str = "Follow";
+    const EXAMPLE: &'static str = "Follow(of: \"ball\", height: 3, smoothing: \"0.3 s\")";
+
+    /// Reports a body that is not there, and what gives no picture.
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require(Kind::BODY, &self.of, "of", report);
+        report.positive("height", self.height);
+        report.not_negative("smoothing", self.smoothing);
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        for entry in entries {
+            app.insert_resource(CameraChoice::Follow(entry.value));
+        }
+    }
+}
+
 /// The camera of the scene. Absent: everything fits, with the default margin.
 #[derive(Resource, Clone, Debug)]
 pub enum CameraChoice {
@@ -85,4 +115,6 @@ pub enum CameraChoice {
     Fit(FitCamera),
     /// A fixed part of the world.
     Look(LookCamera),
+    /// A body stays in the picture.
+    Follow(FollowCamera),
 }

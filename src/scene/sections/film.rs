@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Outline, Report, Section};
+use crate::scene::{Kind, Outline, Report, Section};
 
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
@@ -21,7 +21,7 @@ pub struct FilmSection {
     /// Width and height in pixels, each from 16 to [`LARGEST_SIZE`]. Default: the program's.
     #[serde(default)]
     pub size: Option<(WholeNumber, WholeNumber)>,
-    /// Seconds of physics per second of film, above zero. Default: 1.
+    /// Seconds of physics per second of film; below zero the film runs backwards. Default: 1.
     #[serde(default)]
     pub speed: Option<Scalar>,
     /// First moment drawn, in s of physics. Default: 0.
@@ -30,6 +30,59 @@ pub struct FilmSection {
     /// Last moment drawn, in s of physics, after `from`. Default: the end of the run; a later moment means the end.
     #[serde(default)]
     pub to: Option<Time>,
+    /// Where the film stands still. Default: nowhere.
+    #[serde(default)]
+    pub freeze: Vec<FreezeEntry>,
+}
+
+/// A moment at which the film stands still: a time, or a contact.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct FreezeEntry {
+    /// The moment, in s of physics, from the film's beginning to its end.
+    #[serde(default)]
+    pub at: Option<Time>,
+    /// Two bodies, or a body and a wall: the moment they first begin to touch in the film, to a tick.
+    #[serde(default)]
+    pub touch: Option<(String, String)>,
+    /// How long the film stands still, in s of film. Above zero.
+    #[serde(rename = "for")]
+    pub lasts: Time,
+}
+
+impl FreezeEntry {
+    fn check(&self, film: &FilmSection, outline: &Outline, report: &mut Report) {
+        report.positive("for", self.lasts);
+        match (&self.at, &self.touch) {
+            (Some(at), None) => {
+                let (begin, end) = (film.begin(), film.end());
+                if report.not_negative("at", *at) && !(begin..=end).contains(&at.si()) {
+                    let lasts = if end.is_finite() { format!("to {end} s") } else { "on".to_owned() };
+                    let message =
+                        format!("must be a moment of the film, which shows {begin} s {lasts}, got {} s", at.si());
+                    report.error("at", message).help("change it, or the film's `from` and `to`");
+                }
+            }
+            (None, Some((a, b))) => {
+                let kinds = [Kind::BODY, Kind::WALL];
+                let found_a = outline.require_any(&kinds, a, "touch[0]", report);
+                let found_b = outline.require_any(&kinds, b, "touch[1]", report);
+                let wall = |name| outline.position(Kind::WALL, name).is_some();
+                if found_a && found_b && (a == b || wall(a) && wall(b)) {
+                    let message = format!("`{a}` and `{b}` never touch");
+                    report.error("touch", message).help("name two bodies, or a body and a wall");
+                }
+            }
+            (Some(_), Some(_)) => {
+                let help = "leave out `at` to wait for the contact, or `touch` to give the time";
+                report.error("", "has two moments, `at` and `touch`").help(help);
+            }
+            (None, None) => {
+                let help = "add `at: 1.5` (s of physics) or `touch: (\"ball\", \"floor\")`";
+                report.error("", "says not when the film stands still").help(help);
+            }
+        }
+    }
 }
 
 impl FilmSection {
@@ -43,9 +96,14 @@ impl FilmSection {
         self.size.map_or((1280, 720), |(width, height)| (width.0 as u32, height.0 as u32))
     }
 
-    /// Seconds of physics per second of film. Default: 1.
+    /// Seconds of physics per second of film, whichever way it runs. Default: 1.
     pub fn speed(&self) -> f64 {
-        self.speed.map_or(1.0, Scalar::si)
+        self.speed.map_or(1.0, Scalar::si).abs()
+    }
+
+    /// Whether the film runs backwards.
+    pub fn is_backwards(&self) -> bool {
+        self.speed.is_some_and(|speed| speed.si() < 0.0)
     }
 
     /// First moment drawn, in seconds of physics. Default: 0.
@@ -61,10 +119,10 @@ impl FilmSection {
 
 impl Section for FilmSection {
     const NAME: &'static str = "film";
-    const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5)";
+    const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5, freeze: [(at: 1.5, for: 2)])";
 
     /// Reports rates, sizes and moments that give no film.
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Report) {
         if let Some(fps) = self.fps {
             report.between("fps", fps, 0.01, 1000.0);
         }
@@ -75,8 +133,12 @@ impl Section for FilmSection {
                 }
             }
         }
-        if let Some(speed) = self.speed {
-            report.positive("speed", speed);
+        if let Some(speed) = self.speed
+            && report.finite("speed", speed)
+            && speed.si() == 0.0
+        {
+            let help = "0.1 is slow motion, -1 backwards; a film that stands still for a while has `freeze: [(at: 1.5, for: 2)]`";
+            report.error("speed", "must not be zero: the film would never end").help(help);
         }
         let from = self.from.unwrap_or_default();
         let begins = report.not_negative("from", from);
@@ -86,6 +148,9 @@ impl Section for FilmSection {
             && to.si() <= from.si()
         {
             report.error("to", format!("must be after `from`, which is {} s, got {} s", from.si(), to.si()));
+        }
+        for (place, freeze) in self.freeze.iter().enumerate() {
+            report.within(&format!("freeze[{place}]"), |report| freeze.check(self, outline, report));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 
-use super::camera::{self, FitCamera, LookCamera};
+use super::camera::{self, FitCamera, FollowCamera, LookCamera};
 use super::{ClockSection, FilmSection};
 use crate::raster::COLOR_NAMES;
 use crate::scene::{Arity, SceneAppExt};
@@ -22,9 +22,7 @@ pub fn plugin(app: &mut App) {
     app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE);
     app.register_entry::<FitCamera>();
     app.register_entry::<LookCamera>();
-    for later in camera::RESERVED {
-        app.reserve_entry(camera::SECTION, later);
-    }
+    app.register_entry::<FollowCamera>();
     for color in COLOR_NAMES {
         app.register_word(COLORS, color);
     }

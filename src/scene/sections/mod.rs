@@ -13,10 +13,10 @@ pub mod kinematic;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
-pub use camera::{CameraChoice, FitCamera, LookCamera};
+pub use camera::{CameraChoice, FitCamera, FollowCamera, LookCamera};
 pub use clock::{ClockSection, EventTiming};
 pub use fill::{FillEntry, FillSection};
-pub use film::FilmSection;
+pub use film::{FilmSection, FreezeEntry};
 pub use install::plugin;
 pub use kinematic::{KinematicEntry, PathEntry};
 pub use walls::{WallEntry, WallsSection};

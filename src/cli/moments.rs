@@ -1,0 +1,137 @@
+//! The moments that a film, a strip or a sheet shows.
+
+use bevy_ecs::entity::Entity;
+
+use super::Exit;
+use super::film::{Order, Shot};
+use super::say::{number, say};
+use crate::contacts::events::{ContactEvents, Touching, watch};
+use crate::record::Schedule;
+use crate::scene::sections::FreezeEntry;
+use crate::simulation::Simulation;
+use crate::world::Name;
+
+/// More frames than anybody watches: nine hours at 30 frames per second.
+const MOST_FRAMES: f64 = 1e6;
+
+/// The last moment of a run is a product of ticks; what people write differs in the last digits.
+const ROUNDING: f64 = 1e-9;
+
+impl Order<'_> {
+    /// The moments to draw, and the seconds of physics from frame to frame: what the clock has to tell apart.
+    pub(super) fn moments(&self, simulation: &Simulation, frames_per_second: f64) -> Result<(Schedule, f64), Exit> {
+        let film = simulation.film();
+        let end = simulation.ticks() as f64 * simulation.clock().dt;
+        let step = film.speed() / frames_per_second;
+        let beyond = |time: f64| time > end * (1.0 + ROUNDING);
+        let times = |flag: &str, times: &[f64]| match times.iter().find(|time| beyond(**time)) {
+            Some(late) => {
+                let (late, end) = (number(*late), number(end));
+                Err(self.request.usage(&format!("{flag} {late} s is after the end: the run lasts {end} s")))
+            }
+            None => Ok(Schedule::at(times.iter().map(|time| time.min(end)))),
+        };
+        match &self.shot {
+            Shot::At(at) => return Ok((times("--at", &[*at])?, step)),
+            Shot::Strip(moments) => {
+                let closest = moments.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+                return Ok((times("--strip", moments)?, closest));
+            }
+            Shot::Film | Shot::Sheet(..) => (),
+        }
+        let (from, exit) = (film.begin(), if self.is_overridden() { Exit::Usage } else { Exit::SceneWrong });
+        if beyond(from) {
+            let message = format!("the film begins at {} s, but the run ends at {} s", number(from), number(end));
+            let help = "begin earlier, or let the run last longer: `clock: (duration: ..)` or `--duration`";
+            return Err(self.request.refuse(exit, "film.from", &message, help));
+        }
+        let to = film.end().min(end);
+        if let Shot::Sheet((columns, rows)) = self.shot {
+            let last = (columns * rows - 1).max(1);
+            let every = (to - from) / f64::from(last);
+            let time = |place: u32| if place == last { to } else { from + f64::from(place) * every };
+            return Ok((Schedule::at((0..columns * rows).map(time)), every));
+        }
+        let standing: f64 = film.freeze.iter().map(|freeze| freeze.lasts.si()).sum();
+        let frames = ((to - from) / film.speed() + standing) * frames_per_second;
+        if frames > MOST_FRAMES {
+            let (seconds, frames) = (number(to - from), number(frames.round()));
+            let message = format!("{seconds} s of physics would be {frames} frames, more than {MOST_FRAMES}");
+            let help = "choose fewer frames per second (`fps`), a higher `speed`, or an earlier end (`to`)";
+            return Err(self.request.refuse(exit, "film", &message, help));
+        }
+        let mut schedule = Schedule::new(from, to, film.speed(), frames_per_second);
+        let touched = self.first_touches(simulation, from, to)?;
+        for (place, freeze) in film.freeze.iter().enumerate() {
+            let at = match freeze.at {
+                Some(at) if beyond(at.si()) => {
+                    let (at, end) = (number(at.si()), number(end));
+                    let message = format!("the film is to stand still at {at} s, but the run ends at {end} s");
+                    let help = "choose an earlier moment, or let the run last longer";
+                    return Err(self.request.refuse(exit, &format!("film.freeze[{place}].at"), &message, help));
+                }
+                Some(at) => Some(at.si().min(end)),
+                None => touched[place],
+            };
+            let frames = (freeze.lasts.si() * frames_per_second).round() as u64;
+            match (at, &freeze.touch) {
+                (Some(at), _) => schedule = schedule.standing_at(at, frames),
+                (None, Some((a, b))) => say(&format!(
+                    "note: film.freeze[{place}]: `{a}` and `{b}` do not begin to touch in the film: it does not stand \
+                     still there"
+                )),
+                (None, None) => (),
+            }
+        }
+        Ok((schedule, step))
+    }
+
+    /// Whether the command line, not the scene, says how long the run and the film are.
+    fn is_overridden(&self) -> bool {
+        self.frames_per_second.is_some() || self.overrides.duration.is_some()
+    }
+
+    /// When the contacts begin for which the film is to stand still; `None` for those that do not begin between `from`
+    /// and `to`. The scene is run once for that, if there is one.
+    fn first_touches(&self, simulation: &Simulation, from: f64, to: f64) -> Result<Vec<Option<f64>>, Exit> {
+        let freezes = &simulation.film().freeze;
+        let mut found = vec![None; freezes.len()];
+        if freezes.iter().all(|freeze| freeze.touch.is_none()) {
+            return Ok(found);
+        }
+        let mut ahead = self.again()?;
+        watch(ahead.world_mut());
+        let pairs: Vec<Option<Touching>> = freezes.iter().map(|freeze| pair(&mut ahead, freeze)).collect();
+        let mut missing = pairs.iter().flatten().count();
+        while missing > 0 && ahead.clock().ticks < ahead.ticks() && ahead.clock().time() < to {
+            // What goes wrong is told by the run that is drawn.
+            if ahead.run_to_tick(ahead.clock().ticks + 1).is_err() {
+                break;
+            }
+            let Some(events) = ahead.world().get_resource::<ContactEvents>().filter(|events| events.time >= from)
+            else {
+                continue;
+            };
+            for (found, pair) in found.iter_mut().zip(&pairs) {
+                let begins = |pair: &Touching| {
+                    let turned = Touching { a: pair.b, b: pair.a };
+                    events.begun.contains(pair) || events.begun.contains(&turned)
+                };
+                if found.is_none() && pair.as_ref().is_some_and(begins) {
+                    *found = Some(events.time);
+                    missing -= 1;
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The two that are to touch.
+fn pair(simulation: &mut Simulation, freeze: &FreezeEntry) -> Option<Touching> {
+    let world = simulation.world_mut();
+    let mut names = world.query::<(Entity, &Name)>();
+    let mut named = |wanted: &str| names.iter(world).find(|(_, name)| name.0 == wanted).map(|(entity, _)| entity);
+    let (a, b) = freeze.touch.as_ref()?;
+    Some(Touching { a: named(a)?, b: named(b)? })
+}

@@ -1,0 +1,238 @@
+//! Frames kept aside in a file, to be played backwards or several times.
+//!
+//! A frame takes 24 bytes for each body; memory holds only one at a time. The file is a temporary one: where the system
+//! allows, it has no name from the beginning, so that nothing is left of it however the program ends.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use glam::DVec2;
+
+use super::frame::{Cast, Frame, Pose};
+use super::layers::{Mark, MarkShape};
+
+/// Bytes of the length that stands before and after each frame.
+const LENGTH: u64 = 8;
+
+/// Frames in the order they were taken.
+#[derive(Debug)]
+pub struct Spool {
+    file: BufWriter<File>,
+    /// The name that is still there to be removed.
+    path: Option<PathBuf>,
+    /// The casts of the frames, each once.
+    casts: Vec<Arc<Cast>>,
+    frames: u64,
+    bytes: u64,
+}
+
+impl Spool {
+    /// The directory of temporary files.
+    pub fn folder() -> PathBuf {
+        std::env::temp_dir()
+    }
+
+    /// An empty one, in the directory of temporary files.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
+    pub fn new() -> io::Result<Self> {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let number = NEXT.fetch_add(1, Ordering::Relaxed);
+            let path = Self::folder().join(format!("jostle-{}-{number}.frames", std::process::id()));
+            let file = match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
+                // Left by a program that had this number before.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                opened => opened?,
+            };
+            let path = if cfg!(unix) && fs::remove_file(&path).is_ok() { None } else { Some(path) };
+            let file = BufWriter::with_capacity(1 << 16, file);
+            return Ok(Self { file, path, casts: Vec::new(), frames: 0, bytes: 0 });
+        }
+    }
+
+    /// How many frames there are.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Adds a frame.
+    ///
+    /// # Errors
+    /// If the system refuses to write.
+    pub fn push(&mut self, frame: &Frame) -> io::Result<()> {
+        if !self.casts.last().is_some_and(|cast| Arc::ptr_eq(cast, &frame.cast)) {
+            self.casts.push(frame.cast.clone());
+        }
+        let packed = pack(frame, self.casts.len() - 1);
+        let length = (packed.len() as u64).to_le_bytes();
+        for part in [&length[..], &packed, &length] {
+            self.file.write_all(part)?;
+        }
+        self.bytes += packed.len() as u64 + 2 * LENGTH;
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// The frames as they were taken.
+    ///
+    /// # Errors
+    /// If the system refuses to write or read.
+    pub fn forwards(&mut self) -> io::Result<impl Iterator<Item = io::Result<Frame>>> {
+        self.file.flush()?;
+        self.file.get_mut().seek(SeekFrom::Start(0))?;
+        let Self { file, casts, frames, .. } = self;
+        let mut reader = BufReader::with_capacity(1 << 16, file.get_mut());
+        Ok((0..*frames).map(move |_| {
+            let frame = read(&mut reader, casts)?;
+            number(&mut reader)?;
+            Ok(frame)
+        }))
+    }
+
+    /// The frames from the last to the first.
+    ///
+    /// # Errors
+    /// If the system refuses to write or read.
+    pub fn backwards(&mut self) -> io::Result<impl Iterator<Item = io::Result<Frame>>> {
+        self.file.flush()?;
+        let Self { file, casts, frames, bytes, .. } = self;
+        let (file, mut end) = (file.get_mut(), *bytes);
+        Ok((0..*frames).map(move |_| {
+            file.seek(SeekFrom::Start(end - LENGTH))?;
+            end -= number(file)? + 2 * LENGTH;
+            file.seek(SeekFrom::Start(end))?;
+            read(file, casts)
+        }))
+    }
+}
+
+impl Drop for Spool {
+    fn drop(&mut self) {
+        if let Some(path) = &self.path {
+            // Nobody is left to be told if this fails; the system clears its temporary files.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// A frame as bytes, its cast as a number.
+fn pack(frame: &Frame, cast: usize) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(32 + 24 * frame.poses.len());
+    let count = |bytes: &mut Vec<u8>, number: usize| bytes.extend((number as u64).to_le_bytes());
+    let real = |bytes: &mut Vec<u8>, number: f64| bytes.extend(number.to_le_bytes());
+    count(&mut bytes, cast);
+    real(&mut bytes, frame.time);
+    count(&mut bytes, frame.poses.len());
+    for pose in &frame.poses {
+        [pose.position.x, pose.position.y, pose.angle].into_iter().for_each(|number| real(&mut bytes, number));
+    }
+    count(&mut bytes, frame.marks.len());
+    for mark in &frame.marks {
+        let (kind, numbers) = match mark.shape {
+            MarkShape::Line(a, b) => (0, [a.x, a.y, b.x, b.y]),
+            MarkShape::Arrow(a, b) => (1, [a.x, a.y, b.x, b.y]),
+            MarkShape::Circle(center, radius) => (2, [center.x, center.y, radius, 0.0]),
+        };
+        count(&mut bytes, kind);
+        numbers.into_iter().for_each(|number| real(&mut bytes, number));
+        let color = mark.color.as_deref();
+        // A length more than there is says that there is a colour, if an empty one.
+        count(&mut bytes, color.map_or(0, |color| color.len() + 1));
+        bytes.extend(color.unwrap_or_default().as_bytes());
+    }
+    bytes
+}
+
+/// Reads a frame with the length before it.
+fn read(file: &mut impl Read, casts: &[Arc<Cast>]) -> io::Result<Frame> {
+    let length = number(file)?;
+    let mut bytes = vec![0; length as usize];
+    file.read_exact(&mut bytes)?;
+    let rest = &mut bytes.as_slice();
+    let cast = casts.get(number(rest)? as usize).cloned().ok_or(io::ErrorKind::InvalidData)?;
+    let time = real(rest)?;
+    let poses = (0..number(rest)?)
+        .map(|_| Ok(Pose { position: point(rest)?, angle: real(rest)? }))
+        .collect::<io::Result<Vec<_>>>()?;
+    let marks = (0..number(rest)?).map(|_| mark(rest)).collect::<io::Result<Vec<_>>>()?;
+    Ok(Frame { time, cast, poses, marks, center: None })
+}
+
+fn mark(rest: &mut &[u8]) -> io::Result<Mark> {
+    let (kind, from, to) = (number(rest)?, point(rest)?, point(rest)?);
+    let shape = match kind {
+        0 => MarkShape::Line(from, to),
+        1 => MarkShape::Arrow(from, to),
+        _ => MarkShape::Circle(from, to.x),
+    };
+    let length = number(rest)?;
+    let mut color = vec![0; length.saturating_sub(1) as usize];
+    rest.read_exact(&mut color)?;
+    let color = (length > 0).then(|| String::from_utf8_lossy(&color).into_owned());
+    Ok(Mark { shape, color })
+}
+
+fn number(file: &mut impl Read) -> io::Result<u64> {
+    let mut bytes = [0; 8];
+    file.read_exact(&mut bytes).map(|()| u64::from_le_bytes(bytes))
+}
+
+fn real(file: &mut impl Read) -> io::Result<f64> {
+    number(file).map(f64::from_bits)
+}
+
+fn point(file: &mut impl Read) -> io::Result<DVec2> {
+    Ok(DVec2::new(real(file)?, real(file)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frames() -> Vec<Frame> {
+        let (one, two) = (Arc::new(Cast::default()), Arc::new(Cast { title: "other".into(), ..Cast::default() }));
+        let pose = |x| Pose { position: DVec2::new(x, -0.0), angle: 1.0 / 3.0 };
+        let mark = |shape, color: Option<&str>| Mark { shape, color: color.map(str::to_owned) };
+        let marks = vec![
+            mark(MarkShape::Line(DVec2::X, DVec2::Y), None),
+            mark(MarkShape::Arrow(DVec2::Y, DVec2::ONE), Some("teal")),
+            mark(MarkShape::Circle(DVec2::ONE, 0.25), Some("")),
+        ];
+        let frame = |time: u32| {
+            let (cast, poses) = if time < 3 { (&one, time) } else { (&two, 1) };
+            let marks = if time == 2 { marks.clone() } else { Vec::new() };
+            let poses = (0..poses).map(|place| pose(f64::from(place))).collect();
+            Frame { time: f64::from(time), cast: cast.clone(), poses, marks, center: None }
+        };
+        (0..6).map(frame).collect()
+    }
+
+    #[test]
+    fn frames_come_back_forwards_and_backwards_as_often_as_asked() {
+        let mut spool = Spool::new().expect("a temporary file");
+        frames().iter().for_each(|frame| spool.push(frame).expect("room"));
+        for _ in 0..2 {
+            let forwards: Vec<Frame> = spool.forwards().expect("readable").map(|frame| frame.expect("whole")).collect();
+            assert_eq!(forwards, frames());
+            let mut backwards: Vec<Frame> =
+                spool.backwards().expect("readable").map(|frame| frame.expect("whole")).collect();
+            backwards.reverse();
+            assert_eq!(backwards, frames());
+            // Frames of one cast share it: whoever draws them tells by that.
+            assert!(Arc::ptr_eq(&forwards[0].cast, &backwards[2].cast));
+        }
+        assert_eq!(spool.frames(), 6);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_file_has_no_name() {
+        let spool = Spool::new().expect("a temporary file");
+        assert_eq!(spool.path, None);
+    }
+}
