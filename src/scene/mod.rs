@@ -75,6 +75,7 @@ pub use error::{SceneError, SceneErrors};
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub use outline::{Kind, Mention, Obstacle, Outline};
+pub(crate) use registry::install_word;
 pub use registry::{Arity, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};

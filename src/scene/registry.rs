@@ -15,6 +15,8 @@ use super::section::{Entry, Section, Written};
 pub enum Arity {
     /// Any number, in a list: `forces: [Drag(..), Thrust(..)]`.
     List,
+    /// Any number, in a list; one that needs no field may stand without brackets: `layers: [Trails(seconds: 2), Names]`.
+    Words,
     /// Exactly one: `camera: Fit(..)`.
     One,
     /// One, or the word `None`: `contacts: None`.
@@ -132,10 +134,11 @@ impl SceneRegistry {
         assert!(!claimed, "the entry `{name}` of `{section}` is registered twice");
     }
 
-    /// The registered sections with one correct use each, in the order of registration; reserved ones have none.
+    /// The registered sections with one correct use each, in the order of registration; reserved ones have none. Lists
+    /// of entries inside a section (`look.layers`) are left out.
     pub fn sections(&self) -> Vec<(&'static str, &'static str)> {
-        let mut list: Vec<_> =
-            self.sections.iter().map(|(name, section)| (section.order, *name, section.example)).collect();
+        let outermost = self.sections.iter().filter(|(name, _)| !name.contains('.'));
+        let mut list: Vec<_> = outermost.map(|(name, section)| (section.order, *name, section.example)).collect();
         list.sort_unstable();
         list.into_iter().map(|(_, name, example)| (name, example)).collect()
     }
@@ -152,6 +155,22 @@ impl SceneRegistry {
     }
 }
 
+/// Installs an entry that stands in no scene, with the defaults of its fields. Returns whether there is such an entry and
+/// it needs no field.
+pub(crate) fn install_word(app: &mut App, outline: &Outline, section: &str, name: &str) -> bool {
+    let registry = app.world().get_resource::<SceneRegistry>();
+    let found = registry.and_then(|registry| match &registry.sections.get(section)?.reader {
+        Reader::Entries(_, entries) => entries.get(name)?.make,
+        _ => None,
+    });
+    let Some(mut store) = found.map(|make| make()) else { return false };
+    let read = store.push(&format!("{name}()"), name.len()).is_ok();
+    if read {
+        store.install(outline, app);
+    }
+    read
+}
+
 /// How plugins take part in the scene language. Everything here is called from `Plugin::build`.
 ///
 /// # Panics
@@ -161,7 +180,8 @@ pub trait SceneAppExt {
     /// Lets a type read a top-level section.
     fn register_section<S: Section>(&mut self) -> &mut Self;
 
-    /// Makes a top-level section that takes entries by their leading names. `example` is one correct use.
+    /// Makes a top-level section that takes entries by their leading names. `example` is one correct use. A name such as
+    /// `look.layers` is the field `layers` of the section `look`, whose type passes it over with [`Elsewhere`](super::values::Elsewhere).
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self;
 
     /// Lets a type read one kind of entry of such a section.
@@ -234,7 +254,7 @@ impl SceneAppExt for App {
 /// Where an entry's relative paths begin.
 pub(crate) fn entry_scope(section: &str, arity: Arity, index: usize) -> String {
     match arity {
-        Arity::List => join(section, &format!("[{index}]")),
+        Arity::List | Arity::Words => join(section, &format!("[{index}]")),
         Arity::One | Arity::OneOrNone => section.to_owned(),
     }
 }
