@@ -156,7 +156,7 @@ impl Target {
 /// # Errors
 /// If the format does not allow the size or the rate, or the file cannot be created.
 pub fn open(target: &Target, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
-    let (width, height) = view.camera.size();
+    let (width, height) = view.size();
     if width == 0 || height == 0 {
         return Err(OutputError::Size { width, height, longest: 0 });
     }

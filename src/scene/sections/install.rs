@@ -3,14 +3,14 @@
 use bevy_app::App;
 
 use super::camera::{self, FitCamera, FollowCamera, LookCamera};
-use super::{ClockSection, FilmSection};
+use super::{ClockSection, FilmSection, PlotsSection};
 use crate::raster::COLOR_NAMES;
 use crate::scene::{Arity, SceneAppExt};
 use crate::world::material::COLORS;
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 10] =
-    ["joints", "plots", "look", "params", "include", "templates", "instances", "randomise", "controllers", "scene"];
+const RESERVED: [&str; 9] =
+    ["joints", "look", "params", "include", "templates", "instances", "randomise", "controllers", "scene"];
 
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {
@@ -20,6 +20,7 @@ pub fn plugin(app: &mut App) {
     }
     app.register_section::<ClockSection>();
     app.register_section::<FilmSection>();
+    app.register_section::<PlotsSection>();
     app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE);
     app.register_entry::<FitCamera>();
     app.register_entry::<LookCamera>();
