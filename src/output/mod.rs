@@ -22,6 +22,7 @@ mod video;
 
 use std::path::{Path, PathBuf};
 
+pub use self::png::write_picture;
 pub use error::OutputError;
 
 use crate::raster::View;

@@ -35,6 +35,8 @@ pub(in crate::raster) struct Chart {
     bars: Option<Bars>,
     upright_grid: bool,
     tail: Option<f64>,
+    /// Beside a film the end of each curve has a dot.
+    shows_heads: bool,
     sizes: Sizes,
     tones: Tones,
 }
@@ -73,7 +75,7 @@ impl Chart {
         // A single curve that the title names needs no line of its own.
         let told = naming == Naming::Full || plot.curves().first().is_none_or(|curve| curve.label == plot.title);
         let rows = if traces.len() > 1 || !told { rows(&traces, outer.width(), sizes, tones) } else { Vec::new() };
-        let below = rows.len() as f32 * 1.65 * sizes.legend + 2.9 * text;
+        let below = rows.len() as f32 * 1.65 * sizes.legend + 3.3 * text;
         let top = outer.top + 1.35 * sizes.title + 0.7 * text;
         let bottom = (outer.bottom - below).max(top + text);
 
@@ -136,6 +138,7 @@ impl Chart {
             bars: if let Content::Bars(bars) = &plot.content { Some(bars.clone()) } else { None },
             upright_grid: !times && !plot.curves().is_empty(),
             tail: if let Content::Phases(_, tail) = plot.content { tail } else { None },
+            shows_heads: naming == Naming::Brief,
             sizes: *sizes,
             tones: tones.clone(),
         };
@@ -261,7 +264,10 @@ impl Chart {
             tools.sheet.begin(&sheet);
             tools.sheet.line(&tools.points, self.sizes.line, &trace.dash, &tools.weights);
             tools.sheet.put(&mut canvas, trace.color);
-            if (left - 1.0..=right + 1.0).contains(&head.0) && (top - 1.0..=bottom + 1.0).contains(&head.1) {
+            if self.shows_heads
+                && (left - 1.0..=right + 1.0).contains(&head.0)
+                && (top - 1.0..=bottom + 1.0).contains(&head.1)
+            {
                 heads.push((head, trace.color));
             }
         }
@@ -363,7 +369,7 @@ fn rows(traces: &[Trace], width: f32, sizes: &Sizes, tones: &Tones) -> Vec<Vec<u
 /// Discs at the heads of curves, back to front, with their radii: where heads meet, those behind are larger, so that each
 /// shows a ring.
 fn nested(heads: &[(Point, Rgb)], radius: f32) -> Vec<(Point, f32, Rgb)> {
-    const RING: f32 = 0.6;
+    const RING: f32 = 0.75;
     let near = |a: Point, b: Point| {
         let (dx, dy) = (a.0 - b.0, a.1 - b.1);
         (1.0 - (dx * dx + dy * dy).sqrt() / (2.0 * radius)).max(0.0)

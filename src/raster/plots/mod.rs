@@ -2,6 +2,7 @@
 //! taller than wide.
 
 mod chart;
+mod figure;
 mod legend;
 mod pen;
 mod scale;
@@ -14,6 +15,7 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub(super) use chart::Tools;
+pub use figure::figure;
 
 use super::canvas::{Canvas, fill};
 use super::theme::Theme;
@@ -33,6 +35,8 @@ const SMALLEST: u32 = 110;
 
 /// The height of a plot's card in its width.
 const PROPORTION: f32 = 0.96;
+/// It is not lower than so many lines of text, in their size.
+const LOWEST: f32 = 18.0;
 
 /// The panel of a film.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +131,7 @@ impl Cards {
             }
         } else {
             // The legend gives way to the plots.
-            let ideal = PROPORTION * free.width();
+            let ideal = (PROPORTION * free.width()).max(LOWEST * sizes.text);
             let left_for = |key: Option<&Key>| {
                 let taken = key.map_or(0.0, |key| key.height() + 2.0 * sizes.pad + gap);
                 let count = plots.len().max(1) as f32;
@@ -135,7 +139,11 @@ impl Cards {
             };
             let keys = [10, 8, 6, 4, 2].map(|most| key(most, free.width()));
             let fits = |key: &&Key| {
-                if plots.is_empty() { left_for(Some(key)) > 0.0 } else { left_for(Some(key)) >= 0.62 * ideal }
+                if plots.is_empty() {
+                    left_for(Some(key)) > 0.0
+                } else {
+                    left_for(Some(key)) >= (0.62 * ideal).max(LOWEST * sizes.text)
+                }
             };
             let key = keys.iter().find(fits);
             let height = left_for(key);

@@ -4,6 +4,7 @@ mod decimate;
 pub mod legend;
 mod names;
 mod sampler;
+pub mod table;
 
 pub use decimate::Decimator;
 pub use legend::{Legend, LegendAppExt, LegendEntry, LegendMark};
