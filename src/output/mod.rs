@@ -22,6 +22,7 @@ mod video;
 
 use std::path::{Path, PathBuf};
 
+pub use self::png::write_picture;
 pub use error::OutputError;
 
 use crate::raster::View;
@@ -156,7 +157,7 @@ impl Target {
 /// # Errors
 /// If the format does not allow the size or the rate, or the file cannot be created.
 pub fn open(target: &Target, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
-    let (width, height) = view.camera.size();
+    let (width, height) = view.size();
     if width == 0 || height == 0 {
         return Err(OutputError::Size { width, height, longest: 0 });
     }
