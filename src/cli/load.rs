@@ -24,11 +24,14 @@ impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
     pub fn load(self, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
-        let read = source(self.name).and_then(|source| {
-            let simulation = Simulation::load_with(&source, overrides, |_| {})?;
-            Ok((source, simulation))
-        });
-        read.map_err(|errors| self.refuse_scene(&errors))
+        self.read(overrides).map_err(|errors| self.refuse_scene(&errors))
+    }
+
+    /// Reads and prepares the scene; prints nothing.
+    pub fn read(self, overrides: &Overrides) -> Result<(Source, Simulation), SceneErrors> {
+        let source = source(self.name)?;
+        let simulation = Simulation::load_with(&source, overrides, |_| {})?;
+        Ok((source, simulation))
     }
 
     /// Tells what is wrong with the scene.

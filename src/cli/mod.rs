@@ -4,7 +4,9 @@ mod aim;
 mod check;
 mod examples;
 mod film;
+mod find;
 mod flags;
+mod junit;
 mod load;
 mod moments;
 mod new;
@@ -15,8 +17,11 @@ mod render;
 mod result;
 mod run;
 mod say;
+mod side_by_side;
 mod squeeze;
 mod target;
+mod test;
+mod trial;
 mod wall_clock;
 
 use clap::{Parser, Subcommand};
@@ -54,6 +59,7 @@ Examples:
   jostle render scenes/*.ron -o films/                   a film of each scene
   jostle run example:projectile -o channels.csv          numbers instead of pictures
   jostle check my_scene.ron                              read it and say what is wrong
+  jostle test scenes/                                    do all scenes of a folder do what they expect?
   jostle new scene my_scene                              a scene to begin with
 
 Scenes that come with the program: {scenes}.
@@ -82,6 +88,8 @@ enum Command {
     Render(render::Render),
     /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),
+    /// Run all scenes of a folder, several at once, and check what they expect
+    Test(test::Test),
     /// Write a starting point: a plugin or a scene
     New(new::New),
 }
@@ -93,6 +101,7 @@ impl CommandLine {
             Command::Run(run) => run.execute(),
             Command::Render(render) => render.execute(),
             Command::Check(check) => check.execute(),
+            Command::Test(test) => test.execute(),
             Command::New(new) => new.execute(),
         }
     }

@@ -15,6 +15,7 @@ mod outputs;
 mod scene_files;
 mod stills;
 mod streams;
+mod test_command;
 mod values;
 mod warnings;
 mod whole_files;
