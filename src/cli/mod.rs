@@ -7,6 +7,7 @@ mod film;
 mod find;
 mod flags;
 mod junit;
+mod list;
 mod load;
 mod moments;
 mod new;
@@ -60,6 +61,7 @@ Examples:
   jostle run example:projectile -o channels.csv          numbers instead of pictures
   jostle check my_scene.ron                              read it and say what is wrong
   jostle test scenes/                                    do all scenes of a folder do what they expect?
+  jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
 
 Scenes that come with the program: {scenes}.
@@ -90,6 +92,8 @@ enum Command {
     Check(check::Check),
     /// Run all scenes of a folder, several at once, and check what they expect
     Test(test::Test),
+    /// List the scenes that come with the program, or what a scene may name: sections, forces, sensors, methods ...
+    List(list::List),
     /// Write a starting point: a plugin or a scene
     New(new::New),
 }
@@ -102,6 +106,7 @@ impl CommandLine {
             Command::Render(render) => render.execute(),
             Command::Check(check) => check.execute(),
             Command::Test(test) => test.execute(),
+            Command::List(list) => list.execute(),
             Command::New(new) => new.execute(),
         }
     }

@@ -74,10 +74,11 @@ pub use error::{SceneError, SceneErrors};
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub use outline::{Kind, Mention, Obstacle, Outline};
-pub use registry::{Arity, SceneAppExt, SceneRegistry};
+pub use registry::{Arity, Known, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};
 pub use source::{LARGEST_SCENE, Source};
+pub(crate) use suggest::nearest as nearest_name;
 
 #[cfg(test)]
 mod tests;

@@ -9,6 +9,7 @@ mod harness;
 mod help;
 mod interrupt;
 mod json;
+mod list;
 mod new;
 mod numbers;
 mod outputs;
