@@ -3,10 +3,11 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+use super::flags::OverrideFlags;
 use super::say::{print_line, say};
 use super::{Exit, examples};
 use crate::scene::{SceneError, SceneErrors, Source};
-use crate::simulation::{Overrides, Simulation};
+use crate::simulation::Simulation;
 
 /// What scenes that come with the program are called by.
 const EXAMPLE: &str = "example:";
@@ -23,14 +24,14 @@ pub(super) struct Request<'a> {
 impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
-    pub fn load(self, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
-        self.read(overrides).map_err(|errors| self.refuse_scene(&errors))
+    pub fn load(self, flags: &OverrideFlags) -> Result<(Source, Simulation), Exit> {
+        self.read(flags).map_err(|errors| self.refuse_scene(&errors))
     }
 
     /// Reads and prepares the scene; prints nothing.
-    pub fn read(self, overrides: &Overrides) -> Result<(Source, Simulation), SceneErrors> {
-        let source = source(self.name)?;
-        let simulation = Simulation::load_with(&source, overrides, |_| {})?;
+    pub fn read(self, flags: &OverrideFlags) -> Result<(Source, Simulation), SceneErrors> {
+        let source = source(self.name)?.with_settings(&flags.settings);
+        let simulation = Simulation::load_with(&source, &flags.overrides(), |_| {})?;
         Ok((source, simulation))
     }
 
@@ -73,7 +74,7 @@ impl Request<'_> {
 }
 
 /// Reads the text of a scene: a file, or `example:NAME`.
-fn source(scene: &str) -> Result<Source, SceneErrors> {
+pub(super) fn source(scene: &str) -> Result<Source, SceneErrors> {
     let Some(name) = scene.strip_prefix(EXAMPLE) else { return Source::read(&PathBuf::from(scene)) };
     let found = examples::SCENES.iter().find(|(known, _)| *known == name);
     found.map(|(_, text)| Source::new(scene, *text)).ok_or_else(|| {
