@@ -5,7 +5,10 @@ mod check;
 mod colors;
 mod examples;
 mod film;
+mod find;
 mod flags;
+mod junit;
+mod list;
 mod load;
 mod moments;
 mod new;
@@ -17,8 +20,11 @@ mod render;
 mod result;
 mod run;
 mod say;
+mod side_by_side;
 mod squeeze;
 mod target;
+mod test;
+mod trial;
 mod wall_clock;
 
 use clap::{Parser, Subcommand};
@@ -57,6 +63,8 @@ Examples:
   jostle run example:projectile -o channels.csv          numbers instead of pictures
   jostle plot example:bounce --channels ball.position.y  a figure of what a sensor measures
   jostle check my_scene.ron                              read it and say what is wrong
+  jostle test scenes/                                    do all scenes of a folder do what they expect?
+  jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
 
 Scenes that come with the program: {scenes}.
@@ -87,6 +95,10 @@ enum Command {
     Plot(plot::PlotCommand),
     /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),
+    /// Run all scenes of a folder, several at once, and check what they expect
+    Test(test::Test),
+    /// List the scenes that come with the program, or what a scene may name: sections, forces, sensors, methods ...
+    List(list::List),
     /// Write a starting point: a plugin or a scene
     New(new::New),
 }
@@ -99,6 +111,8 @@ impl CommandLine {
             Command::Render(render) => render.execute(),
             Command::Plot(plot) => plot.execute(),
             Command::Check(check) => check.execute(),
+            Command::Test(test) => test.execute(),
+            Command::List(list) => list.execute(),
             Command::New(new) => new.execute(),
         }
     }

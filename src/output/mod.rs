@@ -19,11 +19,13 @@ pub mod sheet;
 mod stream;
 mod studio;
 mod video;
+mod whole;
 
 use std::path::{Path, PathBuf};
 
 pub use self::png::write_picture;
 pub use error::OutputError;
+pub use whole::write_whole;
 
 use crate::raster::View;
 use crate::record::frame::Frame;

@@ -77,10 +77,11 @@ pub use load::{SceneHeader, load};
 pub(crate) use outline::fits;
 pub use outline::{Kind, Mention, Obstacle, Outline};
 pub(crate) use registry::install_word;
-pub use registry::{Arity, SceneAppExt, SceneRegistry};
+pub use registry::{Arity, Known, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};
 pub use source::{LARGEST_SCENE, Source};
+pub(crate) use suggest::nearest as nearest_name;
 
 #[cfg(test)]
 mod tests;
