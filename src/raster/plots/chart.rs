@@ -17,6 +17,9 @@ const STILL: f32 = 0.4;
 /// Beyond so many pixels nothing is told apart, and `f32` still counts well.
 const FAR: f64 = 1e4;
 
+/// Between axes that are nearer than so many lines of text, there is no room to name them.
+const LOWEST: f32 = 4.5;
+
 /// A plot with its place in the picture.
 #[derive(Clone, Debug)]
 pub(in crate::raster) struct Chart {
@@ -75,13 +78,21 @@ impl Chart {
         let turned = naming == Naming::Full || !times;
         // A single curve that the title or its axis names needs no line of its own.
         let told = turned || plot.curves().first().is_none_or(|curve| curve.label == plot.title);
-        let rows = if traces.len() > 1 || !told { rows(&traces, outer.width(), sizes, tones) } else { Vec::new() };
-        let below = rows.len() as f32 * 1.65 * sizes.legend + 3.3 * text;
+        let mut rows = if traces.len() > 1 || !told { rows(&traces, outer.width(), sizes, tones) } else { Vec::new() };
         let top = outer.top + 1.35 * sizes.title + 0.7 * text;
-        let bottom = (outer.bottom - below).max(top + text);
+        let left_by = |rows: usize, named: bool| {
+            let below = rows as f32 * 1.65 * sizes.legend + if named { 3.3 } else { 2.0 } * text;
+            outer.bottom - below - top
+        };
+        // Where there is little room, names give way to the curves: first that of the axis, then those below.
+        let named = left_by(rows.len(), true) >= LOWEST * text;
+        if left_by(rows.len(), named) < LOWEST * text {
+            rows.clear();
+        }
+        let bottom = top + left_by(rows.len(), named).max(text);
 
         let ups = || plot.curves().iter().flat_map(|curve| curve.samples.iter().map(|sample| sample.y));
-        let most_up = ((bottom - top) / (3.0 * text)).clamp(2.0, 6.0) as usize;
+        let most_up = ((bottom - top) / (2.4 * text)).clamp(1.0, 6.0) as usize;
         let up_range = match &plot.content {
             Content::Bars(bars) => {
                 let most = bars.counts.iter().flat_map(|(_, counts)| &counts[..counts.len() - 1]).max();
@@ -121,16 +132,21 @@ impl Chart {
 
         let up_unit = ticks::unit(&plot.up.unit, up_ticks.exponent);
         let mut across_label = with_unit(&plot.across.label, &ticks::unit(&plot.across.unit, across_ticks.exponent));
+        let mut aside = if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") };
         if let Content::Bars(bars) = &plot.content
             && let Some(outside) = bars.counts.last().and_then(|(_, counts)| counts.last()).filter(|count| **count > 0)
         {
-            across_label.push_str(&format!(", {outside} outside at the end"));
+            aside = format!("({outside} outside at the end)");
         }
+        if !named {
+            across_label.clear();
+        }
+        let up_named = turned && bottom - top >= LOWEST * text;
         let mut chart = Chart {
             title: plot.title.clone(),
-            aside: if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") },
+            aside,
             across_label,
-            up_label: if turned { with_unit(&plot.up.label, &up_unit) } else { String::new() },
+            up_label: if up_named { with_unit(&plot.up.label, &up_unit) } else { String::new() },
             outer,
             inner,
             across: (Scale::new(across_range, (inner.left, inner.right), plot.across.logarithmic), across_ticks),
