@@ -188,6 +188,10 @@ impl Squeeze<'_> {
         if rung.colors < LADDER[0].colors {
             traded.push(format!("{} colours instead of {}", rung.colors, LADDER[0].colors));
         }
+        let resized = self.view.resized((small_width, small_height));
+        if self.view.panel.is_some() && resized.panel.is_none() {
+            traded.push("no plots, as there is no room".to_owned());
+        }
         say(&match traded.is_empty() {
             true => format!("--max-size {limit}: the film fits as it is"),
             false => format!("--max-size {limit}: {}", traded.join(", ")),

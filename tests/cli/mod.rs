@@ -13,6 +13,7 @@ mod list;
 mod new;
 mod numbers;
 mod outputs;
+mod plots;
 mod scene_files;
 mod stills;
 mod streams;

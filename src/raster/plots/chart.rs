@@ -17,6 +17,9 @@ const STILL: f32 = 0.4;
 /// Beyond so many pixels nothing is told apart, and `f32` still counts well.
 const FAR: f64 = 1e4;
 
+/// Between axes that are nearer than so many lines of text, there is no room to name them.
+const LOWEST: f32 = 4.5;
+
 /// A plot with its place in the picture.
 #[derive(Clone, Debug)]
 pub(in crate::raster) struct Chart {
@@ -72,15 +75,24 @@ impl Chart {
             Trace { label: curve.label.clone(), color, dash, points: Vec::new(), samples: curve.samples.clone() }
         });
         let traces: Vec<Trace> = traces.collect();
-        // A single curve that the title names needs no line of its own.
-        let told = naming == Naming::Full || plot.curves().first().is_none_or(|curve| curve.label == plot.title);
-        let rows = if traces.len() > 1 || !told { rows(&traces, outer.width(), sizes, tones) } else { Vec::new() };
-        let below = rows.len() as f32 * 1.65 * sizes.legend + 3.3 * text;
+        let turned = naming == Naming::Full || !times;
+        // A single curve that the title or its axis names needs no line of its own.
+        let told = turned || plot.curves().first().is_none_or(|curve| curve.label == plot.title);
+        let mut rows = if traces.len() > 1 || !told { rows(&traces, outer.width(), sizes, tones) } else { Vec::new() };
         let top = outer.top + 1.35 * sizes.title + 0.7 * text;
-        let bottom = (outer.bottom - below).max(top + text);
+        let left_by = |rows: usize, named: bool| {
+            let below = rows as f32 * 1.65 * sizes.legend + if named { 3.3 } else { 2.0 } * text;
+            outer.bottom - below - top
+        };
+        // Where there is little room, names give way to the curves: first that of the axis, then those below.
+        let named = left_by(rows.len(), true) >= LOWEST * text;
+        if left_by(rows.len(), named) < LOWEST * text {
+            rows.clear();
+        }
+        let bottom = top + left_by(rows.len(), named).max(text);
 
         let ups = || plot.curves().iter().flat_map(|curve| curve.samples.iter().map(|sample| sample.y));
-        let most_up = ((bottom - top) / (3.0 * text)).clamp(2.0, 6.0) as usize;
+        let most_up = ((bottom - top) / (2.4 * text)).clamp(1.0, 6.0) as usize;
         let up_range = match &plot.content {
             Content::Bars(bars) => {
                 let most = bars.counts.iter().flat_map(|(_, counts)| &counts[..counts.len() - 1]).max();
@@ -88,8 +100,10 @@ impl Chart {
             }
             _ => plot.up.range.or_else(|| range_of(ups(), plot.up.logarithmic)).unwrap_or((0.0, 1.0)),
         };
-        let widen = plot.up.range.is_none() && !plot.up.logarithmic;
-        let up_range = if widen { ticks::widened(up_range.0, up_range.1, most_up) } else { up_range };
+        let up_range = match plot.up.range {
+            Some(range) => range,
+            None => ticks::widened(up_range.0, up_range.1, most_up, plot.up.logarithmic),
+        };
         let mut up_ticks = if plot.up.logarithmic {
             Ticks::logarithmic(up_range.0, up_range.1, most_up)
         } else {
@@ -99,7 +113,6 @@ impl Chart {
             whole_numbers(&mut up_ticks);
         }
         let widest = up_ticks.labels.iter().map(|label| small.width(label)).fold(0.0, f32::max);
-        let turned = naming == Naming::Full || !times;
         let left = outer.left + if turned { 1.5 * text } else { 0.0 } + widest.max(1.2 * text) + 0.7 * text;
         let inner = Area { left: left.round(), top: top.round(), right: outer.right.round(), bottom: bottom.round() };
 
@@ -109,7 +122,7 @@ impl Chart {
         let found = || range_of(xs(), plot.across.logarithmic).unwrap_or((0.0, 1.0));
         let across_range = asked.unwrap_or_else(|| {
             let (low, high) = found();
-            if plot.across.logarithmic { (low, high) } else { ticks::widened(low, high, most_across) }
+            ticks::widened(low, high, most_across, plot.across.logarithmic)
         });
         let across_ticks = if plot.across.logarithmic {
             Ticks::logarithmic(across_range.0, across_range.1, most_across)
@@ -119,16 +132,21 @@ impl Chart {
 
         let up_unit = ticks::unit(&plot.up.unit, up_ticks.exponent);
         let mut across_label = with_unit(&plot.across.label, &ticks::unit(&plot.across.unit, across_ticks.exponent));
+        let mut aside = if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") };
         if let Content::Bars(bars) = &plot.content
             && let Some(outside) = bars.counts.last().and_then(|(_, counts)| counts.last()).filter(|count| **count > 0)
         {
-            across_label.push_str(&format!(", {outside} outside at the end"));
+            aside = format!("({outside} outside at the end)");
         }
+        if !named {
+            across_label.clear();
+        }
+        let up_named = turned && bottom - top >= LOWEST * text;
         let mut chart = Chart {
             title: plot.title.clone(),
-            aside: if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") },
+            aside,
             across_label,
-            up_label: if turned { with_unit(&plot.up.label, &up_unit) } else { String::new() },
+            up_label: if up_named { with_unit(&plot.up.label, &up_unit) } else { String::new() },
             outer,
             inner,
             across: (Scale::new(across_range, (inner.left, inner.right), plot.across.logarithmic), across_ticks),
@@ -137,7 +155,8 @@ impl Chart {
             traces,
             bars: if let Content::Bars(bars) = &plot.content { Some(bars.clone()) } else { None },
             upright_grid: !times && !plot.curves().is_empty(),
-            tail: if let Content::Phases(_, tail) = plot.content { tail } else { None },
+            // A still figure shows the whole way.
+            tail: if let (Content::Phases(_, tail), Naming::Brief) = (&plot.content, naming) { *tail } else { None },
             shows_heads: naming == Naming::Brief,
             sizes: *sizes,
             tones: tones.clone(),
@@ -388,5 +407,91 @@ fn fill(canvas: &mut Canvas, area: &Area, color: Rgb) {
     let columns = side(area.left, area.right, width);
     for row in side(area.top, area.bottom, height) {
         canvas::fill(&mut canvas.row(row)[4 * columns.start..4 * columns.end.max(columns.start)], color);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Theme;
+    use crate::record::plot::{Axis, Curve};
+
+    const AREA: Area = Area { left: 20.0, top: 10.0, right: 320.0, bottom: 260.0 };
+
+    fn chart(samples: Vec<Sample>, phases: bool) -> Chart {
+        let curves = vec![Curve { label: "height".into(), samples }];
+        let axis = |range| Axis { range: Some(range), ..Axis::default() };
+        let content = if phases { Content::Phases(curves, None) } else { Content::Times(curves) };
+        let plot = Plot { title: "height".into(), across: axis((0.0, 10.0)), up: axis((-2.0, 2.0)), content };
+        let theme = Theme::named("paper").expect("shipped");
+        Chart::new(&plot, AREA, Naming::Brief, &Sizes::new(1.0), &Tones::new(&theme))
+    }
+
+    fn wave(count: u32) -> Vec<Sample> {
+        let sample = |place: u32| {
+            let time = f64::from(place) * 10.0 / f64::from(count);
+            Sample { time, x: time, y: 2.0 * libm::sin(time * 1.7) }
+        };
+        (0..=count).map(sample).collect()
+    }
+
+    fn drawn(chart: &Chart, time: f64) -> Vec<u8> {
+        let mut picture = Pixmap::new(340, 280).expect("small");
+        chart.draw_until(&mut picture, time, &mut Tools::default());
+        picture.take()
+    }
+
+    /// Exact: the corners of the ranges stand in the corners of the axes.
+    #[test]
+    fn samples_stand_where_the_axes_say() {
+        let chart = chart(wave(10), false);
+        let place = |x, y| chart.place(&Sample { time: x, x, y });
+        let Area { left, top, right, bottom } = chart.inner;
+        assert!(left > AREA.left && top > AREA.top && right <= AREA.right && bottom < AREA.bottom);
+        assert_eq!(place(0.0, -2.0), (left, bottom));
+        assert_eq!(place(10.0, 2.0), (right, top));
+        assert_eq!(place(5.0, 0.0), (0.5 * (left + right), 0.5 * (top + bottom)));
+        assert!(place(5.0, f64::NAN).1.is_nan());
+    }
+
+    /// Law: at a time the curve has all samples until then and none after. They are farther apart than a pixel here, so none
+    /// is left out as invisible.
+    #[test]
+    fn a_curve_has_all_samples_until_now_and_none_of_later() {
+        let samples = wave(100);
+        for phases in [false, true] {
+            let chart = chart(samples.clone(), phases);
+            let mut tools = Tools::default();
+            for time in [-1.0, 0.0, 0.05, 3.3, 3.35, 9.99, 10.0, 1e300] {
+                chart.gather(&chart.traces[0], time, &mut tools);
+                let until = samples.iter().filter(|sample| sample.time <= time);
+                let expected: Vec<Point> = until.map(|sample| chart.place(sample)).collect();
+                let mut found = tools.points.clone();
+                found.dedup();
+                assert_eq!(found, expected, "{time}");
+            }
+        }
+    }
+
+    /// What is yet to come changes nothing of what is seen.
+    #[test]
+    fn the_future_does_not_show() {
+        let (one, mut other) = (wave(5000), wave(5000));
+        other.iter_mut().filter(|sample| sample.time > 4.0).for_each(|sample| sample.y = -sample.y);
+        let (one, other) = (chart(one, false), chart(other, false));
+        // The last column of pixels before the change begins at 3.96 s at the latest.
+        for time in [0.5, 2.0, 3.95] {
+            assert!(drawn(&one, time) == drawn(&other, time), "{time}");
+        }
+        assert!(drawn(&one, 6.0) != drawn(&other, 6.0));
+    }
+
+    /// Dots at one place show a ring each, from back to front.
+    #[test]
+    fn dots_do_not_hide_one_another() {
+        let at = |y| ((50.0, y), Rgb(y as u8, 0, 0));
+        let radii: Vec<f32> = nested(&[at(10.0), at(10.0), at(10.0), at(60.0)], 4.0).iter().map(|dot| dot.1).collect();
+        assert!(radii[0] > radii[1] + 2.0 && radii[1] > radii[2] + 2.0);
+        assert_eq!(radii[2..], [4.0, 4.0]);
     }
 }

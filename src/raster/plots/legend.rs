@@ -8,7 +8,7 @@ use super::style::{Sizes, Tones};
 use crate::raster::canvas::{self, Canvas};
 use crate::raster::theme::Theme;
 use crate::record::frame::Rgb;
-use crate::record::plot::{Legend, LegendMark};
+use crate::record::plot::{Legend, LegendEntry, LegendMark};
 
 /// The title of the card.
 const TITLE: &str = "Legend";
@@ -48,11 +48,16 @@ impl Key {
         sizes: &Sizes,
         tones: &Tones,
     ) -> Key {
-        let all = legend.entries.len();
+        // Bodies give way: what a layer draws is seen everywhere.
+        let is_body = |entry: &&LegendEntry| matches!(entry.mark, LegendMark::Body(_));
+        let bodies: Vec<&LegendEntry> = legend.entries.iter().filter(is_body).collect();
+        let others = legend.entries.iter().filter(|entry| !is_body(entry));
+        let most = most.saturating_sub(others.clone().count());
+        let all = bodies.len() + legend.more;
         // "and 1 more" would take the place of that one.
-        let shown = if all > most { most.saturating_sub(1) } else { all };
+        let shown = if all > most { most.saturating_sub(1) } else { all }.min(bodies.len());
         let color = |name: &Option<String>| name.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.ink);
-        let lines = legend.entries[..shown].iter().map(|entry| {
+        let line = |entry: &LegendEntry| {
             let mark = match &entry.mark {
                 LegendMark::Body(place) => {
                     let fill = fills.get(*place).copied().unwrap_or(theme.ink);
@@ -63,11 +68,12 @@ impl Key {
                 LegendMark::Ring(name) => Mark::Ring(color(name)),
             };
             Line { label: entry.label.clone(), mark }
-        });
-        let mut lines: Vec<Line> = lines.collect();
+        };
+        let mut lines: Vec<Line> = bodies[..shown].iter().map(|entry| line(entry)).collect();
         if shown < all && most > 0 {
             lines.push(Line { label: format!("and {} more", all - shown), mark: Mark::Nothing });
         }
+        lines.extend(others.map(line));
         let label = tones.label(sizes);
         let widest = lines.iter().map(|line| label.width(&line.label)).fold(0.0, f32::max);
         let columns = if lines.len() > 1 && widest + indent(sizes) <= 0.5 * width - 0.4 * sizes.legend { 2 } else { 1 };

@@ -26,9 +26,16 @@ fn power(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(1.0)
 }
 
-/// The range widened to whole steps.
-pub(super) fn widened(low: f64, high: f64, most: usize) -> (f64, f64) {
-    let step = step(low, high, most);
+/// A range widened to round ends: half-way between ticks too, so that little room is left empty; where factors count, to
+/// powers of ten.
+pub(super) fn widened(low: f64, high: f64, most: usize, logarithmic: bool) -> (f64, f64) {
+    if logarithmic {
+        return (
+            power(libm::floor(libm::log10(low) + 1e-9) as i32),
+            power(libm::ceil(libm::log10(high) - 1e-9) as i32),
+        );
+    }
+    let step = step(low, high, 2 * most);
     // An end that is a whole step but for rounding stays.
     ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step)
 }
@@ -151,9 +158,10 @@ mod tests {
             let ticks = Ticks::linear(low, high, most);
             assert_eq!((ticks.labels, ticks.exponent), (labels.iter().map(|&l| l.into()).collect(), exponent));
         }
-        assert_eq!(widened(0.1, 11.9, 5), (0.0, 15.0));
-        assert_eq!(widened(0.0, 10.0, 5), (0.0, 10.0));
-        assert_eq!(widened(-0.2, 0.3, 5), (-0.2, 0.30000000000000004));
+        assert_eq!(widened(0.1, 11.9, 5, false), (0.0, 12.0));
+        assert_eq!(widened(0.0, 10.0, 5, false), (0.0, 10.0));
+        assert_eq!(widened(-1.5, 12.2, 2, false), (-5.0, 15.0));
+        assert_eq!(widened(0.02, 3.0, 4, true), (0.01, 10.0));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What the colours of a film mean, and a few facts of its scene.
 
+use std::collections::BTreeMap;
+
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
@@ -7,11 +9,16 @@ use crate::forces::gravity::Gravity;
 use crate::simulation::Simulation;
 use crate::world::{Body, Materials, Motion, Name};
 
+/// Lines of bodies that are kept.
+const MOST_LINES: usize = 24;
+
 /// A legend: entries, and lines of facts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Legend {
     /// Bodies first, then what layers draw.
     pub entries: Vec<LegendEntry>,
+    /// How many lines of bodies more there would be: no legend shows more than a few.
+    pub more: usize,
     /// Short lines on the scene: how many bodies, gravity, tick.
     pub facts: Vec<String>,
 }
@@ -64,6 +71,7 @@ impl Legend {
         let (world, bodies) = (simulation.world(), simulation.bodies());
         let materials = world.get_resource::<Materials>();
         let mut lines: Vec<Line> = Vec::new();
+        let mut known_lines: BTreeMap<(String, bool), usize> = BTreeMap::new();
         let mut moving = 0;
         for place in 0..bodies.len() {
             let fixed = world.get::<Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
@@ -74,13 +82,16 @@ impl Legend {
                 materials.by_index.get(index.place())?.color.as_ref()?;
                 materials.names.get(index.place()).cloned()
             });
-            let known = lines.iter_mut().find(|line| shared.is_some() && line.shared == shared && line.fixed == fixed);
+            let known = shared.as_ref().and_then(|material| known_lines.get(&(material.clone(), fixed)).copied());
             if let Some(line) = known {
-                line.bodies += 1;
-            } else {
-                let name = world.get::<Name>(bodies.entity[place]).map(|name| name.0.clone()).unwrap_or_default();
-                lines.push(Line { name, shared, fixed, place, bodies: 1 });
+                lines[line].bodies += 1;
+                continue;
             }
+            if let Some(material) = &shared {
+                known_lines.insert((material.clone(), fixed), lines.len());
+            }
+            let name = world.get::<Name>(bodies.entity[place]).map(|name| name.0.clone()).unwrap_or_default();
+            lines.push(Line { name, shared, fixed, place, bodies: 1 });
         }
         lines.sort_by_key(|line| line.fixed);
         let entry = |line: Line| LegendEntry {
@@ -91,8 +102,10 @@ impl Legend {
             mark: LegendMark::Body(line.place),
         };
         let added = world.get_resource::<Added>().map_or(&[][..], |added| &added.0);
+        let more = lines.len().saturating_sub(MOST_LINES);
+        lines.truncate(MOST_LINES);
         let entries = lines.into_iter().map(entry).chain(added.iter().cloned()).collect();
-        Legend { entries, facts: facts(simulation, moving) }
+        Legend { entries, more, facts: facts(simulation, moving) }
     }
 }
 
@@ -131,4 +144,36 @@ fn facts(simulation: &Simulation, moving: usize) -> Vec<String> {
 fn brief(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     rounded.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    #[test]
+    fn bodies_that_look_alike_share_a_line_and_fixed_ones_stand_last() {
+        let scene = r#"Scene(
+            format: 1, clock: (duration: 1, tick: "0.5 ms"), gravity: (3, -4),
+            materials: { "gas": (color: "sky"), "peg": (color: "grey"), "lone": (color: "teal"), "plain": () },
+            bodies: [
+                (name: "pegs", fixed: true, at: (0, 0), material: "peg", atoms: List([(at: (0, 0), radius: 1), (at: (3, 0), radius: 1)])),
+                (name: "first", at: (9, 0), material: "lone", atoms: Disc(radius: 0.1)),
+                (name: "second", at: (9, 3), material: "plain", atoms: Disc(radius: 0.1)),
+                (name: "third", at: (9, 6), material: "plain", atoms: Disc(radius: 0.1)),
+            ],
+            fill: [(name: "gas", atoms: Disc(radius: 0.1), material: "gas", count: 20, within: ((-9, 2), (9, 9)), seed: 1)],
+        )"#;
+        let arrow = LegendEntry { label: "contact force".into(), mark: LegendMark::Arrow(Some("red".into())) };
+        let added = arrow.clone();
+        let simulation = Simulation::load_with(&Source::new("legend.ron", scene), &Default::default(), move |app| {
+            app.add_legend(added);
+        });
+        let legend = Legend::of(&simulation.unwrap_or_else(|errors| panic!("{errors}")));
+        let line = |label: &str, place| LegendEntry { label: label.into(), mark: LegendMark::Body(place) };
+        // Bodies without a colour of their own get one each, so they have a line each.
+        let bodies = [line("first", 1), line("second", 2), line("third", 3), line("gas", 4), line("pegs", 0)];
+        assert_eq!(legend.entries, [&bodies[..], &[arrow]].concat());
+        assert_eq!(legend.facts, ["23 bodies · 1 fixed · 25 atoms", "g = 5 m/s²   Δt = 500 µs"]);
+    }
 }

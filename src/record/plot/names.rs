@@ -19,6 +19,14 @@ pub fn common(names: &[&str]) -> (String, Vec<String>) {
     (words.copied().collect::<Vec<_>>().join("."), left)
 }
 
+/// The first words that two names share, and what is left of each: at least one word.
+pub(super) fn headed(names: [&str; 2]) -> (String, [String; 2]) {
+    let [one, other] = names.map(|name| name.split('.').collect::<Vec<_>>());
+    let most = one.len().min(other.len()) - 1;
+    let head = one.iter().zip(&other).take(most).take_while(|(a, b)| a == b).count();
+    (one[..head].join("."), [one[head..].join("."), other[head..].join(".")])
+}
+
 /// A label with its unit in brackets, if it has one.
 pub fn with_unit(label: &str, unit: &str) -> String {
     match (label, unit) {
@@ -30,7 +38,7 @@ pub fn with_unit(label: &str, unit: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::common;
+    use super::{common, headed};
 
     #[test]
     fn what_names_share_stands_once() {
@@ -48,5 +56,12 @@ mod tests {
             let (found, labels) = common(names);
             assert_eq!((found.as_str(), labels), (shared, left.iter().map(|&l| l.to_owned()).collect()), "{names:?}");
         }
+    }
+
+    #[test]
+    fn two_axes_share_their_owner() {
+        let (owner, left) = headed(["ball.position.y", "ball.velocity.y"]);
+        assert_eq!((owner.as_str(), left), ("ball", ["position.y".to_owned(), "velocity.y".to_owned()]));
+        assert_eq!(headed(["ball.spin", "energy"]).0, "");
     }
 }

@@ -3,7 +3,7 @@
 //! A plot shows the whole time of its film at once, and its axes have to fit what is yet to come: so the channels are
 //! read in a run beforehand, and what is kept depends on what a picture can show, not on the length of the run.
 
-use super::names::{common, with_unit};
+use super::names::{common, headed, with_unit};
 use super::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
 use crate::scene::Outline;
 use crate::scene::sections::PlotEntry;
@@ -213,10 +213,12 @@ impl Sampled {
                 let (shared, unit, labels) = labels(curves.iter().map(|(channel, _)| channel));
                 let curves = curves.into_iter().zip(labels);
                 let curves = curves.map(|((_, samples), label)| Curve { label, samples });
+                // What both axes begin with stands above them.
+                let (owner, [to_the_right, upwards]) = headed([&x.name, &shared]);
                 Plot {
-                    title: titled(format!("{shared} against {}", x.name)),
-                    across: across(&x.name, x.unit, None),
-                    up: up(shared, unit),
+                    title: titled(if owner.is_empty() { format!("{shared} against {}", x.name) } else { owner }),
+                    across: across(&to_the_right, x.unit, None),
+                    up: up(upwards, unit),
                     content: Content::Phases(curves.collect(), entry.tail.map(|tail| tail.si())),
                 }
             }

@@ -13,7 +13,7 @@ use crate::sensors;
 const MOST_BINS: u64 = 200;
 
 /// More plots than stand beside a film and can be read.
-const MOST_PLOTS: usize = 12;
+const MOST_PLOTS: usize = 6;
 
 /// The section `plots`.
 #[derive(Resource, Clone, Debug, Default, Deserialize)]
