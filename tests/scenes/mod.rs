@@ -5,4 +5,6 @@ mod authoring_files;
 mod extremes;
 mod film;
 mod shipped;
+mod silhouettes;
 mod wrong;
+mod wrong_mills;

@@ -12,6 +12,7 @@ mod install;
 pub mod kinematic;
 pub mod look;
 pub mod plots;
+pub mod region;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -23,4 +24,5 @@ pub use install::plugin;
 pub use kinematic::{KinematicEntry, PathEntry};
 pub use look::LookSection;
 pub use plots::{HistogramEntry, PlotEntry, PlotsSection};
+pub use region::Region;
 pub use walls::{WallEntry, WallsSection};
