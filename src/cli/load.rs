@@ -9,7 +9,7 @@ use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
 
 /// What scenes that come with the program are called by.
-const EXAMPLE: &str = "example:";
+pub(super) const EXAMPLE: &str = "example:";
 
 /// A scene as the command line names it.
 #[derive(Clone, Copy, Debug)]

@@ -4,9 +4,11 @@ mod aim;
 mod check;
 mod colors;
 mod examples;
+mod explain;
 mod film;
 mod find;
 mod flags;
+mod fmt;
 mod junit;
 mod list;
 mod load;
@@ -22,6 +24,7 @@ mod run;
 mod say;
 mod side_by_side;
 mod squeeze;
+mod sweep;
 mod target;
 mod test;
 mod trial;
@@ -64,6 +67,7 @@ Examples:
   jostle plot example:bounce --channels ball.position.y  a figure of what a sensor measures
   jostle check my_scene.ron                              read it and say what is wrong
   jostle test scenes/                                    do all scenes of a folder do what they expect?
+  jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values
   jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
 
@@ -97,6 +101,12 @@ enum Command {
     Check(check::Check),
     /// Run all scenes of a folder, several at once, and check what they expect
     Test(test::Test),
+    /// Run a scene with many values of its parameters, several at once: a table, a contact sheet, films
+    Sweep(sweep::Sweep),
+    /// Give scenes their standard layout; comments and line breaks stay
+    Fmt(fmt::Fmt),
+    /// Show what a scene does in a tick and what that costs; or what a name or a word on the error card means
+    Explain(explain::Explain),
     /// List the scenes that come with the program, or what a scene may name: sections, forces, sensors, methods ...
     List(list::List),
     /// Write a starting point: a plugin or a scene
@@ -112,6 +122,9 @@ impl CommandLine {
             Command::Plot(plot) => plot.execute(),
             Command::Check(check) => check.execute(),
             Command::Test(test) => test.execute(),
+            Command::Sweep(sweep) => sweep.execute(),
+            Command::Fmt(fmt) => fmt.execute(),
+            Command::Explain(explain) => explain.execute(),
             Command::List(list) => list.execute(),
             Command::New(new) => new.execute(),
         }

@@ -55,9 +55,11 @@
 //! assert_eq!((wind.line, wind.column), (Some(1), Some(54)));
 //! ```
 
+mod edit;
 mod error;
 mod expand;
 mod explain;
+mod layout;
 mod load;
 mod outline;
 mod registry;
@@ -72,6 +74,7 @@ pub mod units;
 pub mod values;
 
 pub use error::{SceneError, SceneErrors};
+pub(crate) use layout::laid_out;
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub(crate) use outline::fits;

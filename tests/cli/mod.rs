@@ -1,9 +1,11 @@
 //! The command line as its users meet it: the built program, run in folders of its own, one file per promise.
 
 mod check;
+mod explain;
 mod failures;
 mod film_control;
 mod flags;
+mod fmt;
 mod formats;
 mod harness;
 mod help;
@@ -17,6 +19,7 @@ mod plots;
 mod scene_files;
 mod stills;
 mod streams;
+mod sweep;
 mod test_command;
 mod values;
 mod warnings;
