@@ -2,7 +2,6 @@
 
 use std::io;
 
-use super::Exit;
 use super::aim::Aim;
 use super::load::Request;
 use super::progress::Progress;
@@ -11,6 +10,7 @@ use super::say::say;
 use super::squeeze::Squeeze;
 use super::target::Place;
 use super::wall_clock::WallClock;
+use super::{Exit, colors};
 use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
 use crate::raster::{Camera, View};
 use crate::record::follow::Follower;
@@ -118,7 +118,7 @@ impl Order<'_> {
         let size = self.size.unwrap_or_else(|| self.size_within(film.size()));
         let step = film.speed() / frames_per_second;
         let threads = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
-        let theme = self.theme(simulation)?;
+        let theme = colors::theme(self.request, self.source, simulation, self.theme)?;
         // A target that cannot be written is to be known before the first run, not after it.
         let settings = FilmSettings { frames_per_second, threads: 1, live: self.pace, ..FilmSettings::default() };
         let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step, panel: None };
