@@ -97,10 +97,17 @@ impl Expanded {
         error.source = number;
         error.file = (number > 0).then(|| file.source.name.clone());
         error.chain = chain(&self.steps, piece.step);
-        let repeated = error.chain.iter().any(|mark| mark.label.starts_with(REPETITION));
-        if repeated && error.message.contains("is taken by") {
+        let repeated = error.chain.iter().find_map(|mark| mark.label.strip_prefix(REPETITION));
+        if let Some(indices) = repeated
+            && error.message.contains("is taken by")
+        {
+            let braces: Vec<String> = indices
+                .split(", ")
+                .filter_map(|index| Some(format!("{{{}}}", index.split(" = ").next()?.trim())))
+                .collect();
+            let (whose, example) = (if braces.len() == 1 { "its index" } else { "its indices" }, braces.join("_"));
             error.help =
-                Some("give every thing its own name: in a `Repeat` put its index in, as in \"ball_{i}\"".into());
+                Some(format!("give every thing its own name: in a `Repeat` put {whose} in, as in \"ball_{example}\""));
         }
         if piece.made && file.tree.node(node).form == Form::Text && there == file.tree.span(node) {
             let value = &self.text[piece.start as usize..];
