@@ -76,7 +76,7 @@ fn runs_that_fail_are_rows_with_their_reason() {
     assert!(rows[2].concat().contains("bodies[0].atoms.mass: must be"), "{rows:?}");
     // What is wrong with all of them is told with its place.
     let ended = folder.jostle("sweep ball.ron --vary bodies.ball.atoms.mas=1,2 -o out").code(1);
-    assert!(ended.err.contains("ball.ron:6:") && ended.err.contains("did you mean `mass`"), "{ended:?}");
+    assert!(ended.err.contains("ball.ron:7:") && ended.err.contains("did you mean `mass`"), "{ended:?}");
 }
 
 #[test]

@@ -126,7 +126,10 @@ impl Anatomy {
         for Stage { name, share, systems } in &self.parts {
             let spent = number(rounded(share * self.per_tick * 1e6));
             let _ = write!(text, "  {name:<20}{:>5.1} %{spent:>12}   ", share * 100.0);
-            let lines: Vec<String> = systems.iter().map(System::told).collect();
+            let mut lines: Vec<String> = systems.iter().map(System::told).collect();
+            if lines.is_empty() {
+                lines.push("(no system: what is left is the schedule)".to_owned());
+            }
             let _ = writeln!(text, "{}", lines.join(&format!("\n{:44}", "")));
         }
         let _ = writeln!(

@@ -16,8 +16,12 @@ pub(super) fn break_long_lines(file: &mut File) {
     }
     root.breaks = root.breaks.max(1);
     for item in &mut root.items {
-        let first = item.lead.first_mut().map_or(&mut item.breaks, |comment| &mut comment.breaks);
-        *first = (*first).max(1);
+        match item.lead.first_mut() {
+            // Beside the scene's bracket: what follows begins a line anyway.
+            Some(comment) if comment.ends_line() => {}
+            Some(comment) => comment.breaks = comment.breaks.max(1),
+            None => item.breaks = item.breaks.max(1),
+        }
         let mut line = Writer { column: INDENT, ..Writer::default() };
         line.item(&Item { trail: Vec::new(), ..item.clone() }, false);
         if line.lines.is_empty() && line.column > LONGEST {
