@@ -15,6 +15,7 @@ mod render;
 mod result;
 mod run;
 mod say;
+mod schema;
 mod squeeze;
 mod target;
 mod wall_clock;
@@ -55,6 +56,7 @@ Examples:
   jostle run example:projectile -o channels.csv          numbers instead of pictures
   jostle check my_scene.ron                              read it and say what is wrong
   jostle new scene my_scene                              a scene to begin with
+  jostle schema --manual | less                          every section and field that a scene may have
 
 Scenes that come with the program: {scenes}.
 
@@ -84,6 +86,8 @@ enum Command {
     Check(check::Check),
     /// Write a starting point: a plugin or a scene
     New(new::New),
+    /// Write what may stand in a scene: JSON schema for programs, with --manual the manual
+    Schema(schema::SchemaCommand),
 }
 
 impl CommandLine {
@@ -94,6 +98,7 @@ impl CommandLine {
             Command::Render(render) => render.execute(),
             Command::Check(check) => check.execute(),
             Command::New(new) => new.execute(),
+            Command::Schema(schema) => schema.execute(),
         }
     }
 }

@@ -19,10 +19,12 @@ pub mod sheet;
 mod stream;
 mod studio;
 mod video;
+mod whole;
 
 use std::path::{Path, PathBuf};
 
 pub use error::OutputError;
+pub use whole::write_whole;
 
 use crate::raster::View;
 use crate::record::frame::Frame;

@@ -8,6 +8,7 @@ use bevy_ecs::resource::Resource;
 use super::explain::{self, Fault};
 use super::outline::{Outline, Words, join};
 use super::report::Report;
+use super::schema::Describe;
 use super::section::{Entry, Section, Written};
 
 /// How many entries a section of entries takes.
@@ -87,6 +88,10 @@ pub(crate) enum Reader {
 pub(crate) struct SectionReader {
     pub(crate) reader: Reader,
     pub(crate) example: &'static str,
+    /// The schema of a section that is read as a whole.
+    pub(crate) describe: Describe,
+    /// What a section of entries is for.
+    pub(crate) meaning: &'static str,
     pub(crate) order: usize,
 }
 
@@ -94,6 +99,7 @@ pub(crate) struct SectionReader {
 pub(crate) struct EntryReader {
     /// Makes an empty store; none for a reserved name.
     pub(crate) make: Option<fn() -> Box<dyn ReadEntries>>,
+    pub(crate) describe: Describe,
     pub(crate) example: &'static str,
     pub(crate) order: usize,
 }
@@ -113,14 +119,14 @@ impl SceneRegistry {
         self.count
     }
 
-    fn claim(&mut self, name: &'static str, example: &'static str, reader: Reader) {
+    fn claim(&mut self, name: &'static str, example: &'static str, reader: Reader, describe: Describe) {
         let order = self.next();
         if let Some(before) = self.sections.get(name) {
             let claimed = !matches!(before.reader, Reader::Reserved);
             // Two plugins with one name cannot both be right, and the scene is not to blame.
             assert!(!claimed, "the scene section `{name}` is registered twice");
         }
-        self.sections.insert(name, SectionReader { reader, example, order });
+        self.sections.insert(name, SectionReader { reader, example, describe, meaning: "", order });
     }
 
     fn claim_entry(&mut self, section: &'static str, name: &'static str, entry: EntryReader) {
@@ -132,12 +138,16 @@ impl SceneRegistry {
         assert!(!claimed, "the entry `{name}` of `{section}` is registered twice");
     }
 
+    /// The registered sections in the order of registration, reserved ones among them.
+    pub(crate) fn in_order(&self) -> Vec<(&'static str, &SectionReader)> {
+        let mut list: Vec<_> = self.sections.iter().map(|(name, section)| (*name, section)).collect();
+        list.sort_unstable_by_key(|(_, section)| section.order);
+        list
+    }
+
     /// The registered sections with one correct use each, in the order of registration; reserved ones have none.
     pub fn sections(&self) -> Vec<(&'static str, &'static str)> {
-        let mut list: Vec<_> =
-            self.sections.iter().map(|(name, section)| (section.order, *name, section.example)).collect();
-        list.sort_unstable();
-        list.into_iter().map(|(_, name, example)| (name, example)).collect()
+        self.in_order().into_iter().map(|(name, section)| (name, section.example)).collect()
     }
 
     /// The entries of a section with one correct use each, in the order of registration; reserved ones are left out.
@@ -164,6 +174,9 @@ pub trait SceneAppExt {
     /// Makes a top-level section that takes entries by their leading names. `example` is one correct use.
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self;
 
+    /// Says what such a section is for, in the manual and in the schema.
+    fn describe_section(&mut self, name: &'static str, meaning: &'static str) -> &mut Self;
+
     /// Lets a type read one kind of entry of such a section.
     fn register_entry<E: Entry>(&mut self) -> &mut Self;
 
@@ -188,12 +201,19 @@ fn registry(app: &mut App) -> &mut SceneRegistry {
 impl SceneAppExt for App {
     fn register_section<S: Section>(&mut self) -> &mut Self {
         let read: ReadOneSection = |text| Ok(Box::new(explain::read::<S>(text)?));
-        registry(self).claim(S::NAME, S::EXAMPLE, Reader::Section(read));
+        registry(self).claim(S::NAME, S::EXAMPLE, Reader::Section(read), S::schema);
         self
     }
 
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self {
-        registry(self).claim(name, example, Reader::Entries(arity, BTreeMap::new()));
+        registry(self).claim(name, example, Reader::Entries(arity, BTreeMap::new()), |_| None);
+        self
+    }
+
+    fn describe_section(&mut self, name: &'static str, meaning: &'static str) -> &mut Self {
+        if let Some(section) = registry(self).sections.get_mut(name) {
+            section.meaning = meaning;
+        }
         self
     }
 
@@ -201,14 +221,18 @@ impl SceneAppExt for App {
         let registry = registry(self);
         let make: fn() -> Box<dyn ReadEntries> = || Box::new(Entries::<E>(Vec::new()));
         let order = registry.next();
-        registry.claim_entry(E::SECTION, E::NAME, EntryReader { make: Some(make), example: E::EXAMPLE, order });
+        registry.claim_entry(
+            E::SECTION,
+            E::NAME,
+            EntryReader { make: Some(make), describe: E::schema, example: E::EXAMPLE, order },
+        );
         self
     }
 
     fn reserve_section(&mut self, name: &'static str) -> &mut Self {
         let registry = registry(self);
         if !registry.sections.contains_key(name) {
-            registry.claim(name, "", Reader::Reserved);
+            registry.claim(name, "", Reader::Reserved, |_| None);
         }
         self
     }
@@ -216,7 +240,7 @@ impl SceneAppExt for App {
     fn reserve_entry(&mut self, section: &'static str, name: &'static str) -> &mut Self {
         let registry = registry(self);
         let order = registry.next();
-        registry.claim_entry(section, name, EntryReader { make: None, example: "", order });
+        registry.claim_entry(section, name, EntryReader { make: None, describe: |_| None, example: "", order });
         self
     }
 

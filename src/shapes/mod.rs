@@ -9,6 +9,7 @@ pub mod picture;
 mod union;
 
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::Report;
@@ -37,8 +38,8 @@ impl AtomSpec {
 
 macro_rules! shapes {
     ($($(#[$about:meta])* $name:ident($fields:ty),)*) => {
-        /// The value of `atoms:`: one of the shapes, by its leading name.
-        #[derive(Clone, Debug, Deserialize)]
+        /// The discs a body is made of: one of the shapes.
+        #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
         pub enum Atoms {
             $($(#[$about])* $name($fields),)*

@@ -2,5 +2,6 @@
 
 mod extremes;
 mod film;
+mod manual;
 mod shipped;
 mod wrong;

@@ -148,16 +148,21 @@ fn split_power(factor: &str) -> Option<(&str, i32)> {
 
 /// The name of a dimension, or its base units if it has none.
 fn name_of(powers: Powers) -> String {
-    if let Some((name, _)) = KNOWN.iter().find(|(_, known)| *known == powers) {
-        return (*name).to_owned();
+    match KNOWN.iter().find(|(_, known)| *known == powers) {
+        Some((name, _)) => (*name).to_owned(),
+        None => format!("something in `{}`:", base_units(powers)),
     }
+}
+
+/// The product of base units of a dimension, such as `kg m2 s-2`.
+pub(crate) fn base_units(powers: Powers) -> String {
     let base = [("kg", powers.kilogram), ("m", powers.meter), ("s", powers.second), ("rad", powers.radian)];
     let parts: Vec<String> = base
         .iter()
         .filter(|(_, power)| *power != 0)
         .map(|(symbol, power)| if *power == 1 { (*symbol).to_owned() } else { format!("{symbol}{power}") })
         .collect();
-    format!("something in `{}`:", parts.join(" "))
+    parts.join(" ")
 }
 
 struct One<D>(PhantomData<fn() -> D>);
