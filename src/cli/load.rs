@@ -3,10 +3,11 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+use super::flags::OverrideFlags;
 use super::say::{print_line, say};
 use super::{Exit, examples};
 use crate::scene::{SceneError, SceneErrors, Source};
-use crate::simulation::{Overrides, Simulation};
+use crate::simulation::Simulation;
 
 /// What scenes that come with the program are called by.
 const EXAMPLE: &str = "example:";
@@ -23,9 +24,10 @@ pub(super) struct Request<'a> {
 impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
-    pub fn load(self, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
+    pub fn load(self, flags: &OverrideFlags) -> Result<(Source, Simulation), Exit> {
         let read = source(self.name).and_then(|source| {
-            let simulation = Simulation::load_with(&source, overrides, |_| {})?;
+            let source = source.with_settings(&flags.settings);
+            let simulation = Simulation::load_with(&source, &flags.overrides(), |_| {})?;
             Ok((source, simulation))
         });
         read.map_err(|errors| self.refuse_scene(&errors))

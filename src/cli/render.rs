@@ -125,7 +125,7 @@ impl Render {
 
     fn render(&self, request: Request, place: &Place) -> Exit {
         let overrides = self.overrides.overrides();
-        let (source, mut simulation) = match request.load(&overrides) {
+        let (source, mut simulation) = match request.load(&self.overrides) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };

@@ -13,6 +13,7 @@ mod new;
 mod numbers;
 mod outputs;
 mod scene_files;
+mod schema;
 mod stills;
 mod streams;
 mod values;

@@ -27,12 +27,60 @@ impl Language {
             "additionalProperties": false,
             "$defs": self.definitions,
         });
+        self.complete_templates(&mut schema);
+        visit(&mut schema, &mut let_be_made);
+        schema["$defs"][REPEATED] = json!({
+            "type": "object",
+            "properties": { "Repeat": { "$ref": "#/$defs/Repeat" } },
+            "required": ["Repeat"],
+            "additionalProperties": false,
+        });
         visit(&mut schema, &mut |schema| {
             if let Some(map) = schema.as_object_mut() {
                 map.retain(|key, _| !key.starts_with("x-"));
             }
         });
         schema
+    }
+}
+
+const REPEATED: &str = "Repeated";
+
+/// Lets stand what makes a value in place of the value: an expression for a number, a parameter for two values, `Repeat`
+/// in a list.
+fn let_be_made(schema: &mut Value) {
+    let Some(map) = schema.as_object_mut() else { return };
+    if let Some(kind) = map.get_mut("type")
+        && (kind == "number" || kind == "integer" || kind == "array" && map.contains_key("prefixItems"))
+    {
+        let kind = map["type"].take();
+        map["type"] = json!([kind, "string"]);
+    }
+    if let Some(items) = map.get_mut("items").filter(|items| items.is_object()) {
+        let item = items.take();
+        *items = json!({ "anyOf": [item, { "$ref": format!("#/$defs/{REPEATED}") }] });
+    }
+}
+
+impl Language {
+    /// Templates hold the sections that are lists or maps.
+    fn complete_templates(&self, schema: &mut Value) {
+        let held = self.sections.iter().filter(|section| match &section.content {
+            Content::Entries(arity, _) => *arity == Arity::List,
+            Content::Value(Some(schema)) => {
+                let (_, about) = self.resolve(schema);
+                about["type"] == "array" && about["prefixItems"].is_null() || about["additionalProperties"].is_object()
+            }
+            Content::Value(None) => true,
+        });
+        let template = &mut schema["$defs"]["Template"];
+        template["additionalProperties"] = Value::Bool(false);
+        for section in held {
+            let whole = json!({ "$ref": format!("#/properties/{}", section.name) });
+            if let Some(fields) = template["properties"].as_object_mut() {
+                fields.entry(section.name.clone()).or_insert(whole);
+            }
+        }
     }
 }
 

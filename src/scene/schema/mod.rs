@@ -8,6 +8,7 @@
 
 mod json;
 mod kinds;
+mod made;
 mod manual;
 mod tidy;
 
@@ -27,6 +28,8 @@ pub(crate) type Describe = fn(&mut SchemaGenerator) -> Option<Schema>;
 #[derive(Clone, Debug)]
 pub struct Language {
     sections: Vec<Section>,
+    /// `Repeat`, which may stand in any list.
+    repeat: Section,
     /// The types that sections and entries refer to, by name.
     definitions: Map<String, Value>,
 }
@@ -94,22 +97,18 @@ impl Language {
             let meaning = section.meaning.to_owned();
             sections.push(Section { name: name.to_owned(), example: section.example, meaning, content });
         }
-        let head = Value::from(generator.root_schema_for::<Head>());
-        let mut language = Self { sections, definitions: generator.take_definitions(true) };
-        language.add_head(&head);
+        let head = fields(&Value::from(generator.root_schema_for::<Head>()), &HEAD_EXAMPLES);
+        let made = fields(&Value::from(generator.root_schema_for::<made::Made>()), &made::EXAMPLES);
+        let repeat = Section {
+            name: "Repeat".to_owned(),
+            example: made::REPEAT_EXAMPLE,
+            meaning: String::new(),
+            content: Content::Value(Some(generator.subschema_for::<made::Repeat>().into())),
+        };
+        let sections = head.into_iter().chain(sections).chain(made).collect();
+        let mut language = Self { sections, repeat, definitions: generator.take_definitions(true) };
         tidy::tidy(&mut language, &registry.words);
         language
-    }
-
-    fn add_head(&mut self, head: &Value) {
-        let fields = head["properties"].as_object().into_iter().flatten().zip(HEAD_EXAMPLES);
-        let section = |((name, schema), example): ((&String, &Value), &'static str)| Section {
-            name: name.clone(),
-            example,
-            meaning: String::new(),
-            content: Content::Value(Some(schema.clone())),
-        };
-        self.sections.splice(0..0, fields.map(section));
     }
 
     /// The definition that `{"$ref": "#/$defs/NAME"}` names, with its name.
@@ -121,12 +120,25 @@ impl Language {
         }
     }
 
-    /// Each schema of a section or entry, to be changed.
+    /// Each schema of a section or entry, and each definition, to be changed.
     fn schemas(&mut self) -> impl Iterator<Item = &mut Value> {
-        let of_sections = self.sections.iter_mut().flat_map(|section| match &mut section.content {
+        let sections = self.sections.iter_mut().chain([&mut self.repeat]);
+        let of_sections = sections.flat_map(|section| match &mut section.content {
             Content::Value(schema) => schema.iter_mut().collect::<Vec<_>>(),
             Content::Entries(_, entries) => entries.iter_mut().filter_map(|entry| entry.schema.as_mut()).collect(),
         });
         of_sections.chain(self.definitions.values_mut())
     }
+}
+
+/// The fields of a type as sections.
+fn fields(schema: &Value, examples: &[&'static str]) -> Vec<Section> {
+    let fields = schema["properties"].as_object().into_iter().flatten().zip(examples);
+    let section = |((name, schema), example): ((&String, &Value), &&'static str)| Section {
+        name: name.clone(),
+        example,
+        meaning: String::new(),
+        content: Content::Value(Some(schema.clone())),
+    };
+    fields.map(section).collect()
 }

@@ -9,8 +9,7 @@ use crate::scene::{Arity, SceneAppExt};
 use crate::world::material::COLORS;
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 10] =
-    ["joints", "plots", "look", "params", "include", "templates", "instances", "randomise", "controllers", "scene"];
+const RESERVED: [&str; 6] = ["joints", "plots", "look", "randomise", "controllers", "scene"];
 
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {

@@ -29,7 +29,7 @@ impl Language {
     pub fn manual(&self) -> String {
         let mut manual = Manual { language: self, text: INTRODUCTION.to_owned(), places: BTreeMap::new() };
         manual.contents();
-        for section in &self.sections {
+        for section in self.sections.iter().chain([&self.repeat]) {
             manual.section(section);
         }
         manual.text.truncate(manual.text.trim_end().len());
@@ -149,7 +149,7 @@ impl<'a> Manual<'a> {
     fn contents(&mut self) {
         self.line("| section | what it is |");
         self.line("|---|---|");
-        for section in &self.language.sections {
+        for section in self.language.sections.iter().chain([&self.language.repeat]) {
             let meaning = self.meaning(section);
             let first = meaning.split("\n\n").next().unwrap_or_default();
             let end = first.find(". ").map_or(first.len(), |end| end + 1);

@@ -154,6 +154,7 @@ impl<'a> Manual<'a> {
         match about["type"].as_str() {
             Some("array") => {
                 let (value, unit) = held("items");
+                let value = if value == "text" { "texts".to_owned() } else { value };
                 (format!("list of {value}"), unit)
             }
             Some("object") if about["additionalProperties"].is_object() => {
