@@ -6,4 +6,5 @@ mod extremes;
 mod film;
 mod manual;
 mod shipped;
+mod tour;
 mod wrong;
