@@ -121,7 +121,7 @@ impl Order<'_> {
             .expect("a program without a theme fails its tests");
         // A target that cannot be written is to be known before the first run, not after it.
         let settings = FilmSettings { frames_per_second, threads: 1, live: self.pace, ..FilmSettings::default() };
-        let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step };
+        let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step, panel: None };
         let mut set = Set { order: self, settings, view };
         if let Some(folder) = &self.place.folder {
             let made = std::fs::create_dir_all(folder);
@@ -132,8 +132,8 @@ impl Order<'_> {
         // A still shows what the film shows at that moment, so its camera looks at the whole run too.
         let whole = whole_run(simulation, film_step(simulation, frames_per_second));
         let looked_at = if self.shot.is_film() { &schedule } else { &whole };
-        let Aim { camera, follower } = self.aim(simulation, looked_at, size, 1.0 / frames_per_second)?;
-        set.view = View { camera, frame_step: step, ..set.view };
+        let Aim { camera, follower, panel } = self.aim(simulation, looked_at, size, 1.0 / frames_per_second)?;
+        set.view = View { camera, frame_step: step, panel, ..set.view };
         set.settings.threads = threads.min(affordable_threads(size));
         if self.place.target.is_raw() && !self.quiet {
             let (width, height) = size;

@@ -9,6 +9,7 @@ mod load;
 mod moments;
 mod new;
 mod pace;
+mod plot;
 mod progress;
 mod projector;
 mod render;
@@ -54,6 +55,7 @@ Examples:
   jostle render example:bounce -o bounce.png --at 1.5    one picture, after 1.5 s
   jostle render scenes/*.ron -o films/                   a film of each scene
   jostle run example:projectile -o channels.csv          numbers instead of pictures
+  jostle plot example:bounce --channels ball.position.y  a figure of what a sensor measures
   jostle check my_scene.ron                              read it and say what is wrong
   jostle new scene my_scene                              a scene to begin with
   jostle schema --manual | less                          every section and field that a scene may have
@@ -82,6 +84,8 @@ enum Command {
     Run(run::Run),
     /// Run scenes and draw them: films (GIF, APNG, MP4, WebM, raw), pictures, strips, contact sheets and sequences (PNG)
     Render(render::Render),
+    /// Draw channels as a figure: of a scene, or of a table of comma-separated values
+    Plot(plot::PlotCommand),
     /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),
     /// Write a starting point: a plugin or a scene
@@ -96,6 +100,7 @@ impl CommandLine {
         match self.command {
             Command::Run(run) => run.execute(),
             Command::Render(render) => render.execute(),
+            Command::Plot(plot) => plot.execute(),
             Command::Check(check) => check.execute(),
             Command::New(new) => new.execute(),
             Command::Schema(schema) => schema.execute(),

@@ -6,6 +6,7 @@
 mod camera;
 mod canvas;
 mod layers;
+mod plots;
 mod silhouette;
 mod text;
 mod theme;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub use camera::{Bounds, Camera};
+pub use plots::{Panel, figure};
 pub use theme::{COLOR_NAMES, Swatch, Theme, Tint};
 
 use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
@@ -24,6 +26,7 @@ use layers::clock::Clock;
 use layers::labels::{Column, longest_word};
 use layers::title::Title;
 use layers::{backdrop, clock, marks, walls};
+use plots::{Cards, Tools};
 use silhouette::Field;
 use text::{Lettering, Weight};
 
@@ -36,6 +39,23 @@ pub struct View {
     pub theme: Theme,
     /// The time from frame to frame in seconds of physics: the clock shows enough decimals to tell frames apart.
     pub frame_step: f64,
+    /// What stands beside the film; the camera's picture is what is left of the whole.
+    pub panel: Option<Panel>,
+}
+
+impl View {
+    /// Width and height of the whole picture in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        self.panel.as_ref().map_or(self.camera.size(), Panel::size)
+    }
+
+    /// The same view in a picture of another size.
+    #[must_use]
+    pub fn resized(&self, size: (u32, u32)) -> View {
+        let panel = self.panel.as_ref().and_then(|panel| panel.resized(size));
+        let camera = self.camera.resized(panel.as_ref().map_or(size, Panel::stage));
+        View { camera, panel, ..self.clone() }
+    }
 }
 
 /// A picture of that size cannot be made: a side is zero, or there is no memory for it.
@@ -59,6 +79,7 @@ impl std::error::Error for SizeError {}
 #[derive(Debug, Default)]
 pub struct Scratch {
     field: Field,
+    tools: Tools,
 }
 
 /// Draws the frames of one cast.
@@ -73,6 +94,7 @@ pub struct Painter {
     title: Title,
     clock: Clock,
     labels: Column,
+    cards: Option<Cards>,
     backdrop: Pixmap,
 }
 
@@ -80,12 +102,12 @@ impl Painter {
     /// A painter for the cast of `frame`, whose poses place the fixed bodies.
     ///
     /// # Errors
-    /// A [`SizeError`] if there is no picture of the camera's size.
+    /// A [`SizeError`] if there is no picture of the view's size.
     pub fn new(view: &View, frame: &Frame) -> Result<Painter, SizeError> {
         let (camera, theme, cast) = (&view.camera, &view.theme, &frame.cast);
-        let (width, height) = camera.size();
+        let (width, height) = view.size();
         let picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
-        let weights = Weights::of(camera);
+        let weights = Weights::of(view.size());
         let colors = fills(cast, theme);
         let figure = |place: usize| Figure::new(&cast.bodies[place], colors[place], camera, theme, weights.line);
         let all = (0..cast.bodies.len()).map(|place| (place, figure(place)));
@@ -107,12 +129,16 @@ impl Painter {
             title,
             clock,
             labels: column,
+            cards: view.panel.as_ref().map(|panel| Cards::new(panel, theme, &colors)),
             backdrop: picture,
         };
         let mut backdrop = painter.backdrop.clone();
         painter.paint_scenery(frame, &painter.camera(frame), &mut backdrop, &mut Field::default());
         if !painter.labels.in_room {
             painter.title.draw(&mut backdrop);
+        }
+        if let Some(cards) = &painter.cards {
+            cards.draw_furniture(&mut backdrop);
         }
         painter.backdrop = backdrop;
         Ok(painter)
@@ -125,7 +151,7 @@ impl Painter {
 
     /// Draws what never moves in the world: background, grid, walls, fixed bodies.
     fn paint_scenery(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, field: &mut Field) {
-        let (theme, weights) = (&self.view.theme, Weights::of(camera));
+        let (theme, weights) = (&self.view.theme, Weights::of(self.view.size()));
         backdrop::draw(picture, camera, theme);
         walls::draw(picture, &self.cast.walls, camera, theme, weights.band, weights.line);
         paint_figures(&self.fixed, frame, camera, picture, field);
@@ -141,7 +167,7 @@ impl Painter {
         &self.backdrop
     }
 
-    /// Draws a frame over whatever the picture held. The picture must have the camera's size: see
+    /// Draws a frame over whatever the picture held. The picture must have the view's size: see
     /// [`Painter::backdrop`]; one of another size is replaced.
     pub fn paint(&self, frame: &Frame, picture: &mut Pixmap, scratch: &mut Scratch) {
         if (picture.width(), picture.height()) == (self.backdrop.width(), self.backdrop.height()) {
@@ -154,11 +180,14 @@ impl Painter {
             self.paint_scenery(frame, camera, picture, &mut scratch.field);
         }
         paint_figures(&self.figures, frame, camera, picture, &mut scratch.field);
-        marks::draw(picture, &frame.marks, camera, theme, Weights::of(camera).line);
+        marks::draw(picture, &frame.marks, camera, theme, Weights::of(self.view.size()).line);
         if self.labels.in_room {
             self.title.draw(picture);
         }
         self.clock.draw(picture, frame.time, &self.labels, self.title.height());
+        if let Some(cards) = &self.cards {
+            cards.draw(picture, &self.backdrop, frame.time, &mut scratch.tools);
+        }
     }
 
     /// The flat colours of the film, each once: an encoder with few colours keeps these exact.
@@ -173,6 +202,7 @@ impl Painter {
         for own in fills(&self.cast, theme) {
             colors.extend([own, theme.outline.of(own), theme.mark.of(own)]);
         }
+        colors.extend(self.cards.iter().flat_map(Cards::flat_colors));
         let mut once = Vec::new();
         for color in colors {
             if !once.contains(&color) {
@@ -215,8 +245,8 @@ struct Weights {
 }
 
 impl Weights {
-    fn of(camera: &Camera) -> Weights {
-        let area = camera.size().0 as f32 * camera.size().1 as f32;
+    fn of((width, height): (u32, u32)) -> Weights {
+        let area = width as f32 * height as f32;
         let unit = (area / (1280.0 * 720.0)).sqrt();
         Weights {
             line: (2.2 * unit).max(1.0),

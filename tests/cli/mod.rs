@@ -12,6 +12,7 @@ mod json;
 mod new;
 mod numbers;
 mod outputs;
+mod plots;
 mod scene_files;
 mod schema;
 mod stills;

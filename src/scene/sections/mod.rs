@@ -10,6 +10,7 @@ pub mod fill;
 pub mod film;
 mod install;
 pub mod kinematic;
+pub mod plots;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -19,4 +20,5 @@ pub use fill::{FillEntry, FillSection};
 pub use film::{FilmSection, FreezeEntry};
 pub use install::plugin;
 pub use kinematic::{KinematicEntry, PathEntry};
+pub use plots::{HistogramEntry, PlotEntry, PlotsSection};
 pub use walls::{WallEntry, WallsSection};
