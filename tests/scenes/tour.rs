@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::shipped::complaints;
 
 /// A picture of the tour is at most this large, in bytes.
-const LARGEST_PICTURE: u64 = 40_000;
+const LARGEST_PICTURE: u64 = 45_000;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -30,7 +30,7 @@ fn lines(text: &str) -> Vec<&str> {
 #[test]
 fn every_step_of_the_tour_runs_and_holds_what_it_expects() {
     let steps = steps();
-    assert!(steps.len() >= 7, "{steps:?}");
+    assert_eq!(steps.len(), 10, "{steps:?}");
     let found: Vec<Vec<String>> = std::thread::scope(|scope| {
         let runs: Vec<_> = steps.iter().map(|path| scope.spawn(|| complaints(path))).collect();
         runs.into_iter().map(|run| run.join().unwrap()).collect()
@@ -68,7 +68,7 @@ fn the_text_of_each_step_shows_what_stands_in_its_scene() {
 fn the_pictures_of_the_tour_are_there_and_small() {
     let text = text();
     let pictures: Vec<&str> = text.split("](tour/").skip(1).filter_map(|rest| rest.split(')').next()).collect();
-    assert!(pictures.len() >= 4, "{pictures:?}");
+    assert!(pictures.len() >= 7, "{pictures:?}");
     let folder = root().join("docs/tour");
     for picture in &pictures {
         let size = std::fs::metadata(Path::new(&folder).join(picture)).unwrap_or_else(|_| panic!("no {picture}")).len();

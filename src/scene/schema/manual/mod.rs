@@ -37,6 +37,21 @@ impl Language {
         manual.text
     }
 
+    /// What the manual says of one section, or of one entry of it; nothing if there is none of that name. Links lead to
+    /// other places of the manual.
+    pub fn about(&self, section: &str, entry: Option<&str>) -> Option<String> {
+        let section = self.sections.iter().chain([&self.repeat]).find(|other| other.name == section)?;
+        let mut manual = Manual { language: self, text: String::new(), places: BTreeMap::new() };
+        match (entry, &section.content) {
+            (None, _) => manual.section(section),
+            (Some(name), Content::Entries(_, entries)) => {
+                manual.entry(&section.name, entries.iter().find(|entry| entry.name == name)?);
+            }
+            (Some(_), Content::Value(_)) => return None,
+        }
+        Some(manual.text.trim_end().to_owned())
+    }
+
     /// The fields that may be left out without the manual saying what is then, as paths.
     pub fn without_default(&self) -> Vec<String> {
         let mut missing = Vec::new();

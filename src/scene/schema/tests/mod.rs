@@ -147,6 +147,17 @@ fn the_manual_has_no_bare_sections_and_no_dead_links() {
     }
 }
 
+#[test]
+fn one_entry_is_told_alone() {
+    let language = language();
+    let told = language.about("forces", Some("Drag")).unwrap();
+    assert!(told.starts_with("### `forces: Drag`") && told.contains("| `quadratic` |"), "{told}");
+    assert!(language.manual().contains(&told));
+    assert!(language.about("clock", None).unwrap().contains("| `duration` | time | s | *needed* |"));
+    assert_eq!(language.about("forces", Some("Magnet")), None);
+    assert_eq!(language.about("clock", Some("Drag")), None);
+}
+
 #[derive(serde::Deserialize)]
 struct Plain(#[allow(dead_code)] u8);
 
