@@ -15,8 +15,8 @@ const NEEDED: [&str; 2] = ["format", "clock"];
 impl Language {
     /// The JSON schema, draft 2020-12, of whole scenes.
     pub fn json(&self) -> Value {
-        let sections = self.sections.iter().map(|section| (section.name.clone(), section.json()));
-        let properties: Map<String, Value> = sections.collect();
+        let outermost = self.sections.iter().filter(|section| !section.name.contains('.'));
+        let properties: Map<String, Value> = outermost.map(|section| (section.name.clone(), section.json())).collect();
         let mut schema = json!({
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": "Scene",
@@ -28,6 +28,7 @@ impl Language {
             "$defs": self.definitions,
         });
         self.complete_templates(&mut schema);
+        self.put_lists_inside(&mut schema);
         visit(&mut schema, &mut let_be_made);
         schema["$defs"][REPEATED] = json!({
             "type": "object",
@@ -63,6 +64,20 @@ fn let_be_made(schema: &mut Value) {
 }
 
 impl Language {
+    /// A section such as `look.layers` is a field of another one.
+    fn put_lists_inside(&self, schema: &mut Value) {
+        for section in &self.sections {
+            let Some((outer, field)) = section.name.split_once('.') else { continue };
+            let whole = &schema["properties"][outer];
+            let definition = whole["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")).map(str::to_owned);
+            let place = match definition {
+                Some(name) => &mut schema["$defs"][name],
+                None => &mut schema["properties"][outer],
+            };
+            place["properties"][field] = section.json();
+        }
+    }
+
     /// Templates hold the sections that are lists or maps.
     fn complete_templates(&self, schema: &mut Value) {
         let held = self.sections.iter().filter(|section| match &section.content {
@@ -93,6 +108,11 @@ impl Section {
                 let one = one_of_the(entries);
                 match arity {
                     Arity::List => json!({ "description": self.meaning, "type": "array", "items": one }),
+                    Arity::Words => {
+                        let words: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
+                        let item = json!({ "anyOf": [{ "enum": words }, one] });
+                        json!({ "description": self.meaning, "type": "array", "items": item })
+                    }
                     Arity::One => with_description(one, &self.meaning),
                     Arity::OneOrNone => json!({ "description": self.meaning, "anyOf": [one, { "const": "None" }] }),
                 }

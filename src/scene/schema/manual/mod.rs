@@ -200,6 +200,9 @@ impl<'a> Manual<'a> {
                 let names: Vec<String> = entries.iter().map(|entry| format!("`{}`", entry.name)).collect();
                 self.paragraph(&match arity {
                     Arity::List => format!("A list of any of {}.", names.join(", ")),
+                    Arity::Words => {
+                        format!("A list of any of {}; one that needs no field as a word.", names.join(", "))
+                    }
                     Arity::One => format!("One of {}.", names.join(", ")),
                     Arity::OneOrNone => format!("One of {}, or `None`.", names.join(", ")),
                 });
