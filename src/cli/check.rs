@@ -35,10 +35,9 @@ Examples:
 
 impl Check {
     pub(super) fn execute(self) -> Exit {
-        let overrides = self.overrides.overrides();
         let check = |name: &String| {
             let request = Request { name, json: self.json };
-            match request.load(&overrides) {
+            match request.load(&self.overrides, &self.overrides.overrides()) {
                 Err(exit) => exit,
                 Ok((_, simulation)) if self.run => self.run(request, simulation),
                 Ok((_, simulation)) if self.json => {

@@ -6,6 +6,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("bounce", include_str!("../../scenes/bounce.ron")),
     ("incline", include_str!("../../scenes/incline.ron")),
     ("kepler", include_str!("../../scenes/kepler.ron")),
+    ("marble_mills", include_str!("../../scenes/marble_mills.ron")),
     ("projectile", include_str!("../../scenes/projectile.ron")),
     ("tetris", include_str!("../../scenes/tetris.ron")),
     ("tetris_weightless", include_str!("../../scenes/tetris_weightless.ron")),

@@ -31,6 +31,9 @@ pub(super) struct OverrideFlags {
     /// Error allowed, instead of a tick (not available yet)
     #[arg(long, value_name = "X", value_parser = not_available_yet, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    /// Give a parameter of the scene (`params`) another value: a number or an expression; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
+    pub settings: Vec<(String, String)>,
 }
 
 impl OverrideFlags {
@@ -48,6 +51,14 @@ fn methods() -> PossibleValuesParser {
     let registered = app.world().get_resource::<Methods>().map_or_else(Vec::new, |methods| methods.0.clone());
     let names = std::iter::once(ClockSection::AUTO).chain(registered.into_iter().map(|method| method.name));
     PossibleValuesParser::new(names.collect::<Vec<_>>())
+}
+
+/// A parameter and its value.
+fn setting(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
+    let good = parts.filter(|(name, value)| !name.is_empty() && !value.is_empty());
+    good.map(|(name, value)| (name.to_owned(), value.to_owned()))
+        .ok_or_else(|| "expected a parameter and its value, such as n=9 or gap=\"2 cm\"".to_owned())
 }
 
 fn not_available_yet(_: &str) -> Result<f64, String> {

@@ -3,6 +3,7 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
+use super::flags::OverrideFlags;
 use super::say::{print_line, say};
 use super::{Exit, examples};
 use crate::scene::{SceneError, SceneErrors, Source};
@@ -23,8 +24,9 @@ pub(super) struct Request<'a> {
 impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
-    pub fn load(self, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
+    pub fn load(self, flags: &OverrideFlags, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
         let read = source(self.name).and_then(|source| {
+            let source = source.with_settings(&flags.settings);
             let simulation = Simulation::load_with(&source, overrides, |_| {})?;
             Ok((source, simulation))
         });

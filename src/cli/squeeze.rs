@@ -51,7 +51,19 @@ const LADDER: [Rung; 16] = [
     rung(0.125, 6, 15),
 ];
 
+/// A film that uses this share of its size is large enough.
+const GOOD_USE: f64 = 0.9;
+/// So many sizes of picture are tried between two rungs: each costs a film.
+const MOST_REFINEMENTS: usize = 3;
+
 impl Rung {
+    /// The same with larger pictures, such that a film that had so many bytes would use what it may, and no larger than
+    /// asked for. Bytes grow with the side where there are edges, with its square where everything changes.
+    fn grown(self, bytes: u64, most: u64) -> Rung {
+        let room = 0.5 * (1.0 + GOOD_USE) * most as f64 / bytes.max(1) as f64;
+        Rung { scale: (self.scale * room.powf(1.0 / 1.5)).min(1.0), ..self }
+    }
+
     /// About how large a film of this rung is, as a share of the first one: edges grow with the side, areas are cheap;
     /// of fewer frames each has more to change. Only the next rung to try is chosen by it.
     fn weight(&self) -> f64 {
@@ -92,7 +104,7 @@ impl Squeeze<'_> {
                 Err(other) => return Err(other),
             }
         }
-        let Some((place, written)) = best else {
+        let Some((place, fitting)) = best else {
             let (most, smallest) = (bytes_in_words(self.most as f64), bytes_in_words(smallest));
             order.request.usage(&format!(
                 "the film does not fit into {most}: even at an eighth of its size, with a sixth of its frames and 15 \
@@ -101,10 +113,38 @@ impl Squeeze<'_> {
             ));
             return Err(Trouble::Told);
         };
+        let (rung, written) = self.refine(order, LADDER[place], fitting, &mut play)?;
         if !order.quiet {
-            self.tell(LADDER[place]);
+            self.tell(rung);
         }
         Ok(written)
+    }
+
+    /// Makes the pictures of a film that fits as large as they may be: the rungs of the ladder lie far apart.
+    fn refine(
+        &self,
+        order: &Order,
+        mut rung: Rung,
+        mut written: Written,
+        play: &mut impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
+    ) -> Result<(Rung, Written), Trouble> {
+        let mut next = rung.grown(written.bytes, self.most);
+        for _ in 0..MOST_REFINEMENTS {
+            if written.bytes as f64 >= GOOD_USE * self.most as f64 || self.size(next) == self.size(rung) {
+                break;
+            }
+            match self.attempt(order, next, play) {
+                Ok(larger) => {
+                    (rung, written) = (next, larger);
+                    next = rung.grown(written.bytes, self.most);
+                }
+                Err(Trouble::Output(OutputError::TooLarge { .. })) => {
+                    next.scale = (rung.scale * next.scale).sqrt();
+                }
+                Err(other) => return Err(other),
+            }
+        }
+        Ok((rung, written))
     }
 
     fn attempt(

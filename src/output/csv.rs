@@ -49,7 +49,11 @@ impl Table {
     }
 
     fn line(&mut self, line: &str) -> Result<(), OutputError> {
-        writeln!(self.part, "{line}").map_err(|cause: io::Error| OutputError::io(&self.path, cause))
+        writeln!(self.part, "{line}").map_err(|cause: io::Error| OutputError::Io {
+            path: self.path.clone(),
+            cause,
+            kept: Some(self.part.part().to_owned()),
+        })
     }
 
     /// Gives the file its name.

@@ -61,7 +61,7 @@ pub enum OutputError {
         path: PathBuf,
         /// What the system said.
         cause: io::Error,
-        /// Where the frames so far lie, if any were written.
+        /// Where lies what was written so far, if anything was.
         kept: Option<PathBuf>,
     },
     /// The program that makes videos is not installed.
@@ -135,7 +135,7 @@ impl fmt::Display for OutputError {
                     write!(f, "; {remedy}")?;
                 }
                 match kept {
-                    Some(kept) => write!(f, ". The frames so far are in `{}`", kept.display()),
+                    Some(kept) => write!(f, ". What was written so far is in `{}`", kept.display()),
                     None => Ok(()),
                 }
             }
@@ -169,7 +169,7 @@ fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
             Some("choose a place that you may write to")
         }
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            Some("free some space, choose another disk, or make the film smaller or shorter")
+            Some("free some space, choose another disk, or write less: a smaller or shorter film, fewer channels")
         }
         io::ErrorKind::BrokenPipe => Some("whoever read it went away before the film's end"),
         _ => None,

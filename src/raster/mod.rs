@@ -258,3 +258,5 @@ impl Weights {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod vision;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bevy_app::App;
 
 use super::error::{SceneError, SceneErrors};
+use super::expand;
 use super::explain::{self, Walked};
 use super::outline::{Kind, Mention, Outline};
 use super::registry::{Arity, ReadEntries, ReadSection, Reader, SceneRegistry, entry_scope};
@@ -12,7 +13,7 @@ use super::report::{Problem, Report};
 use super::scan::{scan, skip_blank};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
-use super::tree::{Form, Id};
+use super::tree::{Form, Id, Tree};
 use super::values::WholeNumber;
 
 const SMALLEST: &str = "the smallest scene is `Scene(format: 1, clock: (duration: 1), bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.1))])`";
@@ -53,10 +54,33 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
     if let Some(fault) = found.fault {
         return Err(SceneErrors::new(source.clone(), vec![fault], Vec::new()));
     }
+    if !expand::is_wanted(source, &found.tree) {
+        return load_text(app, &registry, &source.text, &found.tree, found.errors)
+            .map_err(|(errors, notes)| SceneErrors::new(source.clone(), errors, notes));
+    }
+    let expanded = expand::expand(source, found)?;
+    let mut found = scan(&expanded.text);
+    if let Some(fault) = found.fault.take() {
+        return Err(expanded.told(&found.tree, vec![fault], Vec::new()));
+    }
+    let mut header = load_text(app, &registry, &expanded.text, &found.tree, found.errors)
+        .map_err(|(errors, notes)| expanded.told(&found.tree, errors, notes))?;
+    header.remarks.splice(0..0, expanded.notes.iter().cloned());
+    Ok(header)
+}
+
+/// Reads a text in which nothing is left to be made.
+fn load_text(
+    app: &mut App,
+    registry: &SceneRegistry,
+    text: &str,
+    tree: &Tree,
+    errors: Vec<SceneError>,
+) -> Result<SceneHeader, (Vec<SceneError>, Vec<String>)> {
     let mut loading = Loading {
-        walked: Walked { text: &source.text, tree: &found.tree },
-        registry: &registry,
-        errors: found.errors,
+        walked: Walked { text, tree },
+        registry,
+        errors,
         header: SceneHeader { outline: Outline::with_words(registry.words.clone()), ..SceneHeader::default() },
         sections: Vec::new(),
         entries: BTreeMap::new(),
@@ -67,7 +91,7 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
     loading.place(report.problems());
     let Loading { errors, mut header, sections, entries, .. } = loading;
     if !errors.is_empty() {
-        return Err(SceneErrors::new(source.clone(), errors, report.notes().to_vec()));
+        return Err((errors, report.notes().to_vec()));
     }
     header.remarks = report.notes().to_vec();
     install(app, &header.outline, sections, entries);
@@ -76,9 +100,12 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
 
 /// One mistake that only turned out when the scene was put together, at its place in the text.
 pub(crate) fn found_later(source: &Source, mut error: SceneError) -> SceneErrors {
-    let found = scan(&source.text);
+    let mut found = scan(&source.text);
+    let expanded = if expand::is_wanted(source, &found.tree) { expand::expand(source, found).ok() } else { None };
+    let text = expanded.as_ref().map_or(&source.text, |expanded| &expanded.text);
+    found = scan(text);
     let is_flag = error.path.starts_with("--");
-    if let Some(place) = found.tree.find(&error.path, &source.text).filter(|_| !is_flag) {
+    if let Some(place) = found.tree.find(&error.path, text).filter(|_| !is_flag) {
         let (span, label) = if place.whole {
             (found.tree.head_or_value(place.node), "this value")
         } else {
@@ -86,7 +113,10 @@ pub(crate) fn found_later(source: &Source, mut error: SceneError) -> SceneErrors
         };
         error = error.at(span, label);
     }
-    SceneErrors::new(source.clone(), vec![error], Vec::new())
+    match &expanded {
+        Some(expanded) => expanded.told(&found.tree, vec![error], Vec::new()),
+        None => SceneErrors::new(source.clone(), vec![error], Vec::new()),
+    }
 }
 
 struct WholeSection {
@@ -183,7 +213,7 @@ impl Loading<'_> {
             let help = {
                 let real = registry.sections.iter().filter(|(_, section)| !matches!(section.reader, Reader::Reserved));
                 let real = real.map(|(name, _)| *name).filter(|name| !name.contains('.'));
-                let names = ["format", "title", "notes"].into_iter().chain(real);
+                let names = ["format", "title", "notes"].into_iter().chain(expand::SECTIONS).chain(real);
                 suggest::among(name, names.collect::<Vec<_>>().into_iter(), "sections", '`')
             };
             let error = SceneError::new("", format!("there is no section `{name}`"));

@@ -56,6 +56,7 @@
 //! ```
 
 mod error;
+mod expand;
 mod explain;
 mod load;
 mod outline;

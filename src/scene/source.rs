@@ -1,7 +1,7 @@
 //! The text of a scene and where in it something stands.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::error::{SceneError, SceneErrors};
 
@@ -17,12 +17,23 @@ pub struct Source {
     pub name: String,
     /// The text.
     pub text: String,
+    /// The folder in which files that the scene includes are looked for; none for a text that is in no file.
+    pub folder: Option<PathBuf>,
+    /// Parameters that are to have another value than the scene says: name, and number or expression.
+    pub settings: Vec<(String, String)>,
 }
 
 impl Source {
     /// A scene's text that is already in memory.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
-        Self { name: name.into(), text: text.into() }
+        Self { name: name.into(), text: text.into(), ..Self::default() }
+    }
+
+    /// Gives parameters of the scene (`params`) other values: pairs of a name, and a number or expression.
+    #[must_use]
+    pub fn with_settings(mut self, settings: &[(String, String)]) -> Self {
+        self.settings.extend_from_slice(settings);
+        self
     }
 
     /// Reads a scene file.
@@ -68,7 +79,9 @@ impl Source {
         if bytes.len() > LARGEST_SCENE {
             return Err(too_large(bytes.len() as u64));
         }
-        Self::from_bytes(&name, bytes).map_err(|(message, help)| fail(message, help))
+        let folder = path.parent().map(Path::to_owned);
+        let source = Self::from_bytes(&name, bytes).map_err(|(message, help)| fail(message, help))?;
+        Ok(Self { folder, ..source })
     }
 
     /// Takes a file's bytes as UTF-8 text, without the mark some editors put in front.

@@ -87,3 +87,31 @@ fn rates_beyond_the_format_are_refused_before_the_run() {
     let message = "60 frames per second cannot be shown in this format";
     folder.jostle("render fall.ron --fps 60 --duration 1e4").code(2).says(message).says("use `--fps 50`");
 }
+
+/// `--set` gives a parameter another value, in every command that runs scenes; the card and the messages say so.
+#[test]
+fn parameters_are_set() {
+    let scene =
+        FALL.replacen("(0, 1)", "(0, \"high\")", 1).replacen("gravity:", "params: { \"high\": 1 }, gravity:", 1);
+    let folder = Folder::new("set").with("fall.ron", &scene).with("high.ron", FALL.replacen("(0, 1)", "(0, 3)", 1));
+    let height = |arguments: &str| {
+        let ended = folder.jostle(&format!("run --json {arguments}")).code(0);
+        ended.json()[0]["bodies"][0]["position"][1].as_f64().unwrap()
+    };
+    let by_hand = height("high.ron");
+    for flags in ["--set high=3", "--set high=300cm", "--set high=2 --set high=3"] {
+        assert_eq!(height(&format!("fall.ron {flags}")), by_hand, "{flags}");
+    }
+    folder.jostle("check fall.ron --set high=3").code(0).says("note: fall.ron: high = 3 from the command line");
+    folder
+        .jostle("check fall.ron --set hihg=3")
+        .code(1)
+        .says("--set hihg: the scene has no parameter `hihg`")
+        .says("did you mean `high`?");
+    folder
+        .jostle("render fall.ron --set high=3kg -o fall.png --at 0")
+        .code(1)
+        .says("got a mass `3 kg`")
+        .says("--> fall.ron:");
+    folder.jostle("run fall.ron --set high").code(2).says("expected a parameter and its value, such as n=9");
+}

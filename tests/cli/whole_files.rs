@@ -43,21 +43,28 @@ fn a_film_killed_at_any_moment_is_the_old_one_or_the_whole_new_one() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_the_old_file_and_is_told() {
-    for (name, flags) in [("film.gif", ""), ("film.apng", ""), ("film.rgba", ""), ("sheet.png", "--sheet 4x3")] {
+    let render = "render example:tetris --duration 6 --size 640x360 --quiet";
+    for (name, command) in [
+        ("film.gif", render.to_owned()),
+        ("film.apng", render.to_owned()),
+        ("film.rgba", render.to_owned()),
+        ("sheet.png", format!("{render} --sheet 4x3")),
+        ("table.csv", "run example:tetris --duration 6".to_owned()),
+    ] {
         let folder = Folder::new(&format!("disk_{name}")).with(name, OLD);
-        let render = format!("render example:tetris --duration 6 --size 640x360 --quiet {flags} -o {name}");
-        let script = format!("trap '' XFSZ; ulimit -f 16; exec {} {render}", env!("CARGO_BIN_EXE_jostle"));
+        let jostle = env!("CARGO_BIN_EXE_jostle");
+        let script = format!("trap '' XFSZ; ulimit -f 16; exec {jostle} {command} -o {name}");
         let output = Command::new("bash").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{name}: {said}");
         let told = format!("error: `{name}` could not be written: File too large");
         assert!(said.starts_with(&told) && said.contains("free some space"), "{said}");
         assert_eq!(folder.read(name), OLD);
-        // The beginning of a GIF can be watched, and the message says where it is.
-        let left =
-            if name.ends_with(".gif") { vec![name.to_owned(), format!("{name}.part")] } else { vec![name.to_owned()] };
+        // The beginning of a GIF can be watched, that of a table read, and the message says where it is.
+        let is_of_use = name.ends_with(".gif") || name.ends_with(".csv");
+        let left = if is_of_use { vec![name.to_owned(), format!("{name}.part")] } else { vec![name.to_owned()] };
         assert_eq!(folder.names(), left, "{said}");
-        assert_eq!(said.contains("The frames so far are in"), left.len() == 2, "{said}");
+        assert_eq!(said.contains("What was written so far is in"), left.len() == 2, "{said}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! The scenes that come with the program, and films of them.
 
+mod authoring;
+mod authoring_files;
 mod extremes;
 mod film;
 mod shipped;

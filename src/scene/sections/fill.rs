@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Deserialize;
 
-use crate::scene::units::{Position, Speed};
+use crate::scene::units::{Length, Position, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
@@ -46,6 +46,9 @@ pub struct FillEntry {
     /// The seed of chance. Default: 0.
     #[serde(default)]
     pub seed: WholeNumber,
+    /// How far those circles stay apart from each other and from other bodies at least, in m. Default: 0.
+    #[serde(default)]
+    pub gap: Length,
 }
 
 /// One body of a fill.
@@ -113,13 +116,16 @@ impl Section for FillSection {
         }
         for (index, (entry, placed)) in self.0.iter().zip(self.place(outline)).enumerate() {
             if (placed.len() as u64) < entry.count.0 {
-                let message = format!(
-                    "only {} of {} bodies find room in the box without touching anything",
-                    placed.len(),
-                    entry.count.0
+                let gap = entry.gap.si();
+                let (apart, smaller) = if gap > 0.0 {
+                    (format!("{gap} m apart from any other"), "`gap`")
+                } else {
+                    ("without touching anything".to_owned(), "atoms")
+                };
+                let message = format!("only {} of {} bodies find room in the box {apart}", placed.len(), entry.count.0);
+                let help = format!(
+                    "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the area"
                 );
-                let help =
-                    "a larger `within`, a smaller `count` or smaller atoms would fit; chance fills about half the area";
                 report.error(&format!("[{index}].count"), message).help(help);
             }
         }
@@ -152,6 +158,7 @@ impl FillEntry {
             }
         }
         report.not_negative("speed", self.speed);
+        report.not_negative("gap", self.gap);
     }
 
     fn corners(&self) -> (DVec2, DVec2) {
@@ -167,7 +174,7 @@ impl FillEntry {
             return placed;
         }
         let standing = taken.len() as u64 + self.count.0.min(LARGEST_COUNT);
-        let mut grid = Grid::new(low, high, radius, standing);
+        let mut grid = Grid::new(low, high, radius, self.gap.si(), standing);
         for obstacle in taken {
             grid.insert(*obstacle);
         }
@@ -195,6 +202,7 @@ struct Grid {
     columns: usize,
     rows: usize,
     radius: f64,
+    gap: f64,
     near: Vec<Vec<Obstacle>>,
     /// What concerns every cell.
     walls: Vec<Obstacle>,
@@ -203,13 +211,14 @@ struct Grid {
 impl Grid {
     /// A grid for a box in which `standing` bodies stand in the end: it has no more cells along a side than there are
     /// bodies, and not many more in all.
-    fn new(low: DVec2, high: DVec2, radius: f64, standing: u64) -> Self {
+    fn new(low: DVec2, high: DVec2, radius: f64, gap: f64, standing: u64) -> Self {
         let size = high - low;
         let most = ((4.0 * standing as f64).sqrt() as usize).clamp(1, CELLS);
-        let count = |length: f64| ((length / (2.0 * radius)) as usize).clamp(1, most);
+        let count = |length: f64| ((length / (2.0 * radius + gap)) as usize).clamp(1, most);
         let (columns, rows) = (count(size.x), count(size.y));
         let cell = size / DVec2::new(columns as f64, rows as f64);
-        Self { low, high, cell, columns, rows, radius, near: vec![Vec::new(); columns * rows], walls: Vec::new() }
+        let near = vec![Vec::new(); columns * rows];
+        Self { low, high, cell, columns, rows, radius, gap, near, walls: Vec::new() }
     }
 
     fn column_and_row(&self, at: DVec2) -> (usize, usize) {
@@ -219,7 +228,10 @@ impl Grid {
 
     fn insert(&mut self, obstacle: Obstacle) {
         let (low, high) = match obstacle {
-            Obstacle::Disc { center, radius } => (center - radius - self.radius, center + radius + self.radius),
+            Obstacle::Disc { center, radius } => {
+                let reach = radius + self.radius + self.gap;
+                (center - reach, center + reach)
+            }
             Obstacle::Wall { .. } => {
                 self.walls.push(obstacle);
                 return;
@@ -241,7 +253,7 @@ impl Grid {
     fn is_free(&self, at: DVec2) -> bool {
         let (column, row) = self.column_and_row(at);
         self.walls.iter().chain(&self.near[row * self.columns + column]).all(|obstacle| match *obstacle {
-            Obstacle::Disc { center, radius } => center.distance(at) >= radius + self.radius,
+            Obstacle::Disc { center, radius } => center.distance(at) >= radius + self.radius + self.gap,
             Obstacle::Wall { left, right } => {
                 // The open side is to the left of one who goes from the right point to the left point.
                 let along = left - right;
@@ -255,7 +267,6 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::units::Length;
     use crate::shapes::disc::OneDisc;
 
     fn gas(count: u64, radius: f64) -> FillSection {
@@ -268,6 +279,7 @@ mod tests {
             within: (Position::new(0.0, 0.0), Position::new(2.0, 1.0)),
             speed: Speed::new(3.0),
             seed: WholeNumber(7),
+            gap: Length::default(),
         }])
     }
 
@@ -287,10 +299,26 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_gap_keeps_bodies_apart_but_not_from_walls() {
+        let mut outline = Outline::new();
+        outline.occupy(Obstacle::Disc { center: DVec2::new(1.0, 0.5), radius: 0.3 });
+        let mut section = gas(100, 0.02);
+        section.0[0].gap = Length::new(0.05);
+        let placed = section.place(&outline).remove(0);
+        assert_eq!(placed.len(), 100);
+        for (index, body) in placed.iter().enumerate() {
+            assert!(body.position.distance(DVec2::new(1.0, 0.5)) >= 0.37);
+            assert!(placed[..index].iter().all(|other| other.position.distance(body.position) >= 0.09));
+        }
+        // With 7 cm less to stand in on each side, some would be missing from the border.
+        assert!(placed.iter().any(|body| body.position.y < 0.07));
+    }
+
     /// Neither many walls nor many entries may take memory and time for cells in which nothing stands.
     #[test]
     fn a_grid_is_not_much_larger_than_what_stands_in_it() {
-        let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 10);
+        let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 0.0, 10);
         assert_eq!(grid.near.len(), 36);
         for _ in 0..1000 {
             grid.insert(Obstacle::Wall { left: DVec2::X, right: DVec2::ZERO });

@@ -9,8 +9,7 @@ use crate::scene::{Arity, SceneAppExt};
 use crate::world::material::COLORS;
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 9] =
-    ["joints", "plots", "params", "include", "templates", "instances", "randomise", "controllers", "scene"];
+const RESERVED: [&str; 5] = ["joints", "plots", "randomise", "controllers", "scene"];
 
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {

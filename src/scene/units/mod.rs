@@ -28,6 +28,7 @@ use std::marker::PhantomData;
 use glam::DVec2;
 
 pub use read::parse_si;
+pub(crate) use read::{base_units, is_quantity, is_unit, name_of, number_length, value_in};
 
 /// The powers of the base units meter, kilogram, second and radian in a unit.
 ///

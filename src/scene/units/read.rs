@@ -34,8 +34,26 @@ pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result
     }
 }
 
+/// A number with a unit, or with none, in SI units with the powers of its units; as [`parse_si`] reads it.
+pub(crate) fn value_in(number: &str, unit: &str) -> Result<(f64, Powers), String> {
+    let size = if unit.is_empty() { Size::default() } else { product(unit)? };
+    let value = decimal(number, size.exponent).map(|value| value * size.factor).filter(|value| value.is_finite());
+    value.map(|value| (value, size.powers)).ok_or_else(|| format!("`{number} {unit}` is too large for a number"))
+}
+
+/// Whether a text is a number by itself, with or without a unit.
+pub(crate) fn is_quantity(text: &str) -> bool {
+    let (number, unit) = text.trim().split_at(number_length(text.trim()));
+    !number.is_empty() && (unit.trim().is_empty() || product(unit.trim()).is_ok())
+}
+
+/// Whether a word is the symbol of a unit, with or without a prefix.
+pub(crate) fn is_unit(symbol: &str) -> bool {
+    table::find(symbol).is_some()
+}
+
 /// The length of the number at the beginning of a text.
-fn number_length(text: &str) -> usize {
+pub(crate) fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
@@ -76,9 +94,15 @@ struct Size {
     powers: Powers,
 }
 
+impl Default for Size {
+    fn default() -> Self {
+        Self { factor: 1.0, exponent: 0, powers: Powers::default() }
+    }
+}
+
 /// `kN/m`, `N s/m`, `m/s2`, `m/s^2`, `kg*m²`: a product of units; `/` divides by the one unit after it.
 fn product(text: &str) -> Result<Size, String> {
-    let mut size = Size { factor: 1.0, exponent: 0, powers: Powers::default() };
+    let mut size = Size::default();
     let mut divided = false;
     let mut rest = text;
     let mut divides = false;
@@ -147,17 +171,22 @@ fn split_power(factor: &str) -> Option<(&str, i32)> {
 }
 
 /// The name of a dimension, or its base units if it has none.
-fn name_of(powers: Powers) -> String {
-    if let Some((name, _)) = KNOWN.iter().find(|(_, known)| *known == powers) {
-        return (*name).to_owned();
+pub(crate) fn name_of(powers: Powers) -> String {
+    match KNOWN.iter().find(|(_, known)| *known == powers) {
+        Some((name, _)) => (*name).to_owned(),
+        None => format!("something in `{}`:", base_units(powers)),
     }
+}
+
+/// The product of base units of a dimension, such as `kg m2 s-2`.
+pub(crate) fn base_units(powers: Powers) -> String {
     let base = [("kg", powers.kilogram), ("m", powers.meter), ("s", powers.second), ("rad", powers.radian)];
     let parts: Vec<String> = base
         .iter()
         .filter(|(_, power)| *power != 0)
         .map(|(symbol, power)| if *power == 1 { (*symbol).to_owned() } else { format!("{symbol}{power}") })
         .collect();
-    format!("something in `{}`:", parts.join(" "))
+    parts.join(" ")
 }
 
 struct One<D>(PhantomData<fn() -> D>);
