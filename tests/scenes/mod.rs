@@ -4,5 +4,6 @@ mod authoring;
 mod authoring_files;
 mod extremes;
 mod film;
+mod pictures;
 mod shipped;
 mod wrong;
