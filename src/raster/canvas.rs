@@ -29,8 +29,11 @@ impl Ink {
     pub(super) fn at(&self, distance: f32) -> (Rgb, f32) {
         let inside = (0.5 - distance).clamp(0.0, 1.0);
         let filled = (0.5 - distance - self.width).clamp(0.0, 1.0);
+        if filled <= 0.0 {
+            return (self.outline, inside);
+        }
         // Of what is covered a share is fill: where the line is thinner than a pixel its light is shared with the fill.
-        let share = if inside > 0.0 { filled / inside } else { 0.0 };
+        let share = filled / inside;
         (mix(self.outline, self.fill, (share * 256.0 + 0.5) as u32), inside)
     }
 }
@@ -79,8 +82,11 @@ impl<'a> Canvas<'a> {
             fill(&mut pixels[4 * inner.start..4 * inner.end], ink.fill);
             for column in (columns.start..inner.start).chain(inner.end..columns.end) {
                 let dx = column as f32 + 0.5 - x;
-                let (color, coverage) = ink.at((dx * dx + dy * dy).sqrt() - radius);
-                blend(&mut pixels[4 * column..4 * column + 4], color, coverage);
+                let distance = (dx * dx + dy * dy).sqrt() - radius;
+                if distance < 0.5 {
+                    let (color, coverage) = ink.at(distance);
+                    blend(&mut pixels[4 * column..4 * column + 4], color, coverage);
+                }
             }
         }
     }
@@ -112,6 +118,10 @@ pub(super) fn fill(pixels: &mut [u8], Rgb(red, green, blue): Rgb) {
 /// Lays a colour over one pixel with a coverage of 0 to 1.
 pub(super) fn blend(pixel: &mut [u8], Rgb(red, green, blue): Rgb, coverage: f32) {
     let share = (coverage * 256.0 + 0.5) as u32;
+    if share >= 256 {
+        pixel[..3].copy_from_slice(&[red, green, blue]);
+        return;
+    }
     for (below, above) in pixel.iter_mut().zip([red, green, blue]) {
         *below = mix_value(*below, above, share);
     }

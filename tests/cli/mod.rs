@@ -9,6 +9,7 @@ mod harness;
 mod help;
 mod interrupt;
 mod json;
+mod look;
 mod new;
 mod numbers;
 mod outputs;

@@ -4,6 +4,7 @@ mod authoring;
 mod authoring_files;
 mod extremes;
 mod film;
+mod layers;
 mod pictures;
 mod shipped;
 mod wrong;
