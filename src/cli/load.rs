@@ -10,7 +10,7 @@ use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::Simulation;
 
 /// What scenes that come with the program are called by.
-const EXAMPLE: &str = "example:";
+pub(super) const EXAMPLE: &str = "example:";
 
 /// A scene as the command line names it.
 #[derive(Clone, Copy, Debug)]
@@ -25,12 +25,14 @@ impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
     pub fn load(self, flags: &OverrideFlags) -> Result<(Source, Simulation), Exit> {
-        let read = source(self.name).and_then(|source| {
-            let source = source.with_settings(&flags.settings);
-            let simulation = Simulation::load_with(&source, &flags.overrides(), |_| {})?;
-            Ok((source, simulation))
-        });
-        read.map_err(|errors| self.refuse_scene(&errors))
+        self.read(flags).map_err(|errors| self.refuse_scene(&errors))
+    }
+
+    /// Reads and prepares the scene; prints nothing.
+    pub fn read(self, flags: &OverrideFlags) -> Result<(Source, Simulation), SceneErrors> {
+        let source = source(self.name)?.with_settings(&flags.settings);
+        let simulation = Simulation::load_with(&source, &flags.overrides(), |_| {})?;
+        Ok((source, simulation))
     }
 
     /// Tells what is wrong with the scene.
@@ -72,7 +74,7 @@ impl Request<'_> {
 }
 
 /// Reads the text of a scene: a file, or `example:NAME`.
-fn source(scene: &str) -> Result<Source, SceneErrors> {
+pub(super) fn source(scene: &str) -> Result<Source, SceneErrors> {
     let Some(name) = scene.strip_prefix(EXAMPLE) else { return Source::read(&PathBuf::from(scene)) };
     let found = examples::SCENES.iter().find(|(known, _)| *known == name);
     found.map(|(_, text)| Source::new(scene, *text)).ok_or_else(|| {

@@ -55,9 +55,11 @@
 //! assert_eq!((wind.line, wind.column), (Some(1), Some(54)));
 //! ```
 
+mod edit;
 mod error;
 mod expand;
 mod explain;
+mod layout;
 mod load;
 mod outline;
 mod registry;
@@ -73,14 +75,16 @@ pub mod units;
 pub mod values;
 
 pub use error::{SceneError, SceneErrors};
+pub(crate) use layout::laid_out;
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub(crate) use outline::fits;
 pub use outline::{Kind, Mention, Obstacle, Outline};
-pub use registry::{Arity, SceneAppExt, SceneRegistry};
+pub use registry::{Arity, Known, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};
 pub use source::{LARGEST_SCENE, Source};
+pub(crate) use suggest::nearest as nearest_name;
 
 #[cfg(test)]
 mod tests;

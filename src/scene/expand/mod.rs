@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::error::{Mark, SceneError, SceneErrors};
-use super::scan::Scan;
+use super::scan::{Scan, scan};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
@@ -90,6 +90,18 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
     }
     let mut sections = tree.children(0).iter().map(|&id| &source.text[tree.key(id)]);
     !source.settings.is_empty() || sections.any(|name| SECTIONS.contains(&name)) || source.text.contains("Repeat")
+}
+
+/// The sections that a scene has when everything is made, by name; none if it cannot be made.
+pub(super) fn made(source: &Source) -> Option<BTreeMap<String, String>> {
+    let found = scan(&source.text);
+    if found.fault.is_some() {
+        return None;
+    }
+    let text = if is_wanted(source, &found.tree) { expand(source, found).ok()?.text } else { source.text.clone() };
+    let tree = scan(&text).tree;
+    let section = |&id: &Id| (text[tree.key(id)].to_owned(), text[tree.span(id)].to_owned());
+    Some(tree.children(0).iter().map(section).collect())
 }
 
 /// Makes what the scene asks for, from what the walk over its text found.

@@ -79,7 +79,7 @@ impl Language {
         let mut generator = SchemaSettings::draft2020_12().into_generator();
         let mut tell = |describe: Describe| describe(&mut generator).map(Value::from);
         let mut sections = Vec::new();
-        for (name, section) in registry.in_order() {
+        for (name, section) in registry.readers() {
             let content = match &section.reader {
                 Reader::Reserved => continue,
                 Reader::Section(_) => Content::Value(tell(section.describe)),

@@ -148,14 +148,17 @@ fn the_manual_has_no_bare_sections_and_no_dead_links() {
 }
 
 #[test]
-fn one_entry_is_told_alone() {
+fn one_entry_is_told_in_plain_words() {
     let language = language();
-    let told = language.about("forces", Some("Drag")).unwrap();
-    assert!(told.starts_with("### `forces: Drag`") && told.contains("| `quadratic` |"), "{told}");
-    assert!(language.manual().contains(&told));
-    assert!(language.about("clock", None).unwrap().contains("| `duration` | time | s | *needed* |"));
-    assert_eq!(language.about("forces", Some("Magnet")), None);
-    assert_eq!(language.about("clock", Some("Drag")), None);
+    let told = language.told("forces", Some("Drag")).unwrap();
+    let field = "\n  linear: damping in N s/m; default: 0. Linear coefficient in N s/m.\n";
+    assert!(told.starts_with("Resistance of air that rests: ") && told.contains(field), "{told}");
+    let told = language.told("clock", None).unwrap();
+    assert!(told.contains("\n  duration: time in s; needed. Length of the run, "), "{told}");
+    assert!(language.told("walls", None).unwrap().contains("\n  left: (x, y) in m; needed. Seen from "));
+    assert_eq!(language.told("forces", None).unwrap(), "What acts on bodies beside gravity and contacts.");
+    assert_eq!(language.told("forces", Some("Magnet")), None);
+    assert_eq!(language.told("clock", Some("Drag")), None);
 }
 
 #[derive(serde::Deserialize)]
