@@ -5,7 +5,7 @@
 
 use bevy_app::App;
 
-use crate::{contacts, expect, forces, integrate, scene, sensors, world};
+use crate::{contacts, expect, forces, integrate, record, scene, sensors, world};
 
 /// Registers everything the scene language offers.
 pub fn standard(app: &mut App) {
@@ -16,4 +16,5 @@ pub fn standard(app: &mut App) {
     contacts::plugin(app);
     sensors::plugin(app);
     expect::plugin(app);
+    record::layers::plugin(app);
 }

@@ -8,6 +8,7 @@ use bevy_ecs::prelude::*;
 use crate::contacts::{self, StiffestContact};
 use crate::expect::{Expectations, Outcome, observe_all};
 use crate::integrate::Methods;
+use crate::record::layers::{self, WantedLayers};
 use crate::report::Card;
 use crate::report::card::{ChosenMethod, Notes};
 use crate::scene::sections::{ClockSection, FilmSection};
@@ -24,6 +25,9 @@ pub struct Overrides {
     pub method: Option<String>,
     /// Length of the run in seconds.
     pub duration: Option<f64>,
+    /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]; an empty list: no
+    /// layers at all. They change nothing of the run.
+    pub layers: Option<Vec<String>>,
 }
 
 /// Work to be done once when the whole scene stands: plugins add functions that need bodies and contacts.
@@ -89,6 +93,7 @@ impl Simulation {
         plugins: impl FnOnce(&mut App),
     ) -> Result<Self, SceneErrors> {
         let mut app = App::empty();
+        app.insert_resource(WantedLayers(overrides.layers.clone()));
         let header = read(&mut app, source, plugins)?;
         app.finish();
         app.cleanup();
@@ -193,6 +198,7 @@ pub(crate) fn read(app: &mut App, source: &Source, plugins: impl FnOnce(&mut App
     plugins(app);
     let header = scene::load(app, source)?;
     contacts::install_default(&header.outline, app);
+    layers::install_wanted(&header.outline, app);
     Ok(header)
 }
 

@@ -93,7 +93,7 @@ impl Order<'_> {
         mut sampler: Option<Sampler>,
     ) -> (Option<Bounds>, Option<Vec<Plot>>) {
         let progress = Progress::new(schedule.frames(), "frames looked ahead", self.silent);
-        let mut recorder = Recorder::default();
+        let mut recorder = Recorder::bare();
         // The bounds of all frames, and of those before anything leaves at enormous speed.
         let (mut all, mut tame) = (None, None);
         let mut room = f64::INFINITY;

@@ -4,6 +4,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use crate::integrate::Methods;
+use crate::record::layers::WORDS;
 use crate::scene::sections::{ClockSection, film};
 use crate::scene::units::Time;
 use crate::simulation::Overrides;
@@ -38,7 +39,7 @@ pub(super) struct OverrideFlags {
 impl OverrideFlags {
     /// What is to be otherwise than the scene says.
     pub fn overrides(&self) -> Overrides {
-        Overrides { tick: self.tick, method: self.method.clone(), duration: self.duration }
+        Overrides { tick: self.tick, method: self.method.clone(), duration: self.duration, ..Overrides::default() }
     }
 }
 
@@ -112,6 +113,26 @@ pub(super) fn moments(text: &str) -> Result<Moments, String> {
 /// The value of `--strip`: one value, not several of a list.
 #[derive(Clone, Debug)]
 pub(super) struct Moments(pub Vec<f64>);
+
+/// Layers of a film, separated by commas.
+pub(super) fn layers(text: &str) -> Result<LayerWords, String> {
+    let known = || WORDS.iter().map(|(word, _)| *word);
+    let words: Vec<String> = text.split(',').map(|word| word.trim().to_owned()).collect();
+    if words == ["none"] {
+        return Ok(LayerWords(Vec::new()));
+    }
+    match words.iter().find(|word| !known().any(|known| known == **word)) {
+        Some(wrong) => {
+            let known = known().collect::<Vec<_>>().join(", ");
+            Err(format!("there is no layer `{wrong}`; layers are {known}, separated by commas, or none of them: none"))
+        }
+        None => Ok(LayerWords(words)),
+    }
+}
+
+/// The value of `--layers`: one value, not several of a list.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LayerWords(pub Vec<String>);
 
 /// Columns and rows of a contact sheet.
 pub(super) fn sheet(text: &str) -> Result<(u32, u32), String> {
@@ -192,6 +213,15 @@ mod tests {
         assert_eq!(sheet("4x3"), Ok((4, 3)));
         for text in ["0x3", "4", "4x", "x3", "400x2", "99999999999x1"] {
             assert!(sheet(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn layers_are_named_by_words() {
+        assert_eq!(layers("trails, time").map(|words| words.0), Ok(vec!["trails".to_owned(), "time".to_owned()]));
+        assert_eq!(layers("none"), Ok(LayerWords(Vec::new())));
+        for text in ["", "trail", "trails,", "none,trails", "Trails"] {
+            assert!(layers(text).is_err(), "{text}");
         }
     }
 

@@ -3,11 +3,10 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use super::flags::OverrideFlags;
 use super::say::{print_line, say};
 use super::{Exit, examples};
 use crate::scene::{SceneError, SceneErrors, Source};
-use crate::simulation::Simulation;
+use crate::simulation::{Overrides, Simulation};
 
 /// What scenes that come with the program are called by.
 pub(super) const EXAMPLE: &str = "example:";
@@ -24,14 +23,18 @@ pub(super) struct Request<'a> {
 impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
-    pub fn load(self, flags: &OverrideFlags) -> Result<(Source, Simulation), Exit> {
-        self.read(flags).map_err(|errors| self.refuse_scene(&errors))
+    pub fn load(self, settings: &[(String, String)], overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
+        self.read(settings, overrides).map_err(|errors| self.refuse_scene(&errors))
     }
 
     /// Reads and prepares the scene; prints nothing.
-    pub fn read(self, flags: &OverrideFlags) -> Result<(Source, Simulation), SceneErrors> {
-        let source = source(self.name)?.with_settings(&flags.settings);
-        let simulation = Simulation::load_with(&source, &flags.overrides(), |_| {})?;
+    pub fn read(
+        self,
+        settings: &[(String, String)],
+        overrides: &Overrides,
+    ) -> Result<(Source, Simulation), SceneErrors> {
+        let source = source(self.name)?.with_settings(settings);
+        let simulation = Simulation::load_with(&source, overrides, |_| {})?;
         Ok((source, simulation))
     }
 

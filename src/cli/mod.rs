@@ -2,6 +2,7 @@
 
 mod aim;
 mod check;
+mod colors;
 mod examples;
 mod explain;
 mod film;

@@ -117,7 +117,7 @@ impl PlotCommand {
 
     /// The plots of a scene, or of channels of it.
     fn of_scene(&self, request: Request) -> Result<(Vec<Plot>, Exit), Exit> {
-        let (_, mut simulation) = request.load(&self.overrides)?;
+        let (_, mut simulation) = request.load(&self.overrides.settings, &self.overrides.overrides())?;
         let own = simulation.world().get_resource::<PlotsSection>().map_or_else(Vec::new, |plots| plots.0.clone());
         let entries = if self.channels.is_empty() {
             if self.x.is_some() {

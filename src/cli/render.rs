@@ -12,6 +12,7 @@ use super::result::{self, Detail};
 use super::say::{count as in_words, say};
 use super::target::{Place, Wish, places};
 use crate::output::{Target, Written};
+use crate::simulation::Overrides;
 
 /// The command `render`.
 #[derive(Args, Debug)]
@@ -52,6 +53,13 @@ pub(super) struct Render {
     /// Frames per second of the film, instead of the scene's; a GIF shows at most 50
     #[arg(long, value_name = "N", value_parser = flags::rate, allow_negative_numbers = true)]
     fps: Option<f64>,
+    /// Colours, instead of the scene's: paper, night or print, or a file such as mine.ron
+    #[arg(long, value_name = "NAME")]
+    theme: Option<String>,
+    /// What is drawn beside the bodies, in addition to the scene's layers: trails, forces, velocities, boxes, names,
+    /// contacts, scale, time, separated by commas; `none`: nothing, not even the scene's
+    #[arg(long, value_name = "LAYER,LAYER", value_parser = flags::layers)]
+    layers: Option<flags::LayerWords>,
     #[command(flatten)]
     overrides: OverrideFlags,
     /// Threads that draw; the film does not depend on it. Default: one for each core
@@ -71,6 +79,7 @@ Examples:
   jostle render my.ron -o still.png --at 1.5          one picture, after 1.5 s
   jostle render my.ron -o strip.png --strip 0,0.5,1   three pictures side by side
   jostle render my.ron -o sheet.png --sheet 4x3       twelve moments of the film with their times
+  jostle render my.ron --theme night --layers trails,forces
   jostle render my.ron --max-size 2MB                 a GIF that fits
   jostle render my.ron -o film.mp4                    a video, if ffmpeg is installed
   jostle render my.ron -o - --size 640x360 | ffplay -f rawvideo -pixel_format rgba -video_size 640x360 -
@@ -124,8 +133,9 @@ impl Render {
     }
 
     fn render(&self, request: Request, place: &Place) -> Exit {
-        let overrides = self.overrides.overrides();
-        let (source, mut simulation) = match request.load(&self.overrides) {
+        let layers = self.layers.clone().map(|layers| layers.0);
+        let overrides = Overrides { layers, ..self.overrides.overrides() };
+        let (source, mut simulation) = match request.load(&self.overrides.settings, &overrides) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
@@ -138,6 +148,7 @@ impl Render {
             size: self.size,
             frames_per_second: self.fps,
             threads: self.threads,
+            theme: self.theme.as_deref(),
             most_bytes: self.max_size,
             pace: self.pace,
             silent: self.quiet || self.json,

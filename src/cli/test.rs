@@ -156,7 +156,7 @@ impl Test {
             return Tried::Skipped(other);
         }
         let request = Request { name, json: self.json };
-        Tried::Trial(Box::new(match request.read(&self.overrides) {
+        Tried::Trial(Box::new(match request.read(&self.overrides.settings, &self.overrides.overrides()) {
             Err(errors) => Trial::refused(errors),
             Ok((_, mut simulation)) => {
                 let failure = simulation.run_to_end().err();

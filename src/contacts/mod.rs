@@ -2,6 +2,7 @@
 
 pub mod events;
 pub mod penalty;
+pub mod points;
 pub mod response;
 pub mod search;
 

@@ -8,6 +8,7 @@ use tiny_skia::Pixmap;
 use super::*;
 use crate::raster::{Bounds, Camera, Painter, Scratch, Theme};
 use crate::record::frame::{BodyLook, Cast, Disc, Pose, WallLook};
+use crate::record::layers::{Mark, MarkShape};
 
 const SIZE: (u32, u32) = (160, 120);
 
@@ -61,7 +62,7 @@ fn frames(count: usize) -> Vec<Frame> {
         let time = 0.04 * place as f64;
         let pose = |x, y, angle| Pose { position: DVec2::new(x, y), angle };
         let poses = vec![pose(2.0, 0.5, 0.0), pose(0.5 + time, 1.5, 2.0 * time), pose(3.5 - time, 2.0, -time)];
-        Frame { time, cast: cast.clone(), poses, marks: Vec::new(), center: None }
+        Frame { time, cast: cast.clone(), poses, marks: vec![Mark::plain(MarkShape::Time)], center: None }
     };
     (0..count).map(frame).collect()
 }

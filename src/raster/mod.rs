@@ -20,12 +20,15 @@ pub use plots::{Panel, figure};
 pub use theme::{COLOR_NAMES, Swatch, Theme, Tint};
 
 use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
+use crate::record::layers::MarkShape;
 use canvas::Canvas;
 use layers::bodies::Figure;
 use layers::clock::Clock;
 use layers::labels::{Column, longest_word};
 use layers::title::Title;
-use layers::{backdrop, clock, marks, walls};
+use layers::trails::{Cover, Trail};
+use layers::writing::Writing;
+use layers::{backdrop, clock, marks, scales, walls};
 use plots::{Cards, Tools};
 use silhouette::Field;
 use text::{Lettering, Weight};
@@ -79,6 +82,7 @@ impl std::error::Error for SizeError {}
 #[derive(Debug, Default)]
 pub struct Scratch {
     field: Field,
+    cover: Cover,
     tools: Tools,
 }
 
@@ -93,7 +97,10 @@ pub struct Painter {
     fixed: Vec<(usize, Figure)>,
     title: Title,
     clock: Clock,
+    writing: Writing,
     labels: Column,
+    /// The fill of each body.
+    fills: Vec<Rgb>,
     cards: Option<Cards>,
     backdrop: Pixmap,
 }
@@ -119,7 +126,7 @@ impl Painter {
         let room = walls::room(walls, camera, theme);
         let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
         let needed = clock.width().max(longest_word(&cast.title, &lettering));
-        let column = Column::beside_or_in(room, weights.band, needed, weights.pad);
+        let column = Column::beside_or_in(room, weights.band, needed, weights.pad, (height as f32, weights.small));
         let title = Title::new(&cast.title, &lettering, &column, theme);
         let mut painter = Painter {
             view: view.clone(),
@@ -128,8 +135,10 @@ impl Painter {
             fixed,
             title,
             clock,
+            writing: Writing::new(weights.small, theme),
             labels: column,
             cards: view.panel.as_ref().map(|panel| Cards::new(panel, theme, &colors)),
+            fills: colors,
             backdrop: picture,
         };
         let mut backdrop = painter.backdrop.clone();
@@ -179,14 +188,30 @@ impl Painter {
         if frame.center.is_some() {
             self.paint_scenery(frame, camera, picture, &mut scratch.field);
         }
+        let line = Weights::of(self.view.size()).line;
+        self.paint_trails(frame, camera, picture, &mut scratch.cover);
         paint_figures(&self.figures, frame, camera, picture, &mut scratch.field);
-        marks::draw(picture, &frame.marks, camera, theme, Weights::of(self.view.size()).line);
+        marks::draw(picture, &frame.marks, camera, theme, line);
+        self.writing.label(picture, &frame.marks, camera);
         if self.labels.in_room {
             self.title.draw(picture);
         }
-        self.clock.draw(picture, frame.time, &self.labels, self.title.height());
+        scales::draw(picture, &frame.marks, (camera, theme), &self.labels, &self.writing, line);
+        if frame.marks.iter().any(|mark| mark.shape == MarkShape::Time) {
+            self.clock.draw(picture, frame.time, &self.labels, self.title.height());
+        }
         if let Some(cards) = &self.cards {
             cards.draw(picture, &self.backdrop, frame.time, &mut scratch.tools);
+        }
+    }
+
+    fn paint_trails(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, cover: &mut Cover) {
+        let mut canvas = Canvas::new(picture);
+        for mark in &frame.marks {
+            let MarkShape::Trail { body, points, step } = &mark.shape else { continue };
+            let fill = self.fills.get(*body).copied().unwrap_or(self.view.theme.ink);
+            let trail = Trail { points, step: *step, color: self.view.theme.trail.of(fill) };
+            trail.draw(&mut canvas, camera, Weights::of(self.view.size()).line, cover);
         }
     }
 
@@ -194,7 +219,7 @@ impl Painter {
     pub fn flat_colors(&self) -> Vec<Rgb> {
         let theme = &self.view.theme;
         let mut colors = vec![theme.background, theme.grid, theme.ground, theme.wall, theme.ink, theme.quiet_ink];
-        colors.push(theme.outline.of(theme.wall));
+        colors.extend([theme.outline.of(theme.wall), theme.force, theme.velocity]);
         for wall in &self.cast.walls {
             let own = wall.color.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.wall);
             colors.extend([own, theme.outline.of(own)]);
@@ -242,6 +267,7 @@ struct Weights {
     pad: f32,
     title: f32,
     clock: f32,
+    small: f32,
 }
 
 impl Weights {
@@ -255,6 +281,7 @@ impl Weights {
             // Smaller letters than these cannot be read.
             title: (24.0 * unit).max(13.0),
             clock: (20.0 * unit).max(12.0),
+            small: (16.0 * unit).max(11.0),
         }
     }
 }

@@ -2,6 +2,7 @@ use glam::DVec2;
 
 use super::*;
 use crate::record::frame::{BodyLook, Disc, Pose, WallLook};
+use crate::record::layers::Mark;
 
 fn ball(name: &str, fixed: bool) -> BodyLook {
     let discs = vec![Disc { offset: DVec2::ZERO, radius: 0.5 }];
@@ -26,7 +27,7 @@ fn frame() -> Frame {
         time: 1.25,
         cast: Arc::new(cast),
         poses: vec![pose(1.0, 3.0), pose(4.0, 2.0)],
-        marks: Vec::new(),
+        marks: vec![Mark::plain(MarkShape::Time)],
         center: None,
     }
 }

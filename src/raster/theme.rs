@@ -5,9 +5,10 @@ use serde::{Deserialize, Deserializer, de};
 use crate::record::frame::Rgb;
 
 /// The themes that come with the program: name and RON text. The first is the default.
-const THEMES: [(&str, &str); 2] = [
+const THEMES: [(&str, &str); 3] = [
     ("paper", include_str!("../../assets/themes/paper.ron")),
     ("night", include_str!("../../assets/themes/night.ron")),
+    ("print", include_str!("../../assets/themes/print.ron")),
 ];
 
 /// The names of colours that every theme has, in the order of its palette.
@@ -54,6 +55,14 @@ pub struct Theme {
     pub outline: Tint,
     /// From a fill to the marks on it: the atoms of a body, the spoke of a ball.
     pub mark: Tint,
+    /// From the fill of a body to its trail.
+    pub trail: Tint,
+    /// Arrows of forces, and contact points.
+    #[serde(deserialize_with = "hexadecimal")]
+    pub force: Rgb,
+    /// Arrows of velocities.
+    #[serde(deserialize_with = "hexadecimal")]
+    pub velocity: Rgb,
     /// Name of the palette's colour for fixed bodies without a colour of their own.
     pub fixed: String,
     /// Names of the palette's colours given in turn to moving bodies without a colour of their own.
@@ -94,7 +103,26 @@ impl Theme {
     /// ```
     pub fn named(name: &str) -> Option<Theme> {
         let (_, text) = THEMES.iter().find(|(known, _)| *known == name)?;
-        ron::from_str(text).ok()
+        Theme::read(text).ok()
+    }
+
+    /// A theme from its RON text, written like those in `assets/themes`.
+    ///
+    /// # Errors
+    /// What is wrong with it, with line and column where there is one. A theme has exactly the colours of
+    /// [`COLOR_NAMES`], in their order, so that scenes can count on them.
+    pub fn read(text: &str) -> Result<Theme, String> {
+        let theme: Theme = ron::from_str(text).map_err(|error| error.to_string())?;
+        if !theme.color_names().eq(COLOR_NAMES) {
+            return Err(format!("its palette must have these colours in this order: {}", COLOR_NAMES.join(", ")));
+        }
+        if theme.cycle.is_empty() {
+            return Err("its `cycle` has no colours".to_owned());
+        }
+        if let Some(name) = theme.cycle.iter().chain([&theme.fixed]).find(|name| theme.color(name).is_none()) {
+            return Err(format!("\"{name}\" is none of its colours"));
+        }
+        Ok(theme)
     }
 
     /// The names of all themes; the first is the default.
@@ -106,6 +134,17 @@ impl Theme {
     pub fn color(&self, name: &str) -> Option<Rgb> {
         let swatch = self.palette.iter().find(|swatch| swatch.name == name);
         swatch.map_or_else(|| parse(name), |swatch| Some(swatch.color))
+    }
+
+    /// The colour of a mark of a layer: a role of the theme, a colour that a scene may name, or ink.
+    pub fn mark_color(&self, name: Option<&str>) -> Rgb {
+        match name {
+            Some("force") => self.force,
+            Some("velocity") => self.velocity,
+            Some("quiet") => self.quiet_ink,
+            Some(name) => self.color(name).unwrap_or(self.ink),
+            None => self.ink,
+        }
     }
 
     /// The names of the palette's colours, in the order of the theme.
@@ -157,11 +196,22 @@ mod tests {
     #[test]
     fn every_shipped_theme_reads_and_names_only_colours_it_has() {
         for (name, text) in THEMES {
-            let theme: Theme = ron::from_str(text).unwrap_or_else(|error| panic!("{name}: {error}"));
-            for color in theme.cycle.iter().chain([&theme.fixed]) {
-                assert!(theme.color(color).is_some(), "{name} has no {color}");
-            }
-            assert!(theme.color_names().eq(COLOR_NAMES), "{name} has other colours");
+            Theme::read(text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        }
+    }
+
+    #[test]
+    fn a_theme_that_lacks_something_is_refused() {
+        let paper = THEMES[0].1;
+        for (from, to, message) in [
+            ("(name: \"teal\"", "(name: \"tael\"", "sky, orange, teal"),
+            ("fixed: \"grey\"", "fixed: \"gray\"", "\"gray\" is none"),
+            ("background: \"#FAF9F6\"", "background: \"#FAF9\"", "write \"#rrggbb\""),
+            ("wall:", "wal:", "wal"),
+        ] {
+            assert!(paper.contains(from), "{from}");
+            let error = Theme::read(&paper.replacen(from, to, 1)).expect_err(to);
+            assert!(error.contains(message), "{error}");
         }
     }
 

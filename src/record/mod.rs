@@ -9,6 +9,6 @@ mod recorder;
 mod schedule;
 pub mod spool;
 
-pub use layers::{FilmAppExt, Mark, MarkShape};
+pub use layers::{FilmAppExt, Layer, Mark, MarkShape};
 pub use recorder::Recorder;
 pub use schedule::Schedule;

@@ -17,9 +17,18 @@ pub struct Recorder {
     cast: Arc<Cast>,
     generation: Option<u64>,
     before: Vec<(u64, Moment)>,
+    /// Poses alone: no layers.
+    bare: bool,
+    /// The last tick at which layers looked.
+    looked: Option<u64>,
 }
 
 impl Recorder {
+    /// One that takes frames without layers, for whoever wants to know where bodies are.
+    pub fn bare() -> Self {
+        Self { bare: true, ..Self::default() }
+    }
+
     /// Runs to `time` seconds and takes the frame. Times may not go back by more than a tick.
     ///
     /// # Errors
@@ -30,6 +39,7 @@ impl Recorder {
         let exact = time / dt;
         let on_tick = (exact - exact.round()).abs() < 1e-6;
         let tick = if on_tick { exact.round() } else { exact.floor() } as u64;
+        self.look_on_the_way(simulation, tick, time)?;
         simulation.run_to_tick(tick)?;
         if !on_tick && simulation.clock().ticks == tick {
             self.before = moments(simulation.bodies(), simulation.clock().time());
@@ -42,8 +52,25 @@ impl Recorder {
             let before = before.filter(|before| !on_tick && before.time <= time).unwrap_or(after);
             Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
         };
-        let marks = Layers::marks(simulation.world());
+        let marks = if self.bare { Vec::new() } else { Layers::marks(simulation.world()) };
         Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect(), marks, center: None })
+    }
+
+    /// Runs on, up to a tick, and stops wherever a layer looks.
+    fn look_on_the_way(&mut self, simulation: &mut Simulation, tick: u64, time: f64) -> Result<(), Failure> {
+        let dt = simulation.clock().dt;
+        while let Some(next) = Layers::next_look(simulation.world(), self.looked, time, dt)
+            && next <= tick
+            && !self.bare
+        {
+            self.looked = Some(next);
+            simulation.run_to_tick(next)?;
+            // What has gone by unseen cannot be looked at.
+            if simulation.clock().ticks == next {
+                Layers::look(simulation.world_mut(), next, dt);
+            }
+        }
+        Ok(())
     }
 
     fn refresh_cast(&mut self, simulation: &Simulation) {

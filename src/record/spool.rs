@@ -133,19 +133,59 @@ fn pack(frame: &Frame, cast: usize) -> Vec<u8> {
     }
     count(&mut bytes, frame.marks.len());
     for mark in &frame.marks {
-        let (kind, numbers) = match mark.shape {
-            MarkShape::Line(a, b) => (0, [a.x, a.y, b.x, b.y]),
-            MarkShape::Arrow(a, b) => (1, [a.x, a.y, b.x, b.y]),
-            MarkShape::Circle(center, radius) => (2, [center.x, center.y, radius, 0.0]),
-        };
-        count(&mut bytes, kind);
+        let (kind, numbers, text) = parts(&mark.shape);
+        for number in [kind, numbers.len(), text.len(), mark.color.as_ref().map_or(0, |color| color.len() + 1)] {
+            count(&mut bytes, number);
+        }
         numbers.into_iter().for_each(|number| real(&mut bytes, number));
-        let color = mark.color.as_deref();
-        // A length more than there is says that there is a colour, if an empty one.
-        count(&mut bytes, color.map_or(0, |color| color.len() + 1));
-        bytes.extend(color.unwrap_or_default().as_bytes());
+        bytes.extend(text.as_bytes());
+        bytes.extend(mark.color.as_deref().unwrap_or_default().as_bytes());
     }
     bytes
+}
+
+/// A shape as its kind, its numbers and its text.
+fn parts(shape: &MarkShape) -> (usize, Vec<f64>, &str) {
+    let pair = |a: &DVec2, b: &DVec2| vec![a.x, a.y, b.x, b.y];
+    match shape {
+        MarkShape::Line(from, to) => (0, pair(from, to), ""),
+        MarkShape::Arrow(from, to) => (1, pair(from, to), ""),
+        MarkShape::LongArrow(from, to) => (2, pair(from, to), ""),
+        MarkShape::Circle(center, radius) => (3, vec![center.x, center.y, *radius], ""),
+        MarkShape::Dot(at) => (4, vec![at.x, at.y], ""),
+        MarkShape::Rectangle(low, high) => (5, pair(low, high), ""),
+        MarkShape::Trail { body, points, step } => {
+            // A place is a whole number that `f64` counts exactly.
+            let numbers = [*body as f64, *step].into_iter().chain(points.iter().flat_map(|point| [point.x, point.y]));
+            (6, numbers.collect(), "")
+        }
+        MarkShape::Label { at, clear, text } => (7, vec![at.x, at.y, *clear], text),
+        MarkShape::Key { length, text } => (8, vec![*length], text),
+        MarkShape::ScaleBar => (9, Vec::new(), ""),
+        MarkShape::Time => (10, Vec::new(), ""),
+    }
+}
+
+/// The shape that has these parts.
+fn shape(kind: u64, numbers: &[f64], text: String) -> Option<MarkShape> {
+    let point = |place: usize| Some(DVec2::new(*numbers.get(place)?, *numbers.get(place + 1)?));
+    Some(match kind {
+        0 => MarkShape::Line(point(0)?, point(2)?),
+        1 => MarkShape::Arrow(point(0)?, point(2)?),
+        2 => MarkShape::LongArrow(point(0)?, point(2)?),
+        3 => MarkShape::Circle(point(0)?, *numbers.get(2)?),
+        4 => MarkShape::Dot(point(0)?),
+        5 => MarkShape::Rectangle(point(0)?, point(2)?),
+        6 => {
+            let points = numbers.get(2..)?.chunks_exact(2).map(|pair| DVec2::new(pair[0], pair[1])).collect();
+            MarkShape::Trail { body: *numbers.first()? as usize, points, step: *numbers.get(1)? }
+        }
+        7 => MarkShape::Label { at: point(0)?, clear: *numbers.get(2)?, text },
+        8 => MarkShape::Key { length: *numbers.first()?, text },
+        9 => MarkShape::ScaleBar,
+        10 => MarkShape::Time,
+        _ => return None,
+    })
 }
 
 /// Reads a frame with the length before it.
@@ -164,17 +204,19 @@ fn read(file: &mut impl Read, casts: &[Arc<Cast>]) -> io::Result<Frame> {
 }
 
 fn mark(rest: &mut &[u8]) -> io::Result<Mark> {
-    let (kind, from, to) = (number(rest)?, point(rest)?, point(rest)?);
-    let shape = match kind {
-        0 => MarkShape::Line(from, to),
-        1 => MarkShape::Arrow(from, to),
-        _ => MarkShape::Circle(from, to.x),
-    };
-    let length = number(rest)?;
-    let mut color = vec![0; length.saturating_sub(1) as usize];
-    rest.read_exact(&mut color)?;
-    let color = (length > 0).then(|| String::from_utf8_lossy(&color).into_owned());
+    let (kind, numbers, letters, color) = (number(rest)?, number(rest)?, number(rest)?, number(rest)?);
+    let numbers = (0..numbers).map(|_| real(rest)).collect::<io::Result<Vec<_>>>()?;
+    let text = text(rest, letters)?;
+    let shape = shape(kind, &numbers, text).ok_or(io::ErrorKind::InvalidData)?;
+    // A length more than there is says that there is a colour, if an empty one.
+    let color = color.checked_sub(1).map(|length| self::text(rest, length)).transpose()?;
     Ok(Mark { shape, color })
+}
+
+fn text(rest: &mut &[u8], length: u64) -> io::Result<String> {
+    let mut bytes = vec![0; length as usize];
+    rest.read_exact(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 fn number(file: &mut impl Read) -> io::Result<u64> {
@@ -201,7 +243,15 @@ mod tests {
         let marks = vec![
             mark(MarkShape::Line(DVec2::X, DVec2::Y), None),
             mark(MarkShape::Arrow(DVec2::Y, DVec2::ONE), Some("teal")),
+            mark(MarkShape::LongArrow(DVec2::Y, DVec2::ONE), None),
             mark(MarkShape::Circle(DVec2::ONE, 0.25), Some("")),
+            mark(MarkShape::Dot(DVec2::X), Some("force")),
+            mark(MarkShape::Rectangle(DVec2::X, DVec2::ONE), None),
+            mark(MarkShape::Trail { body: 3, points: vec![DVec2::X, DVec2::Y], step: 0.1 }, None),
+            mark(MarkShape::Label { at: DVec2::X, clear: 0.5, text: "Bär".into() }, None),
+            mark(MarkShape::Key { length: 0.3, text: "2 µN".into() }, Some("force")),
+            mark(MarkShape::ScaleBar, None),
+            mark(MarkShape::Time, None),
         ];
         let frame = |time: u32| {
             let (cast, poses) = if time < 3 { (&one, time) } else { (&two, 1) };

@@ -212,8 +212,8 @@ impl Loading<'_> {
         let Some((_, known)) = registry.sections.get_key_value(name) else {
             let help = {
                 let real = registry.sections.iter().filter(|(_, section)| !matches!(section.reader, Reader::Reserved));
-                let names = ["format", "title", "notes"].into_iter().chain(expand::SECTIONS);
-                let names = names.chain(real.map(|(name, _)| *name));
+                let real = real.map(|(name, _)| *name).filter(|name| !name.contains('.'));
+                let names = ["format", "title", "notes"].into_iter().chain(expand::SECTIONS).chain(real);
                 suggest::among(name, names.collect::<Vec<_>>().into_iter(), "sections", '`')
             };
             let error = SceneError::new("", format!("there is no section `{name}`"));
@@ -233,6 +233,7 @@ impl Loading<'_> {
                         self.header.outline.add_section(name, false);
                         self.order.push(Item::Section(self.sections.len()));
                         self.sections.push(WholeSection { order: known.order, scope: name.to_owned(), section });
+                        self.lists_inside(name, id);
                     }
                     Err(fault) => {
                         self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, known.example));
@@ -240,6 +241,17 @@ impl Loading<'_> {
                 }
             }
             Reader::Entries(arity, _) => self.entries_of(name, id, *arity),
+        }
+    }
+
+    /// Reads the fields of a section that are lists of entries.
+    fn lists_inside(&mut self, section: &str, id: Id) {
+        let Walked { text, tree } = self.walked;
+        for &field in tree.children(id) {
+            let name = format!("{section}.{}", &text[tree.key(field)]);
+            if let Some(Reader::Entries(arity, _)) = self.registry.sections.get(&*name).map(|known| &known.reader) {
+                self.entries_of(&name, field, *arity);
+            }
         }
     }
 
@@ -252,7 +264,7 @@ impl Loading<'_> {
         if none {
             return;
         }
-        if arity != Arity::List {
+        if !matches!(arity, Arity::List | Arity::Words) {
             self.entry(section, id, entry_scope(section, arity, 0));
             return;
         }
@@ -270,7 +282,7 @@ impl Loading<'_> {
     fn entry(&mut self, section: &str, id: Id, scope: String) {
         let Walked { text, tree } = self.walked;
         let registry = self.registry;
-        let Some(super::registry::SectionReader { reader: Reader::Entries(_, known), example, .. }) =
+        let Some(super::registry::SectionReader { reader: Reader::Entries(arity, known), example, .. }) =
             registry.sections.get(section)
         else {
             return;
@@ -305,22 +317,27 @@ impl Loading<'_> {
             self.errors.push(error.at(head, "not available yet").with_help(help));
             return;
         };
-        if tree.node(id).form == Form::Word {
-            let error = SceneError::new(scope, format!("brackets are missing after `{name}`"));
+        let bare = tree.node(id).form == Form::Word;
+        let without_brackets = || {
+            let error = SceneError::new(scope.clone(), format!("brackets are missing after `{name}`"));
             let help = format!("for example: {}", entry.example);
-            self.errors.push(error.at(head, "`(..)` expected after this").with_help(help));
+            error.at(head.clone(), "`(..)` expected after this").with_help(help)
+        };
+        if bare && *arity != Arity::Words {
+            self.errors.push(without_brackets());
             return;
         }
-        let written = &text[span.clone()];
+        let written = if bare { format!("{name}()") } else { text[span.clone()].to_owned() };
         // Only what stands in the brackets is read: the type's own name does not matter.
         let bracket = skip_blank(text, head.end).map_or(0, |at| at - span.start);
         let store = self.entries.entry((entry.order, key)).or_insert_with(make);
-        match store.push(written, bracket) {
+        match store.push(&written, if bare { name.len() } else { bracket }) {
             Ok(which) => {
-                let mention = Mention { name: name.to_owned(), path: scope.clone(), text: written.to_owned() };
+                let mention = Mention { name: name.to_owned(), path: scope.clone(), text: written };
                 self.header.outline.add_entry(section, mention);
                 self.order.push(Item::Entry { key: (entry.order, key), which, scope });
             }
+            Err(_) if bare => self.errors.push(without_brackets()),
             Err(fault) => {
                 self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, entry.example));
             }

@@ -80,6 +80,7 @@ pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub(crate) use outline::fits;
 pub use outline::{Kind, Mention, Obstacle, Outline};
+pub(crate) use registry::install_word;
 pub use registry::{Arity, Known, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};

@@ -16,6 +16,8 @@ use super::section::{Entry, Section, Written};
 pub enum Arity {
     /// Any number, in a list: `forces: [Drag(..), Thrust(..)]`.
     List,
+    /// Any number, in a list; one that needs no field may stand without brackets: `layers: [Trails(seconds: 2), Names]`.
+    Words,
     /// Exactly one: `camera: Fit(..)`.
     One,
     /// One, or the word `None`: `contacts: None`.
@@ -168,7 +170,8 @@ impl SceneRegistry {
         list
     }
 
-    /// The registered sections in the order of registration; reserved ones are left out.
+    /// The registered sections in the order of registration; reserved ones are left out, and lists of entries inside a
+    /// section (`look.layers`) as well.
     pub fn sections(&self) -> Vec<Known> {
         let known = |(name, section): (&'static str, &SectionReader)| {
             let (origin, takes_entries) = match section.reader {
@@ -178,7 +181,8 @@ impl SceneRegistry {
             };
             Some(Known { name, example: section.example, origin, takes_entries })
         };
-        self.readers().into_iter().filter_map(known).collect()
+        let outermost = self.readers().into_iter().filter(|(name, _)| !name.contains('.'));
+        outermost.filter_map(known).collect()
     }
 
     /// The entries of a section in the order of registration; reserved ones are left out.
@@ -229,6 +233,22 @@ fn shared_module(entries: &[Known]) -> &'static str {
     })
 }
 
+/// Installs an entry that stands in no scene, with the defaults of its fields. Returns whether there is such an entry and
+/// it needs no field.
+pub(crate) fn install_word(app: &mut App, outline: &Outline, section: &str, name: &str) -> bool {
+    let registry = app.world().get_resource::<SceneRegistry>();
+    let found = registry.and_then(|registry| match &registry.sections.get(section)?.reader {
+        Reader::Entries(_, entries) => entries.get(name)?.make,
+        _ => None,
+    });
+    let Some(mut store) = found.map(|make| make()) else { return false };
+    let read = store.push(&format!("{name}()"), name.len()).is_ok();
+    if read {
+        store.install(outline, app);
+    }
+    read
+}
+
 /// How plugins take part in the scene language. Everything here is called from `Plugin::build`.
 ///
 /// # Panics
@@ -238,7 +258,8 @@ pub trait SceneAppExt {
     /// Lets a type read a top-level section.
     fn register_section<S: Section>(&mut self) -> &mut Self;
 
-    /// Makes a top-level section that takes entries by their leading names. `example` is one correct use.
+    /// Makes a top-level section that takes entries by their leading names. `example` is one correct use. A name such as
+    /// `look.layers` is the field `layers` of the section `look`, whose type passes it over with [`Elsewhere`](super::values::Elsewhere).
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self;
 
     /// Says what such a section is for, in the manual and in the schema.
@@ -325,7 +346,7 @@ impl SceneAppExt for App {
 /// Where an entry's relative paths begin.
 pub(crate) fn entry_scope(section: &str, arity: Arity, index: usize) -> String {
     match arity {
-        Arity::List => join(section, &format!("[{index}]")),
+        Arity::List | Arity::Words => join(section, &format!("[{index}]")),
         Arity::One | Arity::OneOrNone => section.to_owned(),
     }
 }

@@ -115,6 +115,17 @@ impl<'de> Deserialize<'de> for WholeNumber {
     }
 }
 
+/// A field that is read elsewhere: a list of entries inside a section
+/// ([`register_entry_section`](super::SceneAppExt::register_entry_section)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Elsewhere;
+
+impl<'de> Deserialize<'de> for Elsewhere {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        reader.deserialize_ignored_any(de::IgnoredAny).map(|_| Self)
+    }
+}
+
 /// A choice of names: one, `"T"`, or several, `["T", "gas_*"]`; `*` stands for any run of characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {

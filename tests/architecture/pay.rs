@@ -26,6 +26,10 @@ fn a_scene_schedules_what_it_names_and_nothing_else() {
     for (sections, more) in [
         // What is only drawn, measured after the run, or said in words is not in the tick.
         (
+            "look: (theme: \"night\", layers: [Trails(seconds: 1), ContactForces, Velocities, ContactPoints, Names, Boxes]),",
+            [0, 0, 0],
+        ),
+        (
             "title: \"Words\", notes: \"More words.\", film: (fps: 25), camera: Look(center: (0, 0), height: 3),",
             [0, 0, 0],
         ),

@@ -28,7 +28,7 @@ fn help_of_a_command_names_its_flags() {
         ("run", "--output <channels.csv> --threads <N> --pace"),
         (
             "render",
-            "--output <OUT> --at <T> --size <WxH> --fps <N> --threads <N> --quiet --png --strip <T,T,T> --sheet <4x3> --max-size <SIZE> --pace",
+            "--output <OUT> --at <T> --size <WxH> --fps <N> --threads <N> --quiet --png --strip <T,T,T> --sheet <4x3> --max-size <SIZE> --pace --theme <NAME> --layers <LAYER,LAYER>",
         ),
         ("check", "--run"),
     ] {

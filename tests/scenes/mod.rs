@@ -6,5 +6,7 @@ mod extremes;
 mod film;
 mod manual;
 mod shipped;
+mod silhouettes;
 mod tour;
 mod wrong;
+mod wrong_mills;

@@ -58,7 +58,7 @@ struct System {
 impl Anatomy {
     /// Runs a scene twice and looks at it.
     pub fn of(request: Request, flags: &OverrideFlags) -> Result<Self, Exit> {
-        let (source, mut plain) = request.load(flags)?;
+        let (source, mut plain) = request.load(&flags.settings, &flags.overrides())?;
         let failure = run_for(&mut plain, BUDGET).err().map(|failure| failure.to_string());
         let ticks = plain.clock().ticks;
         let mut watched = Simulation::load_with(&source, &flags.overrides(), |_| {})

@@ -15,6 +15,7 @@ use self::attempt::{Attempt, attempt, refused};
 use self::table::{Row, Table};
 use self::vary::{Grid, Variation};
 use super::Exit;
+use super::colors;
 use super::film::{Order, Shot};
 use super::flags::{self, OverrideFlags};
 use super::load::{self, Request};
@@ -121,6 +122,10 @@ impl Sweep {
             Ok(plain) => plain,
             Err(errors) => return Ok(request.refuse_scene(&errors)),
         };
+        let theme = match colors::theme(request, &source, &plain, None) {
+            Ok(theme) => theme,
+            Err(exit) => return Ok(exit),
+        };
         grid.scene(&source, 0)?;
         std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
@@ -139,7 +144,7 @@ impl Sweep {
         write_whole(&path, &Table { names, rows }.to_csv()).map_err(|error| error.to_string())?;
         let image = folder.join(self.file("contact_sheet", "png"));
         if sheet {
-            picture::write(&image, &attempts, plain.film().size()).map_err(|error| error.to_string())?;
+            picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
         }
         if !self.quiet && !self.json {
             say(&format!("{}: {}, {seconds:.2} s", path.display(), summary(&attempts)));
@@ -241,6 +246,7 @@ impl Sweep {
             place: &Place { target, folder: None },
             shot: &Shot::Film,
             size: self.size,
+            theme: None,
             frames_per_second: None,
             threads: Some(1),
             most_bytes: None,

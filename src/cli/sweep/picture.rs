@@ -15,7 +15,12 @@ const WIDTH: u32 = 360;
 
 /// Writes the sheet: all pictures are seen by one camera, so that they can be compared. A camera that fits shows what is
 /// there at the end of all runs. `proportions` are those of the film.
-pub(super) fn write(path: &Path, attempts: &[Attempt], proportions: (u32, u32)) -> Result<(), OutputError> {
+pub(super) fn write(
+    path: &Path,
+    attempts: &[Attempt],
+    proportions: (u32, u32),
+    theme: Theme,
+) -> Result<(), OutputError> {
     let pictures: Vec<_> = attempts.iter().filter_map(|attempt| attempt.picture.as_ref()).collect();
     let Some((_, choice)) = pictures.first() else { return Ok(()) };
     let size = (WIDTH, (WIDTH * proportions.1 / proportions.0.max(1)).max(16));
@@ -25,7 +30,6 @@ pub(super) fn write(path: &Path, attempts: &[Attempt], proportions: (u32, u32)) 
         Some(CameraChoice::Fit(fit)) => fitting(&pictures, fit.margin.si(), size),
         None => fitting(&pictures, FitCamera::default().margin.si(), size),
     };
-    let theme = Theme::names().first().and_then(|name| Theme::named(name)).expect("a theme comes with the program");
     let view = View { camera, theme, frame_step: 0.01, panel: None };
     let columns = (pictures.len() as f64).sqrt().ceil() as u32;
     let rows = (pictures.len() as u32).div_ceil(columns);

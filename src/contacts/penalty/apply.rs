@@ -10,6 +10,7 @@ use super::law::{LawTable, PairLaw, Side};
 use super::normal::{Approach, Mode, NormalForce};
 use super::rest::Rest;
 use crate::contacts::events::Touches;
+use crate::contacts::points::{ContactPoint, Other};
 use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::tick::{Balance, Evaluation, Ledger};
@@ -304,6 +305,29 @@ fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePa
         let WallPair { wall, atom } = pairs.walls[touching.place as usize];
         touches.wall(body(atom), wall);
     }
+}
+
+/// All contacts of the present state, in canonical order.
+pub(super) fn contact_points(world: &World) -> Vec<ContactPoint> {
+    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+    let contacts = world.resource::<PenaltyContacts>();
+    let at = |end: &End, arm: DVec2| bodies.position[end.body] + arm;
+    let between = |touching: &Touching| {
+        let (pair, contact) = (pairs.atoms[touching.place as usize], &contacts.atoms[touching.place as usize]);
+        let (law, ends) = (contacts.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
+        let (_, arm) = arms(ends, touching.normal, contact.overlap, law);
+        let force = contact.force(law, touching.normal);
+        ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point: at(ends.1, arm), force }
+    };
+    let on_wall = |touching: &Touching| {
+        let (pair, contact) = (pairs.walls[touching.place as usize], &contacts.walls[touching.place as usize]);
+        let (law, end) = (contacts.laws.get(contact.law), End::of(bodies, pair.atom));
+        let arm = end.arm - touching.normal * (end.radius - contact.overlap);
+        let force = contact.force(law, touching.normal);
+        ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point: at(&end, arm), force }
+    };
+    let bodies_touch = contacts.touching_atoms.iter().map(between);
+    bodies_touch.chain(contacts.touching_walls.iter().map(on_wall)).collect()
 }
 
 impl PenaltyContacts {

@@ -29,6 +29,7 @@ pub use rolling::RollingContacts;
 use law::PairLaw;
 use normal::NormalForce;
 
+use super::points::TellContacts;
 use super::search::{self, FindPairs};
 use super::{ContactLaw, DeepestOverlap, StiffestContact};
 use crate::report::card::Notes;
@@ -158,7 +159,8 @@ pub fn install(settings: Penalty, app: &mut App) {
         .insert_resource(ContactLaw("Penalty"))
         .init_resource::<Materials>()
         .init_resource::<PenaltyContacts>()
-        .init_resource::<DeepestOverlap>();
+        .init_resource::<DeepestOverlap>()
+        .insert_resource(TellContacts(apply::contact_points));
     settings.normal.add_systems(app);
     app.add_packed_systems(Evaluate, 1, rest::settle_rest.after(EvaluateStage::Joints));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);

@@ -25,19 +25,36 @@ pub(in crate::raster) struct Column {
     pub(in crate::raster) width: f32,
     /// Whether bodies may pass behind.
     pub(in crate::raster) in_room: bool,
+    /// Baseline of the last line.
+    pub(in crate::raster) bottom: f32,
+    /// Whether that is the only line at the bottom: it stands on the ground below the room.
+    pub(in crate::raster) one_line: bool,
 }
 
 impl Column {
     /// The column for a room whose walls have a band `band` pixels wide. `needed` is the width of the widest label
-    /// that cannot be broken, `pad` the distance to keep from borders.
-    pub(in crate::raster) fn beside_or_in(room: Room, band: f32, needed: f32, pad: f32) -> Column {
+    /// that cannot be broken, `pad` the distance to keep from borders, `height` that of the picture, `small` that of
+    /// small print.
+    pub(in crate::raster) fn beside_or_in(
+        room: Room,
+        band: f32,
+        needed: f32,
+        pad: f32,
+        (height, small): (f32, f32),
+    ) -> Column {
         let beside = room.low.x as f32 - band - 2.0 * pad;
         if beside >= needed {
-            return Column { left: pad.round(), top: pad.round(), width: beside, in_room: false };
+            let (left, top, bottom) = (pad.round(), pad.round(), (height - pad).round());
+            return Column { left, top, width: beside, in_room: false, bottom, one_line: false };
         }
         let width = (room.high.x - room.low.x) as f32 - 2.0 * pad;
         let (left, top) = (room.low.x as f32 + pad, room.low.y as f32 + pad);
-        Column { left: left.round(), top: top.round(), width: width.max(needed), in_room: true }
+        let below = height - room.high.y as f32 - band;
+        let one_line = below >= 1.3 * small;
+        // Capitals are 0.73 em high: in the middle of the ground.
+        let bottom = if one_line { height - 0.5 * (below - 0.73 * small) } else { room.high.y as f32 - pad };
+        let (left, top, bottom) = (left.round(), top.round(), bottom.round());
+        Column { left, top, width: width.max(needed), in_room: true, bottom, one_line }
     }
 }
 
@@ -104,11 +121,16 @@ mod tests {
     #[test]
     fn a_square_room_in_a_wide_picture_has_its_labels_beside_it() {
         let room = Room { low: DVec2::new(310.0, 36.0), high: DVec2::new(970.0, 684.0) };
-        let column = Column::beside_or_in(room, 14.0, 150.0, 24.0);
-        assert_eq!(column, Column { left: 24.0, top: 24.0, width: 248.0, in_room: false });
+        let column = Column::beside_or_in(room, 14.0, 150.0, 24.0, (720.0, 16.0));
+        let beside = Column { left: 24.0, top: 24.0, width: 248.0, in_room: false, bottom: 696.0, one_line: false };
+        assert_eq!(column, beside);
         let wide = Room { low: DVec2::new(36.0, 36.0), high: DVec2::new(1244.0, 684.0) };
-        let column = Column::beside_or_in(wide, 14.0, 150.0, 24.0);
-        assert_eq!(column, Column { left: 60.0, top: 60.0, width: 1160.0, in_room: true });
+        let column = Column::beside_or_in(wide, 14.0, 150.0, 24.0, (720.0, 16.0));
+        let within = Column { left: 60.0, top: 60.0, width: 1160.0, in_room: true, bottom: 715.0, one_line: true };
+        assert_eq!(column, within);
+        let whole = Room { low: DVec2::ZERO, high: DVec2::new(1280.0, 720.0) };
+        let column = Column::beside_or_in(whole, 14.0, 150.0, 24.0, (720.0, 16.0));
+        assert_eq!((column.bottom, column.one_line), (696.0, false));
     }
 
     #[test]

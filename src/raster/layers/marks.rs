@@ -1,50 +1,122 @@
-//! What layers add: lines, arrows and circles of one width.
+//! What layers add in front of the bodies: lines, arrows, circles, dots, rectangles.
 
 use glam::DVec2;
-use tiny_skia::{LineCap, Path, PathBuilder, Pixmap, Stroke, Transform};
+use tiny_skia::{FillRule, LineCap, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 use super::paint;
+use crate::raster::canvas::{Canvas, Ink};
 use crate::raster::{Camera, Theme};
+use crate::record::frame::Rgb;
 use crate::record::layers::{Mark, MarkShape};
 
-/// Length of an arrow's head in line widths.
-const HEAD: f64 = 5.0;
+/// An arrow in line widths: its shaft, its head, and the halo around both that keeps it apart from bodies.
+const SHAFT: f64 = 1.5;
+const HEAD_LENGTH: f64 = 5.6;
+const HEAD_WIDTH: f64 = 5.2;
+const HALO: f64 = 0.7;
 
-/// Draws marks with lines of `width` pixels.
+/// The head takes at most this share of a short arrow; all its widths shrink with it.
+const HEAD_SHARE: f64 = 0.6;
+
+/// Radius of a dot in line widths.
+const DOT: f32 = 1.7;
+
+/// Draws marks with lines of `width` pixels. Trails, labels and what stands in corners are drawn elsewhere.
 pub(in crate::raster) fn draw(picture: &mut Pixmap, marks: &[Mark], camera: &Camera, theme: &Theme, width: f32) {
+    let place = |point: DVec2| camera.to_picture(point);
     for mark in marks {
-        let color = mark.color.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.ink);
-        let stroke = Stroke { width, line_cap: LineCap::Round, ..Stroke::default() };
-        if let Some(path) = path(&mark.shape, camera, f64::from(width)) {
-            picture.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
+        let color = theme.mark_color(mark.color.as_deref());
+        match mark.shape {
+            MarkShape::Line(from, to) => stroke(picture, line(place(from), place(to)), color, width),
+            MarkShape::Circle(center, radius) => {
+                let center = place(center);
+                let mut path = PathBuilder::new();
+                path.push_circle(center.x as f32, center.y as f32, (radius * camera.pixels_per_meter()) as f32);
+                stroke(picture, path.finish(), color, width);
+            }
+            MarkShape::Rectangle(low, high) => {
+                stroke(picture, rectangle(place(low), place(high)), color, 0.6 * width);
+            }
+            MarkShape::Dot(at) => {
+                let (at, ink) = (place(at), Ink { fill: color, outline: theme.background, width: 0.5 * width });
+                Canvas::new(picture).disc(at.x as f32, at.y as f32, DOT * width, &ink);
+            }
+            MarkShape::Arrow(from, to) => arrow(picture, (place(from), place(to)), 1, (color, theme.background), width),
+            MarkShape::LongArrow(from, to) => {
+                arrow(picture, (place(from), place(to)), 2, (color, theme.background), width);
+            }
+            MarkShape::Trail { .. } | MarkShape::Label { .. } => (),
+            MarkShape::Key { .. } | MarkShape::ScaleBar | MarkShape::Time => (),
         }
     }
 }
 
-/// The outline of a mark in pixels; `None` if it lies nowhere or has no extent.
-fn path(shape: &MarkShape, camera: &Camera, width: f64) -> Option<Path> {
-    let mut path = PathBuilder::new();
-    match *shape {
-        MarkShape::Line(from, to) => line(&mut path, camera.to_picture(from), camera.to_picture(to)),
-        MarkShape::Arrow(from, to) => {
-            let (from, to) = (camera.to_picture(from), camera.to_picture(to));
-            line(&mut path, from, to);
-            let length = (to - from).length();
-            if length > 0.0 {
-                let back = (from - to) / length * (HEAD * width).min(length);
-                line(&mut path, to + back + 0.5 * back.perp(), to);
-                line(&mut path, to + back - 0.5 * back.perp(), to);
-            }
-        }
-        MarkShape::Circle(center, radius) => {
-            let center = camera.to_picture(center);
-            path.push_circle(center.x as f32, center.y as f32, (radius * camera.pixels_per_meter()) as f32);
-        }
+fn stroke(picture: &mut Pixmap, path: Option<Path>, color: Rgb, width: f32) {
+    let stroke = Stroke { width, line_cap: LineCap::Round, ..Stroke::default() };
+    if let Some(path) = path {
+        picture.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
     }
+}
+
+fn line(from: DVec2, to: DVec2) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    path.move_to(from.x as f32, from.y as f32);
+    path.line_to(to.x as f32, to.y as f32);
     path.finish()
 }
 
-fn line(path: &mut PathBuilder, from: DVec2, to: DVec2) {
-    path.move_to(from.x as f32, from.y as f32);
-    path.line_to(to.x as f32, to.y as f32);
+fn rectangle(a: DVec2, b: DVec2) -> Option<Path> {
+    polygon(&[a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)])
+}
+
+fn polygon(corners: &[DVec2]) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    let (first, others) = corners.split_first()?;
+    path.move_to(first.x as f32, first.y as f32);
+    for corner in others {
+        path.line_to(corner.x as f32, corner.y as f32);
+    }
+    path.close();
+    path.finish()
+}
+
+/// Draws an arrow between two places in pixels, with so many heads, in its colour within a halo.
+pub(in crate::raster) fn arrow(
+    picture: &mut Pixmap,
+    (from, to): (DVec2, DVec2),
+    heads: usize,
+    (color, halo): (Rgb, Rgb),
+    width: f32,
+) {
+    let Some(along) = (to - from).try_normalize() else { return };
+    let length = from.distance(to);
+    let width = f64::from(width);
+    let scale = (HEAD_SHARE * length / (HEAD_LENGTH * width)).min(1.0) * width;
+    for (grown, color) in [(HALO * width, halo), (0.0, color)] {
+        // The second head comes a little before the first.
+        for head in (0..heads).rev() {
+            let to = to - along * (0.62 * HEAD_LENGTH * scale * head as f64);
+            let path = outline(from, to, along, scale, grown);
+            if let Some(path) = path {
+                picture.fill_path(&path, &paint(color), FillRule::Winding, Transform::identity(), None);
+            }
+        }
+    }
+}
+
+/// The outline of an arrow, grown by so many pixels on all sides but at its sharp corners.
+fn outline(from: DVec2, to: DVec2, along: DVec2, scale: f64, grown: f64) -> Option<Path> {
+    let across = along.perp();
+    let (shaft, wing) = (0.5 * SHAFT * scale + grown, 0.5 * HEAD_WIDTH * scale + 1.3 * grown);
+    let neck = to - along * (HEAD_LENGTH * scale + grown);
+    let (start, tip) = (from - along * grown, to + along * (1.5 * grown));
+    polygon(&[
+        start + across * shaft,
+        neck + across * shaft,
+        neck + across * wing,
+        tip,
+        neck - across * wing,
+        neck - across * shaft,
+        start - across * shaft,
+    ])
 }

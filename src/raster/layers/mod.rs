@@ -5,8 +5,11 @@ pub(super) mod bodies;
 pub(super) mod clock;
 pub(super) mod labels;
 pub(super) mod marks;
+pub(super) mod scales;
 pub(super) mod title;
+pub(super) mod trails;
 pub(super) mod walls;
+pub(super) mod writing;
 
 use tiny_skia::{Color, Paint};
 

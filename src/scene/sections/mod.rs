@@ -10,7 +10,9 @@ pub mod fill;
 pub mod film;
 mod install;
 pub mod kinematic;
+pub mod look;
 pub mod plots;
+pub mod region;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -20,5 +22,7 @@ pub use fill::{FillEntry, FillSection};
 pub use film::{FilmSection, FreezeEntry};
 pub use install::plugin;
 pub use kinematic::{KinematicEntry, PathEntry};
+pub use look::LookSection;
 pub use plots::{HistogramEntry, PlotEntry, PlotsSection};
+pub use region::Region;
 pub use walls::{WallEntry, WallsSection};

@@ -1,0 +1,55 @@
+//! `Boxes(of: ["T"])`: the bounding boxes of bodies, as the search for contacts sees them but for its margin.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::{FilmAppExt, Mark, MarkShape, Shown};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::world::Bodies;
+
+/// Bounding boxes.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Boxes {
+    /// Names of bodies, `*` matches. Default: all that move.
+    #[serde(default)]
+    of: Option<Names>,
+}
+
+impl Entry for Boxes {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "Boxes";
+    const EXAMPLE: &'static str = "Boxes(of: [\"ball\"])";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of.as_ref(), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let shown = Shown::new(entry.value.of.as_ref(), outline);
+            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
+                let bodies = world.resource::<Bodies>();
+                let boxes = shown.places(bodies).filter_map(|body| bounding_box(bodies, body));
+                marks.extend(boxes.map(|(low, high)| Mark::new(MarkShape::Rectangle(low, high), "quiet")));
+            });
+        }
+    }
+}
+
+/// Lower left and upper right corner of the box around a body's atoms, in metres; none without atoms.
+pub(super) fn bounding_box(bodies: &Bodies, body: usize) -> Option<(DVec2, DVec2)> {
+    let atom = |atom: usize| {
+        let (center, radius) = (bodies.atom_position[atom], DVec2::splat(bodies.atom_radius[atom]));
+        (center - radius, center + radius)
+    };
+    bodies.atoms_of(body).map(atom).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Boxes>();
+}

@@ -1,0 +1,151 @@
+//! `ContactForces(of: ["T"], scale: "10 N")`: the forces that contacts give, as arrows.
+//!
+//! What two bodies, or a body and a wall, give each other through neighbouring atoms in about one direction is one arrow:
+//! the resultant, at the centre of pressure. The arrow begins there and points into the body that receives the force; of
+//! two bodies that is the one that the contact bears up, and without gravity the later one in the scene. Forces are those
+//! at the end of a tick, not means over a frame: in an impact of a few ticks they are large, and between frames unseen.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::scale::{Scale, round_up};
+use super::{FilmAppExt, Mark, PictureHeight, Shown};
+use crate::contacts::points::{ContactPoint, Other, contact_points};
+use crate::forces::gravity::Gravity;
+use crate::scene::sections::look::LAYERS;
+use crate::scene::units::Force;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::simulation::Finishers;
+use crate::world::Bodies;
+
+/// Contact forces.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ContactForces {
+    /// Names of bodies, `*` matches. Default: all that move.
+    #[serde(default)]
+    of: Option<Names>,
+    /// The force whose arrow is a tenth of the picture's height long, in N. Default: from the weight of a body of the
+    /// scene, and without gravity from the force with which it stops.
+    #[serde(default)]
+    scale: Option<Force>,
+}
+
+impl Entry for ContactForces {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "ContactForces";
+    const EXAMPLE: &'static str = "ContactForces(of: [\"ball\"], scale: \"10 N\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of.as_ref(), outline, report);
+        report.positive_if_given("scale", self.scale);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        app.world_mut().get_resource_or_init::<Finishers>().0.push(note_start);
+        for entry in entries {
+            let (shown, given) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.scale.map(Force::si));
+            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
+                let typical = world.get_resource::<TypicalForce>().map_or(1.0, |typical| typical.0);
+                let scale = Scale::new(given.unwrap_or(typical), PictureHeight::of(world), "N", "force");
+                marks.push(scale.key());
+                let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
+                let up = -world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0);
+                let loads = loads(contact_points(world), |body| places.binary_search(&body).is_ok());
+                marks.extend(loads.iter().filter_map(|load| {
+                    let turned = matches!(load.other, Other::Body(_)) && load.force.dot(up) < 0.0;
+                    scale.arrow(load.point, if turned { -load.force } else { load.force })
+                }));
+            });
+        }
+    }
+}
+
+/// Forces within this angle of the first one of a load count as one direction: its cosine, of 20 degrees.
+const ALIKE: f64 = 0.94;
+
+/// Contacts of one pair of bodies in about one direction, put together.
+fn loads(contacts: Vec<ContactPoint>, shown: impl Fn(usize) -> bool) -> Vec<ContactPoint> {
+    let is_shown =
+        |contact: &ContactPoint| shown(contact.body) || matches!(contact.other, Other::Body(other) if shown(other));
+    let mut loads: Vec<ContactPoint> = Vec::new();
+    // Of each load the direction of its first force, and the sum of forces by which its point is weighted.
+    let mut sums: Vec<(DVec2, f64)> = Vec::new();
+    for contact in contacts.into_iter().filter(is_shown) {
+        let (size, direction) = (contact.force.length(), contact.force.normalize_or_zero());
+        // Contacts of one pair follow each other in the list, but for those of bodies with many atoms.
+        let same = |(load, (first, _)): &(&mut ContactPoint, &mut (DVec2, f64))| {
+            load.body == contact.body && load.other == contact.other && first.dot(direction) >= ALIKE
+        };
+        match loads.iter_mut().zip(&mut sums).rev().take(LOOKED_BACK).find(same) {
+            Some((load, (_, sum))) => {
+                *sum += size;
+                load.point += (contact.point - load.point) * (size / *sum);
+                load.force += contact.force;
+            }
+            None if size > 0.0 => {
+                loads.push(contact);
+                sums.push((direction, size));
+            }
+            None => (),
+        }
+    }
+    loads
+}
+
+/// How many loads are looked through for one that a contact belongs to: a body has few in touch at once.
+const LOOKED_BACK: usize = 64;
+
+/// The force of a scene, in N, by which the default scale is chosen: it stays the same for the whole film.
+#[derive(Resource)]
+struct TypicalForce(f64);
+
+/// The weight of the middle one of the bodies; without gravity the force with which the fastest body would be stopped by
+/// its own stiffness, `v sqrt(k m)`.
+fn note_start(world: &mut World) {
+    let bodies = world.resource::<Bodies>();
+    let mut masses: Vec<f64> = (0..bodies.len()).filter(|&b| bodies.dynamic[b]).map(|b| bodies.mass[b]).collect();
+    masses.sort_by(f64::total_cmp);
+    let mass = masses.get(masses.len() / 2).copied().unwrap_or(1.0);
+    let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
+    let impact = |body: usize| {
+        let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness[atom]).fold(0.0, f64::max);
+        bodies.velocity[body].length() * (stiffness * bodies.mass[body]).sqrt()
+    };
+    let impacts = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(impact).fold(0.0, f64::max);
+    let typical = if gravity > 0.0 { mass * gravity } else { 0.5 * impacts };
+    world.insert_resource(TypicalForce(round_up(typical)));
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<ContactForces>();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn atoms_of_one_face_are_one_arrow_at_the_centre_of_pressure() {
+        let contact = |x: f64, force: DVec2, other: Other| ContactPoint { body: 1, other, point: DVec2::X * x, force };
+        let floor = Other::Wall(0);
+        let found = loads(
+            vec![
+                contact(0.0, DVec2::new(0.0, 1.0), floor),
+                contact(1.0, DVec2::new(0.1, 3.0), floor),
+                contact(2.0, DVec2::new(-2.0, 0.0), floor),
+                contact(3.0, DVec2::new(0.0, 1.0), Other::Body(0)),
+                contact(4.0, DVec2::ZERO, Other::Body(0)),
+            ],
+            |_| true,
+        );
+        assert_eq!(found.len(), 3);
+        assert_eq!(found[0].force, DVec2::new(0.1, 4.0));
+        // Weighted by the forces: 3.0017 of 4.0017.
+        assert!((found[0].point.x - 0.75).abs() < 1e-3, "{}", found[0].point);
+        assert_eq!(found[1].force, DVec2::new(-2.0, 0.0));
+    }
+}

@@ -1,0 +1,49 @@
+//! `ContactPoints(of: ["T"])`: a dot where atoms touch each other or a wall.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{FilmAppExt, Mark, MarkShape, Shown};
+use crate::contacts::points::{Other, contact_points};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::world::Bodies;
+
+/// Contact points.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ContactPoints {
+    /// Names of bodies, `*` matches. Default: all that move.
+    #[serde(default)]
+    of: Option<Names>,
+}
+
+impl Entry for ContactPoints {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "ContactPoints";
+    const EXAMPLE: &'static str = "ContactPoints(of: [\"ball\"])";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of.as_ref(), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let shown = Shown::new(entry.value.of.as_ref(), outline);
+            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
+                let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
+                let is_shown = |body: usize| places.binary_search(&body).is_ok();
+                let dots = contact_points(world).into_iter().filter(|contact| {
+                    is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
+                });
+                marks.extend(dots.map(|contact| Mark::new(MarkShape::Dot(contact.point), "force")));
+            });
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<ContactPoints>();
+}

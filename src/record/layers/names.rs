@@ -1,0 +1,56 @@
+//! `Names(of: ["T"])`: the names of bodies above them.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::boxes::bounding_box;
+use super::{FilmAppExt, Mark, MarkShape, Shown};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::values::Names as Choice;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::world::{Bodies, Name};
+
+/// More names than these would be a wall of text; who names the bodies in `of` gets them all.
+const MOST: usize = 60;
+
+/// Names of bodies.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Names {
+    /// Names of bodies, `*` matches. Default: all that move, if they are at most sixty.
+    #[serde(default)]
+    of: Option<Choice>,
+}
+
+impl Entry for Names {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "Names";
+    const EXAMPLE: &'static str = "Names(of: [\"ball\"])";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of.as_ref(), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let (shown, chosen) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.of.is_some());
+            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
+                let bodies = world.resource::<Bodies>();
+                if chosen || shown.places(bodies).nth(MOST).is_none() {
+                    marks.extend(shown.places(bodies).filter_map(|body| label(world, bodies, body)));
+                }
+            });
+        }
+    }
+}
+
+fn label(world: &World, bodies: &Bodies, body: usize) -> Option<Mark> {
+    let text = world.get::<Name>(bodies.entity[body])?.0.clone();
+    let (low, high) = bounding_box(bodies, body)?;
+    Some(Mark::plain(MarkShape::Label { at: 0.5 * (low + high), clear: 0.5 * (high.y - low.y), text }))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Names>();
+}

@@ -1,0 +1,28 @@
+//! `ScaleBar`: a bar of a round length in the corner of the picture: `1 m`, `10 cm`, `200 km`.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{FilmAppExt, Mark, MarkShape};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::{Entry, Outline, SceneAppExt, Written};
+
+/// The scale of the picture.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ScaleBar {}
+
+impl Entry for ScaleBar {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "ScaleBar";
+    const EXAMPLE: &'static str = "ScaleBar";
+
+    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        app.add_layer(|_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::ScaleBar)));
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<ScaleBar>();
+}

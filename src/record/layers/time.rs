@@ -1,0 +1,28 @@
+//! `Time`: the time of each frame in seconds, in the corner of the picture.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::{FilmAppExt, Mark, MarkShape};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::{Entry, Outline, SceneAppExt, Written};
+
+/// The clock of a film.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Time {}
+
+impl Entry for Time {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "Time";
+    const EXAMPLE: &'static str = "Time";
+
+    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        app.add_layer(|_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::Time)));
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Time>();
+}

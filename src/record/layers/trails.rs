@@ -1,0 +1,106 @@
+//! `Trails(of: ["T"], seconds: 0.5)`: where the centres of bodies were, fading and tapering.
+//!
+//! Positions are noted at the end of ticks, at least so often that a trail has 256 points; with very many bodies it has
+//! fewer, so that all trails together stay within some 65 000 points however long the film is.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::{FilmAppExt, Layer, Mark, MarkShape, Memory, Shown, stride};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::units::Time;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::Clock;
+use crate::world::Bodies;
+
+/// Points of one trail, at most and at least.
+const POINTS: (usize, usize) = (8, 256);
+
+/// Points of all trails of one kind together, unless each has the least.
+const ALL_POINTS: usize = 1 << 16;
+
+/// Trails.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Trails {
+    /// Names of bodies, `*` matches. Default: all that move.
+    #[serde(default)]
+    of: Option<Names>,
+    /// How long a trail is, in s of physics. Above zero. Default: 0.5.
+    #[serde(default = "half_a_second")]
+    seconds: Time,
+}
+
+fn half_a_second() -> Time {
+    Time::new(0.5)
+}
+
+impl Entry for Trails {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "Trails";
+    const EXAMPLE: &'static str = "Trails(of: [\"ball\"], seconds: 0.5)";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of.as_ref(), outline, report);
+        report.positive("seconds", self.seconds);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let shown = Shown::new(entry.value.of.as_ref(), outline);
+            let count = shown.0.as_ref().map_or(outline.names(Kind::BODY).len(), Vec::len);
+            let points = (ALL_POINTS / count.max(1)).clamp(POINTS.0, POINTS.1);
+            let seconds = entry.value.seconds.si();
+            app.add_layer(Tracks { shown, seconds, points, tracks: BTreeMap::new() });
+        }
+    }
+}
+
+/// Where bodies were.
+struct Tracks {
+    shown: Shown,
+    /// How long a trail is, in seconds.
+    seconds: f64,
+    /// The most points of a trail.
+    points: usize,
+    /// By the keys of bodies, from early to late.
+    tracks: BTreeMap<u64, VecDeque<DVec2>>,
+}
+
+impl Layer for Tracks {
+    fn draw(&self, world: &World, marks: &mut Vec<Mark>) {
+        let (bodies, dt) = (world.resource::<Bodies>(), world.resource::<Clock>().dt);
+        let step = self.memory().map_or(1.0, |memory| stride(memory, dt) as f64 * dt / self.seconds);
+        for body in self.shown.places(bodies) {
+            let Some(track) = self.tracks.get(&bodies.key[body]) else { continue };
+            let points: Vec<DVec2> = track.iter().copied().chain([bodies.position[body]]).collect();
+            marks.push(Mark::plain(MarkShape::Trail { body, points, step }));
+        }
+    }
+
+    fn memory(&self) -> Option<Memory> {
+        Some(Memory { every: self.seconds / self.points as f64, length: self.seconds })
+    }
+
+    fn look(&mut self, world: &World) {
+        let bodies = world.resource::<Bodies>();
+        let places: Vec<usize> = self.shown.places(bodies).collect();
+        self.tracks.retain(|key, _| bodies.key.binary_search(key).is_ok());
+        for body in places {
+            let track = self.tracks.entry(bodies.key[body]).or_default();
+            if track.len() >= self.points {
+                track.pop_front();
+            }
+            track.push_back(bodies.position[body]);
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Trails>();
+}

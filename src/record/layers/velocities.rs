@@ -1,0 +1,76 @@
+//! `Velocities(of: ["T"], scale: "2 m/s")`: the velocity of each centre of mass as an arrow.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use serde::Deserialize;
+
+use super::scale::{Scale, round_up};
+use super::{FilmAppExt, Mark, PictureHeight, Shown};
+use crate::forces::gravity::Gravity;
+use crate::scene::sections::look::LAYERS;
+use crate::scene::units::Speed;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::simulation::Finishers;
+use crate::world::Bodies;
+
+/// Velocities.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Velocities {
+    /// Names of bodies, `*` matches. Default: all that move.
+    #[serde(default)]
+    of: Option<Names>,
+    /// The speed whose arrow is a tenth of the picture's height long, in m/s. Default: from the speeds at the start, and
+    /// what falling through a quarter of the picture gives.
+    #[serde(default)]
+    scale: Option<Speed>,
+}
+
+impl Entry for Velocities {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = "Velocities";
+    const EXAMPLE: &'static str = "Velocities(of: [\"ball\"], scale: \"2 m/s\")";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of.as_ref(), outline, report);
+        report.positive_if_given("scale", self.scale);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        app.world_mut().get_resource_or_init::<Finishers>().0.push(note_start);
+        for entry in entries {
+            let (shown, given) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.scale.map(Speed::si));
+            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
+                let bodies = world.resource::<Bodies>();
+                let height = PictureHeight::of(world);
+                let reference = given.unwrap_or_else(|| typical_speed(world, height));
+                let scale = Scale::new(reference, height, "m/s", "velocity");
+                marks.push(scale.key());
+                marks.extend(
+                    shown.places(bodies).filter_map(|body| scale.arrow(bodies.position[body], bodies.velocity[body])),
+                );
+            });
+        }
+    }
+}
+
+/// The greatest speed at the start, in m/s: scales stay the same for the whole film.
+#[derive(Resource)]
+struct GreatestSpeed(f64);
+
+fn note_start(world: &mut World) {
+    let speeds = world.resource::<Bodies>().velocity.iter().map(|velocity| velocity.length());
+    let greatest = GreatestSpeed(speeds.fold(0.0, f64::max));
+    world.insert_resource(greatest);
+}
+
+fn typical_speed(world: &World, height: f64) -> f64 {
+    let start = world.get_resource::<GreatestSpeed>().map_or(0.0, |greatest| greatest.0);
+    let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
+    round_up(start.max((2.0 * gravity * 0.25 * height).sqrt()))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Velocities>();
+}

@@ -1,0 +1,63 @@
+//! `look`: how films look. It never changes the physics.
+
+use bevy_app::App;
+use bevy_ecs::resource::Resource;
+use serde::Deserialize;
+
+use crate::raster::Theme;
+use crate::scene::values::Elsewhere;
+use crate::scene::{Outline, Report, Section, suggest};
+
+/// The list of entries inside this section: the layers of a film.
+pub const LAYERS: &str = "look.layers";
+
+/// The layer that may stand more than once, with other bodies or another length each time.
+const REPEATABLE: &str = "Trails";
+
+/// The section `look`.
+#[derive(Resource, Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct LookSection {
+    /// The colours: the name of a theme that comes with the program, or a file that ends with `.ron`, beside the scene.
+    /// Default: `"paper"`.
+    #[serde(default)]
+    pub theme: Option<String>,
+    /// What is drawn beside bodies, walls and title, each kind by its plugin. Default: `[ScaleBar, Time]`.
+    #[serde(default)]
+    pub layers: Elsewhere,
+}
+
+impl LookSection {
+    /// Whether a theme is a file, not one that comes with the program.
+    pub fn is_file(theme: &str) -> bool {
+        theme.ends_with(".ron")
+    }
+}
+
+impl Section for LookSection {
+    const NAME: &'static str = "look";
+    const EXAMPLE: &'static str =
+        "look: (theme: \"night\", layers: [Trails(seconds: 1), ContactForces, ScaleBar, Time])";
+
+    /// Reports an unknown theme, and layers that stand there twice.
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        if let Some(theme) = self.theme.as_deref().filter(|theme| !Self::is_file(theme))
+            && !Theme::names().contains(&theme)
+        {
+            let known = suggest::among(theme, Theme::names().into_iter(), "themes", '"');
+            let help = format!("{known}; a theme of your own is a file such as \"mine.ron\"");
+            report.error("theme", format!("there is no theme \"{theme}\"")).help(help);
+        }
+        let mentions = outline.entries(LAYERS);
+        for (place, mention) in mentions.iter().enumerate() {
+            if mention.name != REPEATABLE && mentions[..place].iter().any(|before| before.name == mention.name) {
+                let message = format!("the layer `{}` stands here twice", mention.name);
+                report.error(&format!("layers[{place}]"), message).help("keep one of the two");
+            }
+        }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.insert_resource(self);
+    }
+}
