@@ -11,8 +11,8 @@ pub(crate) mod silhouette;
 mod union;
 
 use glam::DVec2;
-use schemars::JsonSchema;
 use mass_properties::InertiaRule;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::Report;

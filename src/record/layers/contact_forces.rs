@@ -8,6 +8,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::scale::{Scale, round_up};
@@ -21,11 +22,11 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::world::Bodies;
 
-/// Contact forces.
-#[derive(Deserialize)]
+/// The forces with which things touch, as arrows on the body that feels them.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForces {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
     /// The force whose arrow is a tenth of the picture's height long, in N. Default: from the weight of a body of the
@@ -38,6 +39,10 @@ impl Entry for ContactForces {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "ContactForces";
     const EXAMPLE: &'static str = "ContactForces(of: [\"ball\"], scale: \"10 N\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);

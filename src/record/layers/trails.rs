@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{FilmAppExt, Layer, Mark, MarkShape, Memory, Shown, stride};
@@ -24,11 +25,11 @@ const POINTS: (usize, usize) = (8, 256);
 /// Points of all trails of one kind together, unless each has the least.
 const ALL_POINTS: usize = 1 << 16;
 
-/// Trails.
-#[derive(Deserialize)]
+/// Where the centres of bodies were, fading. It may stand more than once.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Trails {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
     /// How long a trail is, in s of physics. Above zero. Default: 0.5.
@@ -44,6 +45,10 @@ impl Entry for Trails {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Trails";
     const EXAMPLE: &'static str = "Trails(of: [\"ball\"], seconds: 0.5)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);

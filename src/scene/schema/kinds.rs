@@ -9,7 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 use crate::scene::units::{Dimension, Pair, Quantity, unit_of};
-use crate::scene::values::{Names, OrderedMap, WholeNumber, Word};
+use crate::scene::values::{Elsewhere, Names, OrderedMap, WholeNumber, Word};
 
 /// `a moment of inertia` as `moment_of_inertia`.
 fn identifier<D: Dimension>() -> String {
@@ -141,6 +141,20 @@ impl JsonSchema for Names {
             "items": { "type": "string" },
             "x-value": "name, or list of names",
         })
+    }
+}
+
+impl JsonSchema for Elsewhere {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "elsewhere".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "x-value": "list of entries" })
     }
 }
 

@@ -191,6 +191,9 @@ impl<'a> Manual<'a> {
                 let names: Vec<String> = entries.iter().map(|entry| format!("`{}`", entry.name)).collect();
                 self.paragraph(&match arity {
                     Arity::List => format!("A list of any of {}.", names.join(", ")),
+                    Arity::Words => {
+                        format!("A list of any of {}; without fields they need no brackets.", names.join(", "))
+                    }
                     Arity::One => format!("One of {}.", names.join(", ")),
                     Arity::OneOrNone => format!("One of {}, or `None`.", names.join(", ")),
                 });

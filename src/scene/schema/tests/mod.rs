@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::{Content, Language};
 use crate::plugins;
 use crate::scene::scan::scan;
-use crate::scene::{Outline, SceneAppExt, SceneRegistry, Section};
+use crate::scene::{Arity, Outline, SceneAppExt, SceneRegistry, Section};
 use in_json::in_json;
 use validate::complaints;
 
@@ -69,14 +69,20 @@ fn every_example_fits_the_schema() {
     schema["required"] = json!([]);
     let mut count = 0;
     for section in &language.sections {
+        // A list inside a section, such as `look.layers`.
+        let (name, parent) = match section.name.split_once('.') {
+            Some((parent, name)) => (name, Some(parent)),
+            None => (&*section.name, None),
+        };
         let mut examples = vec![section.example.to_owned()];
         if let Content::Entries(arity, entries) = &section.content {
-            let list = *arity == crate::scene::Arity::List;
+            let list = matches!(arity, Arity::List | Arity::Words);
             let around = |entry: &str| if list { format!("[{entry}]") } else { entry.to_owned() };
-            let written = entries.iter().map(|entry| format!("{}: {}", section.name, around(entry.example)));
+            let written = entries.iter().map(|entry| format!("{name}: {}", around(entry.example)));
             examples.extend(written);
         }
         for example in examples {
+            let example = parent.map_or(example.clone(), |parent| format!("{parent}: ({example})"));
             let wrong = told_of(&format!("Scene({example})"), &schema);
             assert!(wrong.is_empty(), "{example}: {wrong:#?}");
             count += 1;
