@@ -190,11 +190,15 @@ impl SceneRegistry {
         let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get(section) else {
             return Vec::new();
         };
-        let real = entries.iter().filter(|(_, entry)| entry.make.is_some());
-        let known = |(&name, &EntryReader { example, order, origin, .. })| {
-            (order, Known { name, example, origin, takes_entries: false })
+        let mut real: Vec<_> = entries.iter().filter(|(_, entry)| entry.make.is_some()).collect();
+        real.sort_unstable_by_key(|(_, entry)| entry.order);
+        let known = |(&name, entry): (&&'static str, &EntryReader)| Known {
+            name,
+            example: entry.example,
+            origin: entry.origin,
+            takes_entries: false,
         };
-        in_order(real.map(known).collect())
+        real.into_iter().map(known).collect()
     }
 
     /// The open lists of words, such as `method`.
@@ -207,11 +211,6 @@ impl SceneRegistry {
         let words = self.words.get(list).into_iter().flatten();
         words.filter(|(_, available)| **available).map(|(word, _)| *word).collect()
     }
-}
-
-fn in_order(mut list: Vec<(usize, Known)>) -> Vec<Known> {
-    list.sort_unstable_by_key(|(order, known)| (*order, known.name));
-    list.into_iter().map(|(_, known)| known).collect()
 }
 
 /// The module of a type.

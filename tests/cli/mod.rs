@@ -12,6 +12,7 @@ mod help;
 mod interrupt;
 mod json;
 mod list;
+mod look;
 mod new;
 mod numbers;
 mod outputs;

@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::scale::{Scale, round_up};
+use super::scale::{Scale, round};
 use super::{FilmAppExt, Mark, PictureHeight, Shown};
 use crate::forces::gravity::Gravity;
 use crate::scene::sections::look::LAYERS;
@@ -23,7 +23,7 @@ struct Velocities {
     #[serde(default)]
     of: Option<Names>,
     /// The speed whose arrow is a tenth of the picture's height long, in m/s. Default: from the speeds at the start, and
-    /// what falling through a quarter of the picture gives.
+    /// what falling through a tenth of the picture gives.
     #[serde(default)]
     scale: Option<Speed>,
 }
@@ -73,7 +73,7 @@ fn note_start(world: &mut World) {
 fn typical_speed(world: &World, height: f64) -> f64 {
     let start = world.get_resource::<GreatestSpeed>().map_or(0.0, |greatest| greatest.0);
     let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
-    round_up(start.max((2.0 * gravity * 0.25 * height).sqrt()))
+    round(start.max((2.0 * gravity * 0.1 * height).sqrt()))
 }
 
 pub(super) fn plugin(app: &mut App) {
