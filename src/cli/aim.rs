@@ -1,29 +1,34 @@
-//! The camera of a film.
+//! The camera of a film, and the plots beside it: what has to be known of a run before it is drawn.
+
+use std::sync::Arc;
 
 use super::Exit;
 use super::film::Order;
 use super::progress::Progress;
-use crate::raster::{Bounds, Camera};
+use super::say::say;
+use crate::raster::{Bounds, Camera, Panel};
 use crate::record::follow::Follower;
+use crate::record::plot::{Board, Legend, Missing, Plot, Sampler};
 use crate::record::{Recorder, Schedule};
-use crate::scene::sections::{CameraChoice, FitCamera};
+use crate::scene::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};
 use crate::simulation::Simulation;
 
 /// How large the picture may grow, in its size at the beginning, when the run is known to go wrong: a body that
 /// leaves at enormous speed must not shrink all others to a point.
 const WILDEST_GROWTH: f64 = 100.0;
 
-/// A camera, and whom it follows.
+/// A camera, whom it follows, and what stands beside its picture.
 pub(super) struct Aim {
     pub camera: Camera,
     /// None: it stands.
     pub follower: Option<Follower>,
+    pub panel: Option<Panel>,
 }
 
 impl Order<'_> {
-    /// The camera that the scene asks for; `step` is the time from frame to frame in seconds of film. One that fits
-    /// everything has to know the whole motion beforehand, so the scene is run once without being drawn: time is spent,
-    /// memory is not.
+    /// The camera and the plots that the scene asks for, in a picture `size` pixels large in all; `step` is the time from
+    /// frame to frame in seconds of film. A camera that fits everything has to know the whole motion beforehand, and so
+    /// have the axes of plots, so the scene is run once without being drawn: time is spent, memory is not.
     pub(super) fn aim(
         &self,
         simulation: &Simulation,
@@ -31,30 +36,74 @@ impl Order<'_> {
         size: (u32, u32),
         step: f64,
     ) -> Result<Aim, Exit> {
-        let standing = |camera| Aim { camera, follower: None };
-        let margin = match simulation.world().get_resource::<CameraChoice>() {
-            Some(CameraChoice::Look(look)) => {
-                return Ok(standing(Camera::look(look.center.si(), look.height.si(), size)));
+        let choice = simulation.world().get_resource::<CameraChoice>().cloned();
+        let choice = choice.unwrap_or_else(|| CameraChoice::Fit(FitCamera::default()));
+        let fits = matches!(choice, CameraChoice::Fit(_));
+        let plots = simulation.world().get_resource::<PlotsSection>().filter(|plots| !plots.0.is_empty());
+        let (mut bounds, mut panel) = (None, None);
+        if fits || plots.is_some() {
+            let mut ahead = self.again()?;
+            let legend = plots.map(|_| Legend::of(&ahead));
+            let sampler = plots.map(|plots| self.sampler(&mut ahead, &plots.0)).transpose()?;
+            let none = Schedule::default();
+            let (seen, plots) = self.look_ahead(&mut ahead, if fits { schedule } else { &none }, sampler);
+            bounds = seen;
+            if let (Some(legend), Some(plots)) = (legend, plots) {
+                panel = Panel::new(&Arc::new(Board { plots, legend }), size);
+                if panel.is_none() && !self.quiet {
+                    let (width, height) = size;
+                    say(&format!("note: {width} x {height} pixels are too few to show the plots beside the film"));
+                }
             }
-            Some(CameraChoice::Follow(follow)) => {
+        }
+        let stage = panel.as_ref().map_or(size, Panel::stage);
+        let (camera, follower) = match choice {
+            CameraChoice::Look(look) => (Camera::look(look.center.si(), look.height.si(), stage), None),
+            CameraChoice::Follow(follow) => {
                 // Single pictures have no film before them that the camera could be behind.
                 let smoothing = if self.shot.is_film() { follow.smoothing.si() } else { 0.0 };
-                let camera = Camera::look(glam::DVec2::ZERO, follow.height.si(), size);
-                return Ok(Aim { camera, follower: Some(Follower::new(&follow.of, smoothing, step)) });
+                let camera = Camera::look(glam::DVec2::ZERO, follow.height.si(), stage);
+                (camera, Some(Follower::new(&follow.of, smoothing, step)))
             }
-            Some(CameraChoice::Fit(fit)) => fit.margin.si(),
-            None => FitCamera::default().margin.si(),
+            CameraChoice::Fit(fit) => {
+                let nothing = Bounds { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
+                (Camera::fit(bounds.unwrap_or(nothing), fit.margin.si(), stage), None)
+            }
         };
-        let mut ahead = self.again()?;
+        Ok(Aim { camera, follower, panel })
+    }
+
+    /// What reads the channels of plots over the time that the film shows.
+    fn sampler(&self, ahead: &mut Simulation, plots: &[PlotEntry]) -> Result<Sampler, Exit> {
+        let end = ahead.ticks() as f64 * ahead.clock().dt;
+        let (from, to) = (ahead.film().begin(), ahead.film().end().min(end));
+        Sampler::new(ahead, plots, from, to).map_err(|Missing { plot, channel }| {
+            let help = "such things have no such quantity; `position`, `velocity`, `angle` and `spin` are those of bodies, \
+                        `force` and `contacts` of walls too";
+            let message = format!("there is no channel {channel:?}");
+            self.request.refuse(Exit::SceneWrong, &format!("plots[{plot}]"), &message, help)
+        })
+    }
+
+    /// Runs, and tells what the frames of a schedule hold and what was plotted.
+    fn look_ahead(
+        &self,
+        ahead: &mut Simulation,
+        schedule: &Schedule,
+        mut sampler: Option<Sampler>,
+    ) -> (Option<Bounds>, Option<Vec<Plot>>) {
         let progress = Progress::new(schedule.frames(), "frames looked ahead", self.silent);
         let mut recorder = Recorder::bare();
         // The bounds of all frames, and of those before anything leaves at enormous speed.
         let (mut all, mut tame) = (None, None);
         let mut room = f64::INFINITY;
+        let mut wrong = false;
         for time in schedule.times() {
-            let Ok(frame) = recorder.frame(&mut ahead, time) else {
+            let read = sampler.as_mut().map_or(Ok(()), |sampler| sampler.run_to(ahead, time));
+            let Ok(frame) = read.and_then(|()| recorder.frame(ahead, time)) else {
                 // What goes wrong is told by the run that is drawn.
                 all = tame;
+                wrong = true;
                 break;
             };
             if let Some(now) = Bounds::of_frame(&frame) {
@@ -70,8 +119,11 @@ impl Order<'_> {
             }
             progress.step();
         }
-        let nothing = Bounds { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
-        Ok(standing(Camera::fit(all.unwrap_or(nothing), margin, size)))
+        let plots = sampler.map(|mut sampler| {
+            wrong = wrong || sampler.run_to_end(ahead).is_err();
+            sampler.finish(wrong)
+        });
+        (all, plots)
     }
 
     /// The scene once more, from its beginning.

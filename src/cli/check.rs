@@ -37,7 +37,7 @@ impl Check {
     pub(super) fn execute(self) -> Exit {
         let check = |name: &String| {
             let request = Request { name, json: self.json };
-            match request.load(&self.overrides, &self.overrides.overrides()) {
+            match request.load(&self.overrides.settings, &self.overrides.overrides()) {
                 Err(exit) => exit,
                 Ok((_, simulation)) if self.run => self.run(request, simulation),
                 Ok((_, simulation)) if self.json => {

@@ -4,6 +4,7 @@
 pub(super) const SCENES: &[(&str, &str)] = &[
     ("billiards", include_str!("../../scenes/billiards.ron")),
     ("bounce", include_str!("../../scenes/bounce.ron")),
+    ("cow", include_str!("../../scenes/cow.ron")),
     ("incline", include_str!("../../scenes/incline.ron")),
     ("kepler", include_str!("../../scenes/kepler.ron")),
     ("marble_mills", include_str!("../../scenes/marble_mills.ron")),

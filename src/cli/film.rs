@@ -2,7 +2,6 @@
 
 use std::io;
 
-use super::Exit;
 use super::aim::Aim;
 use super::load::Request;
 use super::progress::Progress;
@@ -11,6 +10,7 @@ use super::say::say;
 use super::squeeze::Squeeze;
 use super::target::Place;
 use super::wall_clock::WallClock;
+use super::{Exit, colors};
 use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
 use crate::raster::{Camera, View};
 use crate::record::follow::Follower;
@@ -118,10 +118,10 @@ impl Order<'_> {
         let size = self.size.unwrap_or_else(|| self.size_within(film.size()));
         let step = film.speed() / frames_per_second;
         let threads = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
-        let theme = self.theme(simulation)?;
+        let theme = colors::theme(self.request, self.source, simulation, self.theme)?;
         // A target that cannot be written is to be known before the first run, not after it.
         let settings = FilmSettings { frames_per_second, threads: 1, live: self.pace, ..FilmSettings::default() };
-        let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step };
+        let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step, panel: None };
         let mut set = Set { order: self, settings, view };
         if let Some(folder) = &self.place.folder {
             let made = std::fs::create_dir_all(folder);
@@ -132,10 +132,10 @@ impl Order<'_> {
         // A still shows what the film shows at that moment, so its camera looks at the whole run too.
         let whole = whole_run(simulation, film_step(simulation, frames_per_second));
         let looked_at = if self.shot.is_film() { &schedule } else { &whole };
-        let Aim { camera, follower } = self.aim(simulation, looked_at, size, 1.0 / frames_per_second)?;
+        let Aim { camera, follower, panel } = self.aim(simulation, looked_at, size, 1.0 / frames_per_second)?;
         let view = camera.view();
         simulation.world_mut().insert_resource(PictureHeight(view.high.y - view.low.y));
-        set.view = View { camera, frame_step: step, ..set.view };
+        set.view = View { camera, frame_step: step, panel, ..set.view };
         set.settings.threads = threads.min(affordable_threads(size));
         if self.place.target.is_raw() && !self.quiet {
             let (width, height) = size;

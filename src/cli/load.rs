@@ -3,14 +3,13 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use super::flags::OverrideFlags;
 use super::say::{print_line, say};
 use super::{Exit, examples};
 use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
 
 /// What scenes that come with the program are called by.
-const EXAMPLE: &str = "example:";
+pub(super) const EXAMPLE: &str = "example:";
 
 /// A scene as the command line names it.
 #[derive(Clone, Copy, Debug)]
@@ -24,13 +23,19 @@ pub(super) struct Request<'a> {
 impl Request<'_> {
     /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
     /// not read it again: it may come from a pipe.
-    pub fn load(self, flags: &OverrideFlags, overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
-        let read = source(self.name).and_then(|source| {
-            let source = source.with_settings(&flags.settings);
-            let simulation = Simulation::load_with(&source, overrides, |_| {})?;
-            Ok((source, simulation))
-        });
-        read.map_err(|errors| self.refuse_scene(&errors))
+    pub fn load(self, settings: &[(String, String)], overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
+        self.read(settings, overrides).map_err(|errors| self.refuse_scene(&errors))
+    }
+
+    /// Reads and prepares the scene; prints nothing.
+    pub fn read(
+        self,
+        settings: &[(String, String)],
+        overrides: &Overrides,
+    ) -> Result<(Source, Simulation), SceneErrors> {
+        let source = source(self.name)?.with_settings(settings);
+        let simulation = Simulation::load_with(&source, overrides, |_| {})?;
+        Ok((source, simulation))
     }
 
     /// Tells what is wrong with the scene.
@@ -72,7 +77,7 @@ impl Request<'_> {
 }
 
 /// Reads the text of a scene: a file, or `example:NAME`.
-fn source(scene: &str) -> Result<Source, SceneErrors> {
+pub(super) fn source(scene: &str) -> Result<Source, SceneErrors> {
     let Some(name) = scene.strip_prefix(EXAMPLE) else { return Source::read(&PathBuf::from(scene)) };
     let found = examples::SCENES.iter().find(|(known, _)| *known == name);
     found.map(|(_, text)| Source::new(scene, *text)).ok_or_else(|| {

@@ -4,20 +4,30 @@ mod aim;
 mod check;
 mod colors;
 mod examples;
+mod explain;
 mod film;
+mod find;
 mod flags;
+mod fmt;
+mod junit;
+mod list;
 mod load;
 mod moments;
 mod new;
 mod pace;
+mod plot;
 mod progress;
 mod projector;
 mod render;
 mod result;
 mod run;
 mod say;
+mod side_by_side;
 mod squeeze;
+mod sweep;
 mod target;
+mod test;
+mod trial;
 mod wall_clock;
 
 use clap::{Parser, Subcommand};
@@ -54,7 +64,11 @@ Examples:
   jostle render example:bounce -o bounce.png --at 1.5    one picture, after 1.5 s
   jostle render scenes/*.ron -o films/                   a film of each scene
   jostle run example:projectile -o channels.csv          numbers instead of pictures
+  jostle plot example:bounce --channels ball.position.y  a figure of what a sensor measures
   jostle check my_scene.ron                              read it and say what is wrong
+  jostle test scenes/                                    do all scenes of a folder do what they expect?
+  jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values
+  jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
 
 Scenes that come with the program: {scenes}.
@@ -81,8 +95,20 @@ enum Command {
     Run(run::Run),
     /// Run scenes and draw them: films (GIF, APNG, MP4, WebM, raw), pictures, strips, contact sheets and sequences (PNG)
     Render(render::Render),
+    /// Draw channels as a figure: of a scene, or of a table of comma-separated values
+    Plot(plot::PlotCommand),
     /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
     Check(check::Check),
+    /// Run all scenes of a folder, several at once, and check what they expect
+    Test(test::Test),
+    /// Run a scene with many values of its parameters, several at once: a table, a contact sheet, films
+    Sweep(sweep::Sweep),
+    /// Give scenes their standard layout; comments and line breaks stay
+    Fmt(fmt::Fmt),
+    /// Show what a scene does in a tick and what that costs; or what a name or a word on the error card means
+    Explain(explain::Explain),
+    /// List the scenes that come with the program, or what a scene may name: sections, forces, sensors, methods ...
+    List(list::List),
     /// Write a starting point: a plugin or a scene
     New(new::New),
 }
@@ -93,7 +119,13 @@ impl CommandLine {
         match self.command {
             Command::Run(run) => run.execute(),
             Command::Render(render) => render.execute(),
+            Command::Plot(plot) => plot.execute(),
             Command::Check(check) => check.execute(),
+            Command::Test(test) => test.execute(),
+            Command::Sweep(sweep) => sweep.execute(),
+            Command::Fmt(fmt) => fmt.execute(),
+            Command::Explain(explain) => explain.execute(),
+            Command::List(list) => list.execute(),
             Command::New(new) => new.execute(),
         }
     }

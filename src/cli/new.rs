@@ -89,7 +89,7 @@ impl NewScene {
         }
         let file = format!("{name}.ron");
         create(Path::new(&file), &SCENE.replace("NAME", name))?;
-        Ok(format!("{file} is written; next: jostle check {file} --run"))
+        Ok(format!("{file} is written; next: jostle check {file} --run, and jostle render {file}"))
     }
 }
 

@@ -22,6 +22,11 @@ impl Progress {
         self.0.set_position(position);
     }
 
+    /// Does something that prints, with the bar out of the way.
+    pub fn aside<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.0.suspend(print)
+    }
+
     /// Moves the bar by one.
     pub fn step(&self) {
         self.0.inc(1);

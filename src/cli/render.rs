@@ -135,7 +135,7 @@ impl Render {
     fn render(&self, request: Request, place: &Place) -> Exit {
         let layers = self.layers.clone().map(|layers| layers.0);
         let overrides = Overrides { layers, ..self.overrides.overrides() };
-        let (source, mut simulation) = match request.load(&self.overrides, &overrides) {
+        let (source, mut simulation) = match request.load(&self.overrides.settings, &overrides) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };

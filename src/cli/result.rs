@@ -76,7 +76,7 @@ pub(super) fn tell(
 }
 
 /// The likely cause of a run that went wrong, and what to try.
-fn remedy(card: &Card) -> String {
+pub(super) fn remedy(card: &Card) -> String {
     match card.critical_tick {
         Some(critical) if card.has_touched() && card.tick > critical => format!(
             "the tick of {} s is longer than the contacts can bear, {} s: try `--tick {}`",

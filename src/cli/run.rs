@@ -71,7 +71,7 @@ impl Run {
         if let Some(message) = self.output.as_deref().and_then(|path| objection(request, path)) {
             return request.usage(&message);
         }
-        let (_, mut simulation) = match request.load(&self.overrides, &self.overrides.overrides()) {
+        let (_, mut simulation) = match request.load(&self.overrides.settings, &self.overrides.overrides()) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };

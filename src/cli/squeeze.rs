@@ -153,7 +153,7 @@ impl Squeeze<'_> {
         rung: Rung,
         play: &mut impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
     ) -> Result<Written, Trouble> {
-        let view = View { camera: self.view.camera.resized(self.size(rung)), ..self.view.clone() };
+        let view = self.view.resized(self.size(rung));
         let settings = FilmSettings {
             frames_per_second: self.settings.frames_per_second / rung.every as f64,
             colors: rung.colors,
@@ -167,7 +167,7 @@ impl Squeeze<'_> {
 
     /// Width and height in pixels.
     fn size(&self, rung: Rung) -> (u32, u32) {
-        let (width, height) = self.view.camera.size();
+        let (width, height) = self.view.size();
         let side = |side: u32| ((f64::from(side) * rung.scale).round() as u32).max(side.min(16));
         (side(width), side(height))
     }
@@ -175,7 +175,7 @@ impl Squeeze<'_> {
     /// Says what was traded.
     fn tell(&self, rung: Rung) {
         let limit = bytes_in_words(self.most as f64);
-        let ((width, height), (small_width, small_height)) = (self.view.camera.size(), self.size(rung));
+        let ((width, height), (small_width, small_height)) = (self.view.size(), self.size(rung));
         let rate = self.settings.frames_per_second;
         let mut traded = Vec::new();
         if rung.scale < 1.0 {
@@ -187,6 +187,10 @@ impl Squeeze<'_> {
         }
         if rung.colors < LADDER[0].colors {
             traded.push(format!("{} colours instead of {}", rung.colors, LADDER[0].colors));
+        }
+        let resized = self.view.resized((small_width, small_height));
+        if self.view.panel.is_some() && resized.panel.is_none() {
+            traded.push("no plots, as there is no room".to_owned());
         }
         say(&match traded.is_empty() {
             true => format!("--max-size {limit}: the film fits as it is"),

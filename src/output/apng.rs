@@ -32,7 +32,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
     if !(allowed.0..=allowed.1).contains(&rate) {
         return Err(OutputError::Rate { frames_per_second: rate, allowed });
     }
-    let (width, height) = view.camera.size();
+    let (width, height) = view.size();
     let file = PartFile::create(path, Unfinished::Removed)?;
     let sink = Apng { path: path.to_path_buf(), file, width, height, rate, frames: 0, sequence: 0 };
     Ok(Box::new(Stream::new(path.to_path_buf(), settings, view, sink)?))

@@ -66,7 +66,7 @@ impl Table {
 }
 
 /// A number in the fewest digits that read back to the same bits: in full, or with an exponent where that is shorter.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let (full, exponent) = (value.to_string(), format!("{value:e}"));
     if full.len() <= exponent.len() + 3 { full } else { exponent }
 }

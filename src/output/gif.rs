@@ -33,7 +33,7 @@ const LONGEST_DELAY: f64 = u16::MAX as f64;
 const MOST_FRAMES_PER_SECOND: f64 = 50.0;
 
 fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
-    let (width, height) = view.camera.size();
+    let (width, height) = view.size();
     if width.max(height) > LONGEST_SIDE {
         return Err(OutputError::Size { width, height, longest: LONGEST_SIDE });
     }

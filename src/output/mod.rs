@@ -19,10 +19,13 @@ pub mod sheet;
 mod stream;
 mod studio;
 mod video;
+mod whole;
 
 use std::path::{Path, PathBuf};
 
+pub use self::png::write_picture;
 pub use error::OutputError;
+pub use whole::write_whole;
 
 use crate::raster::View;
 use crate::record::frame::Frame;
@@ -156,7 +159,7 @@ impl Target {
 /// # Errors
 /// If the format does not allow the size or the rate, or the file cannot be created.
 pub fn open(target: &Target, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
-    let (width, height) = view.camera.size();
+    let (width, height) = view.size();
     if width == 0 || height == 0 {
         return Err(OutputError::Size { width, height, longest: 0 });
     }

@@ -164,6 +164,17 @@ impl Film for Sequence {
     }
 }
 
+/// Writes one picture that is already drawn; returns how many bytes it takes.
+///
+/// # Errors
+/// If the system refuses to write.
+pub fn write_picture(path: &Path, picture: &Pixmap) -> Result<u64, OutputError> {
+    let packed = pack(picture, &mut Vec::new()).map_err(|cause| OutputError::io(path, cause))?;
+    let mut file = PartFile::create(path, Unfinished::Removed)?;
+    file.write_all(&packed).map_err(|cause| OutputError::io(path, cause))?;
+    file.complete()
+}
+
 /// A picture as the bytes of a PNG file. `rgb` is room for its pixels, kept to spare allocations.
 ///
 /// Fast compression wants the Paeth filter: without a filter it would store the picture nearly as it is.

@@ -32,7 +32,7 @@ pub fn size(frame: (u32, u32), (columns, rows): (u32, u32)) -> (u64, u64) {
 /// # Errors
 /// If a sheet of that size cannot be made, or the file cannot be created.
 pub fn open(target: &Target, view: View, (columns, rows): (u32, u32)) -> Result<Box<dyn Film>, OutputError> {
-    let (width, height) = size(view.camera.size(), (columns, rows));
+    let (width, height) = size(view.size(), (columns, rows));
     // No side of so few pixels is longer than 32 bits count.
     let fits = width.saturating_mul(height) <= MOST_PIXELS;
     let whole = fits.then(|| Pixmap::new(width as u32, height as u32)).flatten();

@@ -39,7 +39,7 @@ impl Studio {
 
     /// The tools of one thread.
     pub(super) fn easel(&self) -> Result<Easel, OutputError> {
-        let (width, height) = self.view.camera.size();
+        let (width, height) = self.view.size();
         let picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
         Ok(Easel { picture, scratch: Scratch::default() })
     }

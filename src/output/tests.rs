@@ -43,7 +43,7 @@ impl Drop for Folder {
 
 fn view() -> View {
     let camera = Camera::fit(Bounds { low: DVec2::ZERO, high: DVec2::new(4.0, 3.0) }, 0.06, SIZE);
-    View { camera, theme: Theme::named("night").expect("shipped"), frame_step: 0.04 }
+    View { camera, theme: Theme::named("night").expect("shipped"), frame_step: 0.04, panel: None }
 }
 
 /// A block of four discs and a ball that cross a room with a peg and a floor.

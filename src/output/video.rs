@@ -36,7 +36,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View, codec: &[&str]) -> Ope
         return Err(OutputError::Rate { frames_per_second: rate, allowed: RATES });
     }
     let file = PartFile::create(path, Unfinished::Removed)?;
-    let (width, height) = view.camera.size();
+    let (width, height) = view.size();
     let mut command = Command::new("ffmpeg");
     command.args(["-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba"]);
     command.args(["-video_size", &format!("{width}x{height}"), "-framerate", &rate.to_string(), "-i", "pipe:0", "-an"]);

@@ -7,6 +7,7 @@ mod camera;
 mod canvas;
 mod layers;
 mod light;
+mod plots;
 mod silhouette;
 mod text;
 mod theme;
@@ -16,6 +17,7 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub use camera::{Bounds, Camera};
+pub use plots::{Panel, figure};
 pub use theme::{COLOR_NAMES, Swatch, Theme, Tint};
 
 use crate::record::frame::{BodyLook, Cast, Frame, Rgb};
@@ -28,6 +30,7 @@ use layers::title::Title;
 use layers::trails::{Cover, Trail};
 use layers::writing::Writing;
 use layers::{backdrop, clock, marks, scales, walls};
+use plots::{Cards, Tools};
 use silhouette::Field;
 use text::{Lettering, Weight};
 
@@ -40,6 +43,23 @@ pub struct View {
     pub theme: Theme,
     /// The time from frame to frame in seconds of physics: the clock shows enough decimals to tell frames apart.
     pub frame_step: f64,
+    /// What stands beside the film; the camera's picture is what is left of the whole.
+    pub panel: Option<Panel>,
+}
+
+impl View {
+    /// Width and height of the whole picture in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        self.panel.as_ref().map_or(self.camera.size(), Panel::size)
+    }
+
+    /// The same view in a picture of another size.
+    #[must_use]
+    pub fn resized(&self, size: (u32, u32)) -> View {
+        let panel = self.panel.as_ref().and_then(|panel| panel.resized(size));
+        let camera = self.camera.resized(panel.as_ref().map_or(size, Panel::stage));
+        View { camera, panel, ..self.clone() }
+    }
 }
 
 /// A picture of that size cannot be made: a side is zero, or there is no memory for it.
@@ -64,6 +84,7 @@ impl std::error::Error for SizeError {}
 pub struct Scratch {
     field: Field,
     cover: Cover,
+    tools: Tools,
 }
 
 /// Draws the frames of one cast.
@@ -84,6 +105,7 @@ pub struct Painter {
     labels: Column,
     /// The fill of each body.
     fills: Vec<Rgb>,
+    cards: Option<Cards>,
     backdrop: Pixmap,
 }
 
@@ -91,12 +113,12 @@ impl Painter {
     /// A painter for the cast of `frame`, whose poses place the fixed bodies.
     ///
     /// # Errors
-    /// A [`SizeError`] if there is no picture of the camera's size.
+    /// A [`SizeError`] if there is no picture of the view's size.
     pub fn new(view: &View, frame: &Frame) -> Result<Painter, SizeError> {
         let (camera, theme, cast) = (&view.camera, &view.theme, &frame.cast);
-        let (width, height) = camera.size();
+        let (width, height) = view.size();
         let picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
-        let weights = Weights::of(camera);
+        let weights = Weights::of(view.size());
         let colors = fills(cast, theme);
         let figure = |place: usize| Figure::new(&cast.bodies[place], colors[place], camera, theme, weights.line);
         let all = (0..cast.bodies.len()).map(|place| (place, figure(place)));
@@ -121,6 +143,7 @@ impl Painter {
             writing: Writing::new(weights.small, theme, theme.background),
             corner: Writing::new(weights.small, theme, if on_ground { theme.ground } else { theme.background }),
             labels: column,
+            cards: view.panel.as_ref().map(|panel| Cards::new(panel, theme, &colors)),
             fills: colors,
             backdrop: picture,
         };
@@ -128,6 +151,9 @@ impl Painter {
         painter.paint_scenery(frame, &painter.camera(frame), &mut backdrop, &mut Field::default());
         if !painter.labels.in_room {
             painter.title.draw(&mut backdrop);
+        }
+        if let Some(cards) = &painter.cards {
+            cards.draw_furniture(&mut backdrop);
         }
         painter.backdrop = backdrop;
         Ok(painter)
@@ -140,7 +166,7 @@ impl Painter {
 
     /// Draws what never moves in the world: background, grid, walls, fixed bodies.
     fn paint_scenery(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, field: &mut Field) {
-        let (theme, weights) = (&self.view.theme, Weights::of(camera));
+        let (theme, weights) = (&self.view.theme, Weights::of(self.view.size()));
         backdrop::draw(picture, camera, theme);
         walls::draw(picture, &self.cast.walls, camera, theme, weights.band, weights.line);
         paint_figures(&self.fixed, frame, camera, picture, field);
@@ -156,7 +182,7 @@ impl Painter {
         &self.backdrop
     }
 
-    /// Draws a frame over whatever the picture held. The picture must have the camera's size: see
+    /// Draws a frame over whatever the picture held. The picture must have the view's size: see
     /// [`Painter::backdrop`]; one of another size is replaced.
     pub fn paint(&self, frame: &Frame, picture: &mut Pixmap, scratch: &mut Scratch) {
         if (picture.width(), picture.height()) == (self.backdrop.width(), self.backdrop.height()) {
@@ -168,7 +194,7 @@ impl Painter {
         if frame.center.is_some() {
             self.paint_scenery(frame, camera, picture, &mut scratch.field);
         }
-        let line = Weights::of(camera).line;
+        let line = Weights::of(self.view.size()).line;
         self.paint_trails(frame, camera, picture, &mut scratch.cover);
         paint_figures(&self.figures, frame, camera, picture, &mut scratch.field);
         marks::draw(picture, &frame.marks, camera, theme, line);
@@ -180,6 +206,9 @@ impl Painter {
         if frame.marks.iter().any(|mark| mark.shape == MarkShape::Time) {
             self.clock.draw(picture, frame.time, &self.labels, self.title.height());
         }
+        if let Some(cards) = &self.cards {
+            cards.draw(picture, &self.backdrop, frame.time, &mut scratch.tools);
+        }
     }
 
     fn paint_trails(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, cover: &mut Cover) {
@@ -188,7 +217,7 @@ impl Painter {
             let MarkShape::Trail { body, points, step } = &mark.shape else { continue };
             let fill = self.fills.get(*body).copied().unwrap_or(self.view.theme.ink);
             let trail = Trail { points, step: *step, color: self.view.theme.trail.of(fill) };
-            trail.draw(&mut canvas, camera, Weights::of(camera).line, cover);
+            trail.draw(&mut canvas, camera, Weights::of(self.view.size()).line, cover);
         }
     }
 
@@ -204,6 +233,7 @@ impl Painter {
         for own in fills(&self.cast, theme) {
             colors.extend([own, theme.outline.of(own), theme.mark.of(own)]);
         }
+        colors.extend(self.cards.iter().flat_map(Cards::flat_colors));
         let mut once = Vec::new();
         for color in colors {
             if !once.contains(&color) {
@@ -247,8 +277,8 @@ struct Weights {
 }
 
 impl Weights {
-    fn of(camera: &Camera) -> Weights {
-        let area = camera.size().0 as f32 * camera.size().1 as f32;
+    fn of((width, height): (u32, u32)) -> Weights {
+        let area = width as f32 * height as f32;
         let unit = (area / (1280.0 * 720.0)).sqrt();
         Weights {
             line: (2.2 * unit).max(1.0),

@@ -232,9 +232,11 @@ fn closures(discs: &[Disc], bonds: &[(usize, usize)]) -> Vec<(usize, usize)> {
             }
         }
     }
-    // A complete square is seen from two corners.
+    // A complete square is seen from two corners. Where these touch each other there is no pinhole between them.
     corners.sort_unstable();
-    let complete = corners.windows(2).filter(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1));
+    let complete = corners
+        .windows(2)
+        .filter(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1) && !neighbors[pair[0].2].contains(&pair[1].2));
     let mut squares: Vec<_> = complete
         .map(|pair| {
             let (a, b) = (pair[0].0, pair[0].1);
@@ -270,6 +272,14 @@ mod tests {
         // Three of four: the inner corner stays open.
         let corner = grid(&["##", "#."]);
         assert_eq!(closures(&corner, &bonds(&corner)), []);
+    }
+
+    /// Along such a chain every disc sees two others far apart: nothing is open between them.
+    #[test]
+    fn a_chain_of_overlapping_discs_has_nothing_to_close() {
+        let chain: Vec<Disc> =
+            (0..6).map(|k| Disc { offset: DVec2::new(0.35 * f64::from(k), 0.0), radius: 0.5 }).collect();
+        assert_eq!(closures(&chain, &bonds(&chain)), []);
     }
 
     #[test]

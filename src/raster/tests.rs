@@ -34,7 +34,7 @@ fn frame() -> Frame {
 
 fn view() -> View {
     let camera = Camera::fit(Bounds { low: DVec2::ZERO, high: DVec2::new(6.0, 4.0) }, 0.1, (240, 180));
-    View { camera, theme: Theme::named("paper").expect("shipped"), frame_step: 0.01 }
+    View { camera, theme: Theme::named("paper").expect("shipped"), frame_step: 0.01, panel: None }
 }
 
 fn seen(picture: &Pixmap, place: DVec2) -> Rgb {

@@ -77,8 +77,13 @@ fn shaded(ink: &Ink, inside: impl Fn(f64) -> bool) -> Rgb {
     }
 }
 
+/// Whether a point lies in a strip between two discs, given by their places, when it is shrunk by so much.
+trait Inside: Fn(DVec2, f64, &[(usize, usize)]) -> bool {}
+
+impl<F: Fn(DVec2, f64, &[(usize, usize)]) -> bool> Inside for F {}
+
 /// A body drawn at one pixel per metre, and whether a point of the picture lies in one of its strips shrunk by so much.
-fn body(discs: &[Disc], ink: Ink) -> (Pixmap, impl Fn(DVec2, f64, &[(usize, usize)]) -> bool + use<>) {
+fn body(discs: &[Disc], ink: Ink) -> (Pixmap, impl Inside + use<>) {
     let stand = Stand { x: 21.3, y: 25.6, cosine: 0.8, sine: 0.6 };
     let picture = drawn(|picture| {
         Silhouette::new(discs, 1.0).draw(&stand, &ink, &mut Canvas::new(picture), &mut Field::default());

@@ -4,6 +4,7 @@ pub mod between;
 pub mod follow;
 pub mod frame;
 pub mod layers;
+pub mod plot;
 mod recorder;
 mod schedule;
 pub mod spool;

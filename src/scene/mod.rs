@@ -55,9 +55,11 @@
 //! assert_eq!((wind.line, wind.column), (Some(1), Some(54)));
 //! ```
 
+mod edit;
 mod error;
 mod expand;
 mod explain;
+mod layout;
 mod load;
 mod outline;
 mod registry;
@@ -66,20 +68,23 @@ mod scan;
 mod section;
 pub mod sections;
 mod source;
-mod suggest;
+pub(crate) mod suggest;
 mod tree;
 pub mod units;
 pub mod values;
 
 pub use error::{SceneError, SceneErrors};
+pub(crate) use layout::laid_out;
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
+pub(crate) use outline::fits;
 pub use outline::{Kind, Mention, Obstacle, Outline};
 pub(crate) use registry::install_word;
-pub use registry::{Arity, SceneAppExt, SceneRegistry};
+pub use registry::{Arity, Known, SceneAppExt, SceneRegistry};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};
 pub use source::{LARGEST_SCENE, Source};
+pub(crate) use suggest::nearest as nearest_name;
 
 #[cfg(test)]
 mod tests;

@@ -90,6 +90,7 @@ pub(crate) struct SectionReader {
     pub(crate) reader: Reader,
     pub(crate) example: &'static str,
     pub(crate) order: usize,
+    origin: &'static str,
 }
 
 #[derive(Clone)]
@@ -98,6 +99,21 @@ pub(crate) struct EntryReader {
     pub(crate) make: Option<fn() -> Box<dyn ReadEntries>>,
     pub(crate) example: &'static str,
     pub(crate) order: usize,
+    origin: &'static str,
+}
+
+/// A section, or an entry of one, that a scene may name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Known {
+    /// Its name.
+    pub name: &'static str,
+    /// One correct use.
+    pub example: &'static str,
+    /// The module of the model that reads it, such as `jostle::forces::drag`. For a section of entries what their modules
+    /// have in common.
+    pub origin: &'static str,
+    /// Whether it is a section that takes entries by their leading names.
+    pub takes_entries: bool,
 }
 
 /// The names of the scene language and who reads them. Filled by plugins through [`SceneAppExt`] before a scene is
@@ -115,14 +131,14 @@ impl SceneRegistry {
         self.count
     }
 
-    fn claim(&mut self, name: &'static str, example: &'static str, reader: Reader) {
+    fn claim(&mut self, name: &'static str, example: &'static str, origin: &'static str, reader: Reader) {
         let order = self.next();
         if let Some(before) = self.sections.get(name) {
             let claimed = !matches!(before.reader, Reader::Reserved);
             // Two plugins with one name cannot both be right, and the scene is not to blame.
             assert!(!claimed, "the scene section `{name}` is registered twice");
         }
-        self.sections.insert(name, SectionReader { reader, example, order });
+        self.sections.insert(name, SectionReader { reader, example, order, origin });
     }
 
     fn claim_entry(&mut self, section: &'static str, name: &'static str, entry: EntryReader) {
@@ -134,25 +150,69 @@ impl SceneRegistry {
         assert!(!claimed, "the entry `{name}` of `{section}` is registered twice");
     }
 
-    /// The registered sections with one correct use each, in the order of registration; reserved ones have none. Lists
-    /// of entries inside a section (`look.layers`) are left out.
-    pub fn sections(&self) -> Vec<(&'static str, &'static str)> {
+    /// The registered sections in the order of registration; reserved ones are left out, and lists of entries inside a
+    /// section (`look.layers`) as well.
+    pub fn sections(&self) -> Vec<Known> {
+        let mut list: Vec<(usize, Known)> = Vec::new();
         let outermost = self.sections.iter().filter(|(name, _)| !name.contains('.'));
-        let mut list: Vec<_> = outermost.map(|(name, section)| (section.order, *name, section.example)).collect();
-        list.sort_unstable();
-        list.into_iter().map(|(_, name, example)| (name, example)).collect()
+        for (&name, &SectionReader { ref reader, example, order, origin }) in outermost {
+            let entries = self.entries(name);
+            let (origin, takes_entries) = match reader {
+                Reader::Section(_) => (origin, false),
+                Reader::Entries(..) => (shared_module(&entries), true),
+                Reader::Reserved => continue,
+            };
+            list.push((order, Known { name, example, origin, takes_entries }));
+        }
+        in_order(list)
     }
 
-    /// The entries of a section with one correct use each, in the order of registration; reserved ones are left out.
-    pub fn entries(&self, section: &str) -> Vec<(&'static str, &'static str)> {
+    /// The entries of a section in the order of registration; reserved ones are left out.
+    pub fn entries(&self, section: &str) -> Vec<Known> {
         let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get(section) else {
             return Vec::new();
         };
         let real = entries.iter().filter(|(_, entry)| entry.make.is_some());
-        let mut list: Vec<_> = real.map(|(name, entry)| (entry.order, *name, entry.example)).collect();
-        list.sort_unstable();
-        list.into_iter().map(|(_, name, example)| (name, example)).collect()
+        let known = |(&name, &EntryReader { example, order, origin, .. })| {
+            (order, Known { name, example, origin, takes_entries: false })
+        };
+        in_order(real.map(known).collect())
     }
+
+    /// The open lists of words, such as `method`.
+    pub fn word_lists(&self) -> Vec<&'static str> {
+        self.words.keys().copied().collect()
+    }
+
+    /// The words of an open list, in the order of the alphabet; reserved ones are left out.
+    pub fn words(&self, list: &str) -> Vec<&'static str> {
+        let words = self.words.get(list).into_iter().flatten();
+        words.filter(|(_, available)| **available).map(|(word, _)| *word).collect()
+    }
+}
+
+fn in_order(mut list: Vec<(usize, Known)>) -> Vec<Known> {
+    list.sort_unstable_by_key(|(order, known)| (*order, known.name));
+    list.into_iter().map(|(_, known)| known).collect()
+}
+
+/// The module of a type.
+fn module_of<T>() -> &'static str {
+    let path = std::any::type_name::<T>();
+    let end = path.find('<').unwrap_or(path.len());
+    path[..end].rsplit_once("::").map_or(path, |(module, _)| module)
+}
+
+/// What the modules of entries have in common; only those of the first one's crate count, others are guests.
+fn shared_module(entries: &[Known]) -> &'static str {
+    let home = |entry: &Known| entry.origin.split("::").next().unwrap_or_default();
+    let Some(first) = entries.first() else { return "" };
+    let same_crate = entries.iter().filter(|entry| home(entry) == home(first));
+    same_crate.fold(first.origin, |shared, entry| {
+        let pairs = shared.split("::").zip(entry.origin.split("::"));
+        let same: Vec<&str> = pairs.take_while(|(a, b)| a == b).map(|(a, _)| a).collect();
+        &shared[..same.join("::").len()]
+    })
 }
 
 /// Installs an entry that stands in no scene, with the defaults of its fields. Returns whether there is such an entry and
@@ -208,12 +268,12 @@ fn registry(app: &mut App) -> &mut SceneRegistry {
 impl SceneAppExt for App {
     fn register_section<S: Section>(&mut self) -> &mut Self {
         let read: ReadOneSection = |text| Ok(Box::new(explain::read::<S>(text)?));
-        registry(self).claim(S::NAME, S::EXAMPLE, Reader::Section(read));
+        registry(self).claim(S::NAME, S::EXAMPLE, module_of::<S>(), Reader::Section(read));
         self
     }
 
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self {
-        registry(self).claim(name, example, Reader::Entries(arity, BTreeMap::new()));
+        registry(self).claim(name, example, "", Reader::Entries(arity, BTreeMap::new()));
         self
     }
 
@@ -221,14 +281,15 @@ impl SceneAppExt for App {
         let registry = registry(self);
         let make: fn() -> Box<dyn ReadEntries> = || Box::new(Entries::<E>(Vec::new()));
         let order = registry.next();
-        registry.claim_entry(E::SECTION, E::NAME, EntryReader { make: Some(make), example: E::EXAMPLE, order });
+        let origin = module_of::<E>();
+        registry.claim_entry(E::SECTION, E::NAME, EntryReader { make: Some(make), example: E::EXAMPLE, order, origin });
         self
     }
 
     fn reserve_section(&mut self, name: &'static str) -> &mut Self {
         let registry = registry(self);
         if !registry.sections.contains_key(name) {
-            registry.claim(name, "", Reader::Reserved);
+            registry.claim(name, "", "", Reader::Reserved);
         }
         self
     }
@@ -236,7 +297,7 @@ impl SceneAppExt for App {
     fn reserve_entry(&mut self, section: &'static str, name: &'static str) -> &mut Self {
         let registry = registry(self);
         let order = registry.next();
-        registry.claim_entry(section, name, EntryReader { make: None, example: "", order });
+        registry.claim_entry(section, name, EntryReader { make: None, example: "", order, origin: "" });
         self
     }
 

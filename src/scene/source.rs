@@ -4,6 +4,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::error::{SceneError, SceneErrors};
+use super::scan::scan;
+use super::suggest::nearest;
 
 /// The largest scene the reader takes, in bytes (64 MiB).
 ///
@@ -82,6 +84,22 @@ impl Source {
         let folder = path.parent().map(Path::to_owned);
         let source = Self::from_bytes(&name, bytes).map_err(|(message, help)| fail(message, help))?;
         Ok(Self { folder, ..source })
+    }
+
+    /// What the text is if it is no scene that could run by itself: something of another name, or a part for other scenes
+    /// to include. None for a scene, right or wrong.
+    pub(crate) fn other_than_scene(&self) -> Option<String> {
+        let tree = scan(&self.text).tree;
+        if tree.is_empty() {
+            return None;
+        }
+        let name = tree.name(0, &self.text);
+        if name == "Scene" {
+            let clock = tree.children(0).iter().any(|&id| &self.text[tree.key(id)] == "clock");
+            return (!clock).then(|| "a part without a `clock`".to_owned());
+        }
+        // A slip of the pen is a wrong scene.
+        nearest(name, ["Scene"].into_iter()).is_none().then(|| tree.describe(0, &self.text))
     }
 
     /// Takes a file's bytes as UTF-8 text, without the mark some editors put in front.
@@ -182,6 +200,16 @@ mod tests {
         assert_eq!(refused(b"GIF89a\0"), "`a.ron` is not a text file: a zero byte at position 6");
         assert_eq!(refused(b"Scene(\n\xe4)"), "`a.ron` is not UTF-8 text: the first bad byte is on line 2");
         assert_eq!(Source::from_bytes("a", b"\xef\xbb\xbfx".to_vec()).map(|source| source.text), Ok("x".into()));
+    }
+
+    #[test]
+    fn what_is_no_scene_is_told_from_wrong_ones() {
+        let other = |text: &str| Source::new("a.ron", text).other_than_scene();
+        assert_eq!(other("Theme(ink: \"black\")").as_deref(), Some("`Theme(..)`"));
+        assert_eq!(other("Scene(format: 1, bodies: [])").as_deref(), Some("a part without a `clock`"));
+        for scene in ["", "Scene(clock: (duration: 1))", "Scene(clock: (", "scene(format: 1)", "Sceen("] {
+            assert_eq!(other(scene), None, "{scene}");
+        }
     }
 
     #[test]

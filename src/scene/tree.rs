@@ -191,6 +191,39 @@ impl Tree {
         Some(Place { node, whole: true })
     }
 
+    /// Follows a path as people write it on a command line: as [`Tree::find`] does, and also to items of lists by their
+    /// `name` and to values of maps without quotes, such as `bodies.ball.mass` or `materials.rock.friction`. What does
+    /// not lead anywhere is told as the last value on the way and the step that it does not have.
+    pub(crate) fn trace<'p>(&self, path: &'p str, text: &str) -> Result<Id, (Id, Vec<Step<'p>>)> {
+        let mut node = 0;
+        let mut steps = Steps(path);
+        while let Some(step) = steps.next() {
+            let quoted = |name: &str, key: &str| key.trim_matches('"') == name;
+            let within = |node: Id| match step {
+                Step::Index(index) => self.children(node).get(index).copied(),
+                Step::Key(name) => self.by_key(node, text, |key| quoted(name, key)),
+                Step::Field(name) if self.node(node).form == Form::List => {
+                    let called = |&&item: &&Id| {
+                        let own = self.by_key(item, text, |key| key == "name");
+                        own.is_some_and(|own| quoted(name, &text[self.span(own)]))
+                    };
+                    self.children(node).iter().find(called).copied()
+                }
+                Step::Field(name) => self.by_key(node, text, |key| quoted(name, key)),
+            };
+            let mut next = within(node);
+            while next.is_none() && self.is_wrapper(node) {
+                node = self.children(node)[0];
+                next = within(node);
+            }
+            match next {
+                Some(next) => node = next,
+                None => return Err((node, std::iter::once(step).chain(steps).collect())),
+            }
+        }
+        Ok(node)
+    }
+
     fn by_key(&self, node: Id, text: &str, fits: impl Fn(&str) -> bool) -> Option<Id> {
         self.children(node).iter().copied().find(|&child| fits(&text[self.key(child)]))
     }
@@ -242,7 +275,9 @@ impl Tree {
     }
 }
 
-enum Step<'a> {
+/// One step of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Step<'a> {
     Field(&'a str),
     Index(usize),
     Key(&'a str),

@@ -140,6 +140,11 @@ impl Names {
         Self { patterns: vec!["*".into()], listed: false }
     }
 
+    /// A choice of several.
+    pub fn listed(patterns: Vec<String>) -> Self {
+        Self { patterns, listed: true }
+    }
+
     /// The places of all names that fit, each once, in canonical order. A pattern that fits nothing is reported.
     pub fn require(&self, kind: Kind, outline: &Outline, path: &str, report: &mut Report) -> Vec<usize> {
         if self.patterns.is_empty() {

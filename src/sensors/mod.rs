@@ -93,6 +93,33 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Rep
     }
 }
 
+/// Reports a choice of channels that cannot be right: a channel's name, in which `*` stands for any letters of the names
+/// of bodies.
+pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut Report) {
+    match pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) {
+        Some((owner, quantity)) => {
+            if check_quantity(quantity, path, outline, report) {
+                outline.require_matching(Kind::BODY, owner, path, report);
+            }
+        }
+        None => check_channel(pattern, path, outline, report),
+    }
+}
+
+/// Reports what cannot be measured of a body or wall. Returns whether it can.
+pub fn check_quantity(quantity: &str, path: &str, outline: &Outline, report: &mut Report) -> bool {
+    Word(quantity.to_owned()).check(outline, QUANTITIES, path, report)
+}
+
+/// The names of the channels that a choice means, in canonical order of their bodies.
+pub fn chosen(pattern: &str, outline: &Outline) -> Vec<String> {
+    let Some((owner, quantity)) = pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) else {
+        return vec![pattern.to_owned()];
+    };
+    let bodies = outline.matching(Kind::BODY, owner).into_iter().map(|place| &outline.names(Kind::BODY)[place]);
+    bodies.map(|body| format!("{body}.{quantity}")).collect()
+}
+
 /// The channel called `name`, for example `ball.position.x` or `energy.residual`. Bodies and walls must have been
 /// spawned.
 pub fn find(world: &mut World, name: &str) -> Option<Channel> {

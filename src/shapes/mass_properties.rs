@@ -124,7 +124,7 @@ pub fn center_depends_on_density(specs: &[AtomSpec]) -> bool {
 
 /// The radius of a circle about the centre of mass that holds all atoms, in m; if the centre depends on the density,
 /// of one that holds them wherever it is.
-pub fn reach(specs: &[AtomSpec]) -> f64 {
+pub fn reach(specs: &[AtomSpec], rule: InertiaRule) -> f64 {
     let widest =
         |center: DVec2| specs.iter().map(|atom| (atom.offset - center).length() + atom.radius).fold(0.0, f64::max);
     if center_depends_on_density(specs) {
@@ -132,7 +132,7 @@ pub fn reach(specs: &[AtomSpec]) -> f64 {
         // The centre of mass lies among the atoms' centres, none of which is farther than this from the middle.
         return 2.0 * widest(middle);
     }
-    widest(of(specs, None, InertiaRule::Discs, 1.0).center)
+    widest(of(specs, None, rule, 1.0).center)
 }
 
 #[cfg(test)]
@@ -177,8 +177,13 @@ mod tests {
         let mixed = [atom(0.0, 0.0, 0.5, Some(1.0)), atom(4.0, 0.0, 1.0, None)];
         for density in [1e-6, 1.0, 1e6] {
             let properties = of(&mixed, None, InertiaRule::Discs, density);
-            assert!(properties.atoms.iter().all(|atom| atom.offset.length() + atom.radius <= reach(&mixed)));
+            assert!(
+                properties
+                    .atoms
+                    .iter()
+                    .all(|atom| atom.offset.length() + atom.radius <= reach(&mixed, InertiaRule::Discs))
+            );
         }
-        assert_eq!(reach(&[atom(7.0, 0.0, 0.5, None)]), 0.5);
+        assert_eq!(reach(&[atom(7.0, 0.0, 0.5, None)], InertiaRule::Discs), 0.5);
     }
 }

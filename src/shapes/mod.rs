@@ -6,9 +6,12 @@ pub mod disc;
 pub mod list;
 pub mod mass_properties;
 pub mod picture;
+pub mod png;
+pub(crate) mod silhouette;
 mod union;
 
 use glam::DVec2;
+use mass_properties::InertiaRule;
 use serde::Deserialize;
 
 use crate::scene::Report;
@@ -62,6 +65,13 @@ macro_rules! shapes {
     };
 }
 
+impl Atoms {
+    /// Where mass and inertia come from unless the body says so: from the covered area where discs overlap by design.
+    pub fn own_rule(&self) -> InertiaRule {
+        if matches!(self, Self::Png(_)) { InertiaRule::Union } else { InertiaRule::default() }
+    }
+}
+
 // The list of shapes: one line each.
 shapes! {
     /// `Picture(spacing: 0.1, mass: 0.01, rows: ["##", "#."])`: equal discs on a square grid.
@@ -70,4 +80,6 @@ shapes! {
     List(list::DiscList),
     /// `Disc(radius: 0.2)`: one disc.
     Disc(disc::OneDisc),
+    /// `Png(file: "example:cow.png", height: 1.5, count: 60)`: a silhouette covered by discs.
+    Png(png::Png),
 }

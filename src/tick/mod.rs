@@ -28,6 +28,7 @@ mod drive;
 mod failure;
 mod guard;
 pub mod stability;
+pub mod stopwatch;
 
 use bevy_app::App;
 use bevy_ecs::intern::Interned;

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::NextKey;
 use super::{Atom, Motion, Name, NewBody, Wall};
-use crate::scene::sections::{BodiesSection, FillSection, InertiaRule, WallsSection};
+use crate::scene::sections::{BodiesSection, FillSection, WallsSection};
 use crate::scene::{Kind, Outline, SceneAppExt};
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::shapes::{AtomSpec, Atoms};
@@ -60,7 +60,7 @@ pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World
 pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
     for (entry, placed) in section.0.iter().zip(section.place(outline)) {
         let template = Template::of(world, &entry.atoms, entry.material.as_deref());
-        let properties = mass_properties::of(&template.specs, None, InertiaRule::default(), template.density);
+        let properties = mass_properties::of(&template.specs, None, entry.atoms.own_rule(), template.density);
         for (number, place) in placed.into_iter().enumerate() {
             let body = NewBody {
                 name: entry.body_name(number as u64),

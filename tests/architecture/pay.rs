@@ -33,6 +33,7 @@ fn a_scene_schedules_what_it_names_and_nothing_else() {
             "title: \"Words\", notes: \"More words.\", film: (fps: 25), camera: Look(center: (0, 0), height: 3),",
             [0, 0, 0],
         ),
+        ("plots: [(channels: [\"energy.total\", \"ball.contacts\"])],", [0, 0, 0]),
         ("materials: { \"m\": (friction: 0.5) }, walls: [(name: \"floor\", left: (1, 0), right: (0, 0))],", [0, 0, 0]),
         ("sensors: [Pose(of: \"*\"), Velocity(of: \"*\"), Energy(), Overlap()],", [0, 0, 0]),
         ("contacts: None,", [0, 0, 0]),

@@ -162,10 +162,7 @@ fn a_film_is_fitted_into_a_size() {
     }
     let folder = folder.with("film.gif", "old");
     let ended = folder.jostle(&format!("{render} -o film.gif --max-size 1kB")).code(2);
-    assert!(
-        ended.err.starts_with("error: the film does not fit into 1 kB: even at an eighth of its size"),
-        "{ended:?}"
-    );
+    assert!(ended.err.contains("error: the film does not fit into 1 kB: even at an eighth of its size"), "{ended:?}");
     assert_eq!(folder.read("film.gif"), b"old");
     assert_eq!(folder.names(), ["film.gif", "other.gif", "plain.gif", "roomy.gif"]);
 }

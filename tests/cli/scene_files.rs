@@ -72,3 +72,38 @@ fn a_scene_may_come_from_a_pipe() {
     assert!(child.wait().unwrap().success());
     assert_eq!(folder.names(), ["stdin.gif"]);
 }
+
+/// Names with a path stand wherever names do: sensors and their columns, forces, expectations, cameras and results.
+#[test]
+fn names_with_a_path_stand_wherever_names_do() {
+    let scene = r#"Scene(
+        format: 1,
+        clock: (duration: 0.2, tick: "1 ms"),
+        film: (fps: 10, size: (64, 36), freeze: [(touch: ("robot_1/left_leg", "robot_1/sole"), for: 0.1)]),
+        gravity: (0, -9.81),
+        templates: { "robot": (args: ["x"],
+            bodies: [(name: "left_leg", at: ("x", 0.1), atoms: Disc(radius: 0.1, mass: 1))],
+            walls: [(name: "sole", left: (1, 0), right: (0, 0))],
+        ) },
+        instances: [Repeat(count: 2, make: (of: "robot", name: "robot_{i}", with: (x: "i")))],
+        sensors: [Pose(of: "robot_1/left_leg"), Velocity(of: "robot_*/left_leg"), ContactForce(on: "robot_0/sole"), Contacts(of: "robot_1/left_leg")],
+        forces: [Drag(linear: 0.1, of: "robot_1/*"), Torque(of: "robot_0/left_leg", value: 0.01), Thrust(of: ["robot_0/left_leg"], force: (0.1, 0))],
+        camera: Follow(of: "robot_1/left_leg", height: 2),
+        expect: [
+            Position(of: "robot_1/left_leg", at: 0, is: (1, 0.1), within: 1e-9),
+            Inside(of: "robot_*", box: ((-1, 0), (2, 1))),
+            Channel(name: "robot_1/left_leg.position.y", below: 1),
+        ],
+    )"#;
+    let folder = Folder::new("paths").with("robots.ron", scene);
+    let ended = folder.jostle("run robots.ron -o channels.csv --json").code(0);
+    let result: serde_json::Value = serde_json::from_str(&ended.out).unwrap();
+    assert_eq!(result["bodies"][1]["name"], "robot_1/left_leg");
+    assert!(result["expect"].as_array().unwrap().iter().all(|expectation| expectation["holds"] == true), "{result}");
+    let table = String::from_utf8(folder.read("channels.csv")).unwrap();
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    for column in ["robot_1/left_leg.position.x [m]", "robot_0/left_leg.velocity.y [m/s]", "robot_0/sole.force.y [N]"] {
+        assert!(header.contains(&column), "{column} of {header:?}");
+    }
+    folder.jostle("render robots.ron --quiet").code(0);
+}

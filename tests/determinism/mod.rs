@@ -8,6 +8,7 @@
 
 mod changes;
 mod pinned;
+mod plots;
 mod same_bits;
 mod threads;
 

@@ -47,7 +47,7 @@ fn camera() -> Camera {
 /// Pixels in which two frames differ, as places in the world, with the colour that the first one has there.
 fn differences(a: &Frame, b: &Frame) -> Vec<(DVec2, [u8; 3])> {
     let camera = camera();
-    let view = View { camera, theme: Theme::named("paper").expect("it is there"), frame_step: 0.1 };
+    let view = View { camera, theme: Theme::named("paper").expect("it is there"), frame_step: 0.1, panel: None };
     let paint = |frame: &Frame| {
         let painter = Painter::new(&view, frame).expect("a picture");
         let mut picture = painter.backdrop().clone();

@@ -29,11 +29,11 @@ fn frame(simulation: &mut Simulation, recorder: &mut Recorder, time: f64) -> Fra
 }
 
 fn trail(frame: &Frame) -> (Vec<glam::DVec2>, f64) {
-    let trails = frame.marks.iter().filter_map(|mark| match &mark.shape {
+    let mut trails = frame.marks.iter().filter_map(|mark| match &mark.shape {
         MarkShape::Trail { points, step, .. } => Some((points.clone(), *step)),
         _ => None,
     });
-    trails.last().expect("a trail")
+    trails.next_back().expect("a trail")
 }
 
 /// Law: `x = v t - g t^2/2`, which velocity Verlet meets to rounding. Tolerance: 1e-9 of the way, for some thousand sums.

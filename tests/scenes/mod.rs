@@ -7,4 +7,6 @@ mod film;
 mod layers;
 mod pictures;
 mod shipped;
+mod silhouettes;
 mod wrong;
+mod wrong_mills;

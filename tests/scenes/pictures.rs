@@ -28,7 +28,7 @@ fn painted(theme: &str) -> image::RgbaImage {
     let camera = Camera::look((2.0, 0.9).into(), 2.25, SIZE);
     simulation.world_mut().insert_resource(PictureHeight(2.25));
     let frame = Recorder::default().frame(&mut simulation, 0.35).expect("numbers stay finite");
-    let view = View { camera, theme: Theme::named(theme).expect("it is there"), frame_step: 0.1 };
+    let view = View { camera, theme: Theme::named(theme).expect("it is there"), frame_step: 0.1, panel: None };
     let painter = Painter::new(&view, &frame).expect("a picture");
     let mut picture = painter.backdrop().clone();
     painter.paint(&frame, &mut picture, &mut Scratch::default());

@@ -17,7 +17,7 @@ use tiny_skia::{Color, Paint};
 use crate::record::frame::Rgb;
 
 /// A colour as tiny-skia paints it.
-fn paint(Rgb(red, green, blue): Rgb) -> Paint<'static> {
+pub(super) fn paint(Rgb(red, green, blue): Rgb) -> Paint<'static> {
     let mut paint = Paint { anti_alias: true, ..Paint::default() };
     paint.set_color(Color::from_rgba8(red, green, blue, 255));
     paint

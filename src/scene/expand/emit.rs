@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::scope::{Failed, Value, is_quantity};
 use super::write::Buffer;
-use super::{Expander, File, Outcome};
+use super::{Expander, File, Outcome, picture};
 use crate::scene::outline::fits;
 use crate::scene::scan::skip_blank;
 use crate::scene::tree::{Form, Id, Tree};
@@ -95,7 +95,7 @@ impl Place {
 pub(super) fn plain(tree: &Tree, text: &str) -> Vec<bool> {
     let mut plain = vec![true; tree.next() as usize];
     for id in (0..tree.next()).rev() {
-        let changes = tree.node(id).form == Form::Text || tree.name(id, text) == "Repeat";
+        let changes = tree.node(id).form == Form::Text || matches!(tree.name(id, text), "Repeat" | picture::NAME);
         plain[id as usize] = !changes && tree.children(id).iter().all(|&child| plain[child as usize]);
     }
     plain
@@ -175,6 +175,7 @@ impl Expander {
                 Ok(())
             }
             Form::Round | Form::Braces | Form::List => {
+                let start = out.text.len();
                 let name = tree.name(id, text).len();
                 let open = skip_blank(text, span.start + name).unwrap_or(span.start);
                 if name > 0 {
@@ -188,6 +189,9 @@ impl Expander {
                     self.child(context, out, child, key, patches, is_entry)?;
                 }
                 self.added(context, out, id, patches)?;
+                if key == "atoms" && tree.name(id, text) == picture::NAME {
+                    self.picture(context, out, id, start)?;
+                }
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())
             }

@@ -377,7 +377,7 @@ mod tests {
             ("2 * rr", 4..6, "no `rr`"),
             ("gap + 1 + mass", 0..14, "cannot add a length and a mass"),
             ("2 * (n + 1", 4..5, "this bracket is never closed"),
-            ("2 n 3", 0..3, "unknown unit `n`"),
+            ("2 n 3", 0..3, "unknown unit `n` (did you mean `N`?)"),
             ("n 3", 2..3, "not expected here"),
             ("n *", 3..3, "a value is missing at the end"),
             ("n * )", 4..5, "`)` is no value"),

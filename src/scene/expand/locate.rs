@@ -18,8 +18,11 @@ pub(super) fn chain(steps: &[Step], step: u32) -> Vec<Mark> {
     while let Some(Step { before, file, at: (from, to), cause: Some(cause), .. }) = steps.get(at as usize) {
         let label = match cause {
             Cause::Instance { name, template } => format!("in the instance `{name}` of the template `{template}`"),
-            Cause::Repetition { i, j: None } => format!("{REPETITION} i = {i}"),
-            Cause::Repetition { i, j: Some(j) } => format!("{REPETITION} i = {i}, j = {j}"),
+            Cause::Repetition { names, i, j } => {
+                let indices = names.iter().zip([Some(*i), *j]).filter_map(|(name, index)| Some((name, index?)));
+                let indices: Vec<String> = indices.map(|(name, index)| format!("{name} = {index}")).collect();
+                format!("{REPETITION} {}", indices.join(", "))
+            }
             Cause::Included => "included here".to_owned(),
         };
         chain.push(Mark { source: *file, span: *from as usize..*to as usize, label });
@@ -38,6 +41,8 @@ pub(super) fn merge(errors: &mut Vec<SceneError>) {
         let key = (error.source, place, words);
         match seen.get(&key) {
             Some(&first) if !error.chain.is_empty() => kept[first].again += 1,
+            // A parameter that is used in many places is wrong in one.
+            Some(&first) if error.span.is_some() && kept[first] == error => {}
             _ => {
                 seen.insert(key, kept.len());
                 kept.push(error);
@@ -92,10 +97,17 @@ impl Expanded {
         error.source = number;
         error.file = (number > 0).then(|| file.source.name.clone());
         error.chain = chain(&self.steps, piece.step);
-        let repeated = error.chain.iter().any(|mark| mark.label.starts_with(REPETITION));
-        if repeated && error.message.contains("is taken by") {
+        let repeated = error.chain.iter().find_map(|mark| mark.label.strip_prefix(REPETITION));
+        if let Some(indices) = repeated
+            && error.message.contains("is taken by")
+        {
+            let braces: Vec<String> = indices
+                .split(", ")
+                .filter_map(|index| Some(format!("{{{}}}", index.split(" = ").next()?.trim())))
+                .collect();
+            let (whose, example) = (if braces.len() == 1 { "its index" } else { "its indices" }, braces.join("_"));
             error.help =
-                Some("give every thing its own name: in a `Repeat` put its index in, as in \"ball_{i}\"".into());
+                Some(format!("give every thing its own name: in a `Repeat` put {whose} in, as in \"ball_{example}\""));
         }
         if piece.made && file.tree.node(node).form == Form::Text && there == file.tree.span(node) {
             let value = &self.text[piece.start as usize..];

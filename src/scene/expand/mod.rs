@@ -1,5 +1,5 @@
 //! Scenes that are made rather than written out: `params`, `templates`, `instances`, `include` and `Repeat` become a
-//! text in which none of them stands, before any section is read.
+//! text in which none of them stands, before any section is read; pictures (`Png`) become discs.
 //!
 //! So every section, also one of a plugin, gets all of this without knowing of it. Each piece of the made text knows
 //! which piece of which file it comes from, and through which instances and repetitions: mistakes are told where the
@@ -11,6 +11,7 @@ mod include;
 mod instance;
 mod locate;
 mod number;
+mod picture;
 mod repeat;
 mod scope;
 mod write;
@@ -20,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::error::{Mark, SceneError, SceneErrors};
-use super::scan::Scan;
+use super::scan::{Scan, scan};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
@@ -58,7 +59,7 @@ struct File {
 #[derive(Clone, Debug)]
 enum Cause {
     Instance { name: String, template: String },
-    Repetition { i: u64, j: Option<u64> },
+    Repetition { names: Rc<[String]>, i: u64, j: Option<u64> },
     Included,
 }
 
@@ -89,7 +90,22 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
         return false;
     }
     let mut sections = tree.children(0).iter().map(|&id| &source.text[tree.key(id)]);
-    !source.settings.is_empty() || sections.any(|name| SECTIONS.contains(&name)) || source.text.contains("Repeat")
+    !source.settings.is_empty()
+        || sections.any(|name| SECTIONS.contains(&name))
+        || source.text.contains("Repeat")
+        || source.text.contains(picture::NAME)
+}
+
+/// The sections that a scene has when everything is made, by name; none if it cannot be made.
+pub(super) fn made(source: &Source) -> Option<BTreeMap<String, String>> {
+    let found = scan(&source.text);
+    if found.fault.is_some() {
+        return None;
+    }
+    let text = if is_wanted(source, &found.tree) { expand(source, found).ok()?.text } else { source.text.clone() };
+    let tree = scan(&text).tree;
+    let section = |&id: &Id| (text[tree.key(id)].to_owned(), text[tree.span(id)].to_owned());
+    Some(tree.children(0).iter().map(section).collect())
 }
 
 /// Makes what the scene asks for, from what the walk over its text found.
@@ -119,6 +135,7 @@ struct Expander {
     instances: BTreeSet<String>,
     /// The files that are being opened, each included by the one before.
     open_files: Vec<PathBuf>,
+    silhouettes: Vec<picture::Known>,
     made: u64,
     work: usize,
     /// How many values stand in each other by name.

@@ -1,5 +1,7 @@
 //! `Repeat(count: 5, make: ..)` in place of an item of a list: along a line, on a grid, on a circle, or just counted.
 
+use std::rc::Rc;
+
 use super::emit::Context;
 use super::number::Number;
 use super::scope::{Scope, Value};
@@ -42,14 +44,15 @@ impl Expander {
         let make = self.required(context, id, "make", EXAMPLE)?;
         let items = if tree.node(make).form == Form::List { tree.children(make) } else { std::slice::from_ref(&make) };
         let (columns, rows) = self.count(context, id)?;
-        let names = self.index_names(context, id, rows.is_some())?;
+        let names: Rc<[String]> = self.index_names(context, id, rows.is_some())?.into();
         let layout = self.layout(context, id, rows.is_some())?;
         let head = tree.head(id);
         let head = if tree.key(id).is_empty() { head } else { tree.span(id).start..tree.span(id).start + 6 };
         for j in 0..rows.unwrap_or(1) {
             for i in 0..columns {
                 self.spend(context, id, 1, 0)?;
-                let step = self.step(context, head.clone(), Cause::Repetition { i, j: rows.map(|_| j) })?;
+                let cause = Cause::Repetition { names: Rc::clone(&names), i, j: rows.map(|_| j) };
+                let step = self.step(context, head.clone(), cause)?;
                 let mut scope = Scope::around(context.scope);
                 for (name, index) in names.iter().zip([i, j]) {
                     scope.set(name, Value::Number(Number::plain(index as f64)));

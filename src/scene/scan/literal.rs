@@ -108,7 +108,7 @@ pub(crate) fn word_length(text: &str) -> usize {
 }
 
 /// `b"`, `r"`, `r##"` and their like: the bytes before the quote and the number of `#`.
-pub(super) fn text_prefix(text: &str) -> Option<(usize, usize)> {
+pub(crate) fn text_prefix(text: &str) -> Option<(usize, usize)> {
     let letters = text.find(|c| !matches!(c, 'b' | 'r')).unwrap_or(text.len());
     if !matches!(&text[..letters], "b" | "r" | "br") {
         return None;

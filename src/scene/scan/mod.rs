@@ -12,7 +12,8 @@ use std::ops::Range;
 
 use super::error::SceneError;
 use super::tree::{Form, Id, Tree};
-use literal::{text_prefix, word_length};
+pub(super) use literal::text_prefix;
+use literal::word_length;
 
 /// Brackets may be nested this deep; a scene needs about eight.
 const DEEPEST: usize = 48;

@@ -53,9 +53,10 @@ pub struct BodyEntry {
     /// The mass in kg, in place of that of the atoms. Above zero.
     #[serde(default)]
     pub mass: Option<Mass>,
-    /// The moment of inertia about the centre of mass in kg m2, or the rule it follows from. Default: `Discs`.
+    /// The moment of inertia about the centre of mass in kg m2, or the rule it follows from. Default: `Discs`, for `Png`
+    /// `Union`.
     #[serde(default)]
-    pub inertia: InertiaRule,
+    pub inertia: Option<InertiaRule>,
 }
 
 fn yes() -> bool {
@@ -108,17 +109,17 @@ impl BodyEntry {
         if let Some(mass) = self.mass {
             report.positive("mass", mass);
         }
-        if let InertiaRule::Given(inertia) = self.inertia {
+        if let Some(InertiaRule::Given(inertia)) = self.inertia {
             report.positive("inertia", inertia);
         }
         material::require(self.material.as_deref(), outline, report);
         let specs = self.atoms.specs();
         self.mass_properties(1.0).check(report);
-        if self.inertia == InertiaRule::Points && specs.len() == 1 && !self.fixed && self.kinematic.is_none() {
+        if self.inertia == Some(InertiaRule::Points) && specs.len() == 1 && !self.fixed && self.kinematic.is_none() {
             let message = "one atom counted as a point has no moment of inertia";
             report.error("inertia", message).help("leave `inertia` out, or give a number in kg m2");
         }
-        if self.inertia == InertiaRule::Union && specs.iter().any(|atom| atom.mass.is_some()) {
+        if self.inertia == Some(InertiaRule::Union) && specs.iter().any(|atom| atom.mass.is_some()) {
             let message = "with `Union` the mass follows from the covered area, but atoms have masses of their own";
             report.error("inertia", message).help("remove the atoms' `mass`; the body's own `mass` may stay");
         }
@@ -147,7 +148,8 @@ impl BodyEntry {
 
     /// Mass, centre of mass, inertia and atoms, given the density of its material in kg/m2.
     pub fn mass_properties(&self, density: f64) -> MassProperties {
-        mass_properties::of(&self.atoms.specs(), self.mass.map(f64::from), self.inertia, density)
+        let rule = self.inertia.unwrap_or(self.atoms.own_rule());
+        mass_properties::of(&self.atoms.specs(), self.mass.map(f64::from), rule, density)
     }
 
     /// Where its centre of mass is at the start, in m.
@@ -176,7 +178,7 @@ impl BodyEntry {
         if mass_properties::center_depends_on_density(&specs) && self.datum == Datum::CenterOfMass {
             // The material is not known yet; this circle holds the body wherever its centre of mass is.
             let center = self.at.unwrap_or_default().si();
-            outline.occupy(Obstacle::Disc { center, radius: mass_properties::reach(&specs) });
+            outline.occupy(Obstacle::Disc { center, radius: mass_properties::reach(&specs, self.atoms.own_rule()) });
             return;
         }
         let properties = self.mass_properties(1.0);

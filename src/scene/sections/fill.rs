@@ -1,4 +1,4 @@
-//! `fill`: many equal bodies in a box, none touching another, by seeded chance.
+//! `fill`: many equal bodies in a box or polygon, none touching another, by seeded chance.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -6,26 +6,27 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Deserialize;
 
-use crate::scene::units::{Length, Position, Speed};
+use super::Region;
+use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
-use crate::shapes::mass_properties::{self, InertiaRule};
+use crate::shapes::mass_properties;
 use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together. A body takes some 1.3 kB, and a film reads its scene twice: this
 /// many stay well below 1 GiB.
 pub const LARGEST_COUNT: u64 = 200_000;
-/// How often a place is tried for one body before the box counts as full.
+/// How often a place is tried for one body before the region counts as full.
 const TRIES: usize = 20_000;
 /// Cells of the search grid along one side, at most.
 const CELLS: usize = 512;
 
 /// Many equal bodies, named `gas_0`, `gas_1` and so on if the entry's name is `gas`.
 ///
-/// Each stands at a random place in the box, turned by a random angle, moving in a random direction. Circles about
-/// the bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the box's
-/// border. The same seed gives the same places on every machine.
+/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about
+/// the bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the
+/// region's border. The same seed gives the same places on every machine.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "")]
 pub struct FillEntry {
@@ -38,8 +39,8 @@ pub struct FillEntry {
     pub material: Option<String>,
     /// How many, from 1 to [`LARGEST_COUNT`].
     pub count: WholeNumber,
-    /// Two opposite corners of the box, in m.
-    pub within: (Position, Position),
+    /// Two opposite corners of a box, or the corners of a polygon in order, in m.
+    pub within: Region,
     /// How fast each moves at the start, in m/s. Default: 0.
     #[serde(default)]
     pub speed: Speed,
@@ -67,13 +68,13 @@ pub struct Placed {
 pub struct FillSection(pub Vec<FillEntry>);
 
 impl FillSection {
-    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the box
+    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the region
     /// is full, which `check` reports. The outline tells which places are taken.
     pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
         let mut taken = outline.obstacles().to_vec();
         let mut all = Vec::new();
         for entry in &self.0 {
-            let radius = mass_properties::reach(&entry.atoms.specs());
+            let radius = entry.radius();
             let placed = entry.place(radius, &taken);
             taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
             all.push(placed);
@@ -122,7 +123,15 @@ impl Section for FillSection {
                 } else {
                     ("without touching anything".to_owned(), "atoms")
                 };
-                let message = format!("only {} of {} bodies find room in the box {apart}", placed.len(), entry.count.0);
+                let radius = entry.radius() + gap / 2.0;
+                let share = entry.count.0 as f64 * std::f64::consts::PI * radius * radius / entry.within.area();
+                let message = format!(
+                    "only {} of {} bodies find room in the {} {apart}: all would take {:.0} % of its area",
+                    placed.len(),
+                    entry.count.0,
+                    entry.within.noun(),
+                    100.0 * share,
+                );
                 let help = format!(
                     "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the area"
                 );
@@ -144,30 +153,23 @@ impl FillEntry {
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.within("atoms", |report| self.atoms.check(report));
-        mass_properties::of(&self.atoms.specs(), None, InertiaRule::Discs, 1.0).check(report);
+        mass_properties::of(&self.atoms.specs(), None, self.atoms.own_rule(), 1.0).check(report);
         material::require(self.material.as_deref(), outline, report);
         if !(1..=LARGEST_COUNT).contains(&self.count.0) {
             report.error("count", format!("must be from 1 to {LARGEST_COUNT}, got {}", self.count.0));
         }
-        let (low, high) = self.corners();
-        if report.finite_pair("within[0]", self.within.0.si()) & report.finite_pair("within[1]", self.within.1.si()) {
-            let size = high - low;
-            if !(size.x > 0.0 && size.y > 0.0 && size.is_finite()) {
-                let message = format!("the box must have width and height, got {} m by {} m", size.x, size.y);
-                report.error("within", message).help("give two opposite corners: `within: ((0, 0), (6, 6))`");
-            }
-        }
+        report.within("within", |report| self.within.check(report));
         report.not_negative("speed", self.speed);
         report.not_negative("gap", self.gap);
     }
 
-    fn corners(&self) -> (DVec2, DVec2) {
-        let (a, b) = (self.within.0.si(), self.within.1.si());
-        (a.min(b), a.max(b))
+    /// The radius of a circle that holds the atoms of one body, in m.
+    fn radius(&self) -> f64 {
+        mass_properties::reach(&self.atoms.specs(), self.atoms.own_rule())
     }
 
     fn place(&self, radius: f64, taken: &[Obstacle]) -> Vec<Placed> {
-        let (low, high) = self.corners();
+        let (low, high) = self.within.bounds();
         let (low, high) = (low + radius, high - radius);
         let mut placed = Vec::new();
         if !(low.x <= high.x && low.y <= high.y) {
@@ -182,8 +184,9 @@ impl FillEntry {
         // The upper 53 bits: a number from 0 up to, not including, 1, the same on every machine.
         let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         for _ in 0..self.count.0.min(LARGEST_COUNT) {
-            let free =
-                (0..TRIES).map(|_| low + (high - low) * DVec2::new(chance(), chance())).find(|&at| grid.is_free(at));
+            let free = (0..TRIES)
+                .map(|_| low + (high - low) * DVec2::new(chance(), chance()))
+                .find(|&at| self.within.holds(at, radius) && grid.is_free(at));
             let Some(position) = free else { break };
             grid.insert(Obstacle::Disc { center: position, radius });
             let angle = chance() * std::f64::consts::TAU;
@@ -267,6 +270,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::units::Position;
     use crate::shapes::disc::OneDisc;
 
     fn gas(count: u64, radius: f64) -> FillSection {
@@ -276,7 +280,7 @@ mod tests {
             atoms: Atoms::Disc(disc),
             material: None,
             count: WholeNumber(count),
-            within: (Position::new(0.0, 0.0), Position::new(2.0, 1.0)),
+            within: vec![Position::new(0.0, 0.0), Position::new(2.0, 1.0)].into(),
             speed: Speed::new(3.0),
             seed: WholeNumber(7),
             gap: Length::default(),

@@ -3,13 +3,13 @@
 use bevy_app::App;
 
 use super::camera::{self, FitCamera, FollowCamera, LookCamera};
-use super::{ClockSection, FilmSection, LookSection};
+use super::{ClockSection, FilmSection, LookSection, PlotsSection};
 use crate::raster::COLOR_NAMES;
 use crate::scene::{Arity, SceneAppExt};
 use crate::world::material::COLORS;
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 5] = ["joints", "plots", "randomise", "controllers", "scene"];
+const RESERVED: [&str; 4] = ["joints", "randomise", "controllers", "scene"];
 
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {
@@ -20,6 +20,7 @@ pub fn plugin(app: &mut App) {
     app.register_section::<ClockSection>();
     app.register_section::<FilmSection>();
     app.register_section::<LookSection>();
+    app.register_section::<PlotsSection>();
     app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE);
     app.register_entry::<FitCamera>();
     app.register_entry::<LookCamera>();

@@ -11,6 +11,8 @@ pub mod film;
 mod install;
 pub mod kinematic;
 pub mod look;
+pub mod plots;
+pub mod region;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -21,4 +23,6 @@ pub use film::{FilmSection, FreezeEntry};
 pub use install::plugin;
 pub use kinematic::{KinematicEntry, PathEntry};
 pub use look::LookSection;
+pub use plots::{HistogramEntry, PlotEntry, PlotsSection};
+pub use region::Region;
 pub use walls::{WallEntry, WallsSection};

@@ -27,7 +27,7 @@ fn as_data() {
                 "column": 32,
                 "path": "bodies[0].atoms",
                 "message": "`Disk` is not one of the choices",
-                "help": "did you mean `Disc`? choices: `Picture`, `List`, `Disc`",
+                "help": "did you mean `Disc`? choices: `Picture`, `List`, `Disc`, `Png`",
             }],
         })
     );

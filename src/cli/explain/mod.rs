@@ -1,0 +1,58 @@
+//! `jostle explain`: what a scene does in a tick and what that costs; what a name or a word means.
+
+mod name;
+mod scene;
+mod words;
+
+use std::path::Path;
+
+use clap::Args;
+
+use super::Exit;
+use super::flags::OverrideFlags;
+use super::load::{EXAMPLE, Request};
+use super::say::say;
+
+/// The command `explain`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Explain {
+    /// A scene file or example:NAME; or the name of a section, entry, method or channel; or a word on the error card
+    #[arg(value_name = "SCENE|NAME", required = true)]
+    what: Vec<String>,
+    #[command(flatten)]
+    overrides: OverrideFlags,
+    /// Print what a scene does as one line of JSON on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle explain example:tetris     its systems in order, who brought them, and how the time is shared out
+  jostle explain Drag               what a force, sensor, section or method is, with an example
+  jostle explain critical tick      what a word on the error card means
+
+A scene is run for half a second twice: as it is, for the cost of a tick, and with a look at the clock around each stage.";
+
+impl Explain {
+    pub(super) fn execute(self) -> Exit {
+        let what = self.what.join(" ");
+        if what.starts_with(EXAMPLE) || what.ends_with(".ron") || Path::new(&what).is_file() {
+            return self.scene(Request { name: &what, json: self.json });
+        }
+        if self.json {
+            say("error: --json is for scenes; `jostle list --json` tells names to programs");
+            return Exit::Usage;
+        }
+        name::explain(&what)
+    }
+
+    fn scene(&self, request: Request) -> Exit {
+        match scene::Anatomy::of(request, &self.overrides) {
+            Ok(anatomy) if self.json => super::say::print_line(&anatomy.to_json(request.name).to_string()),
+            Ok(anatomy) => super::say::print_line(anatomy.told(request.name).trim_end()),
+            Err(exit) => exit,
+        }
+    }
+}

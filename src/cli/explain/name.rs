@@ -1,0 +1,82 @@
+//! What a name of the scene language or a word on the card means.
+
+use bevy_app::App;
+
+use super::words::{WORDS, Word};
+use crate::cli::Exit;
+use crate::cli::say::{print_line, say};
+use crate::integrate::Methods;
+use crate::scene::{Known, SceneRegistry, nearest_name};
+use crate::tick::TickAppExt;
+
+/// Explains a name; `what` may be written in capitals or not.
+pub(super) fn explain(what: &str) -> Exit {
+    let mut app = App::empty();
+    app.add_tick();
+    crate::plugins::standard(&mut app);
+    let registry = app.world().resource::<SceneRegistry>();
+    let mut found = Vec::new();
+    let mut names: Vec<&str> = Vec::new();
+    let same = |name: &str| name.eq_ignore_ascii_case(what);
+    for section in registry.sections() {
+        names.push(section.name);
+        if same(section.name) {
+            found.push(of_section(section, registry));
+        }
+        for entry in registry.entries(section.name) {
+            names.push(entry.name);
+            if same(entry.name) {
+                found.push(of_entry(section.name, entry));
+            }
+        }
+    }
+    for method in app.world().get_resource::<Methods>().map_or(&[][..], |methods| &methods.0) {
+        names.push(method.name);
+        if same(method.name) {
+            found.push(format!(
+                "{} is an integration method of order {}, stable while omega dt < {} (omega: the angular frequency of the \
+                 stiffest spring).\nFor example: clock: (duration: 10, tick: \"1 ms\", method: {})",
+                method.name, method.order, method.stability_limit, method.name
+            ));
+        }
+    }
+    for Word { word, meaning } in WORDS {
+        names.push(word);
+        if same(word) {
+            found.push(format!("{word}: {meaning}"));
+        }
+    }
+    for list in registry.word_lists() {
+        let word = registry.words(list).into_iter().find(|word| same(word));
+        if let Some(word) = word.filter(|_| found.is_empty()) {
+            found.push(format!("{word} is a {list}; `jostle list` shows the others"));
+        }
+    }
+    if found.is_empty() {
+        let near = nearest_name(what, names.iter().copied());
+        let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        say(&format!(
+            "error: nothing is called `{what}`\nhelp: {near}`jostle list sections`, `jostle list forces` and so on show all \
+             names; the words of the error card can be asked for too, such as `jostle explain critical tick`"
+        ));
+        return Exit::Usage;
+    }
+    print_line(&found.join("\n\n"))
+}
+
+fn of_section(known: Known, registry: &SceneRegistry) -> String {
+    let entries: Vec<&str> = registry.entries(known.name).into_iter().map(|entry| entry.name).collect();
+    let kind = if known.takes_entries {
+        format!("is a section of the scene that takes entries: {}", entries.join(", "))
+    } else {
+        "is a section of the scene".to_owned()
+    };
+    format!("`{}` {kind}. It comes from {}.\nFor example: {}", known.name, known.origin, known.example)
+}
+
+fn of_entry(section: &str, known: Known) -> String {
+    format!(
+        "`{}` is an entry of `{section}`. It comes from {}.\nFor example: {}",
+        known.name, known.origin, known.example
+    )
+}

@@ -1,0 +1,299 @@
+//! A scene taken apart: what it names, what runs in a tick, where the time goes.
+
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+
+use crate::cli::Exit;
+use crate::cli::flags::OverrideFlags;
+use crate::cli::load::Request;
+use crate::cli::say::{count, number};
+use crate::contacts::search::CandidatePairs;
+use crate::report::Card;
+use crate::scene::{Known, SceneRegistry};
+use crate::simulation::Simulation;
+use crate::tick::stopwatch::{self, Part, Stopwatch};
+
+/// How long a scene is run, twice.
+const BUDGET: Duration = Duration::from_millis(500);
+
+/// What was found out about a scene.
+pub(super) struct Anatomy {
+    title: Option<String>,
+    things: String,
+    named: Vec<Named>,
+    card: Card,
+    ticks: u64,
+    atoms: usize,
+    pairs: (usize, usize),
+    /// Seconds per tick of a run that nobody watches.
+    per_tick: f64,
+    /// How much longer a tick takes when it is watched, as a share.
+    slower: f64,
+    parts: Vec<Stage>,
+    failure: Option<String>,
+}
+
+/// A section of the scene, or an entry of one, and the module that reads it.
+struct Named {
+    name: String,
+    from: &'static str,
+}
+
+/// A part of the tick.
+struct Stage {
+    name: &'static str,
+    share: f64,
+    systems: Vec<System>,
+}
+
+/// A system, its module, and what in the scene it is there for, if that is known.
+struct System {
+    name: String,
+    module: String,
+    serves: Option<String>,
+}
+
+impl Anatomy {
+    /// Runs a scene twice and looks at it.
+    pub fn of(request: Request, flags: &OverrideFlags) -> Result<Self, Exit> {
+        let (source, mut plain) = request.load(&flags.settings, &flags.overrides())?;
+        let failure = run_for(&mut plain, BUDGET).err().map(|failure| failure.to_string());
+        let ticks = plain.clock().ticks;
+        let mut watched = Simulation::load_with(&source, &flags.overrides(), |_| {})
+            .map_err(|errors| request.refuse_scene(&errors))?;
+        stopwatch::watch(watched.world_mut());
+        // It fails where the other one did.
+        let _ = watched.run_to_tick(ticks);
+        let known = known_in(&watched);
+        let parts = stages(&watched, &known);
+        let pairs = plain.world().get_resource::<CandidatePairs>();
+        Ok(Self {
+            title: plain.header().title.clone(),
+            things: things(&plain),
+            named: named(&plain),
+            card: plain.card(),
+            ticks,
+            atoms: plain.bodies().atom_count(),
+            pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.walls.len())),
+            per_tick: plain.seconds_spent() / ticks.max(1) as f64,
+            slower: watched.seconds_spent() / plain.seconds_spent().max(1e-9) - 1.0,
+            parts,
+            failure,
+        })
+    }
+
+    /// In words.
+    pub fn told(&self, scene: &str) -> String {
+        let card = &self.card;
+        let mut text = format!("{scene}: {}\n", self.title.as_deref().unwrap_or("a scene without a title"));
+        let mut row = |label: &str, what: &str| {
+            let _ = writeln!(text, "  {label:<10}{what}");
+        };
+        row("things", &self.things);
+        row("method", &card.method);
+        let critical = card.critical_tick.map_or_else(String::new, |critical| {
+            format!(", {:.1} % of the critical tick of {} s", card.tick / critical * 100.0, number(rounded(critical)))
+        });
+        row("tick", &format!("{} s{critical}", number(card.tick)));
+        for note in &card.notes {
+            row("note", note);
+        }
+        if let Some(failure) = &self.failure {
+            row("failed", failure);
+        }
+        let width = self.named.iter().map(|named| named.name.len()).max().unwrap_or(0);
+        let _ = writeln!(text, "\nWhat it names, and the module that reads it:");
+        for Named { name, from } in &self.named {
+            let _ = writeln!(text, "  {name:<width$}  {from}");
+        }
+        let pairs = match self.pairs {
+            (0, 0) => String::new(),
+            (atoms, walls) => format!(
+                "; in the end {} were near each other, {walls} near walls",
+                count(atoms, "pair of atoms", "pairs of atoms")
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "\nOne tick takes {} us, {:.1} ns per atom (mean of {}{pairs}):",
+            number(rounded(self.per_tick * 1e6)),
+            self.per_tick * 1e9 / self.atoms.max(1) as f64,
+            count(self.ticks as usize, "tick", "ticks"),
+        );
+        let _ = writeln!(text, "  {:<20}{:>7}{:>12}   systems, in order", "stage", "share", "us");
+        for Stage { name, share, systems } in &self.parts {
+            let spent = number(rounded(share * self.per_tick * 1e6));
+            let _ = write!(text, "  {name:<20}{:>5.1} %{spent:>12}   ", share * 100.0);
+            let mut lines: Vec<String> = systems.iter().map(System::told).collect();
+            if lines.is_empty() {
+                lines.push("(no system: what is left is the schedule)".to_owned());
+            }
+            let _ = writeln!(text, "{}", lines.join(&format!("\n{:44}", "")));
+        }
+        let _ = writeln!(
+            text,
+            "Looking at the clock around each stage made the ticks {:.0} % slower; the shares are those of that run.",
+            (self.slower * 100.0).max(0.0)
+        );
+        text
+    }
+
+    /// For programs.
+    pub fn to_json(&self, scene: &str) -> serde_json::Value {
+        let system = |system: &System| json!({ "name": system.name, "module": system.module, "serves": system.serves });
+        let stage = |stage: &Stage| {
+            let systems: Vec<_> = stage.systems.iter().map(system).collect();
+            json!({ "stage": stage.name, "share": stage.share, "systems": systems })
+        };
+        json!({
+            "scene": scene,
+            "title": self.title,
+            "things": self.things,
+            "named": self.named.iter().map(|named| json!({ "name": named.name, "from": named.from })).collect::<Vec<_>>(),
+            "method": self.card.method,
+            "tick": self.card.tick,
+            "critical_tick": self.card.critical_tick,
+            "notes": self.card.notes,
+            "failure": self.failure,
+            "ticks": self.ticks,
+            "pairs_of_atoms": self.pairs.0,
+            "atoms_near_walls": self.pairs.1,
+            "seconds_per_tick": self.per_tick,
+            "ns_per_atom_tick": self.per_tick * 1e9 / self.atoms.max(1) as f64,
+            "slower_when_watched": self.slower,
+            "stages": self.parts.iter().map(stage).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// Runs until the time or the scene is over.
+fn run_for(simulation: &mut Simulation, budget: Duration) -> Result<(), crate::tick::Failure> {
+    let start = Instant::now();
+    let mut batch = 1;
+    while simulation.clock().ticks < simulation.ticks() && start.elapsed() < budget {
+        let begin = Instant::now();
+        let next = simulation.clock().ticks.saturating_add(batch).min(simulation.ticks());
+        simulation.run_to_tick(next)?;
+        // Batches of about a hundredth of the time.
+        if begin.elapsed() < budget / 200 {
+            batch = batch.saturating_mul(2);
+        }
+    }
+    Ok(())
+}
+
+/// Three digits are enough of what was measured.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+fn things(simulation: &Simulation) -> String {
+    let bodies = simulation.bodies();
+    let moving = bodies.dynamic.iter().filter(|dynamic| **dynamic).count();
+    let led = match bodies.len() - moving {
+        0 => String::new(),
+        led => format!(" ({moving} moved by forces, {led} fixed or led)"),
+    };
+    format!(
+        "{}{led}, {}, {}",
+        count(bodies.len(), "body", "bodies"),
+        count(bodies.atom_count(), "atom", "atoms"),
+        count(bodies.walls.len(), "wall", "walls")
+    )
+}
+
+/// The sections of the scene in the order of the file, their entries instead of those that take some.
+fn named(simulation: &Simulation) -> Vec<Named> {
+    let outline = &simulation.header().outline;
+    let registry = simulation.world().resource::<SceneRegistry>();
+    let sections = registry.sections();
+    let mut named = Vec::new();
+    for section in outline.sections() {
+        let known = sections.iter().find(|known| known.name == section);
+        let entries = outline.entries(section);
+        if entries.is_empty() {
+            named.push(Named { name: section.to_owned(), from: known.map_or("", |known| known.origin) });
+        }
+        let readers = registry.entries(section);
+        let mut before: Vec<&str> = Vec::new();
+        for mention in entries.iter().map(|mention| mention.name.as_str()) {
+            if before.contains(&mention) {
+                continue;
+            }
+            before.push(mention);
+            let many = entries.iter().filter(|other| other.name == mention).count();
+            let times = if many > 1 { format!(" (x {many})") } else { String::new() };
+            let from = readers.iter().find(|known| known.name == mention).map_or("", |known| known.origin);
+            named.push(Named { name: format!("{section}: {mention}{times}"), from });
+        }
+    }
+    named
+}
+
+/// What the scene names, with the modules that read it.
+fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
+    let outline = &simulation.header().outline;
+    let registry = simulation.world().resource::<SceneRegistry>();
+    let mut known = Vec::new();
+    for section in registry.sections() {
+        for entry in registry.entries(section.name) {
+            let there = outline.entries(section.name).iter().any(|mention| mention.name == entry.name);
+            let by_default = section.name == "contacts" && !outline.has_section(section.name);
+            if there || by_default {
+                let default = if by_default { " (by default)" } else { "" };
+                known.push((format!("{}: {}{default}", section.name, entry.name), entry));
+            }
+        }
+        if !section.takes_entries && outline.has_section(section.name) {
+            known.push((section.name.to_owned(), section));
+        }
+    }
+    known
+}
+
+fn stages(watched: &Simulation, known: &[(String, Known)]) -> Vec<Stage> {
+    let Some(watch) = watched.world().get_resource::<Stopwatch>() else { return Vec::new() };
+    let spent = |part: Part| watch.spent(part).as_secs_f64();
+    // Between two ticks, but for the loop, is the time in which nothing runs.
+    let in_ticks = |part: &Part| *part != Part::Between;
+    let all: f64 = Part::ALL.into_iter().filter(in_ticks).map(spent).sum();
+    let systems = stopwatch::systems(watched.world());
+    let stage = |(part, names): (Part, Vec<String>)| Stage {
+        name: part.name(),
+        share: if all > 0.0 { spent(part) / all } else { 0.0 },
+        systems: names.iter().map(|name| System::named(name, known)).collect(),
+    };
+    let wanted = |(part, names): &(Part, Vec<String>)| in_ticks(part) && (spent(*part) > 0.0 || !names.is_empty());
+    systems.into_iter().filter(wanted).map(stage).collect()
+}
+
+impl System {
+    /// A system by its full name, such as `jostle::forces::gravity::apply_gravity`.
+    fn named(full: &str, known: &[(String, Known)]) -> Self {
+        let (path, types) = full.split_once('<').map_or((full, ""), |(path, types)| (path, types));
+        let (module, name) = path.rsplit_once("::").unwrap_or(("", path));
+        let types: Vec<&str> = types
+            .trim_end_matches('>')
+            .split(',')
+            .map(|part| part.rsplit("::").next().unwrap_or(part).trim_end_matches('>'))
+            .filter(|part| !part.is_empty())
+            .collect();
+        let types = if types.is_empty() { String::new() } else { format!("<{}>", types.join(", ")) };
+        let within = |(_, known): &&(String, Known)| {
+            module.strip_prefix(known.origin).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+        };
+        let nearest = known.iter().filter(within).max_by_key(|(_, known)| known.origin.len());
+        Self {
+            name: format!("{name}{types}"),
+            module: module.to_owned(),
+            serves: nearest.map(|(what, _)| what.clone()),
+        }
+    }
+
+    fn told(&self) -> String {
+        let serves = self.serves.as_ref().map_or_else(String::new, |serves| format!(", for `{serves}`"));
+        format!("{} ({}{serves})", self.name, self.module)
+    }
+}

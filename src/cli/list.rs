@@ -1,0 +1,174 @@
+//! `jostle list`: the scenes that come with the program, and everything a scene may name.
+
+use bevy_app::App;
+use clap::Args;
+
+use super::say::{count, print_line, say};
+use super::{Exit, examples};
+use crate::integrate::Methods;
+use crate::raster::Theme;
+use crate::scene::sections::ClockSection;
+use crate::scene::{Known, SceneRegistry, Source, nearest_name};
+use crate::simulation::Simulation;
+use crate::tick::TickAppExt;
+
+/// The command `list`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct List {
+    /// What: scenes (the default), sections, the entries of a section such as forces, sensors or expect, or words such as
+    /// methods, colors, channels or themes
+    #[arg(value_name = "WHAT", default_value = SCENES)]
+    what: String,
+    /// Only lines that hold this text, in capitals or not
+    #[arg(value_name = "FILTER")]
+    filter: Option<String>,
+    /// Print each as one line of JSON on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle list                   the scenes that come with the program: jostle render example:NAME
+  jostle list sections          everything that may stand in a scene, with an example
+  jostle list forces            the forces, with an example and the module that brings each
+  jostle list forces drag       those with `drag` in their line
+  jostle list channels energy   what can be measured and plotted
+
+`jostle explain NAME` tells more of one of them.";
+
+const SCENES: &str = "scenes";
+const SECTIONS: &str = "sections";
+const THEMES: &str = "themes";
+
+/// One line of a list.
+struct Item {
+    name: String,
+    /// What it is, or one correct use.
+    text: String,
+    /// More to be said, on a line of its own.
+    more: String,
+    /// The module that brings it.
+    from: &'static str,
+}
+
+impl Item {
+    fn word(name: &str, text: String) -> Self {
+        Self { name: name.to_owned(), text, more: String::new(), from: "" }
+    }
+
+    fn of(known: Known) -> Self {
+        Self { name: known.name.to_owned(), text: known.example.to_owned(), more: String::new(), from: known.origin }
+    }
+
+    fn holds(&self, text: &str) -> bool {
+        [self.name.as_str(), &self.text, &self.more, self.from].iter().any(|part| part.to_lowercase().contains(text))
+    }
+}
+
+impl List {
+    pub(super) fn execute(self) -> Exit {
+        let mut app = App::empty();
+        app.add_tick();
+        crate::plugins::standard(&mut app);
+        let registry = app.world().resource::<SceneRegistry>();
+        let Some(mut items) = self.items(&app, registry) else {
+            let all = kinds(registry);
+            let near = nearest_name(&self.what, all.iter().map(String::as_str));
+            let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            say(&format!("error: there is no list `{}`\nhelp: {near}lists: {}", self.what, all.join(", ")));
+            return Exit::Usage;
+        };
+        if let Some(filter) = &self.filter {
+            items.retain(|item| item.holds(&filter.to_lowercase()));
+            if items.is_empty() {
+                say(&format!("note: none of the {} holds `{filter}`", self.what));
+            }
+        }
+        let exit = if self.json { print_json(&items) } else { print(&items) };
+        if self.what == SCENES && !self.json && self.filter.is_none() {
+            let others: Vec<String> = kinds(registry).into_iter().filter(|kind| kind != SCENES).collect();
+            return exit.worse(print_line(&format!(
+                "\n{}. To see one: jostle render example:{}\nOther lists: {}",
+                count(items.len(), "scene", "scenes"),
+                items.first().map_or("NAME", |item| &item.name),
+                others.join(", ")
+            )));
+        }
+        exit
+    }
+
+    /// The list that is asked for; none if there is no such list.
+    fn items(&self, app: &App, registry: &SceneRegistry) -> Option<Vec<Item>> {
+        match self.what.as_str() {
+            SCENES => return Some(examples::SCENES.iter().map(|(name, text)| scene(name, text)).collect()),
+            SECTIONS => return Some(registry.sections().into_iter().map(Item::of).collect()),
+            THEMES => return Some(Theme::names().into_iter().map(|name| Item::word(name, String::new())).collect()),
+            _ => {}
+        }
+        let mut entries = registry.sections().into_iter().filter(|known| known.takes_entries);
+        if let Some(section) = entries.find(|known| known.name == self.what) {
+            return Some(registry.entries(section.name).into_iter().map(Item::of).collect());
+        }
+        let list = registry.word_lists().into_iter().find(|list| self.what == plural(list) || self.what == *list)?;
+        let methods = app.world().get_resource::<Methods>();
+        let text = |word: &str| match methods.and_then(|methods| methods.named(word)) {
+            Some(method) if list == ClockSection::METHODS => {
+                format!("order {}, stable up to omega dt = {}", method.order, method.stability_limit)
+            }
+            _ if list == ClockSection::METHODS => "the engine chooses".to_owned(),
+            _ => String::new(),
+        };
+        Some(registry.words(list).into_iter().map(|word| Item::word(word, text(word))).collect())
+    }
+}
+
+/// The names of all lists.
+fn kinds(registry: &SceneRegistry) -> Vec<String> {
+    let sections = registry.sections();
+    let entries = sections.iter().filter(|known| known.takes_entries).map(|known| known.name.to_owned());
+    let words = registry.word_lists();
+    let fixed = [SCENES, SECTIONS].into_iter().map(str::to_owned);
+    fixed.chain(entries).chain([THEMES.to_owned()]).chain(words.into_iter().map(plural)).collect()
+}
+
+fn plural(list: &str) -> String {
+    list.strip_suffix('y').map_or_else(|| format!("{list}s"), |stem| format!("{stem}ies"))
+}
+
+/// A scene that comes with the program. That it can be read is tested.
+fn scene(name: &str, text: &str) -> Item {
+    let simulation = Simulation::load(&Source::new(name, text));
+    let header = simulation.as_ref().map(Simulation::header).ok();
+    let notes = header.and_then(|header| header.notes.clone()).unwrap_or_default();
+    // The first sentence fits into a line.
+    let more = notes.find(". ").map_or(notes.as_str(), |end| &notes[..=end]).to_owned();
+    let title = header.and_then(|header| header.title.clone()).unwrap_or_default();
+    Item { name: name.to_owned(), text: title, more, from: "" }
+}
+
+fn print(items: &[Item]) -> Exit {
+    let width = |part: fn(&Item) -> &str| items.iter().map(|item| part(item).chars().count()).max().unwrap_or(0);
+    let (names, homes) = (width(|item| &item.name), width(|item| item.from));
+    let line = |item: &Item| {
+        let Item { name, text, more, from } = item;
+        let home = if homes > 0 { format!("{from:<homes$}  ") } else { String::new() };
+        let more = if more.is_empty() { String::new() } else { format!("\n{:names$}  {more}", "") };
+        print_line(format!("{name:<names$}  {home}{text}{more}").trim_end())
+    };
+    items.iter().map(line).fold(Exit::Good, Exit::worse)
+}
+
+fn print_json(items: &[Item]) -> Exit {
+    let line = |item: &Item| {
+        let mut json = serde_json::json!({ "name": item.name, "text": item.text });
+        for (key, part) in [("notes", item.more.as_str()), ("from", item.from)] {
+            if !part.is_empty() {
+                json[key] = part.into();
+            }
+        }
+        print_line(&json.to_string())
+    };
+    items.iter().map(line).fold(Exit::Good, Exit::worse)
+}

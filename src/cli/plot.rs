@@ -1,0 +1,289 @@
+//! `jostle plot`: channels as a still figure.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use super::Exit;
+use super::flags::{self, OverrideFlags};
+use super::load::Request;
+use super::progress::Progress;
+use super::say::{number, say};
+use super::target::{is_directory, takes_no_file};
+use crate::output;
+use crate::raster::{Theme, figure};
+use crate::record::plot::table::{self, Column};
+use crate::record::plot::{Axis, Content, Curve, Missing, Plot, Sample, Sampler, common, with_unit};
+use crate::scene::sections::{PlotEntry, PlotsSection};
+use crate::scene::values::Names;
+use crate::scene::{Report, fits, suggest};
+use crate::sensors::{self, Channels};
+use crate::simulation::Simulation;
+
+/// The command `plot`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct PlotCommand {
+    /// A scene file, example:NAME for a scene that comes with the program, or a table with a line of names, .csv or .tsv
+    #[arg(value_name = "SCENE|TABLE")]
+    source: String,
+    /// The picture. Default: <scene or table>.png in the current directory
+    #[arg(short, long, value_name = "FIGURE.png")]
+    output: Option<PathBuf>,
+    /// What is plotted, separated by commas; `*` stands for any letters of names. Channels of different units get plots of
+    /// their own. Default: the plots of the scene, or all columns of the table
+    #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
+    channels: Vec<String>,
+    /// Against what it is plotted, instead of time
+    #[arg(long, value_name = "CHANNEL")]
+    x: Option<String>,
+    /// What stands above the figure
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Size of the picture in pixels. Default: 1200 wide, 720 high for one plot and 480 for each of several
+    #[arg(long, value_name = "WxH", value_parser = flags::size, allow_negative_numbers = true)]
+    size: Option<(u32, u32)>,
+    /// Colours
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Theme::names()))]
+    theme: Option<String>,
+    /// Logarithmic upwards: equal factors take equal lengths
+    #[arg(long)]
+    log: bool,
+    #[command(flatten)]
+    overrides: OverrideFlags,
+    /// No progress bar, and messages only if something is wrong
+    #[arg(long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle plot example:bounce --channels ball.position.y      a height against time: bounce.png
+  jostle plot my.ron -o plots.png                            the plots that stand in the scene
+  jostle plot my.ron --channels 'energy.kinetic,energy.potential,energy.total' --title Energy
+  jostle plot my.ron --x ball.position.x --channels ball.velocity.x      a phase portrait
+  jostle plot my.ron --channels energy.residual --log --size 1600x900
+  jostle plot channels.csv --channels '*.position.y'         what `jostle run -o channels.csv` wrote, or any such table";
+
+/// Width of a figure in pixels, and its height for one plot and for each of several.
+const WIDTH: u32 = 1200;
+const HEIGHT: u32 = 720;
+const HEIGHT_OF_SEVERAL: u32 = 480;
+
+/// More plots than one picture holds.
+const MOST_PLOTS: usize = 12;
+
+impl PlotCommand {
+    pub(super) fn execute(self) -> Exit {
+        let request = Request { name: &self.source, json: false };
+        let path = self.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.png", request.stem())));
+        if let Some(message) = objection(request, &path) {
+            return request.usage(&message);
+        }
+        let is_table =
+            ["csv", "tsv"].into_iter().any(|ending| self.source.to_lowercase().ends_with(&format!(".{ending}")));
+        let made =
+            if is_table { self.of_table(request).map(|plots| (plots, Exit::Good)) } else { self.of_scene(request) };
+        let (mut plots, exit) = match made {
+            Ok(made) => made,
+            Err(exit) => return exit,
+        };
+        if let (Some(title), Some(first)) = (&self.title, plots.first_mut()) {
+            first.title.clone_from(title);
+        }
+        if plots.len() > MOST_PLOTS {
+            let count = plots.len();
+            return request.usage(&format!(
+                "{count} plots do not fit into one picture, at most {MOST_PLOTS} do: choose some with --channels"
+            ));
+        }
+        self.tell_what_is_not_shown(&plots);
+        let count = plots.len() as u32;
+        let size = self.size.unwrap_or((WIDTH, if count == 1 { HEIGHT } else { count * HEIGHT_OF_SEVERAL }));
+        let theme = self.theme.as_deref().or(Theme::names().first().copied()).and_then(Theme::named);
+        let theme = theme.expect("a program without a theme fails its tests");
+        let drawn = figure(&plots, &theme, size).map_err(output::OutputError::from);
+        match drawn.and_then(|picture| output::write_picture(&path, &picture)) {
+            Ok(bytes) => {
+                if !self.quiet {
+                    say(&format!("{}: one picture, {}", path.display(), flags::bytes_in_words(bytes as f64)));
+                }
+                exit
+            }
+            Err(error) => request.usage(&error.to_string()),
+        }
+    }
+
+    /// The plots of a scene, or of channels of it.
+    fn of_scene(&self, request: Request) -> Result<(Vec<Plot>, Exit), Exit> {
+        let (_, mut simulation) = request.load(&self.overrides.settings, &self.overrides.overrides())?;
+        let own = simulation.world().get_resource::<PlotsSection>().map_or_else(Vec::new, |plots| plots.0.clone());
+        let entries = if self.channels.is_empty() {
+            if self.x.is_some() {
+                return Err(request.usage("--x says against what: add --channels to say what is plotted"));
+            }
+            own.into_iter().map(|entry| PlotEntry { log: entry.log || self.log, ..entry }).collect()
+        } else {
+            self.entries(request, &mut simulation)?
+        };
+        if entries.is_empty() {
+            let help = match simulation.world().get_resource::<Channels>() {
+                Some(channels) if !channels.0.is_empty() => {
+                    let names: Vec<&str> = channels.0.iter().map(|channel| channel.name.as_str()).take(24).collect();
+                    format!("its sensors measure {}", names.join(", "))
+                }
+                _ => "such as --channels energy.kinetic,energy.total".to_owned(),
+            };
+            return Err(
+                request.usage(&format!("the scene has no `plots`: say what is plotted with --channels; {help}"))
+            );
+        }
+        let end = simulation.ticks() as f64 * simulation.clock().dt;
+        let sampler = Sampler::new(&mut simulation, &entries, 0.0, end);
+        let mut sampler = sampler.map_err(|Missing { channel, .. }| {
+            let help = "walls have `force` and `contacts`, bodies `position`, `velocity`, `angle` and `spin` too";
+            request.refuse(Exit::Usage, "--channels", &format!("there is no channel {channel:?}"), help)
+        })?;
+        let progress = Progress::new(simulation.ticks(), "ticks", self.quiet);
+        let mut exit = Exit::Good;
+        const STEPS: u64 = 200;
+        for step in 1..=STEPS {
+            if let Err(failure) = sampler.run_to(&mut simulation, end * step as f64 / STEPS as f64) {
+                say(&format!("error: {failure}; plotted is what came before"));
+                exit = Exit::RunWrong;
+                break;
+            }
+            progress.at(simulation.clock().ticks);
+        }
+        Ok((sampler.finish(exit == Exit::RunWrong), exit))
+    }
+
+    /// Plots of the channels named, those of one unit together.
+    fn entries(&self, request: Request, simulation: &mut Simulation) -> Result<Vec<PlotEntry>, Exit> {
+        let outline = simulation.header().outline.clone();
+        let entry = |channels: Vec<String>| match &self.x {
+            Some(x) => PlotEntry {
+                x: Some(x.clone()),
+                y: Some(Names::listed(channels)),
+                log: self.log,
+                ..PlotEntry::default()
+            },
+            None => PlotEntry { channels: Some(channels), log: self.log, ..PlotEntry::default() },
+        };
+        let mut report = Report::new();
+        entry(self.channels.clone()).check(&outline, &mut report);
+        if let Some(problem) = report.problems().first() {
+            let flag = if problem.path == "x" { "--x" } else { "--channels" };
+            let help = problem.help.as_deref().unwrap_or_default();
+            return Err(request.refuse(Exit::Usage, flag, &problem.message, help));
+        }
+        let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
+        for name in self.channels.iter().flat_map(|pattern| sensors::chosen(pattern, &outline)) {
+            let unit = sensors::find(simulation.world_mut(), &name).map_or("", |channel| channel.unit);
+            match groups.iter_mut().find(|(known, _)| *known == unit) {
+                Some((_, names)) => names.push(name),
+                None => groups.push((unit, vec![name])),
+            }
+        }
+        Ok(groups.into_iter().map(|(_, names)| entry(names)).collect())
+    }
+
+    /// Plots of the columns of a table, those of one unit together.
+    fn of_table(&self, request: Request) -> Result<Vec<Plot>, Exit> {
+        let name = &self.source;
+        let read = std::fs::read(name).map_err(|error| request.usage(&format!("`{name}` cannot be read: {error}")))?;
+        let text = String::from_utf8(read).map_err(|_| request.usage(&format!("`{name}` is no text in UTF-8")))?;
+        let columns = table::read(&text).map_err(|error| request.usage(&format!("`{name}`, {error}")))?;
+        let column = |flag: &str, wanted: &str| {
+            columns.iter().find(|column| column.name == wanted).ok_or_else(|| {
+                let known = suggest::among(wanted, columns.iter().map(|column| column.name.as_str()), "columns", '`');
+                request.usage(&format!("{flag}: `{name}` has no column `{wanted}`: {known}"))
+            })
+        };
+        let x = match &self.x {
+            Some(x) => column("--x", x)?,
+            None => columns.iter().find(|column| column.name == "time").unwrap_or(&columns[0]),
+        };
+        let mut chosen: Vec<&Column> = Vec::new();
+        for pattern in &self.channels {
+            let fitting: Vec<&Column> = columns.iter().filter(|column| fits(pattern, &column.name)).collect();
+            if fitting.is_empty() {
+                column("--channels", pattern)?;
+            }
+            chosen.extend(fitting);
+        }
+        if self.channels.is_empty() {
+            chosen.extend(columns.iter().filter(|column| column.name != x.name));
+        }
+        if x.values.is_empty() || chosen.is_empty() {
+            return Err(
+                request.usage(&format!("`{name}` has nothing to plot: it needs two columns and a row of numbers"))
+            );
+        }
+        let mut groups: Vec<(&str, Vec<&Column>)> = Vec::new();
+        for column in chosen {
+            match groups.iter_mut().find(|(unit, _)| *unit == column.unit) {
+                Some((_, columns)) => columns.push(column),
+                None => groups.push((&column.unit, vec![column])),
+            }
+        }
+        Ok(groups.into_iter().map(|(unit, columns)| self.plot(x, unit, &columns)).collect())
+    }
+
+    /// One plot of columns against another.
+    fn plot(&self, x: &Column, unit: &str, columns: &[&Column]) -> Plot {
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        let (shared, labels) = common(&names);
+        let rising = x.values.is_sorted();
+        let curves = columns.iter().zip(labels).map(|(column, label)| {
+            let pairs = x.values.iter().zip(&column.values).enumerate();
+            let sample =
+                |(row, (&x, &y)): (usize, (&f64, &f64))| Sample { time: if rising { x } else { row as f64 }, x, y };
+            Curve { label, samples: pairs.map(sample).collect() }
+        });
+        let curves: Vec<Curve> = curves.collect();
+        let axis = |label: &str, unit: &str, range, logarithmic| Axis {
+            label: label.to_owned(),
+            unit: unit.to_owned(),
+            range,
+            logarithmic,
+        };
+        let ends = x.values.first().copied().zip(x.values.last().copied());
+        let span = ends.filter(|(first, last)| rising && first < last);
+        Plot {
+            title: shared.clone(),
+            across: axis(&x.name, &x.unit, span, false),
+            up: axis(&shared, unit, None, self.log),
+            content: if span.is_some() { Content::Times(curves) } else { Content::Phases(curves, None) },
+        }
+    }
+
+    /// Says how much a logarithmic axis cannot show.
+    fn tell_what_is_not_shown(&self, plots: &[Plot]) {
+        for plot in plots.iter().filter(|plot| plot.up.logarithmic && !self.quiet) {
+            let samples = plot.curves().iter().flat_map(|curve| &curve.samples);
+            let (hidden, all) =
+                samples.fold((0, 0), |(hidden, all), sample| (hidden + u64::from(sample.y <= 0.0), all + 1));
+            if hidden > 0 {
+                let share = number((hidden as f64 / f64::from(all) * 1000.0).round() / 10.0);
+                let what = with_unit(&plot.title, &plot.up.unit);
+                say(&format!("note: {what}: {share} % of the values are not above zero, which --log cannot show"));
+            }
+        }
+    }
+}
+
+/// What speaks against writing a figure to a path.
+fn objection(request: Request, path: &Path) -> Option<String> {
+    let name = path.display();
+    if is_directory(path) {
+        Some(format!("`{name}` is a directory: name a file in it, such as `{}`", path.join("figure.png").display()))
+    } else if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("png")) {
+        Some(format!("`plot` draws a .png, not `{name}`"))
+    } else if request.is_at(path) {
+        Some(format!("`{name}` is what is to be plotted: write the figure to another file"))
+    } else {
+        takes_no_file(path)
+    }
+}

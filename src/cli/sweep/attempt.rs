@@ -1,0 +1,112 @@
+//! One run of a sweep.
+
+use std::sync::Arc;
+
+use crate::cli::flags::OverrideFlags;
+use crate::cli::trial::Trial;
+use crate::record::Recorder;
+use crate::record::follow::Follower;
+use crate::record::frame::{Cast, Frame};
+use crate::report::Card;
+use crate::scene::sections::CameraChoice;
+use crate::scene::{SceneError, SceneErrors, Source};
+use crate::sensors::Channels;
+use crate::simulation::Simulation;
+use crate::tick::Failure;
+
+/// A channel over a run, looked at where the film has its frames, and at the end.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Track {
+    /// `name.quantity`.
+    pub name: String,
+    pub unit: &'static str,
+    pub last: f64,
+    pub least: f64,
+    pub most: f64,
+}
+
+impl Track {
+    fn see(&mut self, value: f64) {
+        self.last = value;
+        // A value that is no number stays one.
+        if value.is_nan() || value < self.least {
+            self.least = value;
+        }
+        if value.is_nan() || value > self.most {
+            self.most = value;
+        }
+    }
+}
+
+/// What came of a run.
+pub(super) struct Attempt {
+    pub trial: Trial,
+    pub tracks: Vec<Track>,
+    /// None if the scene was refused.
+    pub card: Option<Card>,
+    /// The last moment of a run that reached its end, if a picture is wanted, and how the scene wants to be looked at.
+    pub picture: Option<(Frame, Option<CameraChoice>)>,
+}
+
+/// A scene that the values of a run cannot make.
+pub(super) fn refused(source: &Source, message: String) -> Attempt {
+    let errors = SceneErrors::new(source.clone(), vec![SceneError::new("", message)], Vec::new());
+    Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None }
+}
+
+/// Runs a scene to its end. `title` stands on its picture, if one is wanted.
+pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, title: Option<&str>) -> Attempt {
+    let mut simulation = match Simulation::load_with(scene, &flags.overrides(), |_| {}) {
+        Ok(simulation) => simulation,
+        Err(errors) => return Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None },
+    };
+    let mut tracks = tracks_of(&simulation);
+    let failure = run(&mut simulation, &mut tracks).err();
+    // A run that went wrong ends anywhere.
+    let picture = title.filter(|_| failure.is_none()).and_then(|title| {
+        let camera = simulation.world().get_resource::<CameraChoice>().cloned();
+        picture(&mut simulation, camera.as_ref(), title).map(|frame| (frame, camera))
+    });
+    let trial = Trial::of(&simulation, failure.as_ref());
+    Attempt { trial, tracks, card: Some(simulation.card()), picture }
+}
+
+fn tracks_of(simulation: &Simulation) -> Vec<Track> {
+    let channels = simulation.world().get_resource::<Channels>();
+    let track = |channel: &crate::sensors::Channel| Track {
+        name: channel.name.clone(),
+        unit: channel.unit,
+        last: f64::NAN,
+        least: f64::INFINITY,
+        most: f64::NEG_INFINITY,
+    };
+    channels.map_or_else(Vec::new, |channels| channels.0.iter().map(track).collect())
+}
+
+/// Runs to the end, with a look at the channels at the ticks that `jostle run -o` writes.
+fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure> {
+    let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
+    loop {
+        if let Some(channels) = simulation.world().get_resource::<Channels>() {
+            for (track, channel) in tracks.iter_mut().zip(&channels.0) {
+                track.see((channel.read)(simulation.world()));
+            }
+        }
+        let (done, end) = (simulation.clock().ticks, simulation.ticks());
+        if done == end {
+            return Ok(());
+        }
+        simulation.run_to_tick(done.saturating_add(every).min(end))?;
+    }
+}
+
+/// The present moment with a title of its own; none if it cannot be drawn.
+fn picture(simulation: &mut Simulation, camera: Option<&CameraChoice>, title: &str) -> Option<Frame> {
+    let now = simulation.clock().time();
+    let mut frame = Recorder::default().frame(simulation, now).ok()?;
+    frame.cast = Arc::new(Cast { title: title.to_owned(), ..(*frame.cast).clone() });
+    if let Some(CameraChoice::Follow(follow)) = camera {
+        Follower::new(&follow.of, 0.0, 1.0).aim(&mut frame);
+    }
+    Some(frame)
+}

@@ -1,0 +1,61 @@
+//! The tables of shards, put together.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::table::Table;
+use crate::cli::Exit;
+use crate::cli::say::{count, say};
+use crate::output::write_whole;
+
+/// Merges all shards in a directory into `table.csv`.
+pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
+    let shown = folder.display();
+    let (shards, of) = shards_in(folder)?;
+    let missing: Vec<String> =
+        (1..=of).filter(|which| !shards.contains_key(which)).map(|which| which.to_string()).collect();
+    if !missing.is_empty() {
+        let missing = missing.join(", ");
+        return Err(format!("of {of} shards in `{shown}` these are missing: {missing}"));
+    }
+    let read = |path: &PathBuf| {
+        let text =
+            std::fs::read_to_string(path).map_err(|cause| format!("cannot read `{}`: {cause}", path.display()))?;
+        Table::from_csv(&text).map_err(|why| format!("`{}`: {why}", path.display()))
+    };
+    let tables = shards.values().map(read).collect::<Result<Vec<_>, _>>()?;
+    let merged = Table::merged(tables).map_err(|why| format!("the tables in `{shown}` do not fit together: {why}"))?;
+    let path = folder.join("table.csv");
+    write_whole(&path, &merged.to_csv()).map_err(|error| error.to_string())?;
+    if !quiet {
+        let runs = count(merged.rows.len(), "run", "runs");
+        say(&format!("{}: {runs} of {}", path.display(), count(of, "shard", "shards")));
+    }
+    Ok(Exit::Good)
+}
+
+/// The tables of shards, and how many there are to be.
+fn shards_in(folder: &Path) -> Result<(BTreeMap<usize, PathBuf>, usize), String> {
+    let shown = folder.display();
+    let entries = std::fs::read_dir(folder).map_err(|cause| format!("cannot look into `{shown}`: {cause}"))?;
+    let mut shards = BTreeMap::new();
+    let mut sizes: Vec<usize> = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(|cause| format!("cannot look into `{shown}`: {cause}"))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let parts = name.strip_prefix("table.").and_then(|name| name.strip_suffix(".csv"));
+        let parts = parts.and_then(|name| name.split_once("-of-"));
+        let Some((which, of)) = parts.and_then(|(which, of)| Some((which.parse().ok()?, of.parse().ok()?))) else {
+            continue;
+        };
+        sizes.push(of);
+        shards.insert(which, path);
+    }
+    sizes.sort_unstable();
+    sizes.dedup();
+    match sizes[..] {
+        [of] => Ok((shards, of)),
+        [] => Err(format!("there are no tables of shards (table.1-of-N.csv ...) in `{shown}`")),
+        _ => Err(format!("in `{shown}` are tables of sweeps in different numbers of shards: remove the old ones")),
+    }
+}

@@ -1,0 +1,314 @@
+//! `jostle sweep`: a scene with many values of what varies, run side by side; a table, a contact sheet, films.
+
+mod attempt;
+mod merge;
+mod picture;
+mod table;
+mod vary;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+
+use self::attempt::{Attempt, attempt, refused};
+use self::table::{Row, Table};
+use self::vary::{Grid, Variation};
+use super::Exit;
+use super::colors;
+use super::film::{Order, Shot};
+use super::flags::{self, OverrideFlags};
+use super::load::{self, Request};
+use super::progress::Progress;
+use super::say::{count, print_line, say};
+use super::side_by_side::{all_cores, in_order};
+use super::target::Place;
+use super::trial::Verdict;
+use crate::output::{Target, write_whole};
+use crate::scene::Source;
+use crate::simulation::Simulation;
+
+/// The command `sweep`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Sweep {
+    /// A scene file, or example:NAME for a scene that comes with the program
+    #[arg(value_name = "SCENE", required_unless_present = "merge")]
+    scene: Option<String>,
+    /// What varies; may be given several times, and every combination is run, the last one changing fastest. NAME is one of
+    /// the scene's `params`, or a path into its text: clock.tick, gravity[1], bodies.ball.spin, fill[0].seed. VALUES are
+    /// 1..5 (whole numbers), 0..1:11 (eleven values, ends included), 1..100:3:log, or a list a,b,c
+    #[arg(long, value_name = "NAME=VALUES", value_parser = vary::variation, required_unless_present = "merge")]
+    vary: Vec<Variation>,
+    /// The directory for table.csv, contact_sheet.png and films
+    #[arg(short, long, value_name = "DIR", required_unless_present = "merge")]
+    output: Option<PathBuf>,
+    /// A GIF of each run too, DIR/run_1.gif and so on
+    #[arg(long)]
+    films: bool,
+    /// Size of the films in pixels, instead of the scene's
+    #[arg(long, value_name = "WxH", value_parser = flags::size, requires = "films")]
+    size: Option<(u32, u32)>,
+    /// No contact sheet
+    #[arg(long)]
+    no_sheet: bool,
+    /// Only every Nth run, beginning with the Kth: for N computers that share a sweep. The table is DIR/table.K-of-N.csv
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    shard: Option<(usize, usize)>,
+    /// Put the tables of all shards in a directory together: DIR/table.csv, the same bytes as without shards
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "vary", "output", "shard", "films", "no_sheet"])]
+    merge: Option<PathBuf>,
+    #[command(flatten)]
+    overrides: OverrideFlags,
+    /// Runs at the same time; no number depends on it. Default: one for each core
+    #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
+    threads: Option<usize>,
+    /// No progress bar, and messages only if something is wrong
+    #[arg(long)]
+    quiet: bool,
+    /// Print the result of each run as one line of JSON on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle sweep example:bounce --vary gravity[1]=-1..-20:20 -o moons/
+  jostle sweep my.ron --vary friction=0..1:11 --vary seed=1..5 -o out/    `friction` and `seed` are params of my.ron
+  jostle sweep my.ron --vary clock.tick=1ms,0.5ms,0.25ms -o ticks/        does the result depend on the tick?
+  jostle sweep my.ron --vary mass=0.1..10:5:log -o out/ --films           a GIF of each run
+  jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of them, on one of 16 computers
+  jostle sweep --merge out/                                               when all shards are there
+
+DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the
+energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and
+greatest value, taken at the times of the film's frames and at the end. A run that fails is a row with its reason.
+Exit codes are those of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 usage, 3 a run went wrong.";
+
+/// How many runs that did not reach their end are told one by one.
+const MOST_TOLD: usize = 10;
+
+/// Reads `K/N`.
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/').and_then(|(which, of)| Some((which.parse().ok()?, of.parse().ok()?)));
+    let good = parts.filter(|&(which, of)| 1 <= which && which <= of && of <= vary::MOST_RUNS);
+    good.ok_or_else(|| "expected which shard of how many, such as 3/16".to_owned())
+}
+
+impl Sweep {
+    pub(super) fn execute(self) -> Exit {
+        let done = match (&self.merge, &self.scene, &self.output) {
+            (Some(folder), ..) => merge::merge(folder, self.quiet),
+            (None, Some(scene), Some(folder)) => self.sweep(scene, folder),
+            // The command line asks for all of them.
+            _ => Err("name a scene, what varies, and a directory".to_owned()),
+        };
+        done.unwrap_or_else(|message| {
+            say(&format!("error: {message}"));
+            Exit::Usage
+        })
+    }
+
+    fn sweep(&self, scene: &str, folder: &Path) -> Result<Exit, String> {
+        self.contradiction().map_or(Ok(()), Err)?;
+        let grid = Grid::new(&self.vary)?;
+        let request = Request { name: scene, json: self.json };
+        let source = match load::source(scene) {
+            Ok(source) => source.with_settings(&self.overrides.settings),
+            Err(errors) => return Ok(request.refuse_scene(&errors)),
+        };
+        // What is wrong with the scene itself is told once, with its place.
+        let plain = match Simulation::load_with(&source, &self.overrides.overrides(), |_| {}) {
+            Ok(plain) => plain,
+            Err(errors) => return Ok(request.refuse_scene(&errors)),
+        };
+        let theme = match colors::theme(request, &source, &plain, None) {
+            Ok(theme) => theme,
+            Err(exit) => return Ok(exit),
+        };
+        grid.scene(&source, 0)?;
+        std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
+        let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
+        let runs: Vec<usize> = (first..grid.runs).step_by(step).collect();
+        let sheet = !self.no_sheet && runs.len() <= picture::MOST_PICTURES;
+        let start = Instant::now();
+        let (attempts, mut exit) = self.run_all(&source, &grid, &runs, folder, sheet);
+        let seconds = start.elapsed().as_secs_f64();
+        if let Some(errors) = all_refused(&attempts) {
+            exit = exit.worse(request.refuse_scene(errors));
+        }
+        let rows = runs.iter().zip(&attempts);
+        let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
+        let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
+        let path = folder.join(self.file("table", "csv"));
+        write_whole(&path, &Table { names, rows }.to_csv()).map_err(|error| error.to_string())?;
+        let image = folder.join(self.file("contact_sheet", "png"));
+        if sheet {
+            picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
+        }
+        if !self.quiet && !self.json {
+            say(&format!("{}: {}, {seconds:.2} s", path.display(), summary(&attempts)));
+            if sheet && attempts.iter().any(|attempt| attempt.picture.is_some()) {
+                say(&format!("{}: the last moment of each run", image.display()));
+            } else if !self.no_sheet && !sheet {
+                say(&format!("note: no contact sheet of more than {} runs", picture::MOST_PICTURES));
+            }
+        }
+        Ok(exit)
+    }
+
+    /// A flag of all runs for what is to vary.
+    fn contradiction(&self) -> Option<String> {
+        let OverrideFlags { duration, tick, method, settings, .. } = &self.overrides;
+        let flags = [("clock.duration", "--duration", duration.is_some()), ("clock.tick", "--tick", tick.is_some())];
+        let flags = flags.into_iter().chain([("clock.method", "--method", method.is_some())]);
+        let mut flags = flags.filter(|(.., given)| *given);
+        let varies = |path: &str| self.vary.iter().any(|variation| variation.name == path);
+        let flag =
+            flags.find(|(path, ..)| varies(path)).map(|(path, flag, _)| format!("`{path}` varies: leave {flag} away"));
+        let setting = settings.iter().find(|(name, _)| varies(name));
+        let twice = self
+            .vary
+            .iter()
+            .enumerate()
+            .find(|(place, one)| self.vary[..*place].iter().any(|other| other.name == one.name));
+        flag.or(setting.map(|(name, _)| format!("`{name}` varies: leave --set {name} away")))
+            .or(twice.map(|(_, one)| format!("`{}` varies twice: name all its values in one --vary", one.name)))
+    }
+
+    fn run_all(
+        &self,
+        source: &Source,
+        grid: &Grid,
+        runs: &[usize],
+        folder: &Path,
+        sheet: bool,
+    ) -> (Vec<Attempt>, Exit) {
+        let progress = Progress::new(runs.len() as u64, "runs", self.quiet || self.json);
+        let mut attempts: Vec<Attempt> = Vec::new();
+        let (mut exit, mut told) = (Exit::Good, 0);
+        in_order(
+            runs,
+            self.threads.unwrap_or_else(all_cores),
+            |&run| match grid.scene(source, run) {
+                Err(message) => (refused(source, message), Exit::Good),
+                Ok(scene) => {
+                    let label = label(grid, run);
+                    let done = attempt(&scene, &self.overrides, sheet.then_some(&*label));
+                    let film = if self.films { self.film(&scene, &label, grid, run, folder) } else { Exit::Good };
+                    (done, film)
+                }
+            },
+            |(attempt, film): (Attempt, Exit)| {
+                let run = runs[attempts.len()];
+                exit = exit.worse(attempt.trial.verdict.exit()).worse(film);
+                if matches!(attempt.trial.verdict, Verdict::Refused | Verdict::Failed) && !self.json {
+                    told += 1;
+                    let verdict = attempt.trial.verdict.word();
+                    let line = format!("run {} ({}): {verdict}: {}", run + 1, label(grid, run), attempt.trial.reason);
+                    if told <= MOST_TOLD {
+                        progress.aside(|| say(&line));
+                    }
+                }
+                if self.json {
+                    exit = exit.worse(print_line(&json(grid, run, &attempt).to_string()));
+                }
+                attempts.push(attempt);
+                progress.step();
+            },
+        );
+        drop(progress);
+        if told > MOST_TOLD {
+            say(&format!(
+                "... and {} more runs that were refused or failed: the table has their reasons",
+                told - MOST_TOLD
+            ));
+        }
+        (attempts, exit)
+    }
+
+    /// The film of a run. It is run once more for it.
+    fn film(&self, scene: &Source, label: &str, grid: &Grid, run: usize, folder: &Path) -> Exit {
+        let overrides = self.overrides.overrides();
+        let digits = grid.runs.to_string().len();
+        let path = folder.join(format!("run_{:0digits$}.gif", run + 1));
+        let name = format!("{} ({label})", scene.name);
+        let request = Request { name: &name, json: false };
+        let (Ok(mut simulation), Ok(target)) = (Simulation::load_with(scene, &overrides, |_| {}), Target::new(path))
+        else {
+            // The run itself has told why.
+            return Exit::Good;
+        };
+        let order = Order {
+            request,
+            source: scene,
+            overrides: &overrides,
+            place: &Place { target, folder: None },
+            shot: &Shot::Film,
+            size: self.size,
+            theme: None,
+            frames_per_second: None,
+            threads: Some(1),
+            most_bytes: None,
+            pace: false,
+            silent: true,
+            quiet: true,
+        };
+        order.make(&mut simulation).map_or_else(|exit| exit, |_| Exit::Good)
+    }
+
+    /// The name of a file; those of shards say which.
+    fn file(&self, stem: &str, ending: &str) -> String {
+        self.shard.map_or_else(|| format!("{stem}.{ending}"), |(which, of)| format!("{stem}.{which}-of-{of}.{ending}"))
+    }
+}
+
+/// The mistakes of the first run, if the scene was refused with all values.
+fn all_refused(attempts: &[Attempt]) -> Option<&crate::scene::SceneErrors> {
+    let refused = |attempt: &Attempt| attempt.trial.verdict == Verdict::Refused;
+    attempts.first().filter(|_| attempts.iter().all(refused))?.trial.errors.as_ref()
+}
+
+fn owned(grid: &Grid, run: usize) -> Vec<String> {
+    grid.values(run).into_iter().map(str::to_owned).collect()
+}
+
+/// What varies, and how, in a line.
+fn label(grid: &Grid, run: usize) -> String {
+    let pairs = grid.variations.iter().zip(grid.values(run));
+    let pairs: Vec<String> = pairs.map(|(variation, value)| format!("{} = {value}", variation.name)).collect();
+    pairs.join(", ")
+}
+
+fn summary(attempts: &[Attempt]) -> String {
+    let of = |wanted: Verdict| attempts.iter().filter(|attempt| attempt.trial.verdict == wanted).count();
+    let verdicts = [Verdict::Good, Verdict::Broken, Verdict::Refused, Verdict::Failed];
+    let parts = verdicts.into_iter().map(|verdict| (of(verdict), verdict.word())).filter(|(number, _)| *number > 0);
+    let parts: Vec<String> = parts.map(|(number, word)| format!("{number} {word}")).collect();
+    let runs = count(attempts.len(), "run", "runs");
+    if parts.is_empty() { runs } else { format!("{runs}, {}", parts.join(", ")) }
+}
+
+fn json(grid: &Grid, run: usize, attempt: &Attempt) -> serde_json::Value {
+    let names = grid.variations.iter().map(|variation| variation.name.clone());
+    let values = grid.values(run).into_iter().map(serde_json::Value::from);
+    let vary: serde_json::Map<String, serde_json::Value> = names.zip(values).collect();
+    let track = |track: &attempt::Track| {
+        let attempt::Track { name, unit, last, least, most } = track;
+        (name.clone(), serde_json::json!({ "final": last, "min": least, "max": most, "unit": unit }))
+    };
+    let channels: serde_json::Map<String, serde_json::Value> = attempt.tracks.iter().map(track).collect();
+    let trial = &attempt.trial;
+    serde_json::json!({
+        "run": run + 1,
+        "vary": vary,
+        "result": trial.verdict.word(),
+        "reason": trial.reason,
+        "seconds_spent": trial.seconds,
+        "hash": trial.hash,
+        "expect": trial.expect,
+        "channels": channels,
+        "card": attempt.card,
+        "errors": trial.errors.as_ref().map_or(&[][..], |errors| errors.errors()),
+    })
+}

@@ -1,0 +1,313 @@
+//! The table of a sweep: a row for each run. It holds nothing that depends on time or threads, so the same sweep makes the
+//! same bytes, in one piece or in shards.
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
+use super::attempt::{Attempt, Track};
+use crate::cli::trial::Verdict;
+use crate::output::csv;
+
+/// The columns that every table has after those of what varies.
+const FIXED: [&str; 8] = [
+    "result",
+    "expectations held",
+    "expectations",
+    "energy residual [J]",
+    "energy error",
+    "largest overlap [m]",
+    "tick [s]",
+    "hash",
+];
+const RUN: &str = "run";
+const REASON: &str = "reason";
+
+/// One run.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    /// Counted from 1.
+    pub run: usize,
+    /// What varies.
+    pub values: Vec<String>,
+    fixed: Vec<String>,
+    /// Column and cell of each channel.
+    channels: Vec<(String, String)>,
+    reason: String,
+}
+
+/// All runs of a sweep, or of a shard.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Table {
+    /// Names of what varies.
+    pub names: Vec<String>,
+    pub rows: Vec<Row>,
+}
+
+impl Row {
+    /// The row of a run that is over.
+    pub fn of(run: usize, values: Vec<String>, attempt: &Attempt) -> Self {
+        let trial = &attempt.trial;
+        let of_card = |read: fn(&crate::report::Card) -> f64| {
+            attempt.card.as_ref().map_or_else(String::new, |card| csv::number(read(card)))
+        };
+        let fixed = vec![
+            trial.verdict.word().to_owned(),
+            trial.held().to_string(),
+            trial.expect.len().to_string(),
+            of_card(|card| card.energy.residual),
+            of_card(|card| card.energy_error()),
+            of_card(|card| card.largest_overlap.meters),
+            of_card(|card| card.tick),
+            trial.hash.clone().unwrap_or_default(),
+        ];
+        let channels = attempt.tracks.iter().flat_map(cells).collect();
+        Self { run, values, fixed, channels, reason: trial.reason.clone() }
+    }
+
+    /// Whether the scene was read, so that its channels count.
+    fn ran(&self) -> bool {
+        self.fixed[0] != Verdict::Refused.word()
+    }
+}
+
+fn cells(track: &Track) -> Vec<(String, String)> {
+    let unit = if track.unit.is_empty() { String::new() } else { format!(" [{}]", track.unit) };
+    let cell = |what: &str, value: f64| (format!("{} {what}{unit}", track.name), csv::number(value));
+    vec![cell("final", track.last), cell("min", track.least), cell("max", track.most)]
+}
+
+impl Table {
+    /// The columns of channels: in the order of the sensors if all runs have the same, else by name. So the order does not
+    /// depend on how the runs were shared out.
+    fn channels(&self) -> Vec<String> {
+        let lists: BTreeSet<Vec<&str>> = self
+            .rows
+            .iter()
+            .filter(|row| row.ran())
+            .map(|row| row.channels.iter().map(|(column, _)| column.as_str()).collect())
+            .collect();
+        if lists.len() == 1 {
+            return lists.into_iter().flatten().map(str::to_owned).collect();
+        }
+        let all: BTreeSet<&str> = lists.into_iter().flatten().collect();
+        let mut all: Vec<&str> = all.into_iter().collect();
+        all.sort_by(|a, b| by_name(a, b));
+        all.into_iter().map(str::to_owned).collect()
+    }
+
+    /// The table as comma-separated values.
+    pub fn to_csv(&self) -> String {
+        let channels = self.channels();
+        let mut text = String::new();
+        let mut line = |cells: Vec<&str>| {
+            let cells: Vec<String> = cells.into_iter().map(quoted).collect();
+            text.push_str(&cells.join(","));
+            text.push('\n');
+        };
+        let names = self.names.iter().map(String::as_str);
+        let columns = channels.iter().map(String::as_str);
+        line([RUN].into_iter().chain(names).chain(FIXED).chain(columns).chain([REASON]).collect());
+        for row in &self.rows {
+            let run = row.run.to_string();
+            let cell = |column: &String| {
+                row.channels.iter().find(|(name, _)| name == column).map_or("", |(_, cell)| cell.as_str())
+            };
+            let own = row.values.iter().chain(&row.fixed).map(String::as_str);
+            let channels = channels.iter().map(cell);
+            line([run.as_str()].into_iter().chain(own).chain(channels).chain([row.reason.as_str()]).collect());
+        }
+        text
+    }
+
+    /// Reads a table that [`Table::to_csv`] has written.
+    pub fn from_csv(text: &str) -> Result<Self, String> {
+        let mut lines = records(text)?.into_iter();
+        let header = lines.next().ok_or("it is empty")?;
+        let foreign = "it is no table of a sweep";
+        let begin = header.windows(FIXED.len()).position(|columns| columns == FIXED).ok_or(foreign)?;
+        let channels = begin + FIXED.len()..header.len() - 1;
+        if header[0] != RUN || begin == 0 || header.last().is_none_or(|last| last != REASON) {
+            return Err(foreign.to_owned());
+        }
+        let row = |cells: Vec<String>| {
+            if cells.len() != header.len() {
+                return Err(format!("a row has {} cells instead of {}", cells.len(), header.len()));
+            }
+            let run = cells[0].parse().map_err(|_| format!("`{}` is no number of a run", cells[0]))?;
+            let there = channels.clone().filter(|&column| !cells[column].is_empty());
+            let channels = there.map(|column| (header[column].clone(), cells[column].clone())).collect();
+            let reason = cells[header.len() - 1].clone();
+            let fixed = cells[begin..begin + FIXED.len()].to_vec();
+            Ok(Row { run, values: cells[1..begin].to_vec(), fixed, channels, reason })
+        };
+        let rows = lines.map(row).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { names: header[1..begin].to_vec(), rows })
+    }
+
+    /// Puts the tables of all shards together.
+    pub fn merged(shards: Vec<Self>) -> Result<Self, String> {
+        let names = shards.first().map(|table| table.names.clone()).unwrap_or_default();
+        if shards.iter().any(|table| table.names != names) {
+            return Err("they are shards of different sweeps: other things vary".to_owned());
+        }
+        let mut rows: Vec<Row> = shards.into_iter().flat_map(|table| table.rows).collect();
+        rows.sort_by_key(|row| row.run);
+        if rows.iter().enumerate().any(|(place, row)| row.run != place + 1) {
+            return Err("runs are missing or there twice: they are shards of different sweeps".to_owned());
+        }
+        let table = Self { names, rows };
+        table
+            .is_a_grid()
+            .then_some(table)
+            .ok_or_else(|| "the values make no grid: they are shards of different sweeps".to_owned())
+    }
+
+    /// Whether the rows are all combinations, in order.
+    fn is_a_grid(&self) -> bool {
+        let values = |column: usize| {
+            let mut values: Vec<&str> = Vec::new();
+            for row in &self.rows {
+                if !values.contains(&row.values[column].as_str()) {
+                    values.push(&row.values[column]);
+                }
+            }
+            values
+        };
+        let values: Vec<Vec<&str>> = (0..self.names.len()).map(values).collect();
+        let size: usize = values.iter().map(Vec::len).product();
+        let fits = |(place, row): (usize, &Row)| {
+            let mut left = place;
+            values.iter().zip(&row.values).rev().all(|(values, value)| {
+                let expected = values[left % values.len()];
+                left /= values.len();
+                expected == value
+            })
+        };
+        size == self.rows.len() && self.rows.iter().enumerate().all(fits)
+    }
+}
+
+/// A cell; quoted where it has to be (RFC 4180). Line breaks become blanks.
+fn quoted(cell: &str) -> String {
+    let line: String = cell.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
+    if line.contains([',', '"']) { format!("\"{}\"", line.replace('"', "\"\"")) } else { line }
+}
+
+/// The cells of all lines.
+fn records(text: &str) -> Result<Vec<Vec<String>>, String> {
+    let record = |line: &str| {
+        let (mut cells, mut quoted) = (vec![String::new()], false);
+        let mut letters = line.chars().peekable();
+        while let Some(letter) = letters.next() {
+            let cell = cells.last_mut().expect("there is always one");
+            match letter {
+                '"' if quoted && letters.peek() == Some(&'"') => cell.extend(letters.next()),
+                '"' => quoted = !quoted,
+                ',' if !quoted => cells.push(String::new()),
+                _ => cell.push(letter),
+            }
+        }
+        if quoted { Err("a quotation mark is missing".to_owned()) } else { Ok(cells) }
+    };
+    text.lines().map(record).collect()
+}
+
+/// Names as people sort them: `ball_2` before `ball_10`.
+fn by_name(a: &str, b: &str) -> Ordering {
+    let pieces = |text: &str| {
+        // Letters, then a number and the number of its digits.
+        let mut pieces = vec![(String::new(), 0_u64, 0_usize)];
+        for letter in text.chars() {
+            let last = pieces.last_mut().expect("there is always one");
+            match letter.to_digit(10) {
+                Some(digit) => {
+                    last.1 = last.1.saturating_mul(10).saturating_add(u64::from(digit));
+                    last.2 += 1;
+                }
+                None if last.2 > 0 => pieces.push((letter.to_string(), 0, 0)),
+                None => last.0.push(letter),
+            }
+        }
+        pieces
+    };
+    pieces(a).cmp(&pieces(b)).then_with(|| a.cmp(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(run: usize, values: [&str; 2], channels: &[&str], verdict: Verdict) -> Row {
+        let mut fixed = vec![verdict.word().to_owned()];
+        fixed.resize(FIXED.len(), "1".to_owned());
+        let cell = |(place, name): (usize, &&str)| ((*name).to_owned(), format!("{}", run * 10 + place));
+        Row {
+            run,
+            values: values.map(str::to_owned).to_vec(),
+            fixed,
+            channels: channels.iter().enumerate().map(cell).collect(),
+            reason: if verdict == Verdict::Good { String::new() } else { "no, \"never\"".to_owned() },
+        }
+    }
+
+    /// Each way to share out the rows gives the bytes of the whole.
+    fn shares_well(channels: [&[&str]; 6]) {
+        let values = [["1", "a"], ["1", "b"], ["2", "a"], ["2", "b"], ["3", "a"], ["3", "b"]];
+        let names = vec!["gravity".to_owned(), "x, y".to_owned()];
+        let verdict = |run: usize| if channels[run].is_empty() { Verdict::Refused } else { Verdict::Good };
+        let rows: Vec<Row> = (0..6).map(|run| row(run + 1, values[run], channels[run], verdict(run))).collect();
+        let whole = Table { names: names.clone(), rows: rows.clone() };
+        assert_eq!(Table::from_csv(&whole.to_csv()).unwrap().to_csv(), whole.to_csv());
+        for shards in 1..=8 {
+            let shard = |shard: usize| {
+                let rows = rows.iter().skip(shard).step_by(shards).cloned().collect();
+                Table::from_csv(&Table { names: names.clone(), rows }.to_csv()).unwrap()
+            };
+            let merged = Table::merged((0..shards).rev().map(shard).collect()).unwrap();
+            assert_eq!(merged.to_csv(), whole.to_csv(), "{shards} shards");
+        }
+    }
+
+    #[test]
+    fn shards_merge_to_the_bytes_of_the_whole() {
+        let plain: &[&str] = &["T.x", "energy", "A.y"];
+        shares_well([plain; 6]);
+        // A run that was refused has no channels.
+        shares_well([plain, plain, &[], plain, &[], plain]);
+        // Other runs have other channels, or another order of them.
+        shares_well([plain, &["T.x", "b_10", "b_2", "energy"], plain, &["energy", "T.x", "A.y"], &["z"], &[]]);
+        shares_well([
+            plain,
+            &["A.y", "T.x", "energy"],
+            plain,
+            &["A.y", "T.x", "energy"],
+            plain,
+            &["A.y", "T.x", "energy"],
+        ]);
+    }
+
+    #[test]
+    fn shards_of_different_sweeps_are_refused() {
+        let table = |runs: &[(usize, [&str; 2])]| Table {
+            names: vec!["a".into(), "b".into()],
+            rows: runs.iter().map(|(run, values)| row(*run, *values, &["x"], Verdict::Good)).collect(),
+        };
+        let (one, two) = (table(&[(1, ["1", "1"])]), table(&[(2, ["1", "2"])]));
+        assert!(Table::merged(vec![two.clone(), one.clone()]).is_ok());
+        assert!(Table::merged(vec![one.clone(), one.clone()]).is_err());
+        assert!(Table::merged(vec![two.clone()]).is_err());
+        assert!(Table::merged(vec![one.clone(), table(&[(2, ["2", "2"])])]).is_err());
+        let other = Table { names: vec!["a".into(), "c".into()], ..two };
+        assert!(Table::merged(vec![one, other]).is_err());
+        for text in ["", "time [s],x\n0,1\n", "run,a\n"] {
+            assert!(Table::from_csv(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn names_are_sorted_as_people_do() {
+        let mut names = ["b_10", "b_2", "a", "b", "b_2.x", "b_02"];
+        names.sort_by(|a, b| by_name(a, b));
+        assert_eq!(names, ["a", "b", "b_2", "b_2.x", "b_02", "b_10"]);
+    }
+}

@@ -1,0 +1,114 @@
+//! How a run ended when many are made at once: in a word, with the reason.
+
+use super::Exit;
+use super::result::remedy;
+use crate::expect::Outcome;
+use crate::scene::SceneErrors;
+use crate::simulation::Simulation;
+use crate::tick::Failure;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// It does what it expects, or expects nothing.
+    Good,
+    /// It breaks an expectation.
+    Broken,
+    /// The scene is wrong.
+    Refused,
+    /// The run went wrong.
+    Failed,
+}
+
+impl Verdict {
+    /// The word in tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Broken => "broken",
+            Self::Refused => "refused",
+            Self::Failed => "failed",
+        }
+    }
+
+    /// How a command ends that made this run.
+    pub fn exit(self) -> Exit {
+        match self {
+            Self::Good => Exit::Good,
+            Self::Broken | Self::Refused => Exit::SceneWrong,
+            Self::Failed => Exit::RunWrong,
+        }
+    }
+}
+
+/// A run that is over.
+#[derive(Clone, Debug)]
+pub(super) struct Trial {
+    pub verdict: Verdict,
+    /// Why it is not good, in a line; empty if it is.
+    pub reason: String,
+    /// The mistakes of a scene that was refused.
+    pub errors: Option<SceneErrors>,
+    pub expect: Vec<Outcome>,
+    pub warnings: Vec<String>,
+    /// The hash of the last state.
+    pub hash: Option<String>,
+    /// Seconds spent computing.
+    pub seconds: f64,
+}
+
+impl Trial {
+    /// A scene that is wrong.
+    pub fn refused(errors: SceneErrors) -> Self {
+        let first = errors.errors().first();
+        let line = |error: &crate::scene::SceneError| {
+            let path = if error.path.is_empty() { String::new() } else { format!("{}: ", error.path) };
+            format!("{path}{}", error.message)
+        };
+        let mut reason = first.map_or_else(String::new, line);
+        if errors.errors().len() > 1 {
+            reason.push_str(&format!(" (and {} more)", errors.errors().len() - 1));
+        }
+        Self {
+            verdict: Verdict::Refused,
+            reason,
+            errors: Some(errors),
+            expect: Vec::new(),
+            warnings: Vec::new(),
+            hash: None,
+            seconds: 0.0,
+        }
+    }
+
+    /// A run that has ended, as it should or not.
+    pub fn of(simulation: &Simulation, failure: Option<&Failure>) -> Self {
+        let card = simulation.card();
+        let expect = simulation.outcomes();
+        let broken: Vec<String> = expect.iter().filter(|outcome| !outcome.holds).map(told).collect();
+        let (verdict, reason) = match failure {
+            Some(failure) => (Verdict::Failed, format!("{failure}; {}", remedy(&card))),
+            None if broken.is_empty() => (Verdict::Good, String::new()),
+            None => (Verdict::Broken, broken.join("; ")),
+        };
+        Self {
+            verdict,
+            reason,
+            errors: None,
+            expect,
+            hash: Some(card.hash),
+            warnings: card.warnings,
+            seconds: simulation.seconds_spent(),
+        }
+    }
+
+    /// How many expectations hold.
+    pub fn held(&self) -> usize {
+        self.expect.iter().filter(|outcome| outcome.holds).count()
+    }
+}
+
+/// A broken expectation in a line.
+pub(super) fn told(outcome: &Outcome) -> String {
+    let text: Vec<&str> = outcome.text.split_whitespace().collect();
+    format!("{}: {}", text.join(" "), outcome.measured)
+}

@@ -1,0 +1,104 @@
+//! Sizes and colours of what stands beside the film.
+
+use super::pen::Ink;
+use crate::raster::text::Weight;
+use crate::raster::theme::{Theme, Tint};
+use crate::record::frame::Rgb;
+
+/// The colours of curves, by names of the palette: the first ones are far apart for all eyes, in light and in dark. Yellow
+/// is left out, as a thin line of it is lost on paper.
+const CURVES: [&str; 8] = ["vermilion", "blue", "teal", "purple", "orange", "sky", "pink", "brown"];
+
+/// How lines are broken, on and off in line widths, in turn with the colours, so that curves differ without them.
+const DASHES: [&[f32]; 5] = [&[], &[], &[3.4, 2.6], &[6.0, 2.4, 1.0, 2.4], &[1.0, 2.2]];
+
+/// Sizes in pixels; the smallest ones are those that can still be read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::raster) struct Sizes {
+    pub(super) title: f32,
+    pub(super) text: f32,
+    pub(super) legend: f32,
+    pub(super) pad: f32,
+    pub(super) gap: f32,
+    pub(super) line: f32,
+    pub(super) hair: f32,
+    pub(super) dot: f32,
+}
+
+impl Sizes {
+    /// The sizes for a picture so many times as large as 1280 x 720.
+    pub(in crate::raster) fn new(unit: f32) -> Sizes {
+        Sizes {
+            title: (17.0 * unit).max(11.5),
+            text: (12.5 * unit).max(9.0),
+            legend: (13.5 * unit).max(9.5),
+            pad: (18.0 * unit).max(7.0),
+            gap: (18.0 * unit).max(6.0),
+            line: (2.2 * unit).max(1.3),
+            hair: unit.round().max(1.0),
+            dot: (4.2 * unit).max(2.6),
+        }
+    }
+}
+
+/// Colours of cards and curves, made from those of a theme.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::raster) struct Tones {
+    pub(super) card: Rgb,
+    pub(super) border: Rgb,
+    pub(super) grid: Rgb,
+    pub(super) axis: Rgb,
+    pub(super) ink: Rgb,
+    pub(super) quiet: Rgb,
+    curves: Vec<Rgb>,
+}
+
+impl Tones {
+    pub(in crate::raster) fn new(theme: &Theme) -> Tones {
+        let mix = |from: Rgb, toward: Rgb, share: f32| Tint { toward, share }.of(from);
+        let Rgb(red, green, blue) = theme.background;
+        let light = u32::from(red) + u32::from(green) + u32::from(blue) > 3 * 128;
+        // Cards lie a little nearer to the light than what is behind them.
+        let card = if light {
+            mix(theme.background, Rgb(255, 255, 255), 0.85)
+        } else {
+            mix(theme.background, theme.ink, 0.045)
+        };
+        Tones {
+            card,
+            border: mix(card, theme.ink, if light { 0.1 } else { 0.09 }),
+            grid: mix(card, theme.ink, if light { 0.095 } else { 0.11 }),
+            axis: mix(card, theme.ink, 0.34),
+            ink: theme.ink,
+            quiet: theme.quiet_ink,
+            curves: CURVES.iter().filter_map(|name| theme.color(name)).collect(),
+        }
+    }
+
+    /// The colour of a curve by its place, and its dashes for a line of some width. What is a total is grey and dashed: it
+    /// goes with the others, not beside them.
+    pub(super) fn curve(&self, place: usize, label: &str, width: f32) -> (Rgb, Vec<f32>) {
+        let total = label == "total" || label.ends_with(".total");
+        let color = place.checked_rem(self.curves.len()).map_or(self.ink, |turn| self.curves[turn]);
+        let dashes = if total { DASHES[2] } else { DASHES[place % DASHES.len()] };
+        (if total { self.quiet } else { color }, dashes.iter().map(|length| length * width).collect())
+    }
+
+    /// The flat colours.
+    pub(in crate::raster) fn flat(&self) -> impl Iterator<Item = Rgb> {
+        let own = [self.card, self.border, self.grid, self.axis, self.ink, self.quiet];
+        own.into_iter().chain(self.curves.iter().copied().take(4))
+    }
+
+    pub(super) fn title(&self, sizes: &Sizes) -> Ink {
+        Ink { size: sizes.title, weight: Weight::SemiBold, color: self.ink }
+    }
+
+    pub(super) fn small(&self, sizes: &Sizes) -> Ink {
+        Ink { size: sizes.text, weight: Weight::Regular, color: self.quiet }
+    }
+
+    pub(super) fn label(&self, sizes: &Sizes) -> Ink {
+        Ink { size: sizes.legend, weight: Weight::Regular, color: self.ink }
+    }
+}

@@ -1,0 +1,179 @@
+//! What the colours of a film mean, and a few facts of its scene.
+
+use std::collections::BTreeMap;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+use crate::forces::gravity::Gravity;
+use crate::simulation::Simulation;
+use crate::world::{Body, Materials, Motion, Name};
+
+/// Lines of bodies that are kept.
+const MOST_LINES: usize = 24;
+
+/// A legend: entries, and lines of facts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Legend {
+    /// Bodies first, then what layers draw.
+    pub entries: Vec<LegendEntry>,
+    /// How many lines of bodies more there would be: no legend shows more than a few.
+    pub more: usize,
+    /// Short lines on the scene: how many bodies, gravity, tick.
+    pub facts: Vec<String>,
+}
+
+/// One line of a legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LegendEntry {
+    /// What it is.
+    pub label: String,
+    /// What it looks like.
+    pub mark: LegendMark,
+}
+
+/// What stands before a line of a legend.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LegendMark {
+    /// A patch in the colour of the body at this place of the cast.
+    Body(usize),
+    /// An arrow in a colour of the theme, or `"#rrggbb"`; `None`: ink.
+    Arrow(Option<String>),
+    /// A line; see [`LegendMark::Arrow`].
+    Line(Option<String>),
+    /// A ring; see [`LegendMark::Arrow`].
+    Ring(Option<String>),
+}
+
+/// What plugins add to the legend.
+#[derive(Resource, Default)]
+struct Added(Vec<LegendEntry>);
+
+/// How plugins explain the marks of their layers.
+pub trait LegendAppExt {
+    /// Adds a line to the legend of films that have one.
+    fn add_legend(&mut self, entry: LegendEntry) -> &mut Self;
+}
+
+impl LegendAppExt for App {
+    fn add_legend(&mut self, entry: LegendEntry) -> &mut Self {
+        self.world_mut().get_resource_or_init::<Added>().0.push(entry);
+        self
+    }
+}
+
+impl Legend {
+    /// The legend of a scene at its beginning.
+    ///
+    /// Bodies of one material with a colour of its own look alike, so they share a line; a material of a single body
+    /// goes by the body's name. Fixed bodies stand last.
+    pub fn of(simulation: &Simulation) -> Legend {
+        let (world, bodies) = (simulation.world(), simulation.bodies());
+        let materials = world.get_resource::<Materials>();
+        let mut lines: Vec<Line> = Vec::new();
+        let mut known_lines: BTreeMap<(String, bool), usize> = BTreeMap::new();
+        let mut moving = 0;
+        for place in 0..bodies.len() {
+            let fixed = world.get::<Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
+            moving += usize::from(!fixed);
+            let material = bodies.atoms_of(place).next().map(|first| bodies.atom_material[first]);
+            let shared = material.and_then(|index| {
+                let materials = materials?;
+                materials.by_index.get(index.place())?.color.as_ref()?;
+                materials.names.get(index.place()).cloned()
+            });
+            let known = shared.as_ref().and_then(|material| known_lines.get(&(material.clone(), fixed)).copied());
+            if let Some(line) = known {
+                lines[line].bodies += 1;
+                continue;
+            }
+            if let Some(material) = &shared {
+                known_lines.insert((material.clone(), fixed), lines.len());
+            }
+            let name = world.get::<Name>(bodies.entity[place]).map(|name| name.0.clone()).unwrap_or_default();
+            lines.push(Line { name, shared, fixed, place, bodies: 1 });
+        }
+        lines.sort_by_key(|line| line.fixed);
+        let entry = |line: Line| LegendEntry {
+            label: match line.shared {
+                Some(material) if line.bodies > 1 => material,
+                _ => line.name,
+            },
+            mark: LegendMark::Body(line.place),
+        };
+        let added = world.get_resource::<Added>().map_or(&[][..], |added| &added.0);
+        let more = lines.len().saturating_sub(MOST_LINES);
+        lines.truncate(MOST_LINES);
+        let entries = lines.into_iter().map(entry).chain(added.iter().cloned()).collect();
+        Legend { entries, more, facts: facts(simulation, moving) }
+    }
+}
+
+struct Line {
+    name: String,
+    /// The material whose bodies share the line.
+    shared: Option<String>,
+    fixed: bool,
+    place: usize,
+    bodies: usize,
+}
+
+fn facts(simulation: &Simulation, moving: usize) -> Vec<String> {
+    let (world, bodies) = (simulation.world(), simulation.bodies());
+    let count = |number: usize, one: &str, many: &str| format!("{number} {}", if number == 1 { one } else { many });
+    let mut things = vec![count(moving, "body", "bodies")];
+    if bodies.len() > moving {
+        things.push(format!("{} fixed", bodies.len() - moving));
+    }
+    things.push(count(bodies.atom_radius.len(), "atom", "atoms"));
+    let mut numbers = Vec::new();
+    if let Some(gravity) = world.get_resource::<Gravity>() {
+        numbers.push(format!("g = {} m/s²", brief(gravity.0.length())));
+    }
+    let tick = simulation.clock().dt;
+    let (tick, unit) = match tick {
+        tick if tick < 1e-3 => (tick * 1e6, "µs"),
+        tick if tick < 1.0 => (tick * 1e3, "ms"),
+        tick => (tick, "s"),
+    };
+    numbers.push(format!("Δt = {} {unit}", brief(tick)));
+    vec![things.join(" · "), numbers.join("   ")]
+}
+
+/// A number in three digits.
+fn brief(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    #[test]
+    fn bodies_that_look_alike_share_a_line_and_fixed_ones_stand_last() {
+        let scene = r#"Scene(
+            format: 1, clock: (duration: 1, tick: "0.5 ms"), gravity: (3, -4),
+            materials: { "gas": (color: "sky"), "peg": (color: "grey"), "lone": (color: "teal"), "plain": () },
+            bodies: [
+                (name: "pegs", fixed: true, at: (0, 0), material: "peg", atoms: List([(at: (0, 0), radius: 1), (at: (3, 0), radius: 1)])),
+                (name: "first", at: (9, 0), material: "lone", atoms: Disc(radius: 0.1)),
+                (name: "second", at: (9, 3), material: "plain", atoms: Disc(radius: 0.1)),
+                (name: "third", at: (9, 6), material: "plain", atoms: Disc(radius: 0.1)),
+            ],
+            fill: [(name: "gas", atoms: Disc(radius: 0.1), material: "gas", count: 20, within: ((-9, 2), (9, 9)), seed: 1)],
+        )"#;
+        let arrow = LegendEntry { label: "contact force".into(), mark: LegendMark::Arrow(Some("red".into())) };
+        let added = arrow.clone();
+        let simulation = Simulation::load_with(&Source::new("legend.ron", scene), &Default::default(), move |app| {
+            app.add_legend(added);
+        });
+        let legend = Legend::of(&simulation.unwrap_or_else(|errors| panic!("{errors}")));
+        let line = |label: &str, place| LegendEntry { label: label.into(), mark: LegendMark::Body(place) };
+        // Bodies without a colour of their own get one each, so they have a line each.
+        let bodies = [line("first", 1), line("second", 2), line("third", 3), line("gas", 4), line("pegs", 0)];
+        assert_eq!(legend.entries, [&bodies[..], &[arrow]].concat());
+        assert_eq!(legend.facts, ["23 bodies · 1 fixed · 25 atoms", "g = 5 m/s²   Δt = 500 µs"]);
+    }
+}

@@ -1,0 +1,193 @@
+//! `atoms: Png(..)`: the picture is read, and the discs that cover its silhouette are added to what is written.
+
+use std::fmt::Write;
+use std::io::Read;
+
+use super::emit::{Context, WORK};
+use super::write::Buffer;
+use super::{Expander, Outcome};
+use crate::scene::Report;
+use crate::scene::explain;
+use crate::scene::suggest;
+use crate::scene::tree::Id;
+use crate::scene::values::WholeNumber;
+use crate::shapes::png::{MOST_ATOMS, Png};
+use crate::shapes::silhouette::{Covering, Fineness, Mask};
+
+/// The leading name of a silhouette.
+pub(super) const NAME: &str = "Png";
+const FIELDS: [&str; 5] = ["file", "height", "count", "radius", "stiffness"];
+/// What pictures that come with the program are called by.
+const SHIPPED: &str = "example:";
+/// Name and contents of each picture in `assets/silhouettes/`.
+const PICTURES: &[(&str, &[u8])] = &[("cow.png", include_bytes!("../../../assets/silhouettes/cow.png"))];
+/// The largest picture, in bytes.
+const LARGEST_FILE: u64 = 16 << 20;
+/// So many different silhouettes are worked out, each in up to half a second.
+const MOST_DIFFERENT: usize = 50;
+
+/// What was found for a silhouette before.
+pub(super) struct Known {
+    file: String,
+    fineness: Fineness,
+    covering: Covering,
+}
+
+/// A mistake: its words, what to do, and the field it is about.
+type Wrong = (String, String, &'static str);
+
+impl Expander {
+    /// Adds the discs to a silhouette whose fields were just copied; `start` is where its leading name begins.
+    pub(super) fn picture(&mut self, context: &Context, out: &mut Buffer, id: Id, start: usize) -> Outcome<()> {
+        self.fields(context, id, &FIELDS, Png::EXAMPLE)?;
+        let written = format!("{})", &out.text[start + NAME.len()..]);
+        // What the shape's own reading and check find is told by them, in their words.
+        let Ok(png) = explain::read::<Png>(&written) else {
+            self.required(context, id, "file", Png::EXAMPLE)?;
+            self.required(context, id, "height", Png::EXAMPLE)?;
+            return Ok(());
+        };
+        if !png.numbers_are_good(&mut Report::new()) {
+            return Ok(());
+        }
+        let found = self.covering(context, &png).map_err(|(message, help, field)| {
+            let (tree, text) = (&context.file.tree, &context.file.source.text);
+            let at = self.field(context, id, field).unwrap_or(id);
+            let mut error = self.wrong(context, tree.head_or_value(at), message);
+            error.path = tree.path(at, text);
+            error.label = "this value".into();
+            Box::new(error.with_help(help))
+        })?;
+        let height = png.height.si();
+        let mut discs = String::from(", discs: [");
+        for disc in &self.silhouettes[found].covering.discs {
+            let (x, y, radius) = (disc.x * height, disc.y * height, disc.radius * height);
+            // Writing to a text cannot fail.
+            let _ = write!(discs, "({x:?}, {y:?}, {radius:?}),");
+        }
+        discs.push(']');
+        self.spend(context, id, 0, WORK * self.silhouettes[found].covering.discs.len() + discs.len())?;
+        out.made(&discs, context.file.number, context.file.tree.head(id), context.step);
+        Ok(())
+    }
+
+    /// The discs of a silhouette: which of the known ones.
+    fn covering(&mut self, context: &Context, png: &Png) -> Result<usize, Wrong> {
+        let folder = context.file.source.folder.as_ref();
+        let shipped = png.file.starts_with(SHIPPED);
+        let file = match folder {
+            Some(folder) if !shipped => folder.join(&png.file).display().to_string(),
+            _ => png.file.clone(),
+        };
+        let fineness = match (png.count, png.radius) {
+            (Some(WholeNumber(count)), _) => Fineness::Count(count as usize),
+            (None, radius) => Fineness::Radius(radius.unwrap_or_default().si() / png.height.si()),
+        };
+        if let Some(known) = self.silhouettes.iter().position(|known| known.file == file && known.fineness == fineness)
+        {
+            return Ok(known);
+        }
+        if self.silhouettes.len() == MOST_DIFFERENT {
+            let message = format!("the scene has more than {MOST_DIFFERENT} different silhouettes");
+            return Err((message, "use the same picture and `count` again".into(), "file"));
+        }
+        let name = &png.file;
+        let bytes = match name.strip_prefix(SHIPPED) {
+            Some(shipped) => shipped_picture(shipped)?.to_vec(),
+            None if folder.is_none() => {
+                let message = "this scene is in no file, so no picture can be found from it";
+                let help = "save it as a file, or use a picture that comes with the program: `example:cow.png`";
+                return Err((message.into(), help.into(), "file"));
+            }
+            None => read_picture(&file, name)?,
+        };
+        let mask = Mask::read(&bytes).map_err(|(why, help)| (format!("`{name}` {why}"), help.to_owned(), "file"))?;
+        let covering = cover(&mask, fineness, png)?;
+        self.notes.push(note(name, fineness, &covering));
+        self.silhouettes.push(Known { file, fineness, covering });
+        Ok(self.silhouettes.len() - 1)
+    }
+}
+
+fn shipped_picture(name: &str) -> Result<&'static [u8], Wrong> {
+    let found = PICTURES.iter().find(|(known, _)| *known == name).map(|(_, bytes)| *bytes);
+    found.ok_or_else(|| {
+        let names = PICTURES.iter().map(|(name, _)| *name);
+        (format!("no picture `{name}` comes with the program"), suggest::among(name, names, "pictures", '`'), "file")
+    })
+}
+
+fn read_picture(path: &str, name: &str) -> Result<Vec<u8>, Wrong> {
+    let wrong = |message: String, help: &str| (message, help.to_owned(), "file");
+    let here = "the path begins at the folder of the file in which this stands";
+    match std::fs::metadata(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Err(wrong(format!("there is no file `{name}`"), here));
+        }
+        Ok(about) if about.is_dir() => return Err(wrong(format!("`{name}` is a folder"), "name a PNG picture in it")),
+        _ => {}
+    }
+    let mut bytes = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+    match read {
+        Err(error) => Err(wrong(format!("cannot read `{name}`: {error}"), "check the path and its permissions")),
+        Ok(_) if bytes.len() as u64 > LARGEST_FILE => {
+            let message = format!("`{name}` is larger than {} MiB", LARGEST_FILE >> 20);
+            Err(wrong(message, "make it smaller: 400 pixels a side are enough"))
+        }
+        Ok(_) => Ok(bytes),
+    }
+}
+
+fn cover(mask: &Mask, fineness: Fineness, png: &Png) -> Result<Covering, Wrong> {
+    let height = png.height.si();
+    if let Fineness::Radius(radius) = fineness {
+        let pixel = mask.resolution() * height;
+        let estimate = mask.estimate(radius);
+        if estimate > MOST_ATOMS as f64 {
+            let message = format!("about {estimate:.0} atoms of this radius are needed, more than {MOST_ATOMS}");
+            return Err((message, "a larger `radius`, or `count` with discs of different sizes".into(), "radius"));
+        }
+        if radius < mask.resolution() {
+            let message = format!("the radius is smaller than what is told apart in the picture, {pixel:.3} m");
+            return Err((message, "a larger `radius`, or a thicker silhouette".into(), "radius"));
+        }
+    }
+    mask.cover(fineness).ok_or_else(|| {
+        let message = format!("no atom of this radius fits a silhouette {height} m high");
+        (message, "a smaller `radius`, or `count` with discs of different sizes".into(), "radius")
+    })
+}
+
+fn note(name: &str, fineness: Fineness, covering: &Covering) -> String {
+    let Covering { discs, uncovered, outside, distance } = covering;
+    let fewer = match fineness {
+        Fineness::Count(asked) if discs.len() < asked => format!(" (of {asked}: more would cover nothing)"),
+        _ => String::new(),
+    };
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let atoms = if discs.len() == 1 { "atom covers" } else { "atoms cover" };
+    format!(
+        "{name}: {} {atoms} {} of the silhouette{fewer} and {} of its area outside; outlines are up to {} of the height apart",
+        discs.len(),
+        percent(1.0 - uncovered),
+        percent(*outside),
+        percent(*distance),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    /// A picture that is not listed would be missing from an installed program.
+    #[test]
+    fn every_picture_of_the_folder_is_listed() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/silhouettes");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .filter_map(|entry| entry.unwrap().file_name().to_str().map(str::to_owned))
+            .collect();
+        files.sort();
+        let listed: Vec<&str> = super::PICTURES.iter().map(|(name, _)| *name).collect();
+        assert_eq!(files, listed);
+    }
+}

@@ -1,0 +1,209 @@
+//! `plots`: what is plotted beside the film. It never changes the physics.
+
+use bevy_app::App;
+use bevy_ecs::resource::Resource;
+use serde::Deserialize;
+
+use crate::scene::units::{Scalar, Time};
+use crate::scene::values::{Names, WholeNumber};
+use crate::scene::{Kind, Outline, Report, Section};
+use crate::sensors;
+
+/// More bins than anybody tells apart.
+const MOST_BINS: u64 = 200;
+
+/// More plots than stand beside a film and can be read.
+const MOST_PLOTS: usize = 6;
+
+/// The section `plots`.
+#[derive(Resource, Clone, Debug, Default, Deserialize)]
+#[serde(transparent)]
+pub struct PlotsSection(pub Vec<PlotEntry>);
+
+/// One plot: channels against time (`channels`), channels against a channel (`x`, `y`), or a histogram.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct PlotEntry {
+    /// What stands above it. Default: what the names of its channels share.
+    #[serde(default)]
+    pub title: Option<String>,
+    /// Channels to plot against time; `*` stands for any letters of the names of bodies.
+    #[serde(default)]
+    pub channels: Option<Vec<String>>,
+    /// The channel to the right of a phase portrait.
+    #[serde(default)]
+    pub x: Option<String>,
+    /// The channel, or channels, upwards.
+    #[serde(default)]
+    pub y: Option<Names>,
+    /// How often values occur.
+    #[serde(default)]
+    pub histogram: Option<HistogramEntry>,
+    /// From where to where the upward axis reaches, in the channels' unit. Default: as far as the values do.
+    #[serde(default)]
+    pub range: Option<(Scalar, Scalar)>,
+    /// Equal factors take equal lengths upwards; what is not above zero is not shown. Default: false.
+    #[serde(default)]
+    pub log: bool,
+    /// How long the way stays in a phase portrait, in s of physics, while it fades. Above zero. Default: all of it
+    /// stays.
+    #[serde(default)]
+    pub tail: Option<Time>,
+}
+
+/// How often values of a quantity of many bodies, or of one channel so far, lie in each of some equally wide bins.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "")]
+pub struct HistogramEntry {
+    /// Names of bodies, `*` matches.
+    #[serde(default)]
+    pub of: Option<Names>,
+    /// What of them, such as `position.x`.
+    #[serde(default)]
+    pub quantity: Option<String>,
+    /// Instead of bodies: a channel, whose values since the beginning are counted.
+    #[serde(default)]
+    pub channel: Option<String>,
+    /// How many bins, from 1 to 200. Default: 12.
+    #[serde(default = "bins")]
+    pub bins: WholeNumber,
+    /// Where the first bin begins, in the quantity's unit.
+    pub from: Scalar,
+    /// Where the last bin ends.
+    pub to: Scalar,
+}
+
+fn bins() -> WholeNumber {
+    WholeNumber(12)
+}
+
+impl HistogramEntry {
+    /// The names of the channels whose values are counted.
+    pub fn channels(&self, outline: &Outline) -> Vec<String> {
+        match (&self.of, &self.quantity, &self.channel) {
+            (Some(of), Some(quantity), _) => {
+                let bodies = of.matching(Kind::BODY, outline).into_iter().map(|body| &outline.names(Kind::BODY)[body]);
+                bodies.map(|body| format!("{body}.{quantity}")).collect()
+            }
+            (_, _, channel) => channel.iter().cloned().collect(),
+        }
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        let bins = self.bins.0;
+        if !(1..=MOST_BINS).contains(&bins) {
+            report.error("bins", format!("must be from 1 to {MOST_BINS}, got {bins}"));
+        }
+        check_order(self.from, self.to, ("from", "to"), report);
+        match (&self.of, &self.quantity, &self.channel) {
+            (Some(of), Some(quantity), None) => {
+                of.require(Kind::BODY, outline, "of", report);
+                sensors::check_quantity(quantity, "quantity", outline, report);
+            }
+            (None, None, Some(channel)) => sensors::check_channel(channel, "channel", outline, report),
+            (Some(_), None, None) => {
+                report.missing("quantity", "say what of them is counted: `quantity: \"position.x\"`")
+            }
+            (None, Some(_), None) => report.missing("of", "say of which bodies: `of: \"*\"`"),
+            (None, None, None) => {
+                let help = "write `of: \"ball_*\", quantity: \"position.x\"`, or `channel: \"ball.velocity.x\"`";
+                report.error("", "says not what is counted").help(help);
+            }
+            (_, _, Some(_)) => {
+                let help = "leave out `channel`, or both `of` and `quantity`";
+                report.error("", "counts two things, bodies and a channel").help(help);
+            }
+        }
+    }
+}
+
+/// Two finite numbers, the second above the first.
+fn check_order(low: Scalar, high: Scalar, paths: (&str, &str), report: &mut Report) -> bool {
+    let finite = report.finite(paths.0, low) & report.finite(paths.1, high);
+    if finite && low.si() >= high.si() {
+        report.error(paths.1, format!("must be above {}, got {}", low.si(), high.si()));
+    }
+    finite && low.si() < high.si()
+}
+
+impl PlotEntry {
+    /// The patterns of the upward channels, each with its path.
+    fn upward(&self) -> Vec<(&String, String)> {
+        let listed =
+            self.channels.iter().flatten().enumerate().map(|(place, name)| (name, format!("channels[{place}]")));
+        listed.chain(self.y.iter().flat_map(|names| names.with_paths("y"))).collect()
+    }
+
+    /// The names of the upward channels.
+    pub fn channels(&self, outline: &Outline) -> Vec<String> {
+        self.upward().into_iter().flat_map(|(pattern, _)| sensors::chosen(pattern, outline)).collect()
+    }
+
+    /// Reports channels that are not there, and what makes no plot.
+    pub fn check(&self, outline: &Outline, report: &mut Report) {
+        let given = (self.channels.is_some(), self.x.is_some(), self.y.is_some(), self.histogram.is_some());
+        match given {
+            (true, false, false, false) | (false, true, true, false) | (false, false, false, true) => (),
+            (false, false, false, false) => {
+                let help = "add `channels: [\"energy.total\"]`, or `x: \"ball.position.x\", y: \"ball.velocity.x\"`, or \
+                            `histogram: (..)`";
+                report.error("", "says not what is plotted").help(help);
+            }
+            (false, true, false, false) => report.missing("y", "say what is plotted upwards: `y: \"ball.velocity.x\"`"),
+            (false, false, true, false) => {
+                report.missing("x", "say against what: `x: \"ball.position.x\"`; against time it is `channels: [..]`");
+            }
+            _ => {
+                let help =
+                    "a plot has `channels` (against time), or `x` and `y`, or `histogram`: write one plot for each";
+                report.error("", "is several plots in one").help(help);
+            }
+        }
+        let upward = self.upward();
+        if upward.is_empty() && (self.channels.is_some() || self.y.is_some()) {
+            let path = if self.channels.is_some() { "channels" } else { "y" };
+            report.error(path, "must name at least one channel").help("for example \"energy.total\"");
+        }
+        for (pattern, path) in upward {
+            sensors::check_channels(pattern, &path, outline, report);
+        }
+        if let Some(x) = &self.x {
+            sensors::check_channel(x, "x", outline, report);
+        }
+        if let Some(histogram) = &self.histogram {
+            report.within("histogram", |report| histogram.check(outline, report));
+        }
+        if let Some((low, high)) = self.range
+            && check_order(low, high, ("range[0]", "range[1]"), report)
+            && self.log
+            && low.si() <= 0.0
+        {
+            report.error("range[0]", format!("must be above zero where `log` is true, got {}", low.si()));
+        }
+        if self.log && self.histogram.is_some() {
+            report.error("log", "a histogram counts from zero, which `log` cannot show").help("leave out `log`");
+        }
+        if report.positive_if_given("tail", self.tail) && self.tail.is_some() && self.x.is_none() {
+            report.error("tail", "only a phase portrait has a tail").help("leave out `tail`, or plot `x` and `y`");
+        }
+    }
+}
+
+impl Section for PlotsSection {
+    const NAME: &'static str = "plots";
+    const EXAMPLE: &'static str = "plots: [(title: \"energy\", channels: [\"energy.kinetic\", \"energy.total\"])]";
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        if self.0.len() > MOST_PLOTS {
+            let message = format!("{} plots do not fit beside a film, at most {MOST_PLOTS} do", self.0.len());
+            report.error("", message).help("plot several channels together, or use `jostle plot`");
+        }
+        for (place, plot) in self.0.iter().enumerate() {
+            report.within(&format!("[{place}]"), |report| plot.check(outline, report));
+        }
+    }
+
+    fn install(self, _: &Outline, app: &mut App) {
+        app.insert_resource(self);
+    }
+}
