@@ -77,13 +77,11 @@ fn shaded(ink: &Ink, inside: impl Fn(f64) -> bool) -> Rgb {
     }
 }
 
-/// Whether a point lies in a strip between two discs, given by their places, when it is shrunk by so much.
-trait Inside: Fn(DVec2, f64, &[(usize, usize)]) -> bool {}
+/// Whether a point of the picture lies in one of the strips between two discs each, shrunk by so much.
+type Inside = Box<dyn Fn(DVec2, f64, &[(usize, usize)]) -> bool>;
 
-impl<F: Fn(DVec2, f64, &[(usize, usize)]) -> bool> Inside for F {}
-
-/// A body drawn at one pixel per metre, and whether a point of the picture lies in one of its strips shrunk by so much.
-fn body(discs: &[Disc], ink: Ink) -> (Pixmap, impl Inside + use<>) {
+/// A body drawn at one pixel per metre, and what is inside of it.
+fn body(discs: &[Disc], ink: Ink) -> (Pixmap, Inside) {
     let stand = Stand { x: 21.3, y: 25.6, cosine: 0.8, sine: 0.6 };
     let picture = drawn(|picture| {
         Silhouette::new(discs, 1.0).draw(&stand, &ink, &mut Canvas::new(picture), &mut Field::default());
@@ -99,7 +97,7 @@ fn body(discs: &[Disc], ink: Ink) -> (Pixmap, impl Inside + use<>) {
         };
         bonds.iter().any(near)
     };
-    (picture, inside)
+    (picture, Box::new(inside))
 }
 
 fn disc(x: f64, y: f64, radius: f64) -> Disc {

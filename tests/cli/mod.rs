@@ -18,6 +18,7 @@ mod numbers;
 mod outputs;
 mod plots;
 mod scene_files;
+mod schema;
 mod stills;
 mod streams;
 mod sweep;

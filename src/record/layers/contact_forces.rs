@@ -8,6 +8,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::scale::{Scale, round};
@@ -22,7 +23,7 @@ use crate::simulation::Finishers;
 use crate::world::Bodies;
 
 /// Contact forces.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForces {
     /// Names of bodies, `*` matches. Default: all that move.
@@ -38,6 +39,10 @@ impl Entry for ContactForces {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "ContactForces";
     const EXAMPLE: &'static str = "ContactForces(of: [\"ball\"], scale: \"10 N\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);

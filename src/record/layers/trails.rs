@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{FilmAppExt, Layer, Mark, MarkShape, Memory, Shown, stride};
@@ -25,7 +26,7 @@ const POINTS: (usize, usize) = (4, 256);
 const ALL_POINTS: usize = 1 << 15;
 
 /// Trails.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Trails {
     /// Names of bodies, `*` matches. Default: all that move.
@@ -44,6 +45,10 @@ impl Entry for Trails {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Trails";
     const EXAMPLE: &'static str = "Trails(of: [\"ball\"], seconds: 0.5)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::scale::{Scale, round};
@@ -15,7 +16,7 @@ use crate::simulation::Finishers;
 use crate::world::Bodies;
 
 /// Velocities.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocities {
     /// Names of bodies, `*` matches. Default: all that move.
@@ -31,6 +32,10 @@ impl Entry for Velocities {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Velocities";
     const EXAMPLE: &'static str = "Velocities(of: [\"ball\"], scale: \"2 m/s\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);
