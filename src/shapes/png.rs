@@ -1,7 +1,7 @@
 //! `Png(file, height, count | radius)`: a silhouette from a picture file, covered by discs.
 //!
 //! The file is read before the sections of a scene are: here the discs are known already. How they are chosen stands in
-//! [`silhouette`](super::silhouette).
+//! `silhouette`.
 
 use glam::DVec2;
 use schemars::JsonSchema;
