@@ -39,6 +39,12 @@ impl Language {
         }
         self.complete_templates(&mut schema);
         visit(&mut schema, &mut let_be_made);
+        let is_structure = |(_, about): &(&String, &Value)| about["type"] == "object";
+        let structures: Vec<String> =
+            self.definitions.iter().filter(is_structure).map(|(name, _)| format!("#/$defs/{name}")).collect();
+        for definition in schema["$defs"].as_object_mut().into_iter().flat_map(Map::values_mut) {
+            visit(definition, &mut |part| name_structures(part, &structures));
+        }
         schema["$defs"][REPEATED] = json!({
             "type": "object",
             "properties": { "Repeat": { "$ref": "#/$defs/Repeat" } },
@@ -69,6 +75,17 @@ fn let_be_made(schema: &mut Value) {
     if let Some(items) = map.get_mut("items").filter(|items| items.is_object()) {
         let item = items.take();
         *items = json!({ "anyOf": [item, { "$ref": format!("#/$defs/{REPEATED}") }] });
+    }
+}
+
+/// Lets the name of a parameter stand for a field that is a structure.
+fn name_structures(schema: &mut Value, structures: &[String]) {
+    for field in schema["properties"].as_object_mut().into_iter().flat_map(Map::values_mut) {
+        if field["$ref"].as_str().is_some_and(|name| structures.iter().any(|structure| structure == name)) {
+            let structure = field["$ref"].take();
+            field.as_object_mut().and_then(|field| field.shift_remove("$ref"));
+            field["anyOf"] = json!([{ "$ref": structure }, { "type": "string" }]);
+        }
     }
 }
 
