@@ -64,7 +64,7 @@ fn a_film_shows_the_spring() {
     let mut simulation = load("2", 0.001).unwrap();
     let mut frame = Recorder::default().frame(&mut simulation, 0.5).unwrap();
     let camera = Camera::look(DVec2::new(1.5, 0.0), 2.0, (640, 360));
-    let view = View { camera, theme: Theme::named("paper").unwrap(), frame_step: 0.1 };
+    let view = View { camera, theme: Theme::named("paper").unwrap(), frame_step: 0.1, panel: None };
     let painter = Painter::new(&view, &frame).unwrap();
     let mut paint = || {
         let mut picture = painter.backdrop().clone();
