@@ -22,6 +22,7 @@ mod render;
 mod result;
 mod run;
 mod say;
+mod schema;
 mod side_by_side;
 mod squeeze;
 mod sweep;
@@ -70,6 +71,7 @@ Examples:
   jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values
   jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
+  jostle schema --manual | less                          every section and field that a scene may have
 
 Scenes that come with the program: {scenes}.
 
@@ -111,6 +113,8 @@ enum Command {
     List(list::List),
     /// Write a starting point: a plugin or a scene
     New(new::New),
+    /// Write what may stand in a scene: JSON schema for programs, with --manual the manual
+    Schema(schema::SchemaCommand),
 }
 
 impl CommandLine {
@@ -127,6 +131,7 @@ impl CommandLine {
             Command::Explain(explain) => explain.execute(),
             Command::List(list) => list.execute(),
             Command::New(new) => new.execute(),
+            Command::Schema(schema) => schema.execute(),
         }
     }
 }

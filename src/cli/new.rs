@@ -126,7 +126,7 @@ impl NewPlugin {
 const TAKEN: &str = "\
     abstract alloc as async await become bevy_app bevy_ecs box break const continue core crate do dyn else enum \
     extern false final fn for gen glam if impl in jostle let loop macro match mod move mut override priv \
-    proc_macro pub ref return self serde static std struct super test trait true try type typeof unsafe unsized \
+    proc_macro pub ref return schemars self serde static std struct super test trait true try type typeof unsafe unsized \
     use virtual where while yield";
 
 /// `rubber_band` as `RubberBand`.

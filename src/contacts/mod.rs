@@ -69,9 +69,14 @@ impl ContactForces {
     }
 }
 
+const MEANING: &str = "\
+How things push each other that touch. Without this section `Penalty` with its defaults, if there is something to touch; with \
+`contacts: None` everything passes through everything.";
+
 /// Registers the contact laws of this folder.
 pub fn plugin(app: &mut App) {
     app.register_entry_section("contacts", Arity::OneOrNone, "contacts: Penalty(tangential: Spring(ratio: 0.8))");
+    app.describe_section("contacts", MEANING);
     penalty::plugin(app);
     app.reserve_entry("contacts", "Rigid");
 }

@@ -1,6 +1,7 @@
 //! `AtRest(of: "*", from: 18, speed_below: 1e-6)`: from a time on, every point of the bodies is slower than a speed.
 
 use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
@@ -8,15 +9,15 @@ use crate::scene::units::{Speed, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
-/// Bodies rest.
-#[derive(Deserialize)]
+/// From a time on every point of the bodies is slower than a speed; looked at every tick.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AtRest {
-    /// Names, `*` matches.
+    /// The bodies, `*` matches.
     of: Names,
     /// From this time on, in seconds.
     from: Time,
-    /// No point of a body is as fast as this, in m/s.
+    /// All points are slower than this, in m/s.
     speed_below: Speed,
 }
 
@@ -24,6 +25,10 @@ impl Entry for AtRest {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "AtRest";
     const EXAMPLE: &'static str = "AtRest(of: \"*\", from: 18, speed_below: 1e-6)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);

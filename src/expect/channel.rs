@@ -2,6 +2,7 @@
 //! looked at every tenth tick and at the end.
 
 use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
@@ -9,15 +10,15 @@ use crate::scene::units::{Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::sensors;
 
-/// A channel stays small.
-#[derive(Deserialize)]
+/// The magnitude of a channel stays below a bound; looked at every tenth tick and at the end.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Channel {
-    /// Name of the channel.
+    /// The name of the channel, such as `energy.residual` or `ball.velocity.x`; no sensor is needed for it.
     name: String,
-    /// Its magnitude stays below this, in the channel's unit.
+    /// The bound, in the channel's unit.
     below: Scalar,
-    /// From this time on, in seconds. Default: from the beginning.
+    /// From this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
 }
@@ -26,6 +27,10 @@ impl Entry for Channel {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "Channel";
     const EXAMPLE: &'static str = "Channel(name: \"energy.residual\", below: 1e-6)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         sensors::check_channel(&self.name, "name", outline, report);

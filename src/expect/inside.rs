@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
@@ -9,11 +10,11 @@ use crate::scene::units::Position as Place;
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
-/// Bodies stay in a box.
-#[derive(Deserialize)]
+/// The centres of mass stay in a box, at every tick.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Inside {
-    /// Names, `*` matches.
+    /// The bodies, `*` matches.
     of: Names,
     /// Lower left and upper right corner in metres.
     r#box: (Place, Place),
@@ -23,6 +24,10 @@ impl Entry for Inside {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "Inside";
     const EXAMPLE: &'static str = "Inside(of: \"*\", box: ((0, 0), (6, 6)))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);

@@ -105,6 +105,11 @@ pub fn plugin(app: &mut App) {
         Arity::List,
         "expect: [Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)]",
     );
+    app.describe_section(
+        "expect",
+        "What has to be true of the run: the scene is its own test. Checked by `run`, `render` and `check --run`; an \
+         expectation that is broken is told, and the exit code is 1.",
+    );
     at_rest::plugin(app);
     channel::plugin(app);
     inside::plugin(app);

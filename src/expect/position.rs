@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
@@ -9,11 +10,11 @@ use crate::record::between::{Moment, position_between};
 use crate::scene::units::{Length, Position as Place, Time};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
-/// A body is somewhere.
-#[derive(Deserialize)]
+/// A body is at a place at a time, which may lie between ticks.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Position {
-    /// Name of the body.
+    /// The name of the body.
     of: String,
     /// When, in seconds.
     at: Time,
@@ -27,6 +28,10 @@ impl Entry for Position {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "Position";
     const EXAMPLE: &'static str = "Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         outline.require(Kind::BODY, &self.of, "of", report);

@@ -6,6 +6,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
@@ -14,13 +15,15 @@ use crate::tick::balance::EnergyTerms;
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
-/// `Attraction(constant: 1.0, softening: 0)`.
-#[derive(Deserialize)]
+/// Attraction between all bodies, as between the masses of heaven: `F = G m1 m2 / (r^2 + s^2)` for two that are `r` apart
+/// with a softening of `s = 0`, and `F = G m1 m2 r / (r^2 + s^2)^(3/2)` with one. The cost grows with the square of the
+/// number of bodies.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Attraction {
-    /// `G` in N m2/kg2.
+    /// `G` in N m2/kg2; a negative one repels.
     constant: Quantity<GravitationalConstant>,
-    /// Length in metres below which the force stops growing. Default 0.
+    /// Length `s` in metres below which the force stops growing. Default: 0.
     #[serde(default)]
     softening: Length,
 }
@@ -31,6 +34,7 @@ struct GravitationalConstant;
 impl Dimension for GravitationalConstant {
     const NAME: &'static str = "a gravitational constant";
     const POWERS: Powers = Powers { meter: 3, kilogram: -1, second: -2, radian: 0 };
+    const UNIT: &'static str = "N m2/kg2";
     const EXAMPLE: &'static str = "`1.0` or \"6.674e-11 N m2/kg2\"";
 }
 
@@ -38,6 +42,10 @@ impl Entry for Attraction {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Attraction";
     const EXAMPLE: &'static str = "Attraction(constant: 1.0)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, _: &Outline, report: &mut Report) {
         report.not_negative("softening", self.softening);

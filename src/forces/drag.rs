@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Targets, check_targets};
@@ -11,17 +12,17 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
-/// `Drag(linear: 0.1, of: ["ball"])`.
-#[derive(Deserialize)]
+/// Resistance of air that rests: `F = -(c1 + c2 |v|) v`, with `c1` linear (Stokes) and `c2` quadratic (Newton).
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Drag {
-    /// Linear coefficient in N s/m. Default 0.
+    /// Linear coefficient in N s/m. Default: 0.
     #[serde(default)]
     linear: Damping,
-    /// Quadratic coefficient in N s2/m2. Default 0.
+    /// Quadratic coefficient in N s2/m2. Default: 0.
     #[serde(default)]
     quadratic: QuadraticDamping,
-    /// Names, `*` matches. Default: all bodies.
+    /// The bodies it acts on, `*` matches. Default: all bodies.
     of: Option<Names>,
 }
 
@@ -29,6 +30,10 @@ impl Entry for Drag {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Drag";
     const EXAMPLE: &'static str = "Drag(linear: 0.1, of: [\"ball\"])";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.not_negative("linear", self.linear);

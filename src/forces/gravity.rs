@@ -3,6 +3,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::AccelerationPair;
@@ -11,14 +12,18 @@ use crate::tick::balance::EnergyTerms;
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
-/// `gravity: (0, -9.81)`: the acceleration of free fall in m/s2. Absent: no gravity, nothing scheduled.
-#[derive(Deserialize)]
+/// The acceleration of free fall. A scene without this section has no gravity.
+#[derive(Deserialize, JsonSchema)]
 #[serde(transparent)]
 struct GravitySection(AccelerationPair);
 
 impl Section for GravitySection {
     const NAME: &'static str = "gravity";
     const EXAMPLE: &'static str = "gravity: (0, -9.81)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn install(self, _: &Outline, app: &mut App) {
         install(Gravity(self.0.si()), app);

@@ -6,7 +6,8 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use serde::Deserialize;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
 
 use super::{Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
@@ -15,21 +16,22 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Modes, TickAppExt};
 use crate::world::Bodies;
 
-/// `Thrust(of: "T", at: (0, 0.1), force: (0, 2), frame: Body, from: 1, to: 1.25)`.
-#[derive(Deserialize)]
+/// A force at a point of a body, between two times. It acts in whole ticks: in those whose middle lies between the two
+/// times.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Thrust {
-    /// Names, `*` matches.
+    /// The bodies it acts on, `*` matches.
     of: Names,
-    /// Where it acts, in the body's frame from its centre of mass, in metres. Default: the centre of mass.
+    /// Where it acts, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
     #[serde(default)]
     at: Position,
     /// Force in newtons.
     force: ForcePair,
-    /// Whether the force turns with the body. Default: `World`, it does not.
+    /// Whether the force turns with the body. Default: `World`.
     #[serde(default)]
     frame: ThrustFrame,
-    /// It acts from this time on, in seconds. Default: from the beginning.
+    /// It acts from this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
     /// It no longer acts at this time, in seconds. Default: it never ends.
@@ -37,7 +39,7 @@ struct Thrust {
 }
 
 /// The frame in which a force is constant.
-#[derive(Clone, Copy, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 enum ThrustFrame {
     /// The force turns with the body.
     Body,
@@ -50,6 +52,10 @@ impl Entry for Thrust {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Thrust";
     const EXAMPLE: &'static str = "Thrust(of: \"T\", force: (0, 2), frame: Body, from: 1, to: 1.25)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         check_targets(Some(&self.of), outline, report);

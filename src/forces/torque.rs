@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Targets, check_targets};
@@ -10,11 +11,11 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written, units};
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
-/// `Torque(of: "flywheel", value: 0.05)`.
-#[derive(Deserialize)]
+/// A constant torque.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Torque {
-    /// Names, `*` matches.
+    /// The bodies it acts on, `*` matches.
     of: Names,
     /// Torque in N m, counter-clockwise.
     value: units::Torque,
@@ -24,6 +25,10 @@ impl Entry for Torque {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Torque";
     const EXAMPLE: &'static str = "Torque(of: \"flywheel\", value: 0.05)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         check_targets(Some(&self.of), outline, report);

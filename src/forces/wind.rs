@@ -5,6 +5,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Targets, check_targets};
@@ -14,19 +15,19 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
-/// `Wind(velocity: (3, 0), linear: 0.1, of: ["kite"])`.
-#[derive(Deserialize)]
+/// Resistance of air that moves evenly: `F = -(c1 + c2 |w|) w`, with `w` the velocity against the air.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Wind {
     /// Velocity of the air in m/s.
     velocity: Velocity,
-    /// Linear coefficient in N s/m. Default 0.
+    /// Linear coefficient in N s/m. Default: 0.
     #[serde(default)]
     linear: Damping,
-    /// Quadratic coefficient in N s2/m2. Default 0.
+    /// Quadratic coefficient in N s2/m2. Default: 0.
     #[serde(default)]
     quadratic: QuadraticDamping,
-    /// Names, `*` matches. Default: all bodies.
+    /// The bodies it acts on, `*` matches. Default: all bodies.
     of: Option<Names>,
 }
 
@@ -34,6 +35,10 @@ impl Entry for Wind {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Wind";
     const EXAMPLE: &'static str = "Wind(velocity: (3, 0), linear: 0.1)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.not_negative("linear", self.linear);

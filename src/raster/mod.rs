@@ -6,6 +6,7 @@
 mod camera;
 mod canvas;
 mod layers;
+mod light;
 mod plots;
 mod silhouette;
 mod text;
@@ -97,7 +98,10 @@ pub struct Painter {
     fixed: Vec<(usize, Figure)>,
     title: Title,
     clock: Clock,
+    /// Names of bodies.
     writing: Writing,
+    /// What stands in the corner.
+    corner: Writing,
     labels: Column,
     /// The fill of each body.
     fills: Vec<Rgb>,
@@ -128,6 +132,7 @@ impl Painter {
         let needed = clock.width().max(longest_word(&cast.title, &lettering));
         let column = Column::beside_or_in(room, weights.band, needed, weights.pad, (height as f32, weights.small));
         let title = Title::new(&cast.title, &lettering, &column, theme);
+        let on_ground = !column.in_room || column.one_line;
         let mut painter = Painter {
             view: view.clone(),
             cast: cast.clone(),
@@ -135,7 +140,8 @@ impl Painter {
             fixed,
             title,
             clock,
-            writing: Writing::new(weights.small, theme),
+            writing: Writing::new(weights.small, theme, theme.background),
+            corner: Writing::new(weights.small, theme, if on_ground { theme.ground } else { theme.background }),
             labels: column,
             cards: view.panel.as_ref().map(|panel| Cards::new(panel, theme, &colors)),
             fills: colors,
@@ -196,7 +202,7 @@ impl Painter {
         if self.labels.in_room {
             self.title.draw(picture);
         }
-        scales::draw(picture, &frame.marks, (camera, theme), &self.labels, &self.writing, line);
+        scales::draw(picture, &frame.marks, (camera, theme), &self.labels, &self.corner, line);
         if frame.marks.iter().any(|mark| mark.shape == MarkShape::Time) {
             self.clock.draw(picture, frame.time, &self.labels, self.title.height());
         }
@@ -288,3 +294,7 @@ impl Weights {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod truth;
+#[cfg(test)]
+mod vision;

@@ -311,37 +311,4 @@ mod tests {
             assert_eq!((pixel.red(), pixel.green(), pixel.blue()), (200, 100, 50), "step {step}");
         }
     }
-
-    #[test]
-    fn a_rod_agrees_with_supersampled_truth() {
-        let ink = Ink { fill: Rgb(86, 180, 233), outline: Rgb(30, 36, 48), width: 2.0 };
-        let mut pixmap = Pixmap::new(60, 50).expect("small");
-        fill(pixmap.data_mut(), Rgb(250, 249, 246));
-        let stand = Stand { x: 14.3, y: 33.6, cosine: 0.8, sine: 0.6 };
-        let silhouette = Silhouette::new(&grid(&["###"]), 16.0);
-        silhouette.draw(&stand, &ink, &mut Canvas::new(&mut pixmap), &mut Field::default());
-        // Red alone: the one with the largest contrast.
-        let truth = |column: u32, row: u32| -> f64 {
-            let sample = |sample: u32| {
-                let x = f64::from(column) + (f64::from(sample % 16) + 0.5) / 16.0 - stand.x;
-                let y = stand.y - f64::from(row) - (f64::from(sample / 16) + 0.5) / 16.0;
-                let own = DVec2::new(x * stand.cosine + y * stand.sine, y * stand.cosine - x * stand.sine);
-                let distance = own.distance(DVec2::new(own.x.clamp(0.0, 32.0), 0.0)) - 8.0;
-                if distance > 0.0 {
-                    250.0
-                } else if distance > -2.0 {
-                    30.0
-                } else {
-                    86.0
-                }
-            };
-            (0..256).map(sample).sum::<f64>() / 256.0
-        };
-        for (row, column) in (0..50).flat_map(|row| (0..60).map(move |column| (row, column))) {
-            let seen = f64::from(pixmap.pixel(column, row).expect("inside").red());
-            // As for a disc: a distance taken for a coverage is off by 0.07 of a contrast of 220 at most, twice.
-            let error = (seen - truth(column, row)).abs();
-            assert!(error <= 26.0, "{error} at {column}, {row}");
-        }
-    }
 }

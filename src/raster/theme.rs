@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn colours_are_read_by_name_and_by_digits() {
         let theme = Theme::named("paper").expect("shipped");
-        assert_eq!(theme.color("teal"), Some(Rgb(0, 0x9E, 0x73)));
+        assert_eq!(theme.color("teal"), Some(Rgb(0x01, 0x95, 0x66)));
         assert_eq!(theme.color("#0a0B0c"), Some(Rgb(10, 11, 12)));
         for wrong in ["#+12345", "#12345", "#1234567", "123456", "#12345g", "tael", ""] {
             assert_eq!(theme.color(wrong), None, "{wrong}");

@@ -65,6 +65,7 @@ mod outline;
 mod registry;
 mod report;
 mod scan;
+pub mod schema;
 mod section;
 pub mod sections;
 mod source;

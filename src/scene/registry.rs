@@ -8,6 +8,7 @@ use bevy_ecs::resource::Resource;
 use super::explain::{self, Fault};
 use super::outline::{Outline, Words, join};
 use super::report::Report;
+use super::schema::Describe;
 use super::section::{Entry, Section, Written};
 
 /// How many entries a section of entries takes.
@@ -89,6 +90,10 @@ pub(crate) enum Reader {
 pub(crate) struct SectionReader {
     pub(crate) reader: Reader,
     pub(crate) example: &'static str,
+    /// The schema of a section that is read as a whole.
+    pub(crate) describe: Describe,
+    /// What a section of entries is for.
+    pub(crate) meaning: &'static str,
     pub(crate) order: usize,
     origin: &'static str,
 }
@@ -97,6 +102,7 @@ pub(crate) struct SectionReader {
 pub(crate) struct EntryReader {
     /// Makes an empty store; none for a reserved name.
     pub(crate) make: Option<fn() -> Box<dyn ReadEntries>>,
+    pub(crate) describe: Describe,
     pub(crate) example: &'static str,
     pub(crate) order: usize,
     origin: &'static str,
@@ -131,14 +137,15 @@ impl SceneRegistry {
         self.count
     }
 
-    fn claim(&mut self, name: &'static str, example: &'static str, origin: &'static str, reader: Reader) {
+    fn claim(&mut self, name: &'static str, example: &'static str, origin: &'static str, read: (Reader, Describe)) {
+        let (reader, describe) = read;
         let order = self.next();
         if let Some(before) = self.sections.get(name) {
             let claimed = !matches!(before.reader, Reader::Reserved);
             // Two plugins with one name cannot both be right, and the scene is not to blame.
             assert!(!claimed, "the scene section `{name}` is registered twice");
         }
-        self.sections.insert(name, SectionReader { reader, example, order, origin });
+        self.sections.insert(name, SectionReader { reader, example, describe, meaning: "", order, origin });
     }
 
     fn claim_entry(&mut self, section: &'static str, name: &'static str, entry: EntryReader) {
@@ -150,21 +157,26 @@ impl SceneRegistry {
         assert!(!claimed, "the entry `{name}` of `{section}` is registered twice");
     }
 
+    /// The registered sections in the order of registration, reserved ones among them.
+    pub(crate) fn in_order(&self) -> Vec<(&'static str, &SectionReader)> {
+        let mut list: Vec<_> = self.sections.iter().map(|(name, section)| (*name, section)).collect();
+        list.sort_unstable_by_key(|(_, section)| section.order);
+        list
+    }
+
     /// The registered sections in the order of registration; reserved ones are left out, and lists of entries inside a
     /// section (`look.layers`) as well.
     pub fn sections(&self) -> Vec<Known> {
-        let mut list: Vec<(usize, Known)> = Vec::new();
-        let outermost = self.sections.iter().filter(|(name, _)| !name.contains('.'));
-        for (&name, &SectionReader { ref reader, example, order, origin }) in outermost {
-            let entries = self.entries(name);
-            let (origin, takes_entries) = match reader {
-                Reader::Section(_) => (origin, false),
-                Reader::Entries(..) => (shared_module(&entries), true),
-                Reader::Reserved => continue,
+        let outermost = self.in_order().into_iter().filter(|(name, _)| !name.contains('.'));
+        let known = |(name, section): (&'static str, &SectionReader)| {
+            let (origin, takes_entries) = match section.reader {
+                Reader::Section(_) => (section.origin, false),
+                Reader::Entries(..) => (shared_module(&self.entries(name)), true),
+                Reader::Reserved => return None,
             };
-            list.push((order, Known { name, example, origin, takes_entries }));
-        }
-        in_order(list)
+            Some(Known { name, example: section.example, origin, takes_entries })
+        };
+        outermost.filter_map(known).collect()
     }
 
     /// The entries of a section in the order of registration; reserved ones are left out.
@@ -172,11 +184,15 @@ impl SceneRegistry {
         let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get(section) else {
             return Vec::new();
         };
-        let real = entries.iter().filter(|(_, entry)| entry.make.is_some());
-        let known = |(&name, &EntryReader { example, order, origin, .. })| {
-            (order, Known { name, example, origin, takes_entries: false })
+        let mut real: Vec<_> = entries.iter().filter(|(_, entry)| entry.make.is_some()).collect();
+        real.sort_unstable_by_key(|(_, entry)| entry.order);
+        let known = |(&name, entry): (&&'static str, &EntryReader)| Known {
+            name,
+            example: entry.example,
+            origin: entry.origin,
+            takes_entries: false,
         };
-        in_order(real.map(known).collect())
+        real.into_iter().map(known).collect()
     }
 
     /// The open lists of words, such as `method`.
@@ -189,11 +205,6 @@ impl SceneRegistry {
         let words = self.words.get(list).into_iter().flatten();
         words.filter(|(_, available)| **available).map(|(word, _)| *word).collect()
     }
-}
-
-fn in_order(mut list: Vec<(usize, Known)>) -> Vec<Known> {
-    list.sort_unstable_by_key(|(order, known)| (*order, known.name));
-    list.into_iter().map(|(_, known)| known).collect()
 }
 
 /// The module of a type.
@@ -244,6 +255,9 @@ pub trait SceneAppExt {
     /// `look.layers` is the field `layers` of the section `look`, whose type passes it over with [`Elsewhere`](super::values::Elsewhere).
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self;
 
+    /// Says what such a section is for, in the manual and in the schema.
+    fn describe_section(&mut self, name: &'static str, meaning: &'static str) -> &mut Self;
+
     /// Lets a type read one kind of entry of such a section.
     fn register_entry<E: Entry>(&mut self) -> &mut Self;
 
@@ -268,12 +282,19 @@ fn registry(app: &mut App) -> &mut SceneRegistry {
 impl SceneAppExt for App {
     fn register_section<S: Section>(&mut self) -> &mut Self {
         let read: ReadOneSection = |text| Ok(Box::new(explain::read::<S>(text)?));
-        registry(self).claim(S::NAME, S::EXAMPLE, module_of::<S>(), Reader::Section(read));
+        registry(self).claim(S::NAME, S::EXAMPLE, module_of::<S>(), (Reader::Section(read), S::schema));
         self
     }
 
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self {
-        registry(self).claim(name, example, "", Reader::Entries(arity, BTreeMap::new()));
+        registry(self).claim(name, example, "", (Reader::Entries(arity, BTreeMap::new()), |_| None));
+        self
+    }
+
+    fn describe_section(&mut self, name: &'static str, meaning: &'static str) -> &mut Self {
+        if let Some(section) = registry(self).sections.get_mut(name) {
+            section.meaning = meaning;
+        }
         self
     }
 
@@ -281,15 +302,16 @@ impl SceneAppExt for App {
         let registry = registry(self);
         let make: fn() -> Box<dyn ReadEntries> = || Box::new(Entries::<E>(Vec::new()));
         let order = registry.next();
-        let origin = module_of::<E>();
-        registry.claim_entry(E::SECTION, E::NAME, EntryReader { make: Some(make), example: E::EXAMPLE, order, origin });
+        let entry =
+            EntryReader { make: Some(make), describe: E::schema, example: E::EXAMPLE, order, origin: module_of::<E>() };
+        registry.claim_entry(E::SECTION, E::NAME, entry);
         self
     }
 
     fn reserve_section(&mut self, name: &'static str) -> &mut Self {
         let registry = registry(self);
         if !registry.sections.contains_key(name) {
-            registry.claim(name, "", "", Reader::Reserved);
+            registry.claim(name, "", "", (Reader::Reserved, |_| None));
         }
         self
     }
@@ -297,7 +319,8 @@ impl SceneAppExt for App {
     fn reserve_entry(&mut self, section: &'static str, name: &'static str) -> &mut Self {
         let registry = registry(self);
         let order = registry.next();
-        registry.claim_entry(section, name, EntryReader { make: None, example: "", order, origin: "" });
+        let entry = EntryReader { make: None, describe: |_| None, example: "", order, origin: "" };
+        registry.claim_entry(section, name, entry);
         self
     }
 

@@ -2,6 +2,7 @@
 //! that takes several kinds (`forces: [Drag(..)]`, `contacts: Penalty(..)`).
 
 use bevy_app::App;
+use schemars::{Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
 use super::outline::Outline;
@@ -17,6 +18,12 @@ pub trait Section: DeserializeOwned + Send + Sync + 'static {
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
+
+    /// What may be written in it, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on the
+    /// type it is `Some(generator.subschema_for::<Self>())`. Default: nothing, and the manual tells no fields.
+    fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
+        None
+    }
 
     /// Tells the outline which names (bodies, walls, materials ...) this section brings. Sections declare in the order
     /// of the file. Paths are relative to the section.
@@ -38,6 +45,12 @@ pub trait Entry: DeserializeOwned + Send + Sync + 'static {
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
+
+    /// What may be written in its brackets, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on
+    /// the type it is `Some(generator.subschema_for::<Self>())`. Default: nothing, and the manual tells no fields.
+    fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
+        None
+    }
 
     /// Tells the outline which names this entry brings.
     fn declare(&self, _outline: &mut Outline) {}

@@ -4,6 +4,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, entity_named};
@@ -13,11 +14,11 @@ use crate::world::{Bodies, Body, Slot, Wall};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
 
-/// The contact force on a wall or body.
-#[derive(Deserialize)]
+/// The sum of the contact forces on a wall or body: `floor.force.x`, `floor.force.y` in N.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForce {
-    /// Name of a wall or body.
+    /// The name of the wall or body.
     on: String,
 }
 
@@ -25,6 +26,10 @@ impl Entry for ContactForce {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "ContactForce";
     const EXAMPLE: &'static str = "ContactForce(on: \"floor\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         outline.require_any(&[Kind::WALL, Kind::BODY], &self.on, "on", report);

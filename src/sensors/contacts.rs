@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, entity_named};
@@ -17,11 +18,12 @@ use crate::world::{Body, Wall};
 
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 
-/// The contacts of bodies or walls.
-#[derive(Deserialize)]
+/// How many bodies and walls touch a body or wall now, `ball.contacts`, and how often one began to since the start,
+/// `ball.contacts.begun`. A body that settles parts and touches again many times.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
-    /// Names of bodies, `*` matches, and of walls, which are named in full.
+    /// Bodies, `*` matches, and walls, which are named in full.
     of: Names,
 }
 
@@ -50,6 +52,10 @@ impl Entry for Contacts {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Contacts";
     const EXAMPLE: &'static str = "Contacts(of: \"ball\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         if self.owners(outline, report).is_empty() && self.of.patterns.is_empty() {

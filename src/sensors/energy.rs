@@ -3,6 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
@@ -21,8 +22,10 @@ const CHANNELS: &[&str] = &[
     "energy.residual",
 ];
 
-/// The energy ledger.
-#[derive(Deserialize)]
+/// The energy ledger in J: `energy.kinetic`, `energy.potential`, `energy.elastic` and their sum `energy.total`; what was
+/// lost, `energy.friction`, `energy.inelasticity`, `energy.drag`; `energy.work` of drives; `energy.residual`, what cannot be
+/// accounted for.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Energy {}
 
@@ -30,6 +33,10 @@ impl Entry for Energy {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Energy";
     const EXAMPLE: &'static str = "Energy()";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
         add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));

@@ -162,6 +162,10 @@ fn of_body(
 pub fn plugin(app: &mut App) {
     app.init_resource::<Finders>();
     app.register_entry_section("sensors", Arity::List, "sensors: [Pose(of: \"ball\"), Energy()]");
+    app.describe_section(
+        "sensors",
+        "What is measured. Each number is a channel, `name.quantity`, and a column of the CSV.",
+    );
     pose::plugin(app);
     velocity::plugin(app);
     energy::plugin(app);

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
@@ -10,8 +11,8 @@ use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
 const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
 
-/// The deepest overlap so far.
-#[derive(Deserialize)]
+/// The deepest overlap so far: `overlap.deepest` in m, `overlap.share` of the smaller radius.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Overlap {}
 
@@ -19,6 +20,10 @@ impl Entry for Overlap {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Overlap";
     const EXAMPLE: &'static str = "Overlap()";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
         add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));

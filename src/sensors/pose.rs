@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
@@ -10,11 +11,11 @@ use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
 const QUANTITIES: &[&str] = &["position.x", "position.y", "angle"];
 
-/// Where bodies are and how they are turned.
-#[derive(Deserialize)]
+/// Where bodies are and how they are turned: `T.position.x`, `T.position.y` in m, `T.angle` in rad.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Pose {
-    /// Names, `*` matches.
+    /// The bodies, `*` matches.
     of: Names,
 }
 
@@ -22,6 +23,10 @@ impl Entry for Pose {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Pose";
     const EXAMPLE: &'static str = "Pose(of: \"ball\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
@@ -10,11 +11,11 @@ use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
 const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin"];
 
-/// How fast bodies move and turn.
-#[derive(Deserialize)]
+/// How fast bodies move and turn: `T.velocity.x`, `T.velocity.y` in m/s, `T.spin` in rad/s.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocity {
-    /// Names, `*` matches.
+    /// The bodies, `*` matches.
     of: Names,
 }
 
@@ -22,6 +23,10 @@ impl Entry for Velocity {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Velocity";
     const EXAMPLE: &'static str = "Velocity(of: \"ball\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);

@@ -1,6 +1,7 @@
 //! `Disc(radius, mass)`: one disc at the origin.
 
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
@@ -8,8 +9,9 @@ use crate::scene::Report;
 use crate::scene::units::{Length, Mass, Stiffness};
 
 /// One disc.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Disc")]
 pub struct OneDisc {
     /// The radius in m. Above zero.
     pub radius: Length,

@@ -1,5 +1,6 @@
 //! `List([..])`: discs one by one.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
@@ -7,8 +8,9 @@ use crate::scene::Report;
 use crate::scene::units::{Length, Mass, Position, Stiffness};
 
 /// One disc of a list.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "ListedDisc")]
 pub struct ListedDisc {
     /// The centre in m, in the body's own frame.
     pub at: Position,
@@ -23,7 +25,7 @@ pub struct ListedDisc {
 }
 
 /// Discs one by one, at least one.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 pub struct DiscList(pub Vec<ListedDisc>);
 
 impl DiscList {

@@ -9,15 +9,16 @@
 //! A given mass wins over the sum: everything that followed from the sum is scaled to it.
 
 use glam::DVec2;
-use serde::Deserialize;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer};
+use serde::{Deserialize, Serialize};
 
 use super::{AtomSpec, union};
 use crate::scene::Report;
 use crate::scene::units::Inertia;
 
 /// What the places of a body's atoms are counted from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Datum {
     /// `at` is the centre of mass, wherever it is in the shape's own frame.
@@ -39,6 +40,18 @@ pub enum InertiaRule {
     Union,
     /// A number, in kg m2.
     Given(f64),
+}
+
+impl JsonSchema for InertiaRule {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "InertiaRule".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [{ "enum": ["Discs", "Points", "Union"] }, generator.subschema_for::<Inertia>()],
+        })
+    }
 }
 
 impl<'de> Deserialize<'de> for InertiaRule {

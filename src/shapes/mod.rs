@@ -12,6 +12,7 @@ mod union;
 
 use glam::DVec2;
 use mass_properties::InertiaRule;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::Report;
@@ -40,8 +41,8 @@ impl AtomSpec {
 
 macro_rules! shapes {
     ($($(#[$about:meta])* $name:ident($fields:ty),)*) => {
-        /// The value of `atoms:`: one of the shapes, by its leading name.
-        #[derive(Clone, Debug, Deserialize)]
+        /// The discs a body is made of: one of the shapes.
+        #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
         pub enum Atoms {
             $($(#[$about])* $name($fields),)*

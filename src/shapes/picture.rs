@@ -1,6 +1,7 @@
 //! `Picture(spacing, mass, rows)`: equal discs on a square grid, drawn with letters.
 
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
@@ -13,8 +14,9 @@ use crate::scene::units::{Length, Mass, Stiffness};
 /// rows: ["..##..",      `#` is an atom, `.` and blank are none;
 ///        "######"]      the first row is the top, columns go to the right
 /// ```
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Picture")]
 pub struct Picture {
     /// The distance of neighbours in m, twice the radius of a disc. Above zero.
     pub spacing: Length,

@@ -4,6 +4,7 @@
 //! [`silhouette`](super::silhouette).
 
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
@@ -18,15 +19,16 @@ pub const MOST_ATOMS: u64 = 5000;
 ///
 /// What is opaque is the silhouette; in a picture without transparency, what is dark. The origin is the middle of its
 /// lowest edge. Discs overlap, so mass and inertia are by default those of the area they cover together.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Png")]
 pub struct Png {
     /// The picture: a path from the folder of the file in which this stands, or `example:cow.png` for one that comes
     /// with the program.
     pub file: String,
     /// How high the silhouette is, in m; margins of the picture do not count. Above zero.
     pub height: Length,
-    /// At most so many discs of different sizes, from 1 to [`MOST_ATOMS`]. Either this or `radius`.
+    /// At most so many discs of different sizes, from 1 to 5000. Either this or `radius`.
     #[serde(default)]
     pub count: Option<WholeNumber>,
     /// Discs of this radius in m, side by side. Above zero. Either this or `count`.
@@ -37,6 +39,7 @@ pub struct Png {
     pub stiffness: Option<Stiffness>,
     /// What the picture became: centre and radius of each disc, in m. Not written by hand.
     #[serde(default)]
+    #[schemars(skip)]
     pub discs: Vec<(f64, f64, f64)>,
 }
 

@@ -9,6 +9,7 @@ use std::fmt;
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
 
@@ -197,11 +198,15 @@ pub struct Friction {
     both: bool,
 }
 
-#[derive(Deserialize)]
+/// Two coefficients of Coulomb friction.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "TwoFrictions")]
 struct TwoFrictions {
+    /// The contact holds up to this times the normal force.
     #[serde(rename = "static")]
     sticking: Scalar,
+    /// It slips with this times the normal force. Not above `static`.
     #[serde(rename = "dynamic")]
     sliding: Scalar,
 }
@@ -235,6 +240,18 @@ impl<'de> Visitor<'de> for FrictionVisitor {
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Friction, A::Error> {
         let two = TwoFrictions::deserialize(de::value::MapAccessDeserializer::new(map))?;
         Ok(Friction { sticking: two.sticking, sliding: two.sliding, both: true })
+    }
+}
+
+impl JsonSchema for Friction {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Friction".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [generator.subschema_for::<Scalar>(), generator.subschema_for::<TwoFrictions>()],
+        })
     }
 }
 
@@ -273,21 +290,24 @@ fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, repo
     }
 }
 
-/// One material as it stands in a scene. Every field may be left out; see [`Material`] for the defaults.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// One material as it stands in a scene.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default, rename = "")]
+#[schemars(rename = "Material")]
 pub struct MaterialEntry {
-    /// Stiffness of an atom in N/m. Above zero.
+    /// Stiffness of an atom in N/m. Above zero. Default: 1000.
     pub stiffness: Option<Stiffness>,
-    /// Coefficient of friction, not below zero; the dynamic one not above the static.
+    /// Coefficient of friction, not below zero: one number, or one for holding and one for slipping. Default: 0.
     pub friction: Option<Friction>,
-    /// Ratio of the speeds after and before an impact, from 0 to 1.
+    /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (nothing is lost). Default: 1, or what
+    /// follows from `inelasticity`.
     pub restitution: Option<Scalar>,
-    /// Inelasticity, from 0 to 1; instead of `restitution`.
+    /// Inelasticity, from 0 (nothing is lost) to 1 (no rebound); instead of `restitution`. Default: 0.
     pub inelasticity: Option<Scalar>,
-    /// Mass per area in kg/m2. Above zero.
+    /// Mass per area in kg/m2, for atoms without a mass of their own. Above zero. Default: 1.
     pub density: Option<Density>,
-    /// A colour of the theme's palette or `#rrggbb`.
+    /// A colour of the theme's palette, or any other as `"#rrggbb"`. Default: the theme chooses.
+    #[schemars(extend("x-words" = "color", "x-more" = "`\"#rrggbb\"`"))]
     pub color: Option<String>,
 }
 
@@ -324,13 +344,18 @@ impl MaterialEntry {
     }
 }
 
-/// The section `materials`.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// What bodies and walls are made of, by name. The material `"default"` is always there: it belongs to everything that
+/// names none.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct MaterialsSection(pub OrderedMap<MaterialEntry>);
 
 impl Section for MaterialsSection {
     const NAME: &'static str = "materials";
     const EXAMPLE: &'static str = "materials: { \"rock\": (friction: 0.5, restitution: 0.8, density: 2.5) }";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Declares the materials' names.
     fn declare(&self, outline: &mut Outline) {
@@ -352,12 +377,13 @@ impl Section for MaterialsSection {
 }
 
 /// One pair of materials whose coefficients are not the means.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Pair")]
 pub struct PairEntry {
     /// The two materials, in either order; they may be the same.
     pub between: (String, String),
-    /// Coefficient of friction. Default: the means.
+    /// Coefficient of friction, as that of a material. Default: the means.
     #[serde(default)]
     pub friction: Option<Friction>,
     /// Ratio of the speeds after and before an impact, from 0 to 1. Default: see `inelasticity`.
@@ -368,13 +394,17 @@ pub struct PairEntry {
     pub inelasticity: Option<Scalar>,
 }
 
-/// The section `pairs`.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// What two materials do to each other, where it is not the mean of both.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct PairsSection(pub Vec<PairEntry>);
 
 impl Section for PairsSection {
     const NAME: &'static str = "pairs";
     const EXAMPLE: &'static str = "pairs: [(between: (\"block\", \"rock\"), friction: 0.1)]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Reports unknown materials, pairs that stand twice or say nothing, and numbers out of their range.
     fn check(&self, outline: &Outline, report: &mut Report) {

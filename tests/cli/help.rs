@@ -6,9 +6,15 @@ use super::harness::Folder;
 fn help_names_commands_examples_and_exit_codes() {
     let folder = Folder::new("help");
     let ended = folder.jostle("--help").code(0);
-    for text in
-        ["run ", "render ", "check ", "jostle render example:tetris", "Exit codes: 0 good, 1 scene or", "kepler"]
-    {
+    for text in [
+        "run ",
+        "render ",
+        "check ",
+        "schema ",
+        "jostle render example:tetris",
+        "Exit codes: 0 good, 1 scene or",
+        "kepler",
+    ] {
         assert!(ended.out.contains(text), "{text}: {}", ended.out);
     }
     assert_eq!(folder.jostle("--version").code(0).out, concat!("jostle ", env!("CARGO_PKG_VERSION"), "\n"));

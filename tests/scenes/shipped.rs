@@ -14,7 +14,7 @@ fn scenes() -> Vec<PathBuf> {
 }
 
 /// What is wrong with a scene; nothing if all is well.
-fn complaints(path: &Path) -> Vec<String> {
+pub(super) fn complaints(path: &Path) -> Vec<String> {
     let mut simulation = match Source::read(path).and_then(|source| Simulation::load(&source)) {
         Ok(simulation) => simulation,
         Err(errors) => return vec![errors.to_string()],

@@ -14,6 +14,7 @@ use jostle::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use jostle::sensors::{self, Channel, Channels, SensorAppExt};
 use jostle::tick::{SimTick, Stage, TickAppExt};
 use jostle::world::{Body, Force, Name, Position};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 /// Registers what scenes may name: `Simulation::load_with(&source, &Overrides::default(), home_spring::plugin)`.
@@ -22,13 +23,15 @@ pub fn plugin(app: &mut App) {
     app.add_quantities(&[STRETCH], find_stretch);
 }
 
-/// The entry as it stands in the scene. Quantities take numbers in SI units and texts with units.
-#[derive(Deserialize)]
+/// A spring from a point of the world to the centre of mass.
+// The entry as it stands in the scene. Quantities take numbers in SI units and texts with units; the comments with three
+// strokes are what the manual says of it.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct HomeSpring {
-    /// Names of bodies, `*` matches.
+    /// The bodies it acts on, `*` matches.
     of: Names,
-    /// Where the spring is relaxed, in metres. Default: the origin.
+    /// Where the spring is relaxed, in metres. Default: (0, 0).
     #[serde(default)]
     home: At,
     /// Stiffness k in N/m, above zero.
@@ -51,6 +54,10 @@ impl Entry for HomeSpring {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "HomeSpring";
     const EXAMPLE: &'static str = "HomeSpring(of: \"ball\", home: (0, 0), stiffness: 2)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);
@@ -107,11 +114,11 @@ fn draw_springs(world: &World, marks: &mut Vec<Mark>) {
 
 const STRETCH: &str = "home_spring.stretch";
 
-/// The sensor's entry in the scene.
-#[derive(Deserialize)]
+/// The greatest stretch of the springs so far, in metres: `ball.home_spring.stretch`.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct HomeSpringStretch {
-    /// Names of bodies, `*` matches.
+    /// The bodies, `*` matches.
     of: Names,
 }
 
@@ -119,6 +126,10 @@ impl Entry for HomeSpringStretch {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "HomeSpringStretch";
     const EXAMPLE: &'static str = "HomeSpringStretch(of: \"ball\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         self.of.require(Kind::BODY, outline, "of", report);

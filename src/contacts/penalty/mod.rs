@@ -18,7 +18,8 @@ pub mod rolling;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use serde::Deserialize;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
 
 pub use apply::PenaltyContacts;
 pub use dashpot::Dashpot;
@@ -40,43 +41,43 @@ use crate::tick::{Evaluate, EvaluateStage, Modes, Stability, TickAppExt};
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
 
-/// `contacts: Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)`.
+/// Contacts as springs: overlap makes force.
 ///
 /// The three laws are chosen one by one; each may stand with each.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Penalty {
-    /// Force along the normal. Default: `Inelasticity`.
+    /// What acts across the surface. Default: `Inelasticity`.
     pub normal: NormalLaw,
     /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: what gives the restitution of the pair.
     pub damping: Option<Damping>,
-    /// Force along the tangent. Default: `Spring(ratio: 0.8)`.
+    /// What acts along the surface, friction. Default: `Spring(ratio: 0.8)`.
     pub tangential: TangentialLaw,
-    /// Torque against rolling. Default: `None`.
+    /// What acts against rolling. Default: `None`.
     pub rolling: RollingLaw,
 }
 
 /// The normal law.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum NormalLaw {
-    /// A spring that is stiffer while loading; see [`inelasticity`].
+    /// A spring that is stiffer while loading than while unloading, so that the restitution is the same at any speed.
     #[default]
     Inelasticity,
-    /// A spring and a dashpot, without pulling; see [`dashpot`].
+    /// A spring and a dashpot that never pull.
     Dashpot,
 }
 
-/// The tangential law.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+/// What acts along the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum TangentialLaw {
     /// No friction, whatever the materials say.
     None,
-    /// A spring with a Coulomb limit; see [`coulomb`].
+    /// A spring that holds up to the static friction and then slips with the dynamic one.
     Spring {
         /// Stiffness of the tangential spring over that of the normal one. Between 2/3 and 1 for equal elastic solids
-        /// (Mindlin 1949). Default 0.8.
+        /// (Mindlin 1949).
         ratio: f64,
     },
 }
@@ -97,19 +98,19 @@ impl TangentialLaw {
     }
 }
 
-/// The rolling law.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+/// What acts against turning one side over the other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum RollingLaw {
     /// No resistance against rolling.
     #[default]
     None,
-    /// A spring with a Coulomb limit; see [`rolling`].
+    /// A spring that gives way at a torque of `friction` times normal force and rolling radius.
     Spring {
         /// Torque over normal force and rolling radius at which the spring gives way: the tangent of the steepest slope
         /// on which a disc stays.
         friction: f64,
-        /// Stiffness of the spring at the rim over that of the normal one. Default 0.8.
+        /// Stiffness of the spring at the rim over that of the normal one. Default: 0.8.
         #[serde(default = "default_ratio")]
         ratio: f64,
     },
@@ -179,6 +180,10 @@ impl Entry for Penalty {
     const SECTION: &'static str = "contacts";
     const NAME: &'static str = "Penalty";
     const EXAMPLE: &'static str = "Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, _: &Outline, report: &mut Report) {
         if let TangentialLaw::Spring { ratio } = self.tangential {

@@ -1,22 +1,14 @@
 //! What layers add in front of the bodies: lines, arrows, circles, dots, rectangles.
 
 use glam::DVec2;
-use tiny_skia::{FillRule, LineCap, Path, PathBuilder, Pixmap, Stroke, Transform};
+use tiny_skia::{LineCap, Path, PathBuilder, Pixmap, Stroke, Transform};
 
+use super::arrows::arrow;
 use super::paint;
 use crate::raster::canvas::{Canvas, Ink};
 use crate::raster::{Camera, Theme};
 use crate::record::frame::Rgb;
 use crate::record::layers::{Mark, MarkShape};
-
-/// An arrow in line widths: its shaft, its head, and the halo around both that keeps it apart from bodies.
-const SHAFT: f64 = 1.5;
-const HEAD_LENGTH: f64 = 5.6;
-const HEAD_WIDTH: f64 = 5.2;
-const HALO: f64 = 0.7;
-
-/// The head takes at most this share of a short arrow; all its widths shrink with it.
-const HEAD_SHARE: f64 = 0.6;
 
 /// Radius of a dot in line widths.
 const DOT: f32 = 1.7;
@@ -78,45 +70,4 @@ fn polygon(corners: &[DVec2]) -> Option<Path> {
     }
     path.close();
     path.finish()
-}
-
-/// Draws an arrow between two places in pixels, with so many heads, in its colour within a halo.
-pub(in crate::raster) fn arrow(
-    picture: &mut Pixmap,
-    (from, to): (DVec2, DVec2),
-    heads: usize,
-    (color, halo): (Rgb, Rgb),
-    width: f32,
-) {
-    let Some(along) = (to - from).try_normalize() else { return };
-    let length = from.distance(to);
-    let width = f64::from(width);
-    let scale = (HEAD_SHARE * length / (HEAD_LENGTH * width)).min(1.0) * width;
-    for (grown, color) in [(HALO * width, halo), (0.0, color)] {
-        // The second head comes a little before the first.
-        for head in (0..heads).rev() {
-            let to = to - along * (0.62 * HEAD_LENGTH * scale * head as f64);
-            let path = outline(from, to, along, scale, grown);
-            if let Some(path) = path {
-                picture.fill_path(&path, &paint(color), FillRule::Winding, Transform::identity(), None);
-            }
-        }
-    }
-}
-
-/// The outline of an arrow, grown by so many pixels on all sides but at its sharp corners.
-fn outline(from: DVec2, to: DVec2, along: DVec2, scale: f64, grown: f64) -> Option<Path> {
-    let across = along.perp();
-    let (shaft, wing) = (0.5 * SHAFT * scale + grown, 0.5 * HEAD_WIDTH * scale + 1.3 * grown);
-    let neck = to - along * (HEAD_LENGTH * scale + grown);
-    let (start, tip) = (from - along * grown, to + along * (1.5 * grown));
-    polygon(&[
-        start + across * shaft,
-        neck + across * shaft,
-        neck + across * wing,
-        tip,
-        neck - across * wing,
-        neck - across * shaft,
-        start - across * shaft,
-    ])
 }

@@ -1,5 +1,6 @@
 //! What is drawn, one file per thing, from back to front.
 
+pub(super) mod arrows;
 pub(super) mod backdrop;
 pub(super) mod bodies;
 pub(super) mod clock;

@@ -5,7 +5,7 @@ use tiny_skia::{Pixmap, Rect, Transform};
 
 use super::labels::Column;
 use super::writing::Writing;
-use super::{marks, paint};
+use super::{arrows, paint};
 use crate::raster::camera::Camera;
 use crate::raster::theme::Theme;
 use crate::record::frame::Rgb;
@@ -43,10 +43,10 @@ pub(in crate::raster) fn draw(
         let text = writing.text(&text);
         if arrow {
             let (from, to) = (DVec2::new(f64::from(left), f64::from(middle)), DVec2::X * length);
-            let colors = (theme.mark_color(mark.color.as_deref()), theme.background);
-            marks::arrow(picture, (from, from + to), 1, colors, line);
+            let colors = (theme.mark_color(mark.color.as_deref()), writing.below());
+            arrows::arrow(picture, (from, from + to), 1, colors, line);
         } else {
-            bar(picture, (left, middle, length as f32), size, theme);
+            bar(picture, (left, middle, length as f32), size, (theme.ink, writing.below()));
         }
         let beside = left + length as f32 + 0.6 * size;
         text.put(picture, beside, baseline);
@@ -59,7 +59,7 @@ pub(in crate::raster) fn draw(
 }
 
 /// A bar with its ends marked, at whole pixels, so that it is sharp.
-fn bar(picture: &mut Pixmap, (left, middle, length): (f32, f32, f32), size: f32, theme: &Theme) {
+fn bar(picture: &mut Pixmap, (left, middle, length): (f32, f32, f32), size: f32, (ink, below): (Rgb, Rgb)) {
     let thick = (0.1 * size).round().max(1.0);
     let high = (0.25 * size).round().max(2.0);
     let right = (left + length).round();
@@ -68,7 +68,7 @@ fn bar(picture: &mut Pixmap, (left, middle, length): (f32, f32, f32), size: f32,
             picture.fill_rect(rectangle, &paint(color), Transform::identity(), None);
         }
     };
-    for (grown, color) in [(thick, theme.background), (0.0, theme.ink)] {
+    for (grown, color) in [(thick, below), (0.0, ink)] {
         fill(left - grown, middle - grown, right + grown, middle + thick + grown, color);
         for end in [left, right - thick] {
             fill(end - grown, middle - high - grown, end + thick + grown, middle + thick + high + grown, color);

@@ -8,11 +8,11 @@ use crate::raster::canvas::{Canvas, blend, span};
 use crate::record::frame::Rgb;
 
 /// Half the width of a trail at its young end, and what is left of it at the old one, in line widths.
-const HALF_WIDTH: f64 = 1.7;
+const HALF_WIDTH: f64 = 1.9;
 const OLD_SHARE: f64 = 0.25;
 
 /// How much of the ground the young end of a trail covers.
-const COVER: f64 = 0.72;
+const COVER: f64 = 0.92;
 
 /// Points nearer than this to the one before, in pixels, are passed over.
 const CLOSE: f64 = 2.5;

@@ -32,9 +32,14 @@ pub(in crate::raster) struct Text {
 }
 
 impl Writing {
-    /// Letters of `size` pixels in the theme's ink, with a halo of its background.
-    pub(in crate::raster) fn new(size: f32, theme: &Theme) -> Writing {
-        Writing { size, ink: theme.ink, below: theme.background, made: Arc::default() }
+    /// Letters of `size` pixels in the theme's ink, with a halo of the colour below.
+    pub(in crate::raster) fn new(size: f32, theme: &Theme, below: Rgb) -> Writing {
+        Writing { size, ink: theme.ink, below, made: Arc::default() }
+    }
+
+    /// The colour of the halo.
+    pub(in crate::raster) fn below(&self) -> Rgb {
+        self.below
     }
 
     /// Pixels per em.

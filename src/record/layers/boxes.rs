@@ -3,6 +3,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{FilmAppExt, Mark, MarkShape, Shown};
@@ -12,7 +13,7 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::world::Bodies;
 
 /// Bounding boxes.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Boxes {
     /// Names of bodies, `*` matches. Default: all that move.
@@ -24,6 +25,10 @@ impl Entry for Boxes {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Boxes";
     const EXAMPLE: &'static str = "Boxes(of: [\"ball\"])";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);

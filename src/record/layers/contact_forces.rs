@@ -8,11 +8,12 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::scale::{Scale, round_up};
+use super::scale::{Scale, round};
 use super::{FilmAppExt, Mark, PictureHeight, Shown};
-use crate::contacts::points::{ContactPoint, Other, contact_points};
+use crate::contacts::points::{ContactPoint, Other, TellContacts, contact_points};
 use crate::forces::gravity::Gravity;
 use crate::scene::sections::look::LAYERS;
 use crate::scene::units::Force;
@@ -22,7 +23,7 @@ use crate::simulation::Finishers;
 use crate::world::Bodies;
 
 /// Contact forces.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForces {
     /// Names of bodies, `*` matches. Default: all that move.
@@ -39,6 +40,10 @@ impl Entry for ContactForces {
     const NAME: &'static str = "ContactForces";
     const EXAMPLE: &'static str = "ContactForces(of: [\"ball\"], scale: \"10 N\")";
 
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);
         report.positive_if_given("scale", self.scale);
@@ -49,6 +54,9 @@ impl Entry for ContactForces {
         for entry in entries {
             let (shown, given) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.scale.map(Force::si));
             app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
+                if !world.contains_resource::<TellContacts>() {
+                    return;
+                }
                 let typical = world.get_resource::<TypicalForce>().map_or(1.0, |typical| typical.0);
                 let scale = Scale::new(given.unwrap_or(typical), PictureHeight::of(world), "N", "force");
                 marks.push(scale.key());
@@ -64,8 +72,9 @@ impl Entry for ContactForces {
     }
 }
 
-/// Forces within this angle of the first one of a load count as one direction: its cosine, of 20 degrees.
-const ALIKE: f64 = 0.94;
+/// Forces within this angle of the first one of a load count as one direction: its cosine, of 45 degrees.
+/// Friction that has been stored to both sides of a face is no reason for two arrows.
+const ALIKE: f64 = 0.7;
 
 /// Contacts of one pair of bodies in about one direction, put together.
 fn loads(contacts: Vec<ContactPoint>, shown: impl Fn(usize) -> bool) -> Vec<ContactPoint> {
@@ -117,7 +126,7 @@ fn note_start(world: &mut World) {
     };
     let impacts = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(impact).fold(0.0, f64::max);
     let typical = if gravity > 0.0 { mass * gravity } else { 0.5 * impacts };
-    world.insert_resource(TypicalForce(round_up(typical)));
+    world.insert_resource(TypicalForce(round(typical)));
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::boxes::bounding_box;
@@ -15,7 +16,7 @@ use crate::world::{Bodies, Name};
 const MOST: usize = 60;
 
 /// Names of bodies.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Names {
     /// Names of bodies, `*` matches. Default: all that move, if they are at most sixty.
@@ -27,6 +28,10 @@ impl Entry for Names {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Names";
     const EXAMPLE: &'static str = "Names(of: [\"ball\"])";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);

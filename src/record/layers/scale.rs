@@ -12,7 +12,7 @@ const REFERENCE: f64 = 0.1;
 const LONGEST: f64 = 0.3;
 
 /// Shorter arrows than this, as a share of the picture's height, are left out: they would be all head.
-const SHORTEST: f64 = 0.006;
+const SHORTEST: f64 = 0.01;
 
 /// How long arrows are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,8 +52,8 @@ impl Scale {
     }
 }
 
-/// The nearest 1, 2 or 5 times a power of ten from above; 1 for what is not above zero.
-pub(super) fn round_up(value: f64) -> f64 {
+/// The nearest 1, 2 or 5 times a power of ten, by ratio; 1 for what is not above zero.
+pub(super) fn round(value: f64) -> f64 {
     if !(value.is_normal() && value > 0.0) {
         return 1.0;
     }
@@ -62,7 +62,8 @@ pub(super) fn round_up(value: f64) -> f64 {
     let candidates = [format!("1e{exponent}"), format!("2e{exponent}"), format!("5e{exponent}")];
     let next = format!("1e{}", exponent + 1);
     let numbers = candidates.iter().chain([&next]).filter_map(|digits| digits.parse::<f64>().ok());
-    numbers.into_iter().find(|round| *round >= value * (1.0 - 1e-9)).unwrap_or(value)
+    let ratio = |round: &f64| (round / value).max(value / round);
+    numbers.into_iter().min_by(|a, b| ratio(a).total_cmp(&ratio(b))).unwrap_or(value)
 }
 
 const PREFIXES: [(f64, &str); 7] =
@@ -87,8 +88,8 @@ mod tests {
 
     #[test]
     fn scales_are_round_and_written_as_people_do() {
-        for (value, expected) in [(0.48, 0.5), (0.5, 0.5), (1.1, 2.0), (2.3, 5.0), (7.0, 10.0), (0.0, 1.0)] {
-            assert_eq!(round_up(value), expected, "{value}");
+        for (value, expected) in [(0.48, 0.5), (0.5, 0.5), (1.1, 1.0), (3.0, 2.0), (8.0, 10.0), (0.0, 1.0)] {
+            assert_eq!(round(value), expected, "{value}");
         }
         for (value, expected) in
             [(0.5, "0.5 N"), (10.0, "10 N"), (2e4, "20 kN"), (5e-3, "5 mN"), (0.05, "0.05 N"), (1e12, "1000 GN")]
@@ -114,7 +115,7 @@ mod tests {
             // Rounding of a few operations.
             assert!((found - DVec2::new(0.0, length)).length() < 1e-14 && is_cut == cut, "{force}: {found}");
         }
-        assert_eq!((drawn(0.01), drawn(0.0), drawn(f64::NAN)), (None, None, None));
+        assert_eq!((drawn(0.1), drawn(0.0), drawn(f64::NAN)), (None, None, None));
         assert_eq!(scale.key().shape, MarkShape::Key { length: 0.1 * 7.2, text: "2 N".into() });
     }
 }

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{FilmAppExt, Mark, MarkShape};
@@ -9,7 +10,7 @@ use crate::scene::sections::look::LAYERS;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
 /// The clock of a film.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Time {}
 
@@ -17,6 +18,10 @@ impl Entry for Time {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Time";
     const EXAMPLE: &'static str = "Time";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
         app.add_layer(|_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::Time)));

@@ -1,13 +1,14 @@
 //! `Trails(of: ["T"], seconds: 0.5)`: where the centres of bodies were, fading and tapering.
 //!
 //! Positions are noted at the end of ticks, at least so often that a trail has 256 points; with very many bodies it has
-//! fewer, so that all trails together stay within some 65 000 points however long the film is.
+//! fewer, so that all trails together stay within some 33 000 points however long the film is.
 
 use std::collections::{BTreeMap, VecDeque};
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{FilmAppExt, Layer, Mark, MarkShape, Memory, Shown, stride};
@@ -19,13 +20,13 @@ use crate::tick::Clock;
 use crate::world::Bodies;
 
 /// Points of one trail, at most and at least.
-const POINTS: (usize, usize) = (8, 256);
+const POINTS: (usize, usize) = (4, 256);
 
 /// Points of all trails of one kind together, unless each has the least.
-const ALL_POINTS: usize = 1 << 16;
+const ALL_POINTS: usize = 1 << 15;
 
 /// Trails.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Trails {
     /// Names of bodies, `*` matches. Default: all that move.
@@ -45,6 +46,10 @@ impl Entry for Trails {
     const NAME: &'static str = "Trails";
     const EXAMPLE: &'static str = "Trails(of: [\"ball\"], seconds: 0.5)";
 
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);
         report.positive("seconds", self.seconds);
@@ -56,7 +61,7 @@ impl Entry for Trails {
             let count = shown.0.as_ref().map_or(outline.names(Kind::BODY).len(), Vec::len);
             let points = (ALL_POINTS / count.max(1)).clamp(POINTS.0, POINTS.1);
             let seconds = entry.value.seconds.si();
-            app.add_layer(Tracks { shown, seconds, points, tracks: BTreeMap::new() });
+            app.add_layer(Tracks { shown, seconds, points, looked: None, tracks: BTreeMap::new() });
         }
     }
 }
@@ -68,6 +73,8 @@ struct Tracks {
     seconds: f64,
     /// The most points of a trail.
     points: usize,
+    /// The tick of the last look.
+    looked: Option<u64>,
     /// By the keys of bodies, from early to late.
     tracks: BTreeMap<u64, VecDeque<DVec2>>,
 }
@@ -88,7 +95,13 @@ impl Layer for Tracks {
     }
 
     fn look(&mut self, world: &World) {
-        let bodies = world.resource::<Bodies>();
+        let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
+        // Between two frames far apart nobody looks until the trail of the second one begins.
+        let stride = self.memory().map_or(1, |memory| stride(memory, clock.dt));
+        if self.looked.is_some_and(|looked| looked + stride != clock.ticks) {
+            self.tracks.clear();
+        }
+        self.looked = Some(clock.ticks);
         let places: Vec<usize> = self.shown.places(bodies).collect();
         self.tracks.retain(|key, _| bodies.key.binary_search(key).is_ok());
         for body in places {

@@ -2,9 +2,10 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::scale::{Scale, round_up};
+use super::scale::{Scale, round};
 use super::{FilmAppExt, Mark, PictureHeight, Shown};
 use crate::forces::gravity::Gravity;
 use crate::scene::sections::look::LAYERS;
@@ -15,14 +16,14 @@ use crate::simulation::Finishers;
 use crate::world::Bodies;
 
 /// Velocities.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocities {
     /// Names of bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
     /// The speed whose arrow is a tenth of the picture's height long, in m/s. Default: from the speeds at the start, and
-    /// what falling through a quarter of the picture gives.
+    /// what falling through a tenth of the picture gives.
     #[serde(default)]
     scale: Option<Speed>,
 }
@@ -31,6 +32,10 @@ impl Entry for Velocities {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Velocities";
     const EXAMPLE: &'static str = "Velocities(of: [\"ball\"], scale: \"2 m/s\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         Shown::check(self.of.as_ref(), outline, report);
@@ -68,7 +73,7 @@ fn note_start(world: &mut World) {
 fn typical_speed(world: &World, height: f64) -> f64 {
     let start = world.get_resource::<GreatestSpeed>().map_or(0.0, |greatest| greatest.0);
     let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
-    round_up(start.max((2.0 * gravity * 0.25 * height).sqrt()))
+    round(start.max((2.0 * gravity * 0.1 * height).sqrt()))
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
@@ -15,12 +16,13 @@ use super::KinematicEntry;
 pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 
 /// One body.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Body")]
 pub struct BodyEntry {
     /// The name; no other body, wall, joint or sensor has it.
     pub name: String,
-    /// Its atoms.
+    /// Its shape: the discs it is made of.
     pub atoms: Atoms,
     /// Where its centre of mass is at the start, in m; with `datum: Origin`, where the origin of its atoms is.
     /// Default: (0, 0), which only bodies with `datum: Origin` may leave out.
@@ -50,7 +52,7 @@ pub struct BodyEntry {
     /// What the atoms' places are counted from. Default: `CenterOfMass`.
     #[serde(default)]
     pub datum: Datum,
-    /// The mass in kg, in place of that of the atoms. Above zero.
+    /// The mass in kg, in place of that of the atoms. Above zero. Default: that of the atoms.
     #[serde(default)]
     pub mass: Option<Mass>,
     /// The moment of inertia about the centre of mass in kg m2, or the rule it follows from. Default: `Discs`, for `Png`
@@ -63,13 +65,17 @@ fn yes() -> bool {
     true
 }
 
-/// The section `bodies`.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// Everything that moves, or stands fixed.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct BodiesSection(pub Vec<BodyEntry>);
 
 impl Section for BodiesSection {
     const NAME: &'static str = "bodies";
     const EXAMPLE: &'static str = "bodies: [(name: \"ball\", at: (2, 3), atoms: Disc(radius: 0.2))]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {

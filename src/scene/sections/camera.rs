@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Position, Scalar, Time};
@@ -9,12 +10,15 @@ use crate::scene::{Entry, Kind, Outline, Report, Written};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
+/// What the section is for.
+pub const MEANING: &str = "Which part of the world the film shows. Without this section `Fit`, with its default.";
 /// One correct use of the section.
 pub const EXAMPLE: &str = "camera: Fit(margin: 0.05)";
 
-/// `camera: Fit(margin: 0.05)`: everything that moves stays in the picture.
-#[derive(Clone, Debug, Deserialize)]
+/// Everything that moves stays in the picture.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Fit")]
 pub struct FitCamera {
     /// Empty border, as a share of the picture's smaller side, from 0 to 0.45. Default: 0.05.
     #[serde(default = "margin")]
@@ -36,6 +40,10 @@ impl Entry for FitCamera {
     const NAME: &'static str = "Fit";
     const EXAMPLE: &'static str = "Fit(margin: 0.05)";
 
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
     /// Reports a margin that leaves no picture.
     fn check(&self, _: &Outline, report: &mut Report) {
         report.between("margin", self.margin, 0.0, 0.45);
@@ -48,9 +56,10 @@ impl Entry for FitCamera {
     }
 }
 
-/// `camera: Look(center: (3, 3), height: 6)`: a fixed part of the world.
-#[derive(Clone, Debug, Deserialize)]
+/// A fixed part of the world.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Look")]
 pub struct LookCamera {
     /// The place in the middle of the picture, in m.
     pub center: Position,
@@ -62,6 +71,10 @@ impl Entry for LookCamera {
     const SECTION: &'static str = SECTION;
     const NAME: &'static str = "Look";
     const EXAMPLE: &'static str = "Look(center: (3, 3), height: 6)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Reports a height that is not above zero.
     fn check(&self, _: &Outline, report: &mut Report) {
@@ -76,9 +89,10 @@ impl Entry for LookCamera {
     }
 }
 
-/// `camera: Follow(of: "cart", height: 3, smoothing: "0.3 s")`: a body stays in the picture.
-#[derive(Clone, Debug, Deserialize)]
+/// A body stays in the picture: `d camera/dt = (body - camera)/smoothing`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Follow")]
 pub struct FollowCamera {
     /// The name of the body.
     pub of: String,
@@ -93,6 +107,10 @@ impl Entry for FollowCamera {
     const SECTION: &'static str = SECTION;
     const NAME: &'static str = "Follow";
     const EXAMPLE: &'static str = "Follow(of: \"ball\", height: 3, smoothing: \"0.3 s\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Reports a body that is not there, and what gives no picture.
     fn check(&self, outline: &Outline, report: &mut Report) {

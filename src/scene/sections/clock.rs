@@ -2,14 +2,15 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use serde::Deserialize;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::Word;
 use crate::scene::{Outline, Report, Section};
 
 /// When forces jump (touch, part, stick, slip), inside a tick or at its end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum EventTiming {
     /// The engine chooses, and says so on the card.
@@ -21,19 +22,21 @@ pub enum EventTiming {
     PerTick,
 }
 
-/// The section `clock`.
-#[derive(Resource, Clone, Debug, Deserialize)]
+/// How long the run is, in which steps, by which method.
+#[derive(Resource, Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Clock")]
 pub struct ClockSection {
     /// Length of the run, in s of physics. Above zero.
     pub duration: Time,
     /// Length of one tick, in s. Above zero and not longer than the run. Default: chosen from the scene.
     #[serde(default)]
     pub tick: Option<Time>,
-    /// The integration method, one of the registered words of the list [`ClockSection::METHODS`]. Default: `Auto`.
+    /// The integration method. Default: `Auto`, the engine chooses.
     #[serde(default = "auto")]
+    #[schemars(extend("x-words" = "method"))]
     pub method: Word,
-    /// The error allowed, instead of `tick`: the engine chooses the tick. Not available yet.
+    /// The error allowed, instead of `tick`: the engine chooses the tick. Not available yet. Default: none.
     #[serde(default)]
     pub tolerance: Option<Scalar>,
     /// When jumps of the forces take place. Default: `Auto`.
@@ -59,6 +62,10 @@ impl ClockSection {
 impl Section for ClockSection {
     const NAME: &'static str = "clock";
     const EXAMPLE: &'static str = "clock: (duration: 20, tick: \"1 ms\", method: VelocityVerlet)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Reports lengths of time that are not above zero, a tick longer than the run, unknown methods and what is not
     /// available yet.

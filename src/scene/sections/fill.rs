@@ -4,6 +4,7 @@ use bevy_app::App;
 use glam::DVec2;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::Region;
@@ -27,17 +28,18 @@ const CELLS: usize = 512;
 /// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about
 /// the bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the
 /// region's border. The same seed gives the same places on every machine.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Fill")]
 pub struct FillEntry {
-    /// The names' beginning.
+    /// What their names begin with.
     pub name: String,
     /// The atoms of each.
     pub atoms: Atoms,
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
-    /// How many, from 1 to [`LARGEST_COUNT`].
+    /// How many, from 1 to 200 000 in all.
     pub count: WholeNumber,
     /// Two opposite corners of a box, or the corners of a polygon in order, in m.
     pub within: Region,
@@ -63,8 +65,13 @@ pub struct Placed {
     pub velocity: DVec2,
 }
 
-/// The section `fill`.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// Many equal bodies in a box, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`, `gas_1`
+/// and so on.
+///
+/// Each stands at a random place in the box, turned by a random angle, moving in a random direction. Circles about the
+/// bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the box's border.
+/// The same seed gives the same places on every machine.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);
 
 impl FillSection {
@@ -87,6 +94,10 @@ impl Section for FillSection {
     const NAME: &'static str = "fill";
     const EXAMPLE: &'static str =
         "fill: [(name: \"gas\", atoms: Disc(radius: 0.02), count: 500, within: ((0, 0), (6, 6)), speed: 1, seed: 7)]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {

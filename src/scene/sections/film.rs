@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
@@ -11,14 +12,15 @@ use crate::scene::{Kind, Outline, Report, Section};
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
 
-/// The section `film`.
-#[derive(Resource, Clone, Debug, Default, Deserialize)]
+/// What is drawn of the run. It never changes the physics.
+#[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Film")]
 pub struct FilmSection {
-    /// Frames per second of the film, from 0.01 to 1000. Default: the program's.
+    /// Frames per second of the film, from 0.01 to 1000. Default: 30.
     #[serde(default)]
     pub fps: Option<Rate>,
-    /// Width and height in pixels, each from 16 to [`LARGEST_SIZE`]. Default: the program's.
+    /// Width and height in pixels, each from 16 to 8192. Default: (1280, 720).
     #[serde(default)]
     pub size: Option<(WholeNumber, WholeNumber)>,
     /// Seconds of physics per second of film; below zero the film runs backwards. Default: 1.
@@ -36,13 +38,15 @@ pub struct FilmSection {
 }
 
 /// A moment at which the film stands still: a time, or a contact.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Freeze")]
 pub struct FreezeEntry {
-    /// The moment, in s of physics, from the film's beginning to its end.
+    /// The moment, in s of physics, from the film's beginning to its end. Default: `touch` says when.
     #[serde(default)]
     pub at: Option<Time>,
     /// Two bodies, or a body and a wall: the moment they first begin to touch in the film, to a tick.
+    /// Default: `at` says when.
     #[serde(default)]
     pub touch: Option<(String, String)>,
     /// How long the film stands still, in s of film. Above zero.
@@ -120,6 +124,10 @@ impl FilmSection {
 impl Section for FilmSection {
     const NAME: &'static str = "film";
     const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5, freeze: [(at: 1.5, for: 2)])";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Reports rates, sizes and moments that give no film.
     fn check(&self, outline: &Outline, report: &mut Report) {

@@ -22,6 +22,7 @@ pub fn plugin(app: &mut App) {
     app.register_section::<LookSection>();
     app.register_section::<PlotsSection>();
     app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE);
+    app.describe_section(camera::SECTION, camera::MEANING);
     app.register_entry::<FitCamera>();
     app.register_entry::<LookCamera>();
     app.register_entry::<FollowCamera>();

@@ -1,15 +1,17 @@
 //! `kinematic`: how a body moves that nothing pushes.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::Report;
 use crate::scene::units::{Angle, Position, Spin, Time, Velocity};
 use crate::world::kinematic::{Path, PathPoint};
 
-/// `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point:
+/// How a body moves that nothing pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
 /// `kinematic: (path: [(time: 1, by: (2, 0)), (time: 2, by: (0, 0))], repeat: true)`.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "", default)]
+#[schemars(rename = "Kinematic")]
 pub struct KinematicEntry {
     /// The velocity at the start, in m/s; without a path, for ever. Default: (0, 0).
     pub velocity: Velocity,
@@ -22,8 +24,9 @@ pub struct KinematicEntry {
 }
 
 /// A point of a path.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "PathPoint")]
 pub struct PathEntry {
     /// When it is there, in s. Above that of the point before.
     pub time: Time,

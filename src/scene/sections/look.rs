@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::raster::Theme;
@@ -14,9 +15,10 @@ pub const LAYERS: &str = "look.layers";
 /// The layer that may stand more than once, with other bodies or another length each time.
 const REPEATABLE: &str = "Trails";
 
-/// The section `look`.
-#[derive(Resource, Clone, Debug, Default, Deserialize)]
+/// How films look: their colours, and what is drawn beside the bodies. It never changes the physics.
+#[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Look")]
 pub struct LookSection {
     /// The colours: the name of a theme that comes with the program, or a file that ends with `.ron`, beside the scene.
     /// Default: `"paper"`.
@@ -38,6 +40,10 @@ impl Section for LookSection {
     const NAME: &'static str = "look";
     const EXAMPLE: &'static str =
         "look: (theme: \"night\", layers: [Trails(seconds: 1), ContactForces, ScaleBar, Time])";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Reports an unknown theme, and layers that stand there twice.
     fn check(&self, outline: &Outline, report: &mut Report) {

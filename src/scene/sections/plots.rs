@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Scalar, Time};
@@ -15,34 +16,36 @@ const MOST_BINS: u64 = 200;
 /// More plots than stand beside a film and can be read.
 const MOST_PLOTS: usize = 6;
 
-/// The section `plots`.
-#[derive(Resource, Clone, Debug, Default, Deserialize)]
+/// What is plotted beside the film, on the film's clock. It never changes the physics.
+#[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct PlotsSection(pub Vec<PlotEntry>);
 
 /// One plot: channels against time (`channels`), channels against a channel (`x`, `y`), or a histogram.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Plot")]
 pub struct PlotEntry {
     /// What stands above it. Default: what the names of its channels share.
     #[serde(default)]
     pub title: Option<String>,
-    /// Channels to plot against time; `*` stands for any letters of the names of bodies.
+    /// Channels to plot against time; `*` stands for any letters of the names of bodies. Default: none; a plot has these, or
+    /// `x` and `y`, or `histogram`.
     #[serde(default)]
     pub channels: Option<Vec<String>>,
-    /// The channel to the right of a phase portrait.
+    /// The channel to the right of a phase portrait. Default: none.
     #[serde(default)]
     pub x: Option<String>,
-    /// The channel, or channels, upwards.
+    /// The channel, or channels, upwards. Default: none.
     #[serde(default)]
     pub y: Option<Names>,
-    /// How often values occur.
+    /// How often values occur. Default: none.
     #[serde(default)]
     pub histogram: Option<HistogramEntry>,
     /// From where to where the upward axis reaches, in the channels' unit. Default: as far as the values do.
     #[serde(default)]
     pub range: Option<(Scalar, Scalar)>,
-    /// Equal factors take equal lengths upwards; what is not above zero is not shown. Default: false.
+    /// Equal factors take equal lengths upwards; what is not above zero is not shown. Default: `false`.
     #[serde(default)]
     pub log: bool,
     /// How long the way stays in a phase portrait, in s of physics, while it fades. Above zero. Default: all of it
@@ -52,16 +55,17 @@ pub struct PlotEntry {
 }
 
 /// How often values of a quantity of many bodies, or of one channel so far, lie in each of some equally wide bins.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Histogram")]
 pub struct HistogramEntry {
-    /// Names of bodies, `*` matches.
+    /// The bodies, `*` matches. Default: `channel` says what is counted.
     #[serde(default)]
     pub of: Option<Names>,
-    /// What of them, such as `position.x`.
+    /// What of them, such as `position.x`. Default: `channel` says what is counted.
     #[serde(default)]
     pub quantity: Option<String>,
-    /// Instead of bodies: a channel, whose values since the beginning are counted.
+    /// Instead of bodies: a channel, whose values since the beginning are counted. Default: `of` and `quantity` say it.
     #[serde(default)]
     pub channel: Option<String>,
     /// How many bins, from 1 to 200. Default: 12.
@@ -192,6 +196,10 @@ impl PlotEntry {
 impl Section for PlotsSection {
     const NAME: &'static str = "plots";
     const EXAMPLE: &'static str = "plots: [(title: \"energy\", channels: [\"energy.kinetic\", \"energy.total\"])]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         if self.0.len() > MOST_PLOTS {

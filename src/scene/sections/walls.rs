@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Position, Velocity};
@@ -9,8 +10,9 @@ use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
 /// One wall: the half-plane behind the line through two points.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Wall")]
 pub struct WallEntry {
     /// The name, for sensors and messages.
     pub name: String,
@@ -29,13 +31,17 @@ pub struct WallEntry {
 /// How far a surface velocity may point out of its wall, as a share of itself: digits that people leave out.
 const ALONG: f64 = 1e-6;
 
-/// The section `walls`.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// Half-planes that nothing enters, such as floors, slopes and belts.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct WallsSection(pub Vec<WallEntry>);
 
 impl Section for WallsSection {
     const NAME: &'static str = "walls";
     const EXAMPLE: &'static str = "walls: [(name: \"floor\", left: (6, 0), right: (0, 0), material: \"rock\")]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
 
     /// Declares the walls' names.
     fn declare(&self, outline: &mut Outline) {

@@ -51,6 +51,8 @@ pub trait Dimension: Send + Sync + 'static {
     const NAME: &'static str;
     /// The powers of the base units.
     const POWERS: Powers;
+    /// The SI unit of a bare number, for the manual. Default: the product of base units that the powers give.
+    const UNIT: &'static str = "";
     /// How it may be written, for messages: a bare number and a text with a unit.
     const EXAMPLE: &'static str;
 }
@@ -161,6 +163,15 @@ impl<D> fmt::Debug for Pair<D> {
     }
 }
 
+/// The SI unit of a dimension, such as `kg m2`; empty for plain numbers.
+pub fn unit_of<D: Dimension>() -> String {
+    match D::UNIT {
+        "1" => String::new(),
+        "" => read::base_units(D::POWERS),
+        unit => unit.to_owned(),
+    }
+}
+
 macro_rules! dimensions {
     ($($alias:ident = $marker:ident $name:literal [$meter:literal $kilogram:literal $second:literal $radian:literal] $example:literal $unit:literal;)*) => {
         /// The dimensions that come with the engine, as types without values.
@@ -174,6 +185,7 @@ macro_rules! dimensions {
                     const POWERS: Powers =
                         Powers { meter: $meter, kilogram: $kilogram, second: $second, radian: $radian };
                     const EXAMPLE: &'static str = $example;
+                    const UNIT: &'static str = $unit;
                 }
             )*
         }

@@ -1,0 +1,48 @@
+//! `jostle schema`: what may stand in a scene, as JSON schema or as the manual.
+
+use std::path::PathBuf;
+
+use bevy_app::App;
+use clap::Args;
+
+use super::Exit;
+use super::say::{print_line, say};
+use crate::output::write_whole;
+use crate::plugins;
+use crate::scene::SceneRegistry;
+use crate::scene::schema::Language;
+
+/// The command `schema`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct SchemaCommand {
+    /// Write the manual in Markdown: every section and field with value, unit, default and meaning
+    #[arg(long)]
+    manual: bool,
+    /// The file to write. Default: standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle schema -o scene.schema.json        JSON schema (draft 2020-12) of the scene language
+  jostle schema --manual -o manual.md       the same for people
+  jostle schema --manual | less";
+
+impl SchemaCommand {
+    pub(super) fn execute(self) -> Exit {
+        let mut app = App::empty();
+        plugins::standard(&mut app);
+        let language = Language::of(app.world().resource::<SceneRegistry>());
+        let text = if self.manual { language.manual() } else { format!("{:#}\n", language.json()) };
+        let Some(path) = self.output else { return print_line(text.trim_end()) };
+        match write_whole(&path, &text) {
+            Ok(()) => Exit::Good,
+            Err(error) => {
+                say(&format!("error: {error}"));
+                Exit::Usage
+            }
+        }
+    }
+}

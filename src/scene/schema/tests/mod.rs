@@ -1,0 +1,180 @@
+//! The schema and the scenes agree, and the manual is complete.
+
+mod in_json;
+mod validate;
+
+use std::path::{Path, PathBuf};
+
+use bevy_app::App;
+use serde_json::{Value, json};
+
+use super::{Content, Language};
+use crate::plugins;
+use crate::scene::scan::scan;
+use crate::scene::{Outline, SceneAppExt, SceneRegistry, Section};
+use in_json::in_json;
+use validate::complaints;
+
+fn language() -> Language {
+    let mut app = App::empty();
+    plugins::standard(&mut app);
+    Language::of(app.world().resource::<SceneRegistry>())
+}
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The files of a folder and its folders that end in `.ron`.
+fn scenes(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(scenes(&path));
+        } else if path.extension().is_some_and(|ending| ending == "ron") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn told_of(text: &str, schema: &Value) -> Vec<String> {
+    let found = scan(text);
+    assert!(found.fault.is_none(), "{text}");
+    complaints(&in_json(&found.tree, text, 0), schema)
+}
+
+/// What is not tested here: that the schema refuses every scene that the reader refuses. It cannot: names that nothing
+/// has, numbers out of their range and the like are beyond it.
+#[test]
+fn every_scene_of_the_program_fits_the_schema() {
+    let schema = language().json();
+    let mut files = scenes(&root().join("scenes"));
+    files.push(root().join("assets/templates/scene.ron"));
+    assert!(files.len() > 7);
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let wrong = told_of(&text, &schema);
+        assert!(wrong.is_empty(), "{}: {wrong:#?}", file.display());
+    }
+}
+
+/// The examples that error messages and the manual show are right by the schema, each as a scene's only content.
+#[test]
+fn every_example_fits_the_schema() {
+    let language = language();
+    let mut schema = language.json();
+    schema["required"] = json!([]);
+    let mut count = 0;
+    for section in &language.sections {
+        let mut examples = vec![section.example.to_owned()];
+        if let Content::Entries(arity, entries) = &section.content {
+            let list = *arity == crate::scene::Arity::List;
+            let around = |entry: &str| if list { format!("[{entry}]") } else { entry.to_owned() };
+            let written = entries.iter().map(|entry| format!("{}: {}", section.name, around(entry.example)));
+            examples.extend(written);
+        }
+        for example in examples {
+            let wrong = told_of(&format!("Scene({example})"), &schema);
+            assert!(wrong.is_empty(), "{example}: {wrong:#?}");
+            count += 1;
+        }
+    }
+    assert!(count > 30, "{count}");
+}
+
+/// The mistakes that a schema can find.
+#[test]
+fn the_schema_refuses_what_does_not_belong() {
+    let schema = language().json();
+    let wrong = |sections: &str| {
+        let told = told_of(&format!("Scene(format: 1, clock: (duration: 1), {sections})"), &schema);
+        !told.is_empty()
+    };
+    assert!(!wrong("bodies: [(name: \"a\", at: (0, \"3 cm\"), atoms: Disc(radius: 0.1), inertia: Points)]"));
+    for sections in [
+        "physics: 3",
+        "joints: []",
+        "gravity: 9.81",
+        "gravity: (0, -9.81, 0)",
+        "film: (fps: 30, sound: true)",
+        "film: (size: (1280.5, 720))",
+        "bodies: [(at: (0, 0), atoms: Disc(radius: 0.1))]",
+        "bodies: [(name: \"a\", at: (0, 0), atoms: Square(radius: 0.1))]",
+        "bodies: [(name: \"a\", at: (0, 0), atoms: Disc(radius: true))]",
+        "bodies: [(name: \"a\", at: (0, 0), atoms: Disc(radius: 0.1), datum: Middle)]",
+        "bodies: [(name: 3, at: (0, 0), atoms: Disc(radius: 0.1))]",
+        "materials: { \"rock\": (hardness: 3) }",
+        "materials: [(name: \"rock\")]",
+        "forces: [Drag(cubic: 1)]",
+        "forces: [Magnet()]",
+        "forces: Drag(linear: 1)",
+        "contacts: Penalty(normal: Hertz)",
+        "camera: None",
+    ] {
+        assert!(wrong(sections), "{sections}");
+    }
+    assert!(!told_of("Scene(format: 2, clock: (duration: 1))", &schema).is_empty());
+    assert!(!told_of("Scene(format: 1)", &schema).is_empty());
+}
+
+/// Whoever reads the manual wants to know of each field what happens without it.
+#[test]
+fn every_optional_field_says_its_default_and_says_it_right() {
+    let language = language();
+    assert_eq!(language.without_default(), Vec::<String>::new());
+    assert_eq!(language.wrong_defaults(), Vec::<String>::new());
+}
+
+#[test]
+fn the_manual_has_no_bare_sections_and_no_dead_links() {
+    let manual = language().manual();
+    assert!(!manual.contains("No fields are told"), "{manual}");
+    let headings: Vec<String> = manual
+        .lines()
+        .filter(|line| line.starts_with("## ") || line.starts_with("### "))
+        .map(|line| super::manual::anchor(line.trim_start_matches(['#', ' '])))
+        .collect();
+    for link in manual.split("](#").skip(1).filter_map(|rest| rest.split(')').next()) {
+        let leads_to = headings.iter().filter(|heading| *heading == link).count();
+        assert_eq!(leads_to, 1, "{link}");
+    }
+    for section in language().sections {
+        assert!(manual.contains(&format!("\n## `{}`\n\n", section.name)));
+        assert!(!manual.contains(&format!("## `{}`\n\n```", section.name)), "{} has no meaning", section.name);
+    }
+}
+
+#[test]
+fn one_entry_is_told_alone() {
+    let language = language();
+    let told = language.about("forces", Some("Drag")).unwrap();
+    assert!(told.starts_with("### `forces: Drag`") && told.contains("| `quadratic` |"), "{told}");
+    assert!(language.manual().contains(&told));
+    assert!(language.about("clock", None).unwrap().contains("| `duration` | time | s | *needed* |"));
+    assert_eq!(language.about("forces", Some("Magnet")), None);
+    assert_eq!(language.about("clock", Some("Drag")), None);
+}
+
+#[derive(serde::Deserialize)]
+struct Plain(#[allow(dead_code)] u8);
+
+impl Section for Plain {
+    const NAME: &'static str = "plain";
+    const EXAMPLE: &'static str = "plain: 3";
+
+    fn install(self, _: &Outline, _: &mut App) {}
+}
+
+#[test]
+fn a_section_that_tells_nothing_takes_everything() {
+    let mut app = App::empty();
+    app.register_section::<Plain>();
+    let language = Language::of(app.world().resource::<SceneRegistry>());
+    assert!(language.manual().contains("## `plain`\n\n```ron\nplain: 3\n```\n\nNo fields are told."));
+    let mut schema = language.json();
+    schema["required"] = json!([]);
+    assert_eq!(told_of("Scene(plain: (a: 1))", &schema), Vec::<String>::new());
+}
