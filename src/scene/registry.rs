@@ -98,6 +98,13 @@ pub(crate) struct SectionReader {
     origin: &'static str,
 }
 
+impl SectionReader {
+    /// One that tells nothing of itself yet; its order is that of its registration.
+    fn new(reader: Reader, example: &'static str) -> Self {
+        Self { reader, example, describe: |_| None, meaning: "", order: 0, origin: "" }
+    }
+}
+
 #[derive(Clone)]
 pub(crate) struct EntryReader {
     /// Makes an empty store; none for a reserved name.
@@ -137,15 +144,14 @@ impl SceneRegistry {
         self.count
     }
 
-    fn claim(&mut self, name: &'static str, example: &'static str, origin: &'static str, read: (Reader, Describe)) {
-        let (reader, describe) = read;
-        let order = self.next();
+    fn claim(&mut self, name: &'static str, mut section: SectionReader) {
+        section.order = self.next();
         if let Some(before) = self.sections.get(name) {
             let claimed = !matches!(before.reader, Reader::Reserved);
             // Two plugins with one name cannot both be right, and the scene is not to blame.
             assert!(!claimed, "the scene section `{name}` is registered twice");
         }
-        self.sections.insert(name, SectionReader { reader, example, describe, meaning: "", order, origin });
+        self.sections.insert(name, section);
     }
 
     fn claim_entry(&mut self, section: &'static str, name: &'static str, entry: EntryReader) {
@@ -158,7 +164,7 @@ impl SceneRegistry {
     }
 
     /// The registered sections in the order of registration, reserved ones among them.
-    pub(crate) fn in_order(&self) -> Vec<(&'static str, &SectionReader)> {
+    pub(crate) fn readers(&self) -> Vec<(&'static str, &SectionReader)> {
         let mut list: Vec<_> = self.sections.iter().map(|(name, section)| (*name, section)).collect();
         list.sort_unstable_by_key(|(_, section)| section.order);
         list
@@ -167,7 +173,6 @@ impl SceneRegistry {
     /// The registered sections in the order of registration; reserved ones are left out, and lists of entries inside a
     /// section (`look.layers`) as well.
     pub fn sections(&self) -> Vec<Known> {
-        let outermost = self.in_order().into_iter().filter(|(name, _)| !name.contains('.'));
         let known = |(name, section): (&'static str, &SectionReader)| {
             let (origin, takes_entries) = match section.reader {
                 Reader::Section(_) => (section.origin, false),
@@ -176,6 +181,7 @@ impl SceneRegistry {
             };
             Some(Known { name, example: section.example, origin, takes_entries })
         };
+        let outermost = self.readers().into_iter().filter(|(name, _)| !name.contains('.'));
         outermost.filter_map(known).collect()
     }
 
@@ -282,12 +288,14 @@ fn registry(app: &mut App) -> &mut SceneRegistry {
 impl SceneAppExt for App {
     fn register_section<S: Section>(&mut self) -> &mut Self {
         let read: ReadOneSection = |text| Ok(Box::new(explain::read::<S>(text)?));
-        registry(self).claim(S::NAME, S::EXAMPLE, module_of::<S>(), (Reader::Section(read), S::schema));
+        let section = SectionReader::new(Reader::Section(read), S::EXAMPLE);
+        let section = SectionReader { describe: S::schema, origin: module_of::<S>(), ..section };
+        registry(self).claim(S::NAME, section);
         self
     }
 
     fn register_entry_section(&mut self, name: &'static str, arity: Arity, example: &'static str) -> &mut Self {
-        registry(self).claim(name, example, "", (Reader::Entries(arity, BTreeMap::new()), |_| None));
+        registry(self).claim(name, SectionReader::new(Reader::Entries(arity, BTreeMap::new()), example));
         self
     }
 
@@ -302,16 +310,15 @@ impl SceneAppExt for App {
         let registry = registry(self);
         let make: fn() -> Box<dyn ReadEntries> = || Box::new(Entries::<E>(Vec::new()));
         let order = registry.next();
-        let entry =
-            EntryReader { make: Some(make), describe: E::schema, example: E::EXAMPLE, order, origin: module_of::<E>() };
-        registry.claim_entry(E::SECTION, E::NAME, entry);
+        let (describe, example, origin): (Describe, _, _) = (E::schema, E::EXAMPLE, module_of::<E>());
+        registry.claim_entry(E::SECTION, E::NAME, EntryReader { make: Some(make), describe, example, order, origin });
         self
     }
 
     fn reserve_section(&mut self, name: &'static str) -> &mut Self {
         let registry = registry(self);
         if !registry.sections.contains_key(name) {
-            registry.claim(name, "", "", (Reader::Reserved, |_| None));
+            registry.claim(name, SectionReader::new(Reader::Reserved, ""));
         }
         self
     }

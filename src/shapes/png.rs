@@ -1,7 +1,7 @@
 //! `Png(file, height, count | radius)`: a silhouette from a picture file, covered by discs.
 //!
 //! The file is read before the sections of a scene are: here the discs are known already. How they are chosen stands in
-//! [`silhouette`](super::silhouette).
+//! `silhouette`.
 
 use glam::DVec2;
 use schemars::JsonSchema;
@@ -28,10 +28,10 @@ pub struct Png {
     pub file: String,
     /// How high the silhouette is, in m; margins of the picture do not count. Above zero.
     pub height: Length,
-    /// At most so many discs of different sizes, from 1 to 5000. Either this or `radius`.
+    /// At most so many discs of different sizes, from 1 to 5000. Either this or `radius`. Default: `radius` says it.
     #[serde(default)]
     pub count: Option<WholeNumber>,
-    /// Discs of this radius in m, side by side. Above zero. Either this or `count`.
+    /// Discs of this radius in m, side by side. Above zero. Either this or `count`. Default: `count` says it.
     #[serde(default)]
     pub radius: Option<Length>,
     /// The stiffness of each disc in N/m. Above zero. Default: the material's.

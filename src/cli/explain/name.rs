@@ -6,6 +6,7 @@ use super::words::{WORDS, Word};
 use crate::cli::Exit;
 use crate::cli::say::{print_line, say};
 use crate::integrate::Methods;
+use crate::scene::schema::Language;
 use crate::scene::{Known, SceneRegistry, nearest_name};
 use crate::tick::TickAppExt;
 
@@ -15,18 +16,20 @@ pub(super) fn explain(what: &str) -> Exit {
     app.add_tick();
     crate::plugins::standard(&mut app);
     let registry = app.world().resource::<SceneRegistry>();
+    let language = Language::of(registry);
+    let told = |section: &str, entry: Option<&str>| language.told(section, entry).unwrap_or_default();
     let mut found = Vec::new();
     let mut names: Vec<&str> = Vec::new();
     let same = |name: &str| name.eq_ignore_ascii_case(what);
     for section in registry.sections() {
         names.push(section.name);
         if same(section.name) {
-            found.push(of_section(section, registry));
+            found.push(format!("{}\n{}", of_section(section, registry), told(section.name, None)));
         }
         for entry in registry.entries(section.name) {
             names.push(entry.name);
             if same(entry.name) {
-                found.push(of_entry(section.name, entry));
+                found.push(format!("{}\n{}", of_entry(section.name, entry), told(section.name, Some(entry.name))));
             }
         }
     }

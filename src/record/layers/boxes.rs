@@ -12,11 +12,11 @@ use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::world::Bodies;
 
-/// Bounding boxes.
+/// The bounding boxes of bodies: the smallest upright rectangles around their atoms.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Boxes {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
 }

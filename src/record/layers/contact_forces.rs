@@ -22,11 +22,11 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::world::Bodies;
 
-/// Contact forces.
+/// The forces with which things touch, as arrows on the body that feels them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForces {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
     /// The force whose arrow is a tenth of the picture's height long, in N. Default: from the weight of a body of the

@@ -12,11 +12,11 @@ use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::world::Bodies;
 
-/// Contact points.
+/// The points where bodies touch each other and walls.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactPoints {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
 }

@@ -15,11 +15,11 @@ use crate::world::{Bodies, Name};
 /// More names than these would be a wall of text; who names the bodies in `of` gets them all.
 const MOST: usize = 60;
 
-/// Names of bodies.
+/// The names of bodies, beside them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Names {
-    /// Names of bodies, `*` matches. Default: all that move, if they are at most sixty.
+    /// The bodies, `*` matches. Default: all that move, if they are at most sixty.
     #[serde(default)]
     of: Option<Choice>,
 }

@@ -9,7 +9,7 @@ use super::{FilmAppExt, Mark, MarkShape};
 use crate::scene::sections::look::LAYERS;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
-/// The scale of the picture.
+/// A bar of a round length in the corner of the picture.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ScaleBar {}

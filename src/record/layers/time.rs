@@ -9,7 +9,7 @@ use super::{FilmAppExt, Mark, MarkShape};
 use crate::scene::sections::look::LAYERS;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
-/// The clock of a film.
+/// The time of the physics, below the title.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Time {}

@@ -25,11 +25,11 @@ const POINTS: (usize, usize) = (4, 256);
 /// Points of all trails of one kind together, unless each has the least.
 const ALL_POINTS: usize = 1 << 15;
 
-/// Trails.
+/// Where the centres of bodies were, fading. It may stand more than once.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Trails {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
     /// How long a trail is, in s of physics. Above zero. Default: 0.5.

@@ -15,11 +15,11 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::world::Bodies;
 
-/// Velocities.
+/// The velocities of the centres of bodies, as arrows.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocities {
-    /// Names of bodies, `*` matches. Default: all that move.
+    /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
     /// The speed whose arrow is a tenth of the picture's height long, in m/s. Default: from the speeds at the start, and

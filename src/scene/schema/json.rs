@@ -15,8 +15,10 @@ const NEEDED: [&str; 2] = ["format", "clock"];
 impl Language {
     /// The JSON schema, draft 2020-12, of whole scenes.
     pub fn json(&self) -> Value {
-        let outermost = self.sections.iter().filter(|section| !section.name.contains('.'));
-        let properties: Map<String, Value> = outermost.map(|section| (section.name.clone(), section.json())).collect();
+        let (inside, outermost): (Vec<&Section>, Vec<&Section>) =
+            self.sections.iter().partition(|section| section.name.contains('.'));
+        let properties: Map<String, Value> =
+            outermost.into_iter().map(|section| (section.name.clone(), section.json(self))).collect();
         let mut schema = json!({
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": "Scene",
@@ -27,9 +29,22 @@ impl Language {
             "additionalProperties": false,
             "$defs": self.definitions,
         });
+        for list in inside {
+            if let Some((definition, field)) = self.field_of(&list.name) {
+                let field = &mut schema["$defs"][definition]["properties"][field];
+                let description = field["description"].take();
+                *field = list.json(self);
+                field["description"] = description;
+            }
+        }
         self.complete_templates(&mut schema);
-        self.put_lists_inside(&mut schema);
         visit(&mut schema, &mut let_be_made);
+        let is_structure = |(_, about): &(&String, &Value)| about["type"] == "object";
+        let structures: Vec<String> =
+            self.definitions.iter().filter(is_structure).map(|(name, _)| format!("#/$defs/{name}")).collect();
+        for definition in schema["$defs"].as_object_mut().into_iter().flat_map(Map::values_mut) {
+            visit(definition, &mut |part| name_structures(part, &structures));
+        }
         schema["$defs"][REPEATED] = json!({
             "type": "object",
             "properties": { "Repeat": { "$ref": "#/$defs/Repeat" } },
@@ -63,25 +78,31 @@ fn let_be_made(schema: &mut Value) {
     }
 }
 
-impl Language {
-    /// A section such as `look.layers` is a field of another one.
-    fn put_lists_inside(&self, schema: &mut Value) {
-        for section in &self.sections {
-            let Some((outer, field)) = section.name.split_once('.') else { continue };
-            let whole = &schema["properties"][outer];
-            let definition = whole["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")).map(str::to_owned);
-            let place = match definition {
-                Some(name) => &mut schema["$defs"][name],
-                None => &mut schema["properties"][outer],
-            };
-            place["properties"][field] = section.json();
+/// Lets the name of a parameter stand for a field that is a structure.
+fn name_structures(schema: &mut Value, structures: &[String]) {
+    for field in schema["properties"].as_object_mut().into_iter().flat_map(Map::values_mut) {
+        if field["$ref"].as_str().is_some_and(|name| structures.iter().any(|structure| structure == name)) {
+            let structure = field["$ref"].take();
+            field.as_object_mut().and_then(|field| field.shift_remove("$ref"));
+            field["anyOf"] = json!([{ "$ref": structure }, { "type": "string" }]);
         }
+    }
+}
+
+impl Language {
+    /// The entries that need no field.
+    fn bare_words(&self, entries: &[Entry]) -> Vec<&'static str> {
+        let needs_none = |entry: &&Entry| {
+            let about = entry.schema.as_ref().map(|schema| self.resolve(schema).1);
+            about.is_none_or(|about| about["required"].is_null())
+        };
+        entries.iter().filter(needs_none).map(|entry| entry.name).collect()
     }
 
     /// Templates hold the sections that are lists or maps.
     fn complete_templates(&self, schema: &mut Value) {
         let held = self.sections.iter().filter(|section| match &section.content {
-            Content::Entries(arity, _) => *arity == Arity::List,
+            Content::Entries(arity, _) => *arity == Arity::List && !section.name.contains('.'),
             Content::Value(Some(schema)) => {
                 let (_, about) = self.resolve(schema);
                 about["type"] == "array" && about["prefixItems"].is_null() || about["additionalProperties"].is_object()
@@ -100,7 +121,7 @@ impl Language {
 }
 
 impl Section {
-    fn json(&self) -> Value {
+    fn json(&self, language: &Language) -> Value {
         match &self.content {
             Content::Value(Some(schema)) => schema.clone(),
             Content::Value(None) => json!({ "description": "No fields are told." }),
@@ -109,8 +130,8 @@ impl Section {
                 match arity {
                     Arity::List => json!({ "description": self.meaning, "type": "array", "items": one }),
                     Arity::Words => {
-                        let words: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-                        let item = json!({ "anyOf": [{ "enum": words }, one] });
+                        let words = language.bare_words(entries);
+                        let item = json!({ "anyOf": [one, { "enum": words }] });
                         json!({ "description": self.meaning, "type": "array", "items": item })
                     }
                     Arity::One => with_description(one, &self.meaning),

@@ -8,8 +8,7 @@ use std::borrow::Cow;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use crate::scene::sections::Region;
-use crate::scene::units::{Dimension, Pair, Position, Quantity, unit_of};
+use crate::scene::units::{Dimension, Pair, Quantity, unit_of};
 use crate::scene::values::{Elsewhere, Names, OrderedMap, WholeNumber, Word};
 
 /// `a moment of inertia` as `moment_of_inertia`.
@@ -145,6 +144,20 @@ impl JsonSchema for Names {
     }
 }
 
+impl JsonSchema for Elsewhere {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "elsewhere".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "array", "x-value": "list of entries" })
+    }
+}
+
 impl<T: JsonSchema> JsonSchema for OrderedMap<T> {
     fn inline_schema() -> bool {
         true
@@ -156,40 +169,5 @@ impl<T: JsonSchema> JsonSchema for OrderedMap<T> {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         json_schema!({ "type": "object", "additionalProperties": generator.subschema_for::<T>() })
-    }
-}
-
-/// The list that is read elsewhere takes this place in [`Language::json`](super::Language::json).
-impl JsonSchema for Elsewhere {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "elsewhere".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "array", "x-value": "list" })
-    }
-}
-
-impl JsonSchema for Region {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "region".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": ["array", "string"],
-            "items": generator.subschema_for::<Position>(),
-            "minItems": 2,
-            "x-value": "`((x, y), (x, y), ..)`",
-            "x-unit": "m",
-        })
     }
 }

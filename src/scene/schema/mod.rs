@@ -79,7 +79,7 @@ impl Language {
         let mut generator = SchemaSettings::draft2020_12().into_generator();
         let mut tell = |describe: Describe| describe(&mut generator).map(Value::from);
         let mut sections = Vec::new();
-        for (name, section) in registry.in_order() {
+        for (name, section) in registry.readers() {
             let content = match &section.reader {
                 Reader::Reserved => continue,
                 Reader::Section(_) => Content::Value(tell(section.describe)),
@@ -108,7 +108,35 @@ impl Language {
         let sections = head.into_iter().chain(sections).chain(made).collect();
         let mut language = Self { sections, repeat, definitions: generator.take_definitions(true) };
         tidy::tidy(&mut language, &registry.words);
+        language.lead_to_lists_inside();
         language
+    }
+
+    /// Fields of sections that are lists of entries, such as `look.layers`, are told after their sections, which lead there.
+    fn lead_to_lists_inside(&mut self) {
+        let (inside, mut sections): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.sections).into_iter().partition(|section| section.name.contains('.'));
+        for list in inside {
+            let parent = list.name.split('.').next();
+            let place = sections.iter().position(|section| Some(&*section.name) == parent);
+            sections.insert(place.map_or(sections.len(), |place| place + 1), list);
+        }
+        self.sections = sections;
+        let inside = self.sections.iter().map(|section| section.name.clone()).filter(|name| name.contains('.'));
+        for list in inside.collect::<Vec<_>>() {
+            let Some((definition, field)) = self.field_of(&list) else { continue };
+            let cell = format!("list of [`{list}`](#{})", manual::anchor(&list));
+            self.definitions[&definition]["properties"][field]["x-value"] = cell.into();
+        }
+    }
+
+    /// The definition, and the field in it, of a list such as `look.layers`.
+    fn field_of(&self, list: &str) -> Option<(String, String)> {
+        let (section, field) = list.split_once('.')?;
+        let section = self.sections.iter().find(|other| other.name == section)?;
+        let Content::Value(Some(schema)) = &section.content else { return None };
+        let (definition, about) = self.resolve(schema);
+        about["properties"][field].is_object().then_some((definition?.to_owned(), field.to_owned()))
     }
 
     /// The definition that `{"$ref": "#/$defs/NAME"}` names, with its name.

@@ -23,11 +23,7 @@ const TRIES: usize = 20_000;
 /// Cells of the search grid along one side, at most.
 const CELLS: usize = 512;
 
-/// Many equal bodies, named `gas_0`, `gas_1` and so on if the entry's name is `gas`.
-///
-/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about
-/// the bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the
-/// region's border. The same seed gives the same places on every machine.
+/// Many equal bodies.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Fill")]
@@ -65,11 +61,11 @@ pub struct Placed {
     pub velocity: DVec2,
 }
 
-/// Many equal bodies in a box, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`, `gas_1`
-/// and so on.
+/// Many equal bodies in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
+/// `gas_1` and so on.
 ///
-/// Each stands at a random place in the box, turned by a random angle, moving in a random direction. Circles about the
-/// bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the box's border.
+/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about the
+/// bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the region's border.
 /// The same seed gives the same places on every machine.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);

@@ -15,7 +15,7 @@ pub const LAYERS: &str = "look.layers";
 /// The layer that may stand more than once, with other bodies or another length each time.
 const REPEATABLE: &str = "Trails";
 
-/// How films look: their colours, and what is drawn beside the bodies. It never changes the physics.
+/// How films look. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Look")]
@@ -24,7 +24,7 @@ pub struct LookSection {
     /// Default: `"paper"`.
     #[serde(default)]
     pub theme: Option<String>,
-    /// What is drawn beside bodies, walls and title, each kind by its plugin. Default: `[ScaleBar, Time]`.
+    /// What is drawn beside bodies, walls and title. Default: `[ScaleBar, Time]`.
     #[serde(default)]
     pub layers: Elsewhere,
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
@@ -44,6 +45,23 @@ impl<'de> Visitor<'de> for Corners {
 impl<'de> Deserialize<'de> for Region {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         reader.deserialize_tuple(2, Corners)
+    }
+}
+
+impl JsonSchema for Region {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Region".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": ["array", "string"],
+            "items": generator.subschema_for::<Position>(),
+            "minItems": 2,
+            "maxItems": MOST_CORNERS,
+            "x-value": "`((x, y), (x, y), ..)`",
+            "x-unit": "m",
+        })
     }
 }
 

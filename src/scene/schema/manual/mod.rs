@@ -1,5 +1,6 @@
 //! The scene language as a manual in Markdown.
 
+mod plain;
 mod value;
 
 use std::collections::BTreeMap;
@@ -27,7 +28,8 @@ field without a default has to be there.
 impl Language {
     /// The manual: every section, entry and field with value, unit, default and meaning.
     pub fn manual(&self) -> String {
-        let mut manual = Manual { language: self, text: INTRODUCTION.to_owned(), places: BTreeMap::new() };
+        let mut manual = Manual::new(self);
+        manual.text.push_str(INTRODUCTION);
         manual.contents();
         for section in self.sections.iter().chain([&self.repeat]) {
             manual.section(section);
@@ -35,21 +37,6 @@ impl Language {
         manual.text.truncate(manual.text.trim_end().len());
         manual.text.push('\n');
         manual.text
-    }
-
-    /// What the manual says of one section, or of one entry of it; nothing if there is none of that name. Links lead to
-    /// other places of the manual.
-    pub fn about(&self, section: &str, entry: Option<&str>) -> Option<String> {
-        let section = self.sections.iter().chain([&self.repeat]).find(|other| other.name == section)?;
-        let mut manual = Manual { language: self, text: String::new(), places: BTreeMap::new() };
-        match (entry, &section.content) {
-            (None, _) => manual.section(section),
-            (Some(name), Content::Entries(_, entries)) => {
-                manual.entry(&section.name, entries.iter().find(|entry| entry.name == name)?);
-            }
-            (Some(_), Content::Value(_)) => return None,
-        }
-        Some(manual.text.trim_end().to_owned())
     }
 
     /// The fields that may be left out without the manual saying what is then, as paths.
@@ -144,6 +131,10 @@ struct Manual<'a> {
 }
 
 impl<'a> Manual<'a> {
+    fn new(language: &'a Language) -> Self {
+        Self { language, text: String::new(), places: BTreeMap::new() }
+    }
+
     fn line(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');
@@ -201,7 +192,7 @@ impl<'a> Manual<'a> {
                 self.paragraph(&match arity {
                     Arity::List => format!("A list of any of {}.", names.join(", ")),
                     Arity::Words => {
-                        format!("A list of any of {}; one that needs no field as a word.", names.join(", "))
+                        format!("A list of any of {}; without fields they need no brackets.", names.join(", "))
                     }
                     Arity::One => format!("One of {}.", names.join(", ")),
                     Arity::OneOrNone => format!("One of {}, or `None`.", names.join(", ")),

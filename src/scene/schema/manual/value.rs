@@ -102,7 +102,7 @@ impl<'a> Manual<'a> {
     }
 
     /// The value of a field in a few words, and its unit.
-    fn cell(&self, path: &str, schema: &'a Value) -> (String, String) {
+    pub(super) fn cell(&self, path: &str, schema: &'a Value) -> (String, String) {
         let (name, about) = self.language.resolve(schema);
         let text = |key: &str| about[key].as_str().or(schema[key].as_str()).map(str::to_owned);
         if let Some(place) = name.and_then(|name| self.places.get(name)) {

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::{Content, Language};
 use crate::plugins;
 use crate::scene::scan::scan;
-use crate::scene::{Outline, SceneAppExt, SceneRegistry, Section};
+use crate::scene::{Arity, Outline, SceneAppExt, SceneRegistry, Section};
 use in_json::in_json;
 use validate::complaints;
 
@@ -69,14 +69,20 @@ fn every_example_fits_the_schema() {
     schema["required"] = json!([]);
     let mut count = 0;
     for section in &language.sections {
+        // A list inside a section, such as `look.layers`.
+        let (name, parent) = match section.name.split_once('.') {
+            Some((parent, name)) => (name, Some(parent)),
+            None => (&*section.name, None),
+        };
         let mut examples = vec![section.example.to_owned()];
         if let Content::Entries(arity, entries) = &section.content {
-            let list = *arity == crate::scene::Arity::List;
+            let list = matches!(arity, Arity::List | Arity::Words);
             let around = |entry: &str| if list { format!("[{entry}]") } else { entry.to_owned() };
-            let written = entries.iter().map(|entry| format!("{}: {}", section.name, around(entry.example)));
+            let written = entries.iter().map(|entry| format!("{name}: {}", around(entry.example)));
             examples.extend(written);
         }
         for example in examples {
+            let example = parent.map_or(example.clone(), |parent| format!("{parent}: ({example})"));
             let wrong = told_of(&format!("Scene({example})"), &schema);
             assert!(wrong.is_empty(), "{example}: {wrong:#?}");
             count += 1;
@@ -148,14 +154,17 @@ fn the_manual_has_no_bare_sections_and_no_dead_links() {
 }
 
 #[test]
-fn one_entry_is_told_alone() {
+fn one_entry_is_told_in_plain_words() {
     let language = language();
-    let told = language.about("forces", Some("Drag")).unwrap();
-    assert!(told.starts_with("### `forces: Drag`") && told.contains("| `quadratic` |"), "{told}");
-    assert!(language.manual().contains(&told));
-    assert!(language.about("clock", None).unwrap().contains("| `duration` | time | s | *needed* |"));
-    assert_eq!(language.about("forces", Some("Magnet")), None);
-    assert_eq!(language.about("clock", Some("Drag")), None);
+    let told = language.told("forces", Some("Drag")).unwrap();
+    let field = "\n  linear: damping in N s/m; default: 0. Linear coefficient in N s/m.\n";
+    assert!(told.starts_with("Resistance of air that rests: ") && told.contains(field), "{told}");
+    let told = language.told("clock", None).unwrap();
+    assert!(told.contains("\n  duration: time in s; needed. Length of the run, "), "{told}");
+    assert!(language.told("walls", None).unwrap().contains("\n  left: (x, y) in m; needed. Seen from "));
+    assert_eq!(language.told("forces", None).unwrap(), "What acts on bodies beside gravity and contacts.");
+    assert_eq!(language.told("forces", Some("Magnet")), None);
+    assert_eq!(language.told("clock", Some("Drag")), None);
 }
 
 #[derive(serde::Deserialize)]
