@@ -108,7 +108,7 @@ pub struct Ended {
     pub out: String,
     pub err: String,
     /// For messages of failing tests.
-    #[allow(dead_code, reason = "shown by Debug")]
+    #[expect(dead_code, reason = "shown by Debug")]
     arguments: String,
 }
 

@@ -54,7 +54,7 @@ fn the_order_of_spawning_does_not_matter() {
 #[derive(Component)]
 struct Marker;
 #[derive(Component)]
-struct Label(#[allow(dead_code)] f64);
+struct Label(#[expect(dead_code, reason = "an unrelated component holds something")] f64);
 
 #[test]
 fn components_of_others_do_not_matter() {

@@ -222,7 +222,7 @@ fn height_over(wall: &PackedWall, position: DVec2) -> f64 {
 }
 
 /// The system of [`crate::tick::EvaluateStage::Contacts`].
-#[allow(clippy::too_many_arguments)] // a system's parameters are its declaration of access
+#[expect(clippy::too_many_arguments, reason = "a system's parameters are its declaration of access")]
 pub(super) fn apply_penalty<N: NormalForce>(
     mut bodies: ResMut<Bodies>,
     pairs: Res<CandidatePairs>,

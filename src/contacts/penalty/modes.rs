@@ -28,7 +28,7 @@ pub(super) struct Scratch {
 
 /// The system of [`crate::tick::Modes`]: touching pairs choose loading, unloading or hold for the coming step; where that
 /// changes a force, the sums are corrected by the difference.
-#[allow(clippy::too_many_arguments)] // a system's parameters are its declaration of access
+#[expect(clippy::too_many_arguments, reason = "a system's parameters are its declaration of access")]
 pub(super) fn choose_modes<N: NormalForce>(
     mut bodies: ResMut<Bodies>,
     pairs: Res<CandidatePairs>,

@@ -24,7 +24,7 @@ bodies: [
 
 /// The sections that make others.
 #[derive(JsonSchema)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 pub(super) struct Made {
     /// Other files whose lists and maps come into this scene. Default: none.
     include: Option<Vec<Include>>,
@@ -40,7 +40,7 @@ pub(super) struct Made {
 
 /// A file to take in.
 #[derive(JsonSchema)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 struct Include {
     /// The file, from the folder of the file that includes it.
     file: String,
@@ -53,7 +53,7 @@ struct Include {
 
 /// Beside these fields a template holds any sections that are lists or maps, such as `bodies`.
 #[derive(JsonSchema)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 pub(super) struct Template {
     /// The arguments that every instance has to give. Default: none.
     args: Option<Vec<String>>,
@@ -65,7 +65,7 @@ pub(super) struct Template {
 /// One thing made of a template.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 struct Instance {
     /// The name of the template.
     of: String,
@@ -83,7 +83,7 @@ struct Instance {
 /// counts, `j` are the rows.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 pub(super) struct Repeat {
     /// How often; for a grid columns and rows.
     #[schemars(schema_with = "count")]
@@ -104,7 +104,7 @@ pub(super) struct Repeat {
 /// Both ends of a line.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 struct Line {
     /// The place of the first.
     from: Position,
@@ -115,7 +115,7 @@ struct Line {
 /// Where a grid begins, and how wide it is.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 struct Grid {
     /// The place of the first.
     from: Position,
@@ -126,7 +126,7 @@ struct Grid {
 /// A circle.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 struct Circle {
     /// Its middle.
     center: Position,

@@ -59,7 +59,7 @@ struct Entry {
 
 /// The sections that the reader knows by itself; never made, only described.
 #[derive(JsonSchema)]
-#[allow(dead_code)]
+#[expect(dead_code, reason = "described, never made")]
 struct Head {
     /// The version of the scene language: 1.
     #[schemars(range(min = 1, max = 1))]
