@@ -4,6 +4,7 @@
 //! forces of the state at the end must be there when it returns.
 
 mod semi_implicit_euler;
+pub mod steps;
 mod velocity_verlet;
 
 use bevy_app::App;
