@@ -20,7 +20,8 @@ impl OneStep for ExplicitEuler {
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{OSCILLATOR, Run, demand_order};
+    use super::super::problems::OSCILLATOR;
+    use super::super::trials::{Run, demand_order};
     use super::*;
 
     /// Law: order 1 on smooth motion (section I.7 of the source). Tolerance: a quarter of an order.

@@ -145,9 +145,8 @@ fn disturbance(middle: &[f64], coordinate: usize, coordinates: usize, length: f6
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{
-        ELONGATION, KEPLER, Motion, OSCILLATOR, Run, demand_bounded_energy, demand_order, demand_reversible,
-    };
+    use super::super::problems::{ELONGATION, KEPLER, Motion, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
     use super::*;
 
     /// Law: order 2 on smooth motion (section II.1 of the source). Tolerance: a quarter of an order.

@@ -17,6 +17,8 @@ mod semi_implicit_euler;
 mod settling;
 mod splitting;
 mod symplectic4;
+#[cfg(test)]
+mod trials;
 mod velocity_verlet;
 
 use std::ops::Range;

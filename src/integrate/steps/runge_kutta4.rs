@@ -37,7 +37,8 @@ impl OneStep for RungeKutta4 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{KEPLER, OSCILLATOR, Run, demand_order};
+    use super::super::problems::{KEPLER, OSCILLATOR};
+    use super::super::trials::{Run, demand_order};
     use super::*;
 
     /// Law: order 4 on smooth motion (section II.1 of the source). Tolerance: a quarter of an order.

@@ -44,7 +44,8 @@ impl OneStep for SemiImplicitEuler {
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR, Run, demand_bounded_energy, demand_order};
+    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order};
     use super::*;
 
     /// Law: order 1 on smooth motion (section I.1.2 of the source). Tolerance: a quarter of an order.

@@ -54,9 +54,8 @@ fn half(number: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{
-        ELONGATION, KEPLER, OSCILLATOR, Run, demand_bounded_energy, demand_order, demand_reversible,
-    };
+    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
     use super::*;
 
     /// Law: conditions of order 4 of a palindrome of kicks and drifts (Hairer, Lubich, Wanner, III.3): with `a` the kicks, `b`

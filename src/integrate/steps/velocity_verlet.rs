@@ -30,9 +30,8 @@ impl OneStep for VelocityVerlet {
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{
-        ELONGATION, KEPLER, OSCILLATOR, Run, demand_bounded_energy, demand_order, demand_reversible,
-    };
+    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
     use super::*;
 
     /// Law: order 2 on smooth motion, with velocities in the accelerations and states of models too (theorem II.3.2 of the

@@ -1,7 +1,8 @@
 //! That the coefficients are right, that the motion is, and that the estimate can be trusted.
 
-use super::super::problems::{MOTIONS, Motion, Run, demand_order, distance, slope};
+use super::super::problems::{MOTIONS, Motion};
 use super::super::rooted_trees::Trees;
+use super::super::trials::{Run, demand_order, distance, slope};
 use super::*;
 
 /// A sum as a list of the weights of all stages.
