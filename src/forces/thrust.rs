@@ -40,7 +40,7 @@ struct Thrust {
 
 /// The frame in which a force is constant.
 #[derive(Clone, Copy, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
-enum ThrustFrame {
+pub(super) enum ThrustFrame {
     /// The force turns with the body.
     Body,
     /// It does not.

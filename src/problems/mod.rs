@@ -15,7 +15,11 @@
 pub mod cluster_rotation;
 pub mod constant_acceleration;
 pub mod cradle;
+pub mod damped_oscillator;
+pub mod driven_oscillator;
 pub mod elastic_bounce;
+pub mod figure_eight;
+pub mod firing;
 pub mod free_flight;
 pub mod inelastic_impact;
 pub mod kepler;
@@ -23,9 +27,11 @@ pub mod linear_drag;
 pub mod oblique_collision;
 pub mod overlap_release;
 pub mod quadratic_drag;
+pub mod rotating_ring;
 pub mod settling_bounce;
 pub mod slide_to_roll;
 pub mod sliding_stop;
+pub mod spring_mass;
 pub mod tangential_impact;
 pub mod truth;
 
@@ -45,6 +51,12 @@ pub const ALL: &[Problem] = &[
     quadratic_drag::PROBLEM,
     cluster_rotation::PROBLEM,
     kepler::PROBLEM,
+    figure_eight::PROBLEM,
+    firing::PROBLEM,
+    spring_mass::PROBLEM,
+    damped_oscillator::PROBLEM,
+    driven_oscillator::PROBLEM,
+    rotating_ring::PROBLEM,
     elastic_bounce::PROBLEM,
     inelastic_impact::PROBLEM,
     oblique_collision::PROBLEM,

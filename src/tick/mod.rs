@@ -27,7 +27,9 @@ pub mod clock;
 mod drive;
 mod failure;
 mod guard;
+pub mod response;
 pub mod stability;
+pub mod steady;
 pub mod stopwatch;
 
 use bevy_app::App;
@@ -40,7 +42,7 @@ pub use clock::{Clock, Evaluation};
 pub use drive::{FarTravel, Tick, far_travel, largest_travel, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use guard::Created;
-pub use stability::{Briefest, Fastest, Responses, Stability};
+pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]

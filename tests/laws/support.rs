@@ -5,6 +5,7 @@ use std::fmt::Write;
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::contacts::ContactForces;
+use jostle::problems::{Problem, Setting};
 use jostle::scene::Source;
 use jostle::world::Bodies;
 use jostle::world::hash::state_hash;
@@ -108,4 +109,13 @@ pub fn assert_rest(what: &str, simulation: &mut Simulation, time: f64, still: f6
     let hash = state_hash(bodies);
     run_to(simulation, time + still);
     assert_eq!(state_hash(simulation.bodies()), hash, "{what}: the state changed after {time} s");
+}
+
+/// Whether nothing from outside acts on the bodies of a problem.
+pub fn is_closed(problem: &Problem) -> bool {
+    let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0 };
+    let text = (problem.scene)(&setting, problem.duration());
+    let outside =
+        ["gravity:", "walls:", "fixed:", "kinematic:", "World", "Drag(", "Drive(", "Thrust(", "Torque(", "Wind("];
+    !outside.iter().any(|word| text.contains(word))
 }

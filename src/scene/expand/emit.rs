@@ -5,13 +5,13 @@ use std::rc::Rc;
 
 use super::scope::{Failed, Value, is_quantity};
 use super::write::Buffer;
-use super::{Expander, File, Outcome, picture};
+use super::{Expander, File, Outcome, picture, table};
 use crate::scene::outline::fits;
 use crate::scene::scan::skip_blank;
 use crate::scene::tree::{Form, Id, Tree};
 
 /// Fields that hold texts and never numbers: a parameter may have the same name as a material.
-const TEXTS: [&str; 9] = ["name", "title", "notes", "rows", "color", "material", "of", "on", "between"];
+const TEXTS: [&str; 11] = ["name", "title", "notes", "rows", "color", "material", "of", "on", "between", "a", "b"];
 /// Fields whose texts are never names of things.
 const WORDS: [&str; 4] = ["title", "notes", "rows", "color"];
 /// What a value counts, where work is counted: it may leave three pieces.
@@ -95,7 +95,8 @@ impl Place {
 pub(super) fn plain(tree: &Tree, text: &str) -> Vec<bool> {
     let mut plain = vec![true; tree.next() as usize];
     for id in (0..tree.next()).rev() {
-        let changes = tree.node(id).form == Form::Text || matches!(tree.name(id, text), "Repeat" | picture::NAME);
+        let changes =
+            tree.node(id).form == Form::Text || matches!(tree.name(id, text), "Repeat" | picture::NAME | table::NAME);
         plain[id as usize] = !changes && tree.children(id).iter().all(|&child| plain[child as usize]);
     }
     plain
@@ -174,6 +175,7 @@ impl Expander {
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())
             }
+            Form::Round if key == table::FIELD && tree.name(id, text) == table::NAME => self.table(context, out, id),
             Form::Round | Form::Braces | Form::List => {
                 let start = out.text.len();
                 let name = tree.name(id, text).len();

@@ -1,5 +1,5 @@
 //! Scenes that are made rather than written out: `params`, `templates`, `instances`, `include` and `Repeat` become a
-//! text in which none of them stands, before any section is read; pictures (`Png`) become discs.
+//! text in which none of them stands, before any section is read; pictures (`Png`) become discs, tables (`Csv`) points.
 //!
 //! So every section, also one of a plugin, gets all of this without knowing of it. Each piece of the made text knows
 //! which piece of which file it comes from, and through which instances and repetitions: mistakes are told where the
@@ -14,6 +14,7 @@ mod number;
 mod picture;
 mod repeat;
 mod scope;
+mod table;
 mod write;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,6 +95,7 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
         || sections.any(|name| SECTIONS.contains(&name))
         || source.text.contains("Repeat")
         || source.text.contains(picture::NAME)
+        || source.text.contains(table::NAME)
 }
 
 /// The sections that a scene has when everything is made, by name; none if it cannot be made.
