@@ -24,7 +24,7 @@ const SAMPLES: usize = 8;
 const SAMPLED_FROM: usize = 48;
 
 /// Frames packed at once, for each thread.
-const FRAMES_PER_THREAD: usize = 8;
+const FRAMES_PER_THREAD: usize = 4;
 
 const LONGEST_SIDE: u32 = u16::MAX as u32;
 const LONGEST_DELAY: f64 = u16::MAX as f64;
