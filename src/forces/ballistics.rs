@@ -145,6 +145,10 @@ impl Flight {
         if self.air.iter().all(|air| air.linear == 0.0 && air.quadratic == 0.0) {
             return self.aim_in_vacuum(target, speed, arc);
         }
+        let nothing_returns = self.gravity == DVec2::ZERO && self.air.iter().all(|air| air.velocity == DVec2::ZERO);
+        if arc == Arc::High && nothing_returns {
+            return Err(Miss::OneWay);
+        }
         let (first, bottom) = self.slowest(target, speed);
         let lowest = bottom.or(first).ok_or(Miss::Never)?;
         if lowest.speed() > speed {
