@@ -25,7 +25,7 @@ use super::scan::{Scan, scan};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
-use emit::Context;
+use emit::{Context, Place};
 use instance::Template;
 use scope::Scope;
 use write::{Buffer, Merged};
@@ -127,6 +127,12 @@ struct Expander {
     /// Names with values, innermost last; what is made uses them only while it is made.
     scopes: Vec<Scope>,
     templates: BTreeMap<String, Rc<Template>>,
+    /// What names mean in each file.
+    homes: BTreeMap<usize, Rc<Place>>,
+    /// Patterns of templates that were noted as meaning things around them, by file and place.
+    foreign: BTreeSet<(usize, usize)>,
+    /// Whether files are being opened: their values are needed until all is made.
+    opening: bool,
     sections: Vec<Merged>,
     errors: Vec<SceneError>,
     notes: Vec<String>,
@@ -160,7 +166,10 @@ impl Expander {
             self.open_files.push(std::fs::canonicalize(&path).unwrap_or(path));
         }
         match self.open(file, 0, "", None) {
-            Ok(part) => self.part(&part),
+            Ok(mut part) => {
+                self.name_places(&mut part, None);
+                self.part(&part);
+            }
             Err(error) => self.errors.push(*error),
         }
     }

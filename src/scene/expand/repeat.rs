@@ -65,7 +65,9 @@ impl Expander {
                 self.scopes.push(scope);
                 let inner = Context { scope: self.scopes.len() - 1, step, ..context.clone() };
                 let done = self.each(&inner, items, act);
-                self.scopes.pop();
+                if !self.opening {
+                    self.scopes.pop();
+                }
                 done?;
             }
         }
