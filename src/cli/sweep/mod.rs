@@ -27,6 +27,7 @@ use super::trial::Verdict;
 use crate::output::{Target, write_whole};
 use crate::scene::Source;
 use crate::simulation::Simulation;
+use crate::world::hash::of_bytes;
 
 /// The command `sweep`.
 #[derive(Args, Debug)]
@@ -141,7 +142,8 @@ impl Sweep {
         let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
         let path = folder.join(self.file("table", "csv"));
-        write_whole(&path, &Table { names, rows }.to_csv()).map_err(|error| error.to_string())?;
+        let sweep = self.shard.map(|_| self.fingerprint(&source));
+        write_whole(&path, &Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
         let image = folder.join(self.file("contact_sheet", "png"));
         if sheet {
             picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
@@ -155,6 +157,16 @@ impl Sweep {
             }
         }
         Ok(exit)
+    }
+
+    /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
+    fn fingerprint(&self, source: &Source) -> String {
+        let OverrideFlags { duration, tick, method, tolerance, settings } = &self.overrides;
+        let flags = format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
+        let texts = [&source.text, &source.made(), &flags, env!("CARGO_PKG_VERSION")];
+        // No text has a byte 255 in it.
+        let bytes = texts.into_iter().flat_map(|text| text.bytes().chain([255]));
+        format!("{:016x}", of_bytes(bytes))
     }
 
     /// A flag of all runs for what is to vary.
