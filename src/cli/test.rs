@@ -88,14 +88,19 @@ impl Test {
         let progress = Progress::new(candidates.len() as u64, "scenes", self.quiet || self.json);
         let width = candidates.iter().map(|candidate| candidate.name.chars().count()).max().unwrap_or(0).min(60);
         let mut results: Vec<Tried> = Vec::new();
-        let mut exit = Exit::Good;
+        let (mut exit, mut mute) = (Exit::Good, false);
         in_order(
             &candidates,
             self.threads.unwrap_or_else(all_cores),
             |candidate| self.attempt(candidate),
             |tried| {
                 let name = &candidates[results.len()].name;
-                exit = exit.worse(progress.aside(|| self.tell(name, &tried, width)));
+                // Output that cannot be written is told once.
+                if !mute {
+                    let written = progress.aside(|| self.tell(name, &tried, width));
+                    mute = written != Exit::Good;
+                    exit = exit.worse(written);
+                }
                 if let Some(trial) = tried.trial() {
                     exit = exit.worse(trial.verdict.exit());
                 }
@@ -105,7 +110,7 @@ impl Test {
         );
         drop(progress);
         let seconds = start.elapsed().as_secs_f64();
-        if !self.json {
+        if !self.json && !mute {
             exit = exit.worse(print_line(&summary(&results, seconds)));
         }
         if let Some(path) = &self.junit {
@@ -134,6 +139,9 @@ impl Test {
         let mut candidates: Vec<Candidate> = Vec::new();
         for place in places {
             if !Path::new(place).is_dir() {
+                if (Request { name: place, json: false }).is_missing() {
+                    return Err(format!("there is no scene and no folder `{place}`"));
+                }
                 candidates.push(Candidate { name: place.clone(), found: false });
                 continue;
             }

@@ -231,7 +231,12 @@ impl Card {
         if self.energy_error() > 1e-3 {
             return format!("Trust it to about {error} of energy; {finer} would improve it.");
         }
-        format!("Trust it: energy is accounted for to {error}; {finer} would show whether anything changes.")
+        let accounted = if self.energy_error() == 0.0 {
+            "all energy is accounted for".to_owned()
+        } else {
+            format!("energy is accounted for to {error}")
+        };
+        format!("Trust it: {accounted}; {finer} would show whether anything changes.")
     }
 }
 

@@ -111,7 +111,8 @@ impl Source {
     fn is_part(&self, tree: &Tree) -> bool {
         let sections = || tree.children(0).iter().map(|&id| (&self.text[tree.key(id)], id));
         let clock = sections().any(|(name, _)| nearest(name, ["clock", "look"].into_iter()) == Some("clock"));
-        let format = sections().find(|(name, _)| *name == "format").is_none_or(|(_, id)| &self.text[tree.span(id)] == "1");
+        let format =
+            sections().find(|(name, _)| *name == "format").is_none_or(|(_, id)| &self.text[tree.span(id)] == "1");
         let brings = sections().any(|(_, id)| matches!(tree.node(id).form, Form::List | Form::Braces));
         brings && format && !clock
     }

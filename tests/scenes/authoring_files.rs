@@ -300,8 +300,9 @@ fn every_shipped_scene_can_be_included() {
         }
         count += 1;
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        let main =
-            format!("Scene(format: 1, clock: (duration: 1, tick: \"1 ms\"), include: [(file: {name:?}, prefix: \"p\")])");
+        let main = format!(
+            "Scene(format: 1, clock: (duration: 1, tick: \"1 ms\"), include: [(file: {name:?}, prefix: \"p\")])"
+        );
         let main = Source { folder: Some(folder.clone()), ..Source::new("main.ron", main) };
         let alone = Simulation::load(&Source::read(&path).unwrap()).unwrap_or_else(|errors| panic!("{errors}"));
         let included = Simulation::load(&main).unwrap_or_else(|errors| panic!("{name}: {errors}"));

@@ -393,7 +393,8 @@ impl Expander {
         let is_pattern = text.contains('*') && !text.contains(char::is_whitespace);
         let Some(template) = &context.place.template else { return };
         if is_pattern && !context.place.has(text) && self.foreign.insert((context.file.number, start)) {
-            self.notes.push(format!("the template `{template}` makes nothing called \"{text}\": things around it are meant"));
+            self.notes
+                .push(format!("the template `{template}` makes nothing called \"{text}\": things around it are meant"));
         }
     }
 }

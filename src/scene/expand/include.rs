@@ -210,9 +210,7 @@ impl Expander {
         self.spend(context, id, 0, source.text.len())?;
         let prefix = match self.field(context, id, "prefix") {
             Some(at) => match self.text_of(context, at)? {
-                Some(prefix) if !prefix.is_empty() && !prefix.contains(['*', '.', ',', '"', '/', '{']) => {
-                    prefix + "/"
-                }
+                Some(prefix) if !prefix.is_empty() && !prefix.contains(['*', '.', ',', '"', '/', '{']) => prefix + "/",
                 _ => {
                     let error = self.wrong_value(context, at, "a name in quotes");
                     return Err(Box::new(error.with_help("use letters, digits and `_`")));

@@ -222,7 +222,9 @@ impl Expander {
         let mut elsewhere = None;
         let value = expression::evaluate(text, &mut |name| match self.find(scope, name, asked) {
             Ok(Value::Number(number)) => Ok(number),
-            Ok(Value::Text(text) | Value::Given(text)) => Err((format!("`{name}` is the text \"{text}\", not a number"), None)),
+            Ok(Value::Text(text) | Value::Given(text)) => {
+                Err((format!("`{name}` is the text \"{text}\", not a number"), None))
+            }
             Ok(Value::Node(..)) => Err((format!("`{name}` is not a number"), None)),
             Err(Missing::Unknown) if self.quiet => Err((String::new(), None)),
             Err(Missing::Unknown) => Err((format!("`{name}` has no value here"), Some(self.known(scope, name)))),
