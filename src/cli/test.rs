@@ -48,8 +48,10 @@ Examples:
   jostle test scenes/ --junit report.xml       for a build server
   jostle test scenes/ --tick 0.1ms             do they hold with a finer tick?
 
-A line for each scene: good, untested (it ran, but expects nothing), broken (an expectation does not hold), refused (the
-scene is wrong), failed (the run went wrong), skipped (a file that is no scene).
+A line for each scene: good, untested (it ran, but expects nothing), broken (an expectation does not hold), refused (the \
+scene is wrong), failed (the run went wrong), skipped (a file in a folder that is no scene, or a part for others to \
+include: without mistakes of syntax and without a `clock`).
+
 Exit codes: 0 all good, 1 broken or refused, 2 usage, 3 failed.";
 
 /// A scene to be tried.

@@ -47,7 +47,7 @@ pub type Finder = fn(&mut World, owner: &str, quantity: &str) -> Option<Channel>
 struct Finders(Vec<Finder>);
 
 /// The open list of what can be measured of a body or wall, such as `position.x`.
-const QUANTITIES: &str = "quantity";
+pub(crate) const QUANTITIES: &str = "quantity";
 /// The open list of channels that belong to no body, such as `energy.total`.
 const CHANNELS: &str = "channel";
 

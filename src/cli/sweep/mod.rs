@@ -25,7 +25,7 @@ use super::side_by_side::{all_cores, in_order};
 use super::target::Place;
 use super::trial::Verdict;
 use crate::output::{Target, write_whole};
-use crate::scene::Source;
+use crate::scene::{SceneRegistry, Source, suggest};
 use crate::simulation::Simulation;
 use crate::world::hash::of_bytes;
 
@@ -81,9 +81,10 @@ Examples:
   jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of them, on one of 16 computers
   jostle sweep --merge out/                                               when all shards are there
 
-DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the
-energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and
+DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the \
+energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and \
 greatest value, taken at the times of the film's frames and at the end. A run that fails is a row with its reason.
+
 Exit codes are those of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 usage, 3 a run went wrong.";
 
 /// How many runs that did not reach their end are told one by one.
@@ -127,6 +128,7 @@ impl Sweep {
             Ok(theme) => theme,
             Err(exit) => return Ok(exit),
         };
+        self.strangers(&source, &plain)?;
         grid.scene(&source, 0)?;
         std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
@@ -157,6 +159,22 @@ impl Sweep {
             }
         }
         Ok(exit)
+    }
+
+    /// What varies and is neither a parameter nor, as a path, within a section: most likely a slip.
+    fn strangers(&self, source: &Source, plain: &Simulation) -> Result<(), String> {
+        let registry = plain.world().resource::<SceneRegistry>();
+        let params = source.params();
+        let sections = registry.sections().into_iter().map(|section| section.name);
+        let known: Vec<&str> = params.iter().map(String::as_str).chain(sections).collect();
+        let begin = |name: &str| name.split(['.', '[']).next().unwrap_or_default().to_owned();
+        match self.vary.iter().map(|variation| begin(&variation.name)).find(|name| !known.contains(&&**name)) {
+            Some(name) => Err(format!(
+                "--vary {name}: there is no parameter and no section of this name; {}",
+                suggest::among(&name, known.into_iter(), "parameters and sections", '`')
+            )),
+            None => Ok(()),
+        }
     }
 
     /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.

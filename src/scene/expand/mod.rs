@@ -93,6 +93,7 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
     !source.settings.is_empty()
         || sections.any(|name| SECTIONS.contains(&name))
         || source.text.contains("Repeat")
+        || source.text.contains("repeat(")
         || source.text.contains(picture::NAME)
 }
 
