@@ -109,7 +109,7 @@ fn channels_that_only_look_right_are_refused() {
 #[test]
 fn patterns_of_quantities_are_those_of_tables() {
     let sensors = SCENE.trim_end().strip_suffix(')').unwrap().to_owned();
-    let sensors = sensors + ",\n    sensors: [Pose(of: \"*\"), Velocity(of: \"*\"), Energy()],\n)";
+    let sensors = sensors + "    sensors: [Pose(of: \"*\"), Velocity(of: \"*\"), Energy()],\n)";
     let folder = Folder::new("plot_patterns").with("fly.ron", sensors);
     folder.jostle("run fly.ron -o fly.csv --quiet").code(0);
     for pattern in ["ball.position.*", "*.position.*", "energy.*"] {
