@@ -8,7 +8,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
+use crate::tick::{Evaluate, EvaluateStage, Evaluation, TickAppExt};
 use crate::world::Bodies;
 
 /// Margin as a share of the smallest radius. Larger: fewer searches, more candidates.
@@ -25,6 +25,10 @@ pub struct Bounds {
     pub low: Vec<DVec2>,
     /// Upper right corner of each body's box in metres.
     pub high: Vec<DVec2>,
+    /// Somebody moved farther than the boxes allow in a stage of a step.
+    pub outgrown: bool,
+    /// The boxes are to be made anew at the next evaluation.
+    stale: bool,
     generation: u64,
     position: Vec<DVec2>,
     angle: Vec<f64>,
@@ -39,10 +43,17 @@ pub fn plugin(app: &mut App) {
 }
 
 /// Makes the boxes anew when a body has moved by half the margin since they were made.
-pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>) {
-    if bounds.generation == bodies.generation && !bounds.left_behind(&bodies) {
+pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, evaluation: Res<Evaluation>) {
+    let known = bounds.generation == bodies.generation && !bounds.stale;
+    if known && !bounds.left_behind(&bodies) {
         return;
     }
+    // Inside a step lists stay as they are: the step is made again with a wider margin.
+    if known && evaluation.style.is_staged() {
+        bounds.outgrown = true;
+        return;
+    }
+    (bounds.stale, bounds.outgrown) = (false, false);
     if bounds.generation != bodies.generation {
         let smallest = bodies.smallest_radius;
         bounds.margin = if smallest.is_finite() { MARGIN_SHARE * smallest } else { 0.0 };
@@ -67,6 +78,26 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>) {
 }
 
 impl Bounds {
+    /// Makes sure that the boxes hold while no point of a body moves farther than `travel` metres from where it stands now.
+    /// Says whether they have to be made anew for that.
+    pub fn reserve(&mut self, bodies: &Bodies, travel: f64) -> bool {
+        let left = |body: usize| {
+            let turned = (bodies.angle[body] - self.angle[body]).abs() * bodies.extent[body];
+            self.margin / 2.0 - turned - (bodies.position[body] - self.position[body]).length()
+        };
+        let enough = (0..bodies.len()).filter(|&body| bodies.moves[body]).all(|body| left(body) >= travel);
+        if !enough {
+            self.margin = self.margin.max(4.0 * travel);
+            self.stale = true;
+        }
+        !enough
+    }
+
+    /// The boxes are to be made anew at the next evaluation.
+    pub fn outdate(&mut self) {
+        self.stale = true;
+    }
+
     fn left_behind(&self, bodies: &Bodies) -> bool {
         let allowed = self.margin / 2.0;
         // Written so that a position that is not finite counts as moved.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
-use crate::contacts::{self, StiffestContact};
+use crate::contacts::{self, ContactLaw};
 use crate::expect::{Expectations, Outcome, observe_all};
 use crate::integrate::Methods;
 use crate::record::layers::{self, WantedLayers};
@@ -13,7 +13,7 @@ use crate::report::Card;
 use crate::report::card::{ChosenMethod, Notes};
 use crate::scene::sections::{ClockSection, FilmSection};
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
-use crate::tick::{Clock, Failure, Stability, TickAppExt, step};
+use crate::tick::{Clock, Failure, Foreseen, Holder, Models, Stability, TickAppExt, step};
 use crate::world::{Name, packed};
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
@@ -33,6 +33,11 @@ pub struct Overrides {
 /// Work to be done once when the whole scene stands: plugins add functions that need bodies and contacts.
 #[derive(Resource, Default)]
 pub struct Finishers(pub Vec<fn(&mut World)>);
+
+/// Mistakes of the scene that show only when the whole scene stands: [`Finishers`] write them down, with their paths, and
+/// the scene is refused.
+#[derive(Resource, Default)]
+pub struct LateErrors(pub Vec<SceneError>);
 
 /// A scene, ready to run.
 ///
@@ -214,13 +219,17 @@ pub(crate) fn begin(
     for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
         finish(world);
     }
-    let ticks = set_clock(world, overrides).map_err(|error| scene::found_later(source, *error))?;
+    let late = world.remove_resource::<LateErrors>().unwrap_or_default().0;
+    if !late.is_empty() {
+        return Err(scene::found_later(source, late));
+    }
+    let ticks = set_clock(world, overrides).map_err(|error| scene::found_later(source, vec![*error]))?;
     observe_all(world);
     Ok(ticks)
 }
 
-/// Ticks per half period of the stiffest contact when the engine chooses the tick.
-const TICKS_PER_CONTACT: f64 = 40.0;
+/// Ticks per half period of the fastest contact or spring when the engine chooses the tick.
+const TICKS_PER_HALF_PERIOD: f64 = 40.0;
 /// The tick in seconds when nothing in the scene asks for a finer one.
 const COARSEST_TICK: f64 = 1e-3;
 
@@ -243,7 +252,7 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Box<SceneE
         }
         (None, Some(tick)) => tick.si(),
         (None, None) => {
-            let (tick, why) = chosen_tick(world.get_resource())?;
+            let (tick, why) = chosen_tick(world.resource())?;
             let tick = tick.min(duration);
             notes.push(format!("tick {tick} s chosen: {why}"));
             tick
@@ -295,7 +304,22 @@ fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Box<SceneE
     world.insert_resource(ChosenMethod(method.name));
     let mut stability = world.resource_mut::<Stability>();
     (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
-    crate::tick::set_method(world, (method.make)());
+    let Some((made, located)) = method.make(clock.events) else {
+        let message = format!("`{}` goes from tick to tick: it cannot locate events inside one", method.name);
+        return Err(Box::new(
+            SceneError::new("clock.events", message).with_help("write `events: Auto`, or leave it out"),
+        ));
+    };
+    let style = made.0.style();
+    let objections = world.resource::<Models>().objections.clone();
+    if let Some(objection) = objections.iter().find_map(|object| object(world, style)) {
+        let error = SceneError::new(objection.path, objection.message);
+        return Err(Box::new(error.with_help(objection.help)));
+    }
+    if located && world.contains_resource::<ContactLaw>() {
+        notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
+    }
+    crate::tick::set_method(world, made);
     world.resource_mut::<Notes>().0.extend(notes);
     Ok(ticks as u64)
 }
@@ -311,17 +335,24 @@ fn positive(flag: &str, value: f64) -> Result<f64, Box<SceneError>> {
     }
 }
 
-/// Forty ticks per half period of the stiffest contact, rounded down to 1, 2 or 5 times a power of ten.
-fn chosen_tick(stiffest: Option<&StiffestContact>) -> Result<(f64, &'static str), Box<SceneError>> {
-    let omega = stiffest.map_or(0.0, |stiffest| stiffest.angular_frequency);
-    let wanted = std::f64::consts::PI / (TICKS_PER_CONTACT * omega);
+/// Forty ticks per half period of whatever responds fastest, rounded down to 1, 2 or 5 times a power of ten.
+fn chosen_tick(stability: &Stability) -> Result<(f64, &'static str), Box<SceneError>> {
+    let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
+    let Some(Foreseen { angular_frequency: omega, holder }) = stability.fastest_foreseen() else { return Ok(coarsest) };
+    let wanted = std::f64::consts::PI / (TICKS_PER_HALF_PERIOD * omega);
     if wanted >= COARSEST_TICK {
-        return Ok((COARSEST_TICK, "nothing in the scene asks for a finer one"));
+        return Ok(coarsest);
     }
     if !wanted.is_normal() {
         let error = SceneError::new(
             "clock",
-            format!("no tick is short enough for the stiffest contact, which vibrates at {omega:?} rad/s"),
+            format!(
+                "no tick is short enough for the stiffest {}, which vibrates at {omega:?} rad/s",
+                match holder {
+                    Holder::Contacts => "contact",
+                    Holder::Springs => "spring",
+                }
+            ),
         );
         return Err(Box::new(error.with_help("give the bodies less `stiffness` or more mass, or give a `tick`")));
     }
@@ -329,8 +360,9 @@ fn chosen_tick(stiffest: Option<&StiffestContact>) -> Result<(f64, &'static str)
     let decade = libm::exp10(f64::from(exponent));
     let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= wanted).unwrap_or(1.0);
     // Read back from decimal digits, so that 2e-4 is the same number as in a scene.
-    Ok((
-        format!("{step}e{exponent}").parse().unwrap_or(step * decade),
-        "the stiffest contact lasts at least 40 of them",
-    ))
+    let why = match holder {
+        Holder::Contacts => "the stiffest contact lasts at least 40 of them",
+        Holder::Springs => "half a swing of the fastest springs lasts at least 40 of them",
+    };
+    Ok((format!("{step}e{exponent}").parse().unwrap_or(step * decade), why))
 }

@@ -129,8 +129,15 @@ impl Order<'_> {
         }
         set.open().map_err(|error| self.refuse(&error))?;
         let (schedule, step) = self.moments(simulation, frames_per_second)?;
-        // A still shows what the film shows at that moment, so its camera looks at the whole run too.
+        // A still shows what the film shows at that moment, so its camera looks at the whole run too; and at what it
+        // shows between two frames of the film.
         let whole = whole_run(simulation, film_step(simulation, frames_per_second));
+        let whole = schedule.times().fold(
+            whole,
+            |whole, time| {
+                if self.shot.is_film() { whole } else { whole.standing_at(time, 1) }
+            },
+        );
         let looked_at = if self.shot.is_film() { &schedule } else { &whole };
         let Aim { camera, follower, panel } = self.aim(simulation, looked_at, size, 1.0 / frames_per_second)?;
         let view = camera.view();

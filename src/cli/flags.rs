@@ -167,7 +167,11 @@ pub(super) fn bytes(text: &str) -> Result<u64, String> {
 
 /// A size in the unit that suits it.
 pub(super) fn bytes_in_words(bytes: f64) -> String {
-    if bytes < 1e6 { format!("{:.0} kB", (bytes / 1e3).ceil()) } else { format!("{:.1} MB", bytes / 1e6) }
+    match bytes {
+        small if small < 1e3 => format!("{small:.0} B"),
+        medium if medium < 1e6 => format!("{:.0} kB", (medium / 1e3).ceil()),
+        large => format!("{:.1} MB", large / 1e6),
+    }
 }
 
 /// A number of threads.
@@ -201,6 +205,14 @@ mod tests {
         }
         for text in ["", "MB", "0", "-1MB", "2 apples", "nan", "1e99GB"] {
             assert!(bytes(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn sizes_of_files_are_told_in_their_unit() {
+        for (bytes, expected) in [(2.0, "2 B"), (999.0, "999 B"), (1000.0, "1 kB"), (1001.0, "2 kB"), (2.4e6, "2.4 MB")]
+        {
+            assert_eq!(bytes_in_words(bytes), expected);
         }
     }
 

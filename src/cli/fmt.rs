@@ -28,8 +28,9 @@ Examples:
   jostle fmt --check *.ron      is everything in the standard layout?
   jostle fmt - < my.ron         to standard output, as editors do it
 
-Your line breaks stay, and so do numbers, texts and comments as they are written. A list or map that fills one line of more
-than 120 columns gets a line for each item. Sections move only where that changes nothing of what the scene means.
+Your line breaks stay, and so do numbers, texts and comments as they are written. A list or map that fills one line of \
+more than 120 columns gets a line for each item. Sections move only where that changes nothing of what the scene means.
+
 Exit codes: 0 good, 1 a scene cannot be read or (with --check) is not in the standard layout, 2 usage.";
 
 /// The name of standard input.
@@ -75,7 +76,9 @@ impl Fmt {
 }
 
 fn file(name: &str) -> Result<Source, Exit> {
-    Source::read(Path::new(name)).map_err(|errors| refuse(&errors))
+    let path = Path::new(name);
+    Source::read(path)
+        .map_err(|errors| if path.exists() { refuse(&errors) } else { refuse(&errors).worse(Exit::Usage) })
 }
 
 fn standard_input() -> Result<Source, Exit> {

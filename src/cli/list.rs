@@ -7,7 +7,9 @@ use super::say::{count, print_line, say};
 use super::{Exit, examples};
 use crate::integrate::Methods;
 use crate::raster::Theme;
+use crate::scene::schema::Language;
 use crate::scene::sections::ClockSection;
+use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, Source, nearest_name};
 use crate::simulation::Simulation;
 use crate::tick::TickAppExt;
@@ -41,6 +43,8 @@ Examples:
 const SCENES: &str = "scenes";
 const SECTIONS: &str = "sections";
 const THEMES: &str = "themes";
+/// Who brings the sections that are there before any plugin.
+pub(super) const READER: &str = "jostle::scene";
 
 /// One line of a list.
 struct Item {
@@ -103,7 +107,17 @@ impl List {
     fn items(&self, app: &App, registry: &SceneRegistry) -> Option<Vec<Item>> {
         match self.what.as_str() {
             SCENES => return Some(examples::SCENES.iter().map(|(name, text)| scene(name, text)).collect()),
-            SECTIONS => return Some(registry.sections().into_iter().map(Item::of).collect()),
+            SECTIONS => {
+                let language = Language::of(registry);
+                let own = language.unregistered(registry);
+                let own = own.into_iter().map(|(name, example)| Item {
+                    name: name.to_owned(),
+                    text: example.split_whitespace().collect::<Vec<_>>().join(" "),
+                    more: String::new(),
+                    from: READER,
+                });
+                return Some(own.chain(registry.sections().into_iter().map(Item::of)).collect());
+            }
             THEMES => return Some(Theme::names().into_iter().map(|name| Item::word(name, String::new())).collect()),
             _ => {}
         }
@@ -131,10 +145,6 @@ fn kinds(registry: &SceneRegistry) -> Vec<String> {
     let words = registry.word_lists();
     let fixed = [SCENES, SECTIONS].into_iter().map(str::to_owned);
     fixed.chain(entries).chain([THEMES.to_owned()]).chain(words.into_iter().map(plural)).collect()
-}
-
-fn plural(list: &str) -> String {
-    list.strip_suffix('y').map_or_else(|| format!("{list}s"), |stem| format!("{stem}ies"))
 }
 
 /// A scene that comes with the program. That it can be read is tested.

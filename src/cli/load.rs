@@ -41,7 +41,16 @@ impl Request<'_> {
     /// Tells what is wrong with the scene.
     pub fn refuse_scene(self, errors: &SceneErrors) -> Exit {
         say(errors.render(std::io::stderr().is_terminal()).trim_end());
-        if self.json { print_line(&errors.to_json().to_string()).worse(Exit::SceneWrong) } else { Exit::SceneWrong }
+        let exit = if self.is_missing() { Exit::Usage } else { Exit::SceneWrong };
+        if self.json { print_line(&errors.to_json().to_string()).worse(exit) } else { exit }
+    }
+
+    /// Whether there is no scene of that name: then the command line is wrong.
+    pub fn is_missing(self) -> bool {
+        match self.name.strip_prefix(EXAMPLE) {
+            Some(name) => !examples::SCENES.iter().any(|(known, _)| *known == name),
+            None => !Path::new(self.name).exists(),
+        }
     }
 
     /// Tells what is wrong with a value of the scene that only now turned out to be.

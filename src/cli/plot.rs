@@ -162,6 +162,17 @@ impl PlotCommand {
     /// Plots of the channels named, those of one unit together.
     fn entries(&self, request: Request, simulation: &mut Simulation) -> Result<Vec<PlotEntry>, Exit> {
         let outline = simulation.header().outline.clone();
+        // A pattern that nothing fits stays, to be told as the unknown name that it is.
+        let expand = |pattern: &String| {
+            let found = sensors::expanded(pattern, simulation.world_mut(), &outline);
+            if found.is_empty() { vec![pattern.clone()] } else { found }
+        };
+        let mut named: Vec<String> = Vec::new();
+        for name in self.channels.iter().flat_map(expand) {
+            if !named.contains(&name) {
+                named.push(name);
+            }
+        }
         let entry = |channels: Vec<String>| match &self.x {
             Some(x) => PlotEntry {
                 x: Some(x.clone()),
@@ -172,14 +183,14 @@ impl PlotCommand {
             None => PlotEntry { channels: Some(channels), log: self.log, ..PlotEntry::default() },
         };
         let mut report = Report::new();
-        entry(self.channels.clone()).check(&outline, &mut report);
+        entry(named.clone()).check(&outline, &mut report);
         if let Some(problem) = report.problems().first() {
             let flag = if problem.path == "x" { "--x" } else { "--channels" };
             let help = problem.help.as_deref().unwrap_or_default();
             return Err(request.refuse(Exit::Usage, flag, &problem.message, help));
         }
         let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
-        for name in self.channels.iter().flat_map(|pattern| sensors::chosen(pattern, &outline)) {
+        for name in named {
             let unit = sensors::find(simulation.world_mut(), &name).map_or("", |channel| channel.unit);
             match groups.iter_mut().find(|(known, _)| *known == unit) {
                 Some((_, names)) => names.push(name),
@@ -221,6 +232,15 @@ impl PlotCommand {
                 request.usage(&format!("`{name}` has nothing to plot: it needs two columns and a row of numbers"))
             );
         }
+        for column in [x].into_iter().chain(chosen.iter().copied()).filter(|_| !self.quiet) {
+            let wild = column.values.iter().filter(|value| !value.is_finite()).count();
+            if wild > 0 {
+                let all = column.values.len();
+                let (name, unit) = (&column.name, &column.unit);
+                let what = with_unit(name, unit);
+                say(&format!("note: {what}: {wild} of {all} cells hold no finite number and are left out"));
+            }
+        }
         let mut groups: Vec<(&str, Vec<&Column>)> = Vec::new();
         for column in chosen {
             match groups.iter_mut().find(|(unit, _)| *unit == column.unit) {
@@ -240,7 +260,7 @@ impl PlotCommand {
             let pairs = x.values.iter().zip(&column.values).enumerate();
             let sample =
                 |(row, (&x, &y)): (usize, (&f64, &f64))| Sample { time: if rising { x } else { row as f64 }, x, y };
-            Curve { label, samples: pairs.map(sample).collect() }
+            Curve { label, body: None, samples: pairs.map(sample).collect() }
         });
         let curves: Vec<Curve> = curves.collect();
         let axis = |label: &str, unit: &str, range, logarithmic| Axis {

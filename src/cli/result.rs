@@ -77,9 +77,9 @@ pub(super) fn tell(
 
 /// The likely cause of a run that went wrong, and what to try.
 pub(super) fn remedy(card: &Card) -> String {
-    match card.critical_tick {
-        Some(critical) if card.has_touched() && card.tick > critical => format!(
-            "the tick of {} s is longer than the contacts can bear, {} s: try `--tick {}`",
+    match card.critical_tick.zip(card.holder()) {
+        Some((critical, holder)) if card.tick > critical => format!(
+            "the tick of {} s is longer than the {holder} can bear, {} s: try `--tick {}`",
             number(card.tick),
             number(critical),
             number(card.advised_tick())

@@ -27,7 +27,7 @@ pub(super) struct Run {
     #[arg(value_name = "SCENE")]
     scene: String,
     /// Write the channels of the scene's sensors here: comma-separated values, a row for each frame of the film (at
-    /// the nearest tick)
+    /// the nearest tick); `-` is standard output
     #[arg(short, long, value_name = "channels.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -51,8 +51,11 @@ const EXAMPLES: &str = "\
 Examples:
   jostle run example:projectile                 the error card: how far to trust the result
   jostle run my.ron -o channels.csv             what the sensors measured
+  jostle run my.ron -o - --quiet | head         the same for another program
   jostle run my.ron --tick 0.1ms --json         another tick; the result for a program
-  jostle run my.ron --pace                      at the speed of the clock on the wall";
+  jostle run my.ron --pace                      at the speed of the clock on the wall
+
+The card and all messages go to standard error (`2> card.txt` keeps them), results for programs to standard output.";
 
 enum Trouble {
     Run(Failure),
@@ -70,6 +73,9 @@ impl Run {
         let request = Request { name: &self.scene, json: self.json };
         if let Some(message) = self.output.as_deref().and_then(|path| objection(request, path)) {
             return request.usage(&message);
+        }
+        if self.json && self.output.as_deref() == Some(Path::new("-")) {
+            return request.usage("standard output takes the channels or the result as JSON, not both: give -o a file");
         }
         let (_, mut simulation) = match request.load(&self.overrides.settings, &self.overrides.overrides()) {
             Ok(loaded) => loaded,

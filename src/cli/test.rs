@@ -48,8 +48,10 @@ Examples:
   jostle test scenes/ --junit report.xml       for a build server
   jostle test scenes/ --tick 0.1ms             do they hold with a finer tick?
 
-A line for each scene: good, untested (it ran, but expects nothing), broken (an expectation does not hold), refused (the
-scene is wrong), failed (the run went wrong), skipped (a file that is no scene).
+A line for each scene: good, untested (it ran, but expects nothing), broken (an expectation does not hold), refused (the \
+scene is wrong), failed (the run went wrong), skipped (a file in a folder that is no scene, or a part for others to \
+include: without mistakes of syntax and without a `clock`).
+
 Exit codes: 0 all good, 1 broken or refused, 2 usage, 3 failed.";
 
 /// A scene to be tried.
@@ -88,14 +90,19 @@ impl Test {
         let progress = Progress::new(candidates.len() as u64, "scenes", self.quiet || self.json);
         let width = candidates.iter().map(|candidate| candidate.name.chars().count()).max().unwrap_or(0).min(60);
         let mut results: Vec<Tried> = Vec::new();
-        let mut exit = Exit::Good;
+        let (mut exit, mut mute) = (Exit::Good, false);
         in_order(
             &candidates,
             self.threads.unwrap_or_else(all_cores),
             |candidate| self.attempt(candidate),
             |tried| {
                 let name = &candidates[results.len()].name;
-                exit = exit.worse(progress.aside(|| self.tell(name, &tried, width)));
+                // Output that cannot be written is told once.
+                if !mute {
+                    let written = progress.aside(|| self.tell(name, &tried, width));
+                    mute = written != Exit::Good;
+                    exit = exit.worse(written);
+                }
                 if let Some(trial) = tried.trial() {
                     exit = exit.worse(trial.verdict.exit());
                 }
@@ -105,7 +112,7 @@ impl Test {
         );
         drop(progress);
         let seconds = start.elapsed().as_secs_f64();
-        if !self.json {
+        if !self.json && !mute {
             exit = exit.worse(print_line(&summary(&results, seconds)));
         }
         if let Some(path) = &self.junit {
@@ -134,6 +141,9 @@ impl Test {
         let mut candidates: Vec<Candidate> = Vec::new();
         for place in places {
             if !Path::new(place).is_dir() {
+                if (Request { name: place, json: false }).is_missing() {
+                    return Err(format!("there is no scene and no folder `{place}`"));
+                }
                 candidates.push(Candidate { name: place.clone(), found: false });
                 continue;
             }

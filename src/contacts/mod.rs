@@ -3,7 +3,6 @@
 pub mod events;
 pub mod penalty;
 pub mod points;
-pub mod response;
 pub mod search;
 
 use bevy_app::App;
@@ -41,13 +40,6 @@ impl DeepestOverlap {
             *self = Self { overlap, share: overlap / smaller_radius, between: Some(between()), time };
         }
     }
-}
-
-/// Stiffest response of the contacts that bodies may make.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
-pub struct StiffestContact {
-    /// Greatest angular frequency of a single contact in rad/s.
-    pub angular_frequency: f64,
 }
 
 /// Force that a wall or body receives through contacts; contact laws fill it when a sensor asks for it.

@@ -2,9 +2,11 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
+use super::ballistics::Air;
 use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping};
 use crate::scene::values::Names;
@@ -76,6 +78,13 @@ pub fn install(drags: Vec<DragForce>, app: &mut App) {
 
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Drag>();
+}
+
+/// What resists the body of a key.
+pub(super) fn resistance(world: &World, key: u64) -> Vec<Air> {
+    let drags = world.get_resource::<Drags>().map_or(&[][..], |drags| &drags.0);
+    let air = |drag: &DragForce| Air { linear: drag.linear, quadratic: drag.quadratic, velocity: DVec2::ZERO };
+    drags.iter().filter(|drag| drag.of.include(key)).map(air).collect()
 }
 
 fn apply_drag(mut drags: ResMut<Drags>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {

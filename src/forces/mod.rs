@@ -1,12 +1,18 @@
 //! Forces: each file one. A force adds to the sums of the bodies and keeps its account in
 //! [`Balance`](crate::tick::Balance).
 
+pub mod aim;
 pub mod attraction;
+pub mod ballistics;
 pub mod drag;
+pub mod drive;
 pub mod gravity;
+pub mod link;
+pub mod spring;
 mod targets;
 pub mod thrust;
 pub mod torque;
+pub mod torsion_spring;
 mod wind;
 
 use bevy_app::App;
@@ -24,8 +30,9 @@ pub fn plugin(app: &mut App) {
         .add_plugins(thrust::plugin)
         .add_plugins(torque::plugin)
         .add_plugins(drag::plugin)
-        .add_plugins(wind::plugin);
-    for later in ["Spring", "Drive", "Aim"] {
-        app.reserve_entry("forces", later);
-    }
+        .add_plugins(wind::plugin)
+        .add_plugins(spring::plugin)
+        .add_plugins(torsion_spring::plugin)
+        .add_plugins(drive::plugin)
+        .add_plugins(aim::plugin);
 }

@@ -31,12 +31,16 @@ impl Targets {
         Self::new(of.map(keys))
     }
 
+    /// Whether the body of a key is among them.
+    pub fn include(&self, key: u64) -> bool {
+        self.keys.as_ref().is_none_or(|keys| keys.contains(&key))
+    }
+
     /// Places of the bodies in canonical order.
     pub fn places(&mut self, bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
         if self.generation != bodies.generation {
             self.generation = bodies.generation;
-            let wanted = |key: u64| self.keys.as_ref().is_none_or(|keys| keys.contains(&key));
-            let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && wanted(bodies.key[b]));
+            let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && self.include(bodies.key[b]));
             self.places = moved.map(|b| b as u32).collect();
         }
         self.places.iter().map(|&place| place as usize)

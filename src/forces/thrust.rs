@@ -13,7 +13,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Modes, TickAppExt};
+use crate::tick::{Balance, Dependence, EvaluateStage, Models, Modes, Span, TickAppExt};
 use crate::world::Bodies;
 
 /// A force at a point of a body, between two times. It acts in whole ticks: in those whose middle lies between the two
@@ -40,7 +40,7 @@ struct Thrust {
 
 /// The frame in which a force is constant.
 #[derive(Clone, Copy, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
-enum ThrustFrame {
+pub(super) enum ThrustFrame {
     /// The force turns with the body.
     Body,
     /// It does not.
@@ -106,6 +106,7 @@ pub fn install(thrusts: Vec<ThrustForce>, app: &mut App) {
     // The force does not depend on velocities, its power does.
     app.add_packed_force(Dependence::Velocity, apply_thrust);
     app.add_systems(Modes, switch_thrust.in_set(EvaluateStage::Forces));
+    app.world_mut().get_resource_or_init::<Models>().edges.push(next_edge);
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -123,9 +124,9 @@ fn switch_thrust(
     mut thrusts: ResMut<Thrusts>,
     mut bodies: ResMut<Bodies>,
     mut balance: ResMut<Balance>,
-    clock: Res<Clock>,
+    span: Res<Span>,
 ) {
-    let middle = clock.time() + 0.5 * clock.dt;
+    let middle = span.middle();
     for thrust in &mut thrusts.0 {
         let acts = (thrust.from..thrust.to).contains(&middle);
         if acts != thrust.acts {
@@ -133,6 +134,12 @@ fn switch_thrust(
             thrust.push(&mut bodies, &mut balance, if acts { 1.0 } else { -1.0 });
         }
     }
+}
+
+/// The first time after `time` at which a thrust begins or ends.
+fn next_edge(world: &World, time: f64) -> f64 {
+    let edges = world.resource::<Thrusts>().0.iter().flat_map(|thrust| [thrust.from, thrust.to]);
+    edges.filter(|edge| *edge > time).fold(f64::INFINITY, f64::min)
 }
 
 impl ThrustForce {

@@ -8,6 +8,7 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
+use super::ballistics::Air;
 use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping, Velocity};
 use crate::scene::values::Names;
@@ -73,6 +74,13 @@ struct Gusts(Vec<Gust>);
 
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Wind>();
+}
+
+/// What moves with the air at the body of a key.
+pub(super) fn resistance(world: &World, key: u64) -> Vec<Air> {
+    let gusts = world.get_resource::<Gusts>().map_or(&[][..], |gusts| &gusts.0);
+    let air = |gust: &Gust| Air { linear: gust.linear, quadratic: gust.quadratic, velocity: gust.velocity };
+    gusts.iter().filter(|gust| gust.of.include(key)).map(air).collect()
 }
 
 fn apply_wind(mut gusts: ResMut<Gusts>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {

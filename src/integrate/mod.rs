@@ -3,23 +3,34 @@
 //! An integrator advances the state by one tick. Forces of the state at the beginning are there when it is called;
 //! forces of the state at the end must be there when it returns.
 
+mod locate;
 mod semi_implicit_euler;
+mod staged;
+pub mod steps;
 mod velocity_verlet;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 pub use semi_implicit_euler::SemiImplicitEuler;
+pub use staged::{LocatedEvents, Staged};
 pub use velocity_verlet::VelocityVerlet;
 
 use crate::scene::SceneAppExt;
 use crate::scene::sections::ClockSection;
-use crate::tick::Tick;
+use crate::scene::sections::clock::EventTiming;
+use crate::tick::{Style, Tick};
+use steps::OneStep;
 
 /// A method that advances the state by one tick.
 pub trait Integrator: Send + Sync + 'static {
     /// Advances the state by `tick.dt`.
     fn advance(&mut self, tick: &mut Tick);
+
+    /// How it wants models with a history to be evaluated.
+    fn style(&self) -> Style {
+        Style::Following
+    }
 }
 
 /// The integrator of a run.
@@ -38,12 +49,30 @@ pub struct Description {
     pub name: &'static str,
     /// Its order of accuracy on smooth motion.
     pub order: u32,
-    /// Largest stable product of tick and angular frequency.
+    /// Whether it is symplectic, or keeps quadratic invariants such as angular momentum all the same.
+    pub symplectic: bool,
+    /// Largest stable product of tick and angular frequency; zero: none is stable.
     pub stability_limit: f64,
     /// Largest stable product of tick and damping over mass, without a spring.
     pub damping_limit: f64,
-    /// Makes one.
-    pub make: fn() -> Method,
+    /// Makes one that goes from tick to tick, if there is such: events then happen at the end of a tick.
+    pub whole_ticks: Option<fn() -> Method>,
+    /// Makes one that steps from any state over any time, if there is such: events are then located.
+    pub one_step: Option<fn() -> Box<dyn OneStep>>,
+}
+
+impl Description {
+    /// The method with events where they are wanted, and whether they are located. `None`: it cannot.
+    pub fn make(&self, events: EventTiming) -> Option<(Method, bool)> {
+        let staged =
+            |located: bool| self.one_step.map(|make| (Method(Box::new(Staged::new(make(), located))), located));
+        let whole = self.whole_ticks.map(|make| (make(), false));
+        match events {
+            EventTiming::Auto => whole.or_else(|| staged(true)),
+            EventTiming::Located => staged(true),
+            EventTiming::PerTick => whole.or_else(|| staged(false)),
+        }
+    }
 }
 
 /// The methods that may be named. Plugins add their own.
@@ -57,9 +86,60 @@ impl Methods {
     }
 }
 
+/// The methods of this folder.
+const METHODS: [Description; 7] = [
+    Description {
+        name: "ExplicitEuler",
+        order: 1,
+        symplectic: false,
+        stability_limit: 0.0,
+        damping_limit: 2.0,
+        whole_ticks: None,
+        one_step: Some(|| Box::new(steps::ExplicitEuler)),
+    },
+    semi_implicit_euler::DESCRIPTION,
+    velocity_verlet::DESCRIPTION,
+    Description {
+        name: "RungeKutta4",
+        order: 4,
+        symplectic: false,
+        stability_limit: 2.828_427_124_746_19,
+        damping_limit: 2.785_293_563_405_282,
+        whole_ticks: None,
+        one_step: Some(|| Box::new(steps::RungeKutta4::default())),
+    },
+    Description {
+        name: "Dop853",
+        order: 8,
+        symplectic: false,
+        stability_limit: 5.96,
+        damping_limit: 6.39,
+        whole_ticks: None,
+        one_step: Some(|| Box::new(steps::Dop853::default())),
+    },
+    Description {
+        name: "ImplicitMidpoint",
+        order: 2,
+        symplectic: true,
+        stability_limit: f64::INFINITY,
+        damping_limit: f64::INFINITY,
+        whole_ticks: None,
+        one_step: Some(|| Box::new(steps::ImplicitMidpoint::default())),
+    },
+    Description {
+        name: "Symplectic4",
+        order: 4,
+        symplectic: true,
+        stability_limit: 3.13,
+        damping_limit: 5.4,
+        whole_ticks: None,
+        one_step: Some(|| Box::new(steps::Symplectic4::default())),
+    },
+];
+
 /// Registers the methods of this folder.
 pub fn plugin(app: &mut App) {
-    for description in [semi_implicit_euler::DESCRIPTION, velocity_verlet::DESCRIPTION] {
+    for description in METHODS {
         app.register_method(description);
     }
 }

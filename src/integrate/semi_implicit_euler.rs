@@ -12,9 +12,11 @@ pub struct SemiImplicitEuler;
 pub(super) const DESCRIPTION: Description = Description {
     name: "SemiImplicitEuler",
     order: 1,
+    symplectic: true,
     stability_limit: 2.0,
     damping_limit: 2.0,
-    make: || Method(Box::new(SemiImplicitEuler)),
+    whole_ticks: Some(|| Method(Box::new(SemiImplicitEuler))),
+    one_step: Some(|| Box::new(super::steps::SemiImplicitEuler::default())),
 };
 
 impl Integrator for SemiImplicitEuler {

@@ -16,9 +16,11 @@ pub struct VelocityVerlet;
 pub(super) const DESCRIPTION: Description = Description {
     name: "VelocityVerlet",
     order: 2,
+    symplectic: true,
     stability_limit: 2.0,
     damping_limit: 1.0,
-    make: || Method(Box::new(VelocityVerlet)),
+    whole_ticks: Some(|| Method(Box::new(VelocityVerlet))),
+    one_step: Some(|| Box::new(super::steps::VelocityVerlet::default())),
 };
 
 impl Integrator for VelocityVerlet {

@@ -6,22 +6,32 @@ use std::path::{Path, PathBuf};
 
 use super::OutputError;
 use super::part::{PartFile, Unfinished};
+use super::raw::STANDARD_OUTPUT;
 
-/// A table in the making: `<name>.part` until it is complete.
+/// A table in the making: `<name>.part` until it is complete, or standard output.
 pub struct Table {
     path: PathBuf,
-    part: PartFile,
+    way: Way,
     columns: usize,
 }
 
+enum Way {
+    Out(io::Stdout),
+    File(PartFile),
+}
+
 impl Table {
-    /// Begins a table with a column `time [s]` and one for each name and unit.
+    /// Begins a table with a column `time [s]` and one for each name and unit; `-` is standard output.
     ///
     /// # Errors
     /// If the file cannot be created.
     pub fn create<'a>(path: &Path, columns: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, OutputError> {
-        let part = PartFile::create(path, Unfinished::Kept)?;
-        let mut table = Self { path: path.to_owned(), part, columns: 0 };
+        let (way, path) = if path == Path::new(STANDARD_OUTPUT) {
+            (Way::Out(io::stdout()), PathBuf::from("standard output"))
+        } else {
+            (Way::File(PartFile::create(path, Unfinished::Kept)?), path.to_owned())
+        };
+        let mut table = Self { path, way, columns: 0 };
         let mut header = "time [s]".to_owned();
         for (name, unit) in columns {
             table.columns += 1;
@@ -49,11 +59,11 @@ impl Table {
     }
 
     fn line(&mut self, line: &str) -> Result<(), OutputError> {
-        writeln!(self.part, "{line}").map_err(|cause: io::Error| OutputError::Io {
-            path: self.path.clone(),
-            cause,
-            kept: Some(self.part.part().to_owned()),
-        })
+        let (written, kept) = match &mut self.way {
+            Way::Out(out) => (writeln!(out, "{line}"), None),
+            Way::File(part) => (writeln!(part, "{line}"), Some(part.part().to_owned())),
+        };
+        written.map_err(|cause| OutputError::Io { path: self.path.clone(), cause, kept })
     }
 
     /// Gives the file its name.
@@ -61,7 +71,10 @@ impl Table {
     /// # Errors
     /// If the system refuses to write.
     pub fn finish(self) -> Result<(), OutputError> {
-        self.part.complete().map(|_| ())
+        match self.way {
+            Way::Out(mut out) => out.flush().map_err(|cause| OutputError::io(&self.path, cause)),
+            Way::File(part) => part.complete().map(|_| ()),
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::raster::SizeError;
+use crate::scene::number;
 
 /// Why a film could not be written.
 #[derive(Debug)]
@@ -123,6 +124,7 @@ impl fmt::Display for OutputError {
             }
             OutputError::Rate { frames_per_second, allowed: (lowest, highest) } => {
                 write!(f, "{frames_per_second} frames per second cannot be shown in this format; ")?;
+                let [lowest, highest] = [lowest, highest].map(|rate| number(*rate));
                 write!(f, "from {lowest} to {highest} can. For slow motion lower the film's `speed` instead")
             }
             OutputError::Poses { time, bodies, poses } => {

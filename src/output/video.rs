@@ -112,10 +112,17 @@ impl Sink for Video {
 
     fn complete(mut self, frames: u64) -> Result<(u64, f64), OutputError> {
         self.wait()?;
-        let bytes = match self.file.take() {
-            Some(file) => file.complete_elsewhere()?,
-            None => 0,
-        };
+        let Some(file) = &self.file else { return Err(OutputError::GivenUp { path: self.path.clone() }) };
+        // The empty file was there before it began.
+        let written = std::fs::metadata(file.part()).map_err(|cause| OutputError::io(&self.path, cause))?.len();
+        if written == 0 {
+            return Err(OutputError::Encoder {
+                path: self.path.clone(),
+                ended: "ended as if all were well, but wrote no film".to_owned(),
+                said: String::new(),
+            });
+        }
+        let bytes = self.file.take().map_or(Ok(0), PartFile::complete_elsewhere)?;
         Ok((bytes, frames as f64 / self.rate))
     }
 }

@@ -7,15 +7,20 @@
 //! use jostle::problems::{Setting, linear_drag};
 //!
 //! let problem = linear_drag::PROBLEM;
-//! let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0 };
+//! let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..Setting::default() };
 //! assert!(problem.measure(&setting)? <= problem.bound(2, problem.tick));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod cluster_rotation;
 pub mod constant_acceleration;
+pub mod coulomb_oscillator;
 pub mod cradle;
+pub mod damped_oscillator;
+pub mod driven_oscillator;
 pub mod elastic_bounce;
+pub mod figure_eight;
+pub mod firing;
 pub mod free_flight;
 pub mod inelastic_impact;
 pub mod kepler;
@@ -23,9 +28,11 @@ pub mod linear_drag;
 pub mod oblique_collision;
 pub mod overlap_release;
 pub mod quadratic_drag;
+pub mod rotating_ring;
 pub mod settling_bounce;
 pub mod slide_to_roll;
 pub mod sliding_stop;
+pub mod spring_mass;
 pub mod tangential_impact;
 pub mod truth;
 
@@ -34,7 +41,9 @@ use std::error::Error;
 use crate::Simulation;
 use crate::integrate::{Description, Methods};
 use crate::scene::Source;
+use crate::scene::sections::ClockSection;
 
+pub use crate::scene::sections::clock::EventTiming;
 pub use truth::Truth;
 
 /// All problems.
@@ -45,10 +54,17 @@ pub const ALL: &[Problem] = &[
     quadratic_drag::PROBLEM,
     cluster_rotation::PROBLEM,
     kepler::PROBLEM,
+    figure_eight::PROBLEM,
+    firing::PROBLEM,
+    spring_mass::PROBLEM,
+    damped_oscillator::PROBLEM,
+    driven_oscillator::PROBLEM,
+    rotating_ring::PROBLEM,
     elastic_bounce::PROBLEM,
     inelastic_impact::PROBLEM,
     oblique_collision::PROBLEM,
     settling_bounce::PROBLEM,
+    coulomb_oscillator::PROBLEM,
     tangential_impact::PROBLEM,
     cradle::PROBLEM,
     overlap_release::PROBLEM,
@@ -86,10 +102,16 @@ pub enum Expected {
 impl Class {
     /// What a method of order `order` that does not locate events can show.
     pub fn expected(self, order: u32) -> Expected {
+        self.expected_located(order, false)
+    }
+
+    /// What a method of order `order` can show, where events are `located` or not.
+    pub fn expected_located(self, order: u32, located: bool) -> Expected {
         match self {
             Self::Free => Expected::Exact,
             Self::ConstantAcceleration if order >= 2 => Expected::Exact,
             Self::ConstantAcceleration | Self::Smooth | Self::VelocityDependent => Expected::Order(order),
+            Self::Kink | Self::Jump if located => Expected::Order(order),
             Self::Kink => Expected::Order(order.min(2)),
             Self::Jump => Expected::Order(order.min(1)),
         }
@@ -110,12 +132,22 @@ pub struct Setting<'a> {
     pub tick: f64,
     /// Seconds by which events are moved against the ticks. Problems that do not depend on the phase ignore it.
     pub shift: f64,
+    /// When jumps of the forces take place.
+    pub events: EventTiming,
+}
+
+impl Default for Setting<'_> {
+    /// The engine chooses.
+    fn default() -> Self {
+        Self { method: ClockSection::AUTO, tick: 1e-3, shift: 0.0, events: EventTiming::Auto }
+    }
 }
 
 impl Setting<'_> {
     /// The section `clock` of a scene that lasts `duration` seconds.
     pub fn clock(&self, duration: f64) -> String {
-        format!("format: 1, clock: (duration: {duration:?}, tick: {:?}, method: {})", self.tick, self.method)
+        let Self { method, tick, events, .. } = self;
+        format!("format: 1, clock: (duration: {duration:?}, tick: {tick:?}, method: {method}, events: {events:?})")
     }
 }
 
@@ -171,8 +203,9 @@ impl Problem {
         let mut greatest = 0.0_f64;
         for &time in self.samples {
             simulation.run_to_tick((time / setting.tick).round() as u64)?;
-            // Problems with events are run with ticks of any length: the tick nearest to the sample counts.
-            let time = if self.class.depends_on_phase() { simulation.clock().time() } else { time };
+            // Where a sample is not a whole number of ticks, the tick nearest to it counts.
+            let reached = simulation.clock().time();
+            let time = if (reached - time).abs() > 1e-9 * time { reached } else { time };
             let error = (self.error)(&simulation, time, setting.shift);
             greatest = if error.is_nan() { f64::NAN } else { greatest.max(error) };
         }
@@ -194,7 +227,7 @@ impl Problem {
 /// # Panics
 /// Never: the scene it reads is part of the engine.
 pub fn methods() -> Vec<Description> {
-    let setting = Setting { method: "Auto", tick: 1.0, shift: 0.0 };
+    let setting = Setting { tick: 1.0, ..Setting::default() };
     let simulation = constant_acceleration::PROBLEM.load(&setting).expect("the scene is correct");
     simulation.world().resource::<Methods>().0.clone()
 }

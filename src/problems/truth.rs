@@ -44,6 +44,17 @@ impl Truth {
         times
     }
 
+    /// The numbers of an observable at one of the times at which it is given; `None` at others.
+    ///
+    /// # Panics
+    /// When there is no such observable.
+    pub fn row(&self, observable: &str, time: f64) -> Option<Vec<f64>> {
+        let (times, numbers) = (self.times(observable), self.numbers(observable));
+        let place = times.iter().position(|&known| known == time)?;
+        let width = numbers.len() / times.len();
+        Some(numbers[place * width..(place + 1) * width].to_vec())
+    }
+
     fn observable(&self, name: &str) -> &Value {
         let all = self.0["observables"].as_array().expect("a truth file lists observables");
         all.iter().find(|observable| observable["name"] == name).unwrap_or_else(|| panic!("no observable `{name}`"))

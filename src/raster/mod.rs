@@ -29,7 +29,7 @@ use layers::labels::{Column, longest_word};
 use layers::title::Title;
 use layers::trails::{Cover, Trail};
 use layers::writing::Writing;
-use layers::{backdrop, clock, marks, scales, walls};
+use layers::{backdrop, marks, scales, walls};
 use plots::{Cards, Tools};
 use silhouette::Field;
 use text::{Lettering, Weight};
@@ -124,7 +124,7 @@ impl Painter {
         let all = (0..cast.bodies.len()).map(|place| (place, figure(place)));
         let (fixed, figures): (Vec<_>, Vec<_>) = all.partition(|(place, _)| cast.bodies[*place].fixed);
 
-        let clock = Clock::new(weights.clock, clock::decimals(view.frame_step), theme);
+        let clock = Clock::new(weights.clock, view.frame_step, theme);
         // Walls pass by a camera that moves: its labels keep to the corner.
         let walls = if frame.center.is_some() { &[][..] } else { &cast.walls };
         let room = walls::room(walls, camera, theme);

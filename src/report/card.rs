@@ -9,9 +9,10 @@ use serde::Serialize;
 use super::advice::Known;
 use super::energy::EnergyLedger;
 use super::warnings::{FEWEST_TICKS, warnings};
-use crate::contacts::{DeepestOverlap, StiffestContact};
+use crate::contacts::DeepestOverlap;
+use crate::integrate::LocatedEvents;
 use crate::tick::balance::Totals;
-use crate::tick::{Clock, Ledger, Responses, Stability, largest_travel};
+use crate::tick::{Clock, Holder, Ledger, Responses, Stability, largest_travel};
 use crate::world::hash::state_hash;
 use crate::world::{Bodies, Name};
 
@@ -102,7 +103,7 @@ pub struct Card {
     #[serde(skip)]
     shortest_contact: Option<f64>,
     #[serde(skip)]
-    touched: bool,
+    holder: Option<Holder>,
     #[serde(skip)]
     ticks: u64,
     #[serde(skip)]
@@ -121,13 +122,12 @@ impl Card {
     pub fn of(world: &World, seconds_spent: f64) -> Self {
         let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.0);
-        let (responses, limit) = (Responses::of(world), world.resource::<Stability>().limit);
-        let possible = world.get_resource::<StiffestContact>().map(|stiffest| stiffest.angular_frequency);
-        let possible = possible.filter(|frequency| *frequency > 0.0);
+        let (responses, stability) = (Responses::of(world), world.resource::<Stability>());
+        let foreseen = stability.fastest_foreseen();
         let critical_tick = responses.fastest.map(|fastest| fastest.critical_tick(world));
-        let critical_tick = critical_tick.or(possible.map(|frequency| limit / frequency));
+        let critical_tick = critical_tick.or(foreseen.map(|fastest| stability.limit / fastest.angular_frequency));
         let shortest_contact = responses.briefest.map(|brief| brief.duration());
-        let shortest_contact = shortest_contact.or(possible.map(|frequency| PI / frequency));
+        let shortest_contact = shortest_contact.or(stability.stiffest_contact().map(|frequency| PI / frequency));
         let energy = EnergyLedger::of(world);
         let ledger = world.resource::<Ledger>();
         let now = Totals::of(world);
@@ -140,7 +140,7 @@ impl Card {
             method: method.to_owned(),
             tick: clock.dt,
             critical_tick,
-            events_located: 0,
+            events_located: world.get_resource::<LocatedEvents>().map_or(0, |events| events.count),
             energy,
             momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
             angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
@@ -155,7 +155,7 @@ impl Card {
             warnings: Vec::new(),
             error: None,
             shortest_contact,
-            touched: responses.fastest.is_some(),
+            holder: responses.fastest.map(|fastest| fastest.holder),
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
@@ -173,9 +173,9 @@ impl Card {
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
     }
 
-    /// Whether anything has touched, as far as that was measured: only then can contacts be to blame.
-    pub fn has_touched(&self) -> bool {
-        self.touched
+    /// What has responded, as far as that was measured: only then can it be to blame.
+    pub fn holder(&self) -> Option<Holder> {
+        self.holder
     }
 
     /// The tick in seconds that this run is advised to try next.
@@ -204,7 +204,8 @@ impl Card {
         let contact_ticks = self.shortest_contact.map(|shortest| shortest / self.tick);
         let overlap = &self.largest_overlap;
         if self.critical_tick.is_some_and(|critical| critical < self.tick) {
-            return format!("Do not trust it: the tick is longer than the contacts can bear. Use {finer} or finer.");
+            let holder = self.holder.unwrap_or(Holder::Contacts);
+            return format!("Do not trust it: the tick is longer than the {holder} can bear. Use {finer} or finer.");
         }
         if let Some(unaccounted) = self.unaccounted() {
             return format!("Do not trust it: {unaccounted}.");
@@ -231,7 +232,12 @@ impl Card {
         if self.energy_error() > 1e-3 {
             return format!("Trust it to about {error} of energy; {finer} would improve it.");
         }
-        format!("Trust it: energy is accounted for to {error}; {finer} would show whether anything changes.")
+        let accounted = if self.energy_error() == 0.0 {
+            "all energy is accounted for".to_owned()
+        } else {
+            format!("energy is accounted for to {error}")
+        };
+        format!("Trust it: {accounted}; {finer} would show whether anything changes.")
     }
 }
 

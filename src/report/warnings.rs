@@ -22,10 +22,11 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
     if let Some(fastest) = beyond {
         let critical = fastest.critical_tick(world);
         warnings.push(format!(
-            "the tick of {} s is above the critical one of {} s that the contacts of `{}` had at t = {} s: they can gain \
+            "the tick of {} s is above the critical one of {} s that the {} of `{}` had at t = {} s: they can gain \
              energy at each tick; use --tick {}",
             number(clock.dt),
             number(critical),
+            fastest.holder,
             name(fastest.body),
             number(fastest.time),
             advised,

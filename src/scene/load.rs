@@ -98,24 +98,26 @@ fn load_text(
     Ok(header)
 }
 
-/// One mistake that only turned out when the scene was put together, at its place in the text.
-pub(crate) fn found_later(source: &Source, mut error: SceneError) -> SceneErrors {
+/// Mistakes that only turned out when the scene was put together, at their places in the text.
+pub(crate) fn found_later(source: &Source, mut errors: Vec<SceneError>) -> SceneErrors {
     let mut found = scan(&source.text);
     let expanded = if expand::is_wanted(source, &found.tree) { expand::expand(source, found).ok() } else { None };
     let text = expanded.as_ref().map_or(&source.text, |expanded| &expanded.text);
     found = scan(text);
-    let is_flag = error.path.starts_with("--");
-    if let Some(place) = found.tree.find(&error.path, text).filter(|_| !is_flag) {
-        let (span, label) = if place.whole {
-            (found.tree.head_or_value(place.node), "this value")
-        } else {
-            (found.tree.head(place.node), "in here")
-        };
-        error = error.at(span, label);
+    for error in &mut errors {
+        let is_flag = error.path.starts_with("--");
+        if let Some(place) = found.tree.find(&error.path, text).filter(|_| !is_flag) {
+            let (span, label) = if place.whole {
+                (found.tree.head_or_value(place.node), "this value")
+            } else {
+                (found.tree.head(place.node), "in here")
+            };
+            *error = error.clone().at(span, label);
+        }
     }
     match &expanded {
-        Some(expanded) => expanded.told(&found.tree, vec![error], Vec::new()),
-        None => SceneErrors::new(source.clone(), vec![error], Vec::new()),
+        Some(expanded) => expanded.told(&found.tree, errors, Vec::new()),
+        None => SceneErrors::new(source.clone(), errors, Vec::new()),
     }
 }
 

@@ -4,8 +4,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::error::{SceneError, SceneErrors};
-use super::scan::scan;
+use super::scan::{Scan, scan};
 use super::suggest::nearest;
+use super::tree::{Form, Tree};
 
 /// The largest scene the reader takes, in bytes (64 MiB).
 ///
@@ -89,17 +90,36 @@ impl Source {
     /// What the text is if it is no scene that could run by itself: something of another name, or a part for other scenes
     /// to include. None for a scene, right or wrong.
     pub(crate) fn other_than_scene(&self) -> Option<String> {
-        let tree = scan(&self.text).tree;
+        let Scan { tree, fault, .. } = scan(&self.text);
         if tree.is_empty() {
             return None;
         }
         let name = tree.name(0, &self.text);
         if name == "Scene" {
-            let clock = tree.children(0).iter().any(|&id| &self.text[tree.key(id)] == "clock");
-            return (!clock).then(|| "a part without a `clock`".to_owned());
+            return (fault.is_none() && self.is_part(&tree)).then(|| "a part without a `clock`".to_owned());
+        }
+        // A scene that lost its name.
+        if name.is_empty() && tree.node(0).form == Form::Round {
+            return None;
         }
         // A slip of the pen is a wrong scene.
         nearest(name, ["Scene"].into_iter()).is_none().then(|| tree.describe(0, &self.text))
+    }
+
+    /// Whether a scene without mistakes of syntax is made for other scenes to include: it has things to bring, the format
+    /// of this program, if any, and neither a `clock` nor a section that may be meant for one.
+    fn is_part(&self, tree: &Tree) -> bool {
+        let sections = || tree.children(0).iter().map(|&id| (&self.text[tree.key(id)], id));
+        let clock = sections().any(|(name, _)| nearest(name, ["clock", "look"].into_iter()) == Some("clock"));
+        let format =
+            sections().find(|(name, _)| *name == "format").is_none_or(|(_, id)| &self.text[tree.span(id)] == "1");
+        let brings = sections().any(|(_, id)| matches!(tree.node(id).form, Form::List | Form::Braces));
+        brings && format && !clock
+    }
+
+    /// The whole text with what it includes and makes; empty if it cannot be made.
+    pub(crate) fn made(&self) -> String {
+        super::expand::made(self).into_iter().flatten().map(|(name, text)| format!("{name}: {text},\n")).collect()
     }
 
     /// Takes a file's bytes as UTF-8 text, without the mark some editors put in front.
@@ -207,7 +227,22 @@ mod tests {
         let other = |text: &str| Source::new("a.ron", text).other_than_scene();
         assert_eq!(other("Theme(ink: \"black\")").as_deref(), Some("`Theme(..)`"));
         assert_eq!(other("Scene(format: 1, bodies: [])").as_deref(), Some("a part without a `clock`"));
-        for scene in ["", "Scene(clock: (duration: 1))", "Scene(clock: (", "scene(format: 1)", "Sceen("] {
+        assert_eq!(other("Scene(templates: {})").as_deref(), Some("a part without a `clock`"));
+        for scene in [
+            "",
+            "Scene(clock: (duration: 1))",
+            "Scene(clock: (",
+            "scene(format: 1)",
+            "Sceen(",
+            // Slips, which must not keep a scene from being looked at.
+            "Scene(format: 1, clok: (duration: 1), bodies: [])",
+            "Scene(format: 1, Clock: (duration: 1), bodies: [])",
+            "Scene(format: 2)",
+            "Scene(format: 2, bodies: [])",
+            "Scene(format: 1)",
+            "Scene(format: 1, bodies: [)",
+            "(format: 1, clock: (duration: 1), bodies: [])",
+        ] {
             assert_eq!(other(scene), None, "{scene}");
         }
     }

@@ -11,7 +11,11 @@ pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
             let short = lower.len().min(other.len()) >= 3;
             let begins =
                 short && (other.to_lowercase().starts_with(&lower) || lower.starts_with(&other.to_lowercase()));
-            (if begins { distance.min(allowed) } else { distance }, other)
+            // What templates and files make is known by its last part.
+            let part =
+                name.len() < other.len() && other.ends_with(name) && other[..other.len() - name.len()].ends_with('/');
+            let distance = if begins { distance.min(allowed) } else { distance };
+            (if part { 0 } else { distance }, other)
         })
         .filter(|&(distance, _)| distance <= allowed)
         .min_by_key(|&(distance, _)| distance)
@@ -32,6 +36,11 @@ pub(crate) fn among<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone
     near.unwrap_or_default() + &known
 }
 
+/// The plural of the name of a list of words: `color`, `quantity`.
+pub(crate) fn plural(list: &str) -> String {
+    list.strip_suffix('y').map_or_else(|| format!("{list}s"), |stem| format!("{stem}ies"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -43,6 +52,8 @@ mod tests {
         assert_eq!(nearest("Force", known()), Some("forces"));
         assert_eq!(nearest("grav", known()), Some("gravity"));
         assert_eq!(nearest("zebra", known()), None);
+        assert_eq!(nearest("b_0", ["c_0", "s_0/b_0", "s_0/b_01"].into_iter()), Some("s_0/b_0"));
+        assert_eq!(["color", "quantity"].map(plural), ["colors", "quantities"]);
         assert_eq!(
             among("flim", known(), "sections", '`'),
             "did you mean `film`? sections: `gravity`, `forces`, `film`, `bodies`"

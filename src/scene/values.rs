@@ -24,13 +24,17 @@ impl Word {
                 let known = outline.words(list).filter(|(_, here)| *here);
                 let names: Vec<String> = known.map(|(name, _)| format!("`{name}`")).collect();
                 let message = format!("`{}` is not available yet", self.0);
-                report.error(path, message).help(format!("the {list}s so far are {}", names.join(", ")));
+                report.error(path, message).help(format!(
+                    "the {} so far are {}",
+                    suggest::plural(list),
+                    names.join(", ")
+                ));
                 false
             }
             None => {
                 let known = outline.words(list).filter(|(_, here)| *here);
                 let names: Vec<&str> = known.map(|(name, _)| name).collect();
-                let help = suggest::among(&self.0, names.into_iter(), &format!("{list}s"), '`');
+                let help = suggest::among(&self.0, names.into_iter(), &suggest::plural(list), '`');
                 report.error(path, format!("there is no {list} `{}`", self.0)).help(help);
                 false
             }

@@ -10,11 +10,13 @@ mod overlap;
 mod pose;
 mod velocity;
 
+use std::collections::BTreeSet;
+
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::scene::values::Word;
-use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt};
+use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
 use crate::world::{Bodies, Name};
 
 /// One measured number: its name, its unit and how it is read.
@@ -45,7 +47,7 @@ pub type Finder = fn(&mut World, owner: &str, quantity: &str) -> Option<Channel>
 struct Finders(Vec<Finder>);
 
 /// The open list of what can be measured of a body or wall, such as `position.x`.
-const QUANTITIES: &str = "quantity";
+pub(crate) const QUANTITIES: &str = "quantity";
 /// The open list of channels that belong to no body, such as `energy.total`.
 const CHANNELS: &str = "channel";
 
@@ -120,6 +122,20 @@ pub fn chosen(pattern: &str, outline: &Outline) -> Vec<String> {
     bodies.map(|body| format!("{body}.{quantity}")).collect()
 }
 
+/// The names of all channels that a pattern means, in which `*` stands for any letters also of the quantity, in canonical
+/// order of bodies and walls. Bodies and walls must have been spawned.
+pub fn expanded(pattern: &str, world: &mut World, outline: &Outline) -> Vec<String> {
+    let Some((owner, _)) = pattern.split_once('.').filter(|(_, quantity)| quantity.contains('*')) else {
+        return chosen(pattern, outline);
+    };
+    let whole = outline.words(CHANNELS).map(|(name, _)| name.to_owned());
+    let owners = [Kind::BODY, Kind::WALL].into_iter().flat_map(|kind| outline.names(kind));
+    let owners = owners.filter(|name| fits(owner, name));
+    let own = owners.flat_map(|name| outline.words(QUANTITIES).map(move |(quantity, _)| format!("{name}.{quantity}")));
+    let fitting: Vec<String> = whole.chain(own).filter(|name| fits(pattern, name)).collect();
+    fitting.into_iter().filter(|name| find(world, name).is_some()).collect()
+}
+
 /// The channel called `name`, for example `ball.position.x` or `energy.residual`. Bodies and walls must have been
 /// spawned.
 pub fn find(world: &mut World, name: &str) -> Option<Channel> {
@@ -128,9 +144,14 @@ pub fn find(world: &mut World, name: &str) -> Option<Channel> {
     finders.into_iter().find_map(|finder| finder(world, owner, quantity))
 }
 
+/// Adds channels; one that is there already stays the only one of its name.
 fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
+    let channels = world.get_resource_or_init::<Channels>();
+    let mut there: BTreeSet<String> = channels.0.iter().map(|channel| channel.name.clone()).collect();
     for name in names {
-        if let Some(channel) = find(world, &name) {
+        if there.insert(name.clone())
+            && let Some(channel) = find(world, &name)
+        {
             world.get_resource_or_init::<Channels>().0.push(channel);
         }
     }

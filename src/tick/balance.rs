@@ -20,6 +20,11 @@ pub struct Balance {
     pub drag: f64,
     /// Power that drives (thrust, torque, forces of plugins) bring, in watts.
     pub work: f64,
+    /// Power that friction takes, in watts; only where contacts are evaluated as stages of a step, else their losses are
+    /// booked at once.
+    pub friction: f64,
+    /// Power that the inelasticity of contacts takes, in watts, likewise.
+    pub inelasticity: f64,
     /// Set by a model that responds nearly as fast as the tick can bear: energy is looked at after each tick from then on.
     pub alert: bool,
 }

@@ -37,4 +37,41 @@ pub struct Evaluation {
     pub time: f64,
     /// Seconds since the state that was last accepted: how far `Bodies::drift` reaches back.
     pub elapsed: f64,
+    /// How contacts and other models with a history are to be evaluated.
+    pub style: Style,
+}
+
+/// How models with a history are evaluated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// The state follows the one before: history goes on, candidate lists are renewed where they have to be.
+    #[default]
+    Following,
+    /// The state is any state of a step: forces are a smooth function of it, modes and candidate lists stay as they are.
+    Frozen,
+    /// As `Frozen`, but modes follow from the state itself, so that forces jump where they do.
+    Instant,
+}
+
+impl Style {
+    /// Whether the state is a stage of a step, from which no history may be made.
+    pub fn is_staged(self) -> bool {
+        self != Self::Following
+    }
+}
+
+/// The stretch of time for which modes are being chosen. The systems of [`Modes`](super::Modes) read it.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Span {
+    /// Its beginning in seconds.
+    pub begin: f64,
+    /// Its end in seconds.
+    pub end: f64,
+}
+
+impl Span {
+    /// Its middle in seconds.
+    pub fn middle(&self) -> f64 {
+        self.begin + 0.5 * (self.end - self.begin)
+    }
 }

@@ -7,9 +7,17 @@ use glam::DVec2;
 use super::balance::Totals;
 use super::failure::{Failure, Wrong};
 use super::guard::EnergyGuard;
-use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
+use super::{
+    Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Indicator, Ledger, Models, Modes, SimTick, Span,
+    Stage, Style,
+};
+use crate::bounds::Bounds;
 use crate::integrate::Method;
 use crate::world::{Bodies, Force, Name, Slot, Torque, finite, packed};
+
+/// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
+/// where choices contradict each other.
+const MOST_CORRECTIONS: usize = 32;
 
 /// What is taken out of the world while a batch of ticks runs.
 struct Running {
@@ -149,23 +157,29 @@ pub(super) fn integrate(world: &mut World) {
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
     let clock = *world.resource::<Clock>();
     let Running { method, evaluate, modes, has_modes } = &mut *running;
+    let style = method.0.style();
     let mut tick = Tick {
         world,
         evaluate,
         modes,
+        has_modes: *has_modes,
+        style,
+        fresh: !current || before.is_some(),
         dt: clock.dt,
         begin: clock.time(),
         end: clock.time_of(clock.ticks + 1),
         alert: false,
     };
-    if !current || before.is_some() {
+    if tick.fresh && style.is_staged() {
+        tick.begin_anew();
+    } else if tick.fresh {
         tick.evaluate(0.0);
     }
     if let Some(before) = before {
         Ledger::book_exchange(tick.world, before);
     }
-    if *has_modes {
-        tick.modes.run(tick.world);
+    if !style.is_staged() {
+        tick.choose_modes(tick.begin, tick.end);
     }
     method.0.advance(&mut tick);
     let alert = tick.alert;
@@ -261,11 +275,16 @@ pub struct Tick<'a> {
     pub world: &'a mut World,
     evaluate: &'a mut Schedule,
     modes: &'a mut Schedule,
+    has_modes: bool,
+    style: Style,
+    /// Whether the state was changed by others since the last tick, or is the first of all.
+    pub(super) fresh: bool,
     /// Length of the tick in seconds.
     pub dt: f64,
     /// Time at its beginning in seconds.
     pub begin: f64,
-    end: f64,
+    /// Time at its end in seconds: the beginning of the next to the last bit.
+    pub end: f64,
     alert: bool,
 }
 
@@ -303,9 +322,145 @@ impl Tick<'_> {
             drive.travelled += sum;
         }
         *self.world.resource_mut::<Balance>() = Balance::default();
-        *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed };
+        *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed, style: Style::Following };
         self.evaluate.run(self.world);
         self.world.resource_mut::<Bodies>().swap_estimate();
+    }
+
+    /// Lets forces and contacts choose their modes from `begin` to `end`.
+    pub fn choose_modes(&mut self, begin: f64, end: f64) {
+        if self.has_modes {
+            *self.world.resource_mut::<Span>() = Span { begin, end };
+            self.modes.run(self.world);
+        }
+    }
+
+    /// Evaluates the forces of the state as it stands, at `time` seconds, as one of many of a step: nothing goes on by
+    /// it but the rates.
+    pub fn evaluate_stage(&mut self, time: f64) {
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        if !bodies.prescribed.motions.is_empty() {
+            bodies.prescribe(self.begin, time);
+        }
+        bodies.pose();
+        *self.world.resource_mut::<Balance>() = Balance::default();
+        *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed: 0.0, style: self.style };
+        self.evaluate.run(self.world);
+    }
+
+    /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
+    fn begin_anew(&mut self) {
+        self.evaluate_stage(self.begin);
+        let models = self.world.resource::<Models>().clone();
+        for watch in &models.watches {
+            (watch.take_stock)(self.world);
+        }
+        self.evaluate_stage(self.begin);
+        self.settle();
+    }
+
+    /// Adds all indicators of the state just evaluated to a list.
+    pub fn tell(&mut self, told: &mut Vec<Indicator>) {
+        for place in 0..self.world.resource::<Models>().watches.len() {
+            let watch = self.world.resource::<Models>().watches[place];
+            let first = told.len();
+            (watch.tell)(self.world, told);
+            self.world.resource_mut::<Models>().watches[place].told = told.len() - first;
+        }
+    }
+
+    /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
+    /// ready for the next step.
+    pub fn end_step(&mut self, fired: &[usize]) {
+        let watches = self.world.resource::<Models>().watches.clone();
+        let time = self.world.resource::<Evaluation>().time;
+        let mut first = 0;
+        for watch in &watches {
+            let own = |place: &&usize| (first..first + watch.told).contains(*place);
+            let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
+            if !own.is_empty() {
+                (watch.switch)(self.world, &own);
+            }
+            first += watch.told;
+        }
+        if !fired.is_empty() {
+            self.evaluate_stage(time);
+            self.settle();
+        }
+        let mut changed = false;
+        for watch in &watches {
+            changed |= (watch.tidy)(self.world);
+        }
+        if changed {
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
+    /// it, `times` as far as their present velocities and accelerations say.
+    pub fn reserve(&mut self, length: f64, times: f64) {
+        let Some(mut bounds) = self.world.remove_resource::<Bounds>() else { return };
+        let bodies = self.world.resource::<Bodies>();
+        let travel = |body: usize| {
+            let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
+            let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
+            let way = velocity + 0.5 * length * force * bodies.inverse_mass[body];
+            let turn = spin + 0.5 * length * torque * bodies.inverse_inertia[body];
+            (way + turn * bodies.extent[body]) * length
+        };
+        let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
+        let renew = bounds.reserve(bodies, times * farthest);
+        self.world.insert_resource(bounds);
+        if renew {
+            let time = self.world.resource::<Evaluation>().time;
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Candidate lists are made anew for the state as it stands.
+    pub fn renew_lists(&mut self, time: f64) {
+        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
+            bounds.outdate();
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Whether somebody moved farther than candidate lists reach since they were made.
+    pub fn outgrown(&self) -> bool {
+        self.world.get_resource::<Bounds>().is_some_and(|bounds| bounds.outgrown)
+    }
+
+    /// Lets models correct the modes of a state just evaluated, until none wants to.
+    fn settle(&mut self) {
+        let models = self.world.resource::<Models>().clone();
+        let time = self.world.resource::<Evaluation>().time;
+        for _ in 0..MOST_CORRECTIONS {
+            let mut corrected = false;
+            for watch in &models.watches {
+                corrected |= (watch.settle)(self.world);
+            }
+            if !corrected {
+                break;
+            }
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Books how far bodies have travelled in the tick: `from` are positions and angles at its beginning.
+    pub fn book_travel(&mut self, from: &[(DVec2, f64)]) {
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        let (mut greatest, mut sum) = (0.0_f64, 0.0);
+        for (body, &(position, angle)) in from.iter().enumerate() {
+            (bodies.drift[body], bodies.turn[body]) = (bodies.position[body] - position, bodies.angle[body] - angle);
+            let travel = bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
+            greatest = greatest.max(travel);
+            sum += travel;
+        }
+        let alert = self.world.resource::<Balance>().alert;
+        self.alert |= alert;
+        let mut drive = self.world.resource_mut::<Drive>();
+        drive.travel = drive.travel.max(greatest);
+        drive.travelled = sum;
     }
 
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.

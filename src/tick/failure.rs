@@ -1,6 +1,7 @@
 //! A run that went wrong.
 
 use super::guard::Created;
+use crate::scene::number;
 
 /// A run that went wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +37,7 @@ impl std::fmt::Display for Failure {
                 )?;
             }
         }
-        write!(f, " at t = {time:?} s (tick {tick})")
+        write!(f, " at t = {} s (tick {tick})", number(*time))
     }
 }
 

@@ -26,8 +26,12 @@ pub mod balance;
 pub mod clock;
 mod drive;
 mod failure;
+pub mod flow;
 mod guard;
+pub mod models;
+pub mod response;
 pub mod stability;
+pub mod steady;
 pub mod stopwatch;
 
 use bevy_app::App;
@@ -36,11 +40,13 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
-pub use clock::{Clock, Evaluation};
+pub use clock::{Clock, Evaluation, Span, Style};
 pub use drive::{FarTravel, Tick, far_travel, largest_travel, set_method, step};
 pub use failure::{Failure, Wrong};
+pub use flow::WorldFlow;
 pub use guard::Created;
-pub use stability::{Briefest, Fastest, Responses, Stability};
+pub use models::{Indicator, Models, Objection, StateBlock, Watch};
+pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -152,6 +158,8 @@ impl TickAppExt for App {
         self.init_resource::<Census>()
             .init_resource::<Clock>()
             .init_resource::<Evaluation>()
+            .init_resource::<Span>()
+            .init_resource::<Models>()
             .init_resource::<Balance>()
             .init_resource::<Ledger>()
             .init_resource::<Stability>()

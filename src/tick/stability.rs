@@ -1,7 +1,9 @@
 //! How fast the springs of a run respond, against what its method bears. Models that know add a function; the error card
-//! and the guard of energy ask.
+//! and the guard of energy ask. What is known before the first tick decides how long a tick is that the scene does not
+//! name.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use bevy_ecs::prelude::*;
 
@@ -15,6 +17,35 @@ pub struct Stability {
     pub damping_limit: f64,
     /// Models that measure how fast they respond.
     pub sources: Vec<fn(&World) -> Responses>,
+    /// What models know of that before the first tick: each adds its own when the whole scene stands.
+    pub foreseen: Vec<Foreseen>,
+}
+
+/// What holds a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holder {
+    /// Contacts, or contacts and springs together.
+    Contacts,
+    /// Springs of the scene.
+    Springs,
+}
+
+impl fmt::Display for Holder {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Contacts => "contacts",
+            Self::Springs => "springs",
+        })
+    }
+}
+
+/// How fast a model can respond, as far as that is known before the first tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foreseen {
+    /// The greatest angular frequency in rad/s: of a single contact, or of all springs together.
+    pub angular_frequency: f64,
+    /// What responds.
+    pub holder: Holder,
 }
 
 impl Stability {
@@ -23,31 +54,45 @@ impl Stability {
     pub fn weight_of_damping(&self) -> f64 {
         self.limit / self.damping_limit
     }
+
+    /// The fastest of what models know before the first tick.
+    pub fn fastest_foreseen(&self) -> Option<Foreseen> {
+        let known = self.foreseen.iter().copied().filter(|foreseen| foreseen.angular_frequency > 0.0);
+        known.max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))
+    }
+
+    /// The greatest angular frequency in rad/s that a single contact can have, if there can be any.
+    pub fn stiffest_contact(&self) -> Option<f64> {
+        let contacts = self.foreseen.iter().filter(|foreseen| foreseen.holder == Holder::Contacts);
+        contacts.map(|foreseen| foreseen.angular_frequency).filter(|frequency| *frequency > 0.0).reduce(f64::max)
+    }
 }
 
 impl Default for Stability {
     /// Nobody knows anything, under a method that is stable up to 2, as velocity Verlet is.
     fn default() -> Self {
-        Self { limit: 2.0, damping_limit: 1.0, sources: Vec::new() }
+        Self { limit: 2.0, damping_limit: 1.0, sources: Vec::new(), foreseen: Vec::new() }
     }
 }
 
 /// The fastest responses of a run so far, as far as they were measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Responses {
-    /// Of everything that touched at once.
+    /// Of everything that held bodies at once.
     pub fastest: Option<Fastest>,
     /// Of a single pair.
     pub briefest: Option<Briefest>,
 }
 
-/// The largest angular frequency of all contacts together.
+/// The largest angular frequency of all that holds bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fastest {
     /// In rad/s.
     pub angular_frequency: f64,
     /// The body that was held most stiffly then.
     pub body: Entity,
+    /// What held it.
+    pub holder: Holder,
     /// When, in seconds.
     pub time: f64,
 }

@@ -29,7 +29,7 @@ fn a_scene_is_taken_apart() {
     assert!((sum - 1.0).abs() < 1e-9, "{stages:?}");
     let forces = stages.iter().find(|stage| stage["stage"] == "Evaluate: Forces").unwrap();
     assert_eq!(forces["systems"][0]["serves"], "gravity");
-    folder.jostle("explain nowhere.ron").code(1).says("there is no file `nowhere.ron`");
+    folder.jostle("explain nowhere.ron").code(2).says("there is no file `nowhere.ron`");
 }
 
 #[test]

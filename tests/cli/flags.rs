@@ -31,7 +31,7 @@ fn impossible_values_of_flags_are_refused() {
 #[test]
 fn an_unknown_method_is_answered_with_the_registered_ones() {
     let folder = Folder::new("method").with("fall.ron", FALL);
-    let known = "[possible values: Auto, SemiImplicitEuler, VelocityVerlet";
+    let known = "[possible values: Auto, ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4";
     folder.jostle("run fall.ron --method Leapfrog").code(2).says("'Leapfrog' for '--method <NAME>'").says(known);
     folder
         .jostle("run fall.ron --method SemiImplicitEuler")

@@ -117,7 +117,7 @@ fn what_is_not_in_order_is_named() {
     assert_eq!(ended.out, "crooked.ron:5: not in the standard layout\n");
     assert_eq!(folder.read("crooked.ron"), crooked.as_bytes());
     folder.jostle("fmt wrong.ron").code(1).says("wrong.ron:1:");
-    folder.jostle("fmt nowhere.ron").code(1).says("there is no file");
+    folder.jostle("fmt nowhere.ron").code(2).says("there is no file");
     folder.jostle("fmt").code(2);
     folder.jostle("fmt - crooked.ron").code(2).says("takes no files beside it");
 }

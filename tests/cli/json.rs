@@ -123,7 +123,7 @@ fn a_wrong_scene_is_one_object_too() {
 fn each_scene_is_one_line() {
     let folder = Folder::new("json_lines").with("one.ron", FALL).with("two.ron", FALL);
     for command in ["render one.ron none.ron two.ron -o films/ --json", "check one.ron none.ron two.ron --json"] {
-        let lines = folder.jostle(command).code(1).json();
+        let lines = folder.jostle(command).code(2).json();
         let scenes: Vec<&Value> = lines.iter().map(|line| &line["scene"]).collect();
         assert_eq!(scenes, ["one.ron", "none.ron", "two.ron"]);
         assert_eq!(lines[1]["errors"][0]["message"], "there is no file `none.ron`");

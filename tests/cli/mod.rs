@@ -17,6 +17,7 @@ mod new;
 mod numbers;
 mod outputs;
 mod plots;
+mod promises;
 mod scene_files;
 mod schema;
 mod stills;

@@ -65,11 +65,11 @@ fn two_scenes_of_one_name_do_not_overwrite_each_other() {
 #[test]
 fn one_wrong_scene_does_not_stop_the_others() {
     let folder = Folder::new("others").with("one.ron", FALL).with("two.ron", FALL).with("boom.ron", EXPLOSION);
-    folder.jostle("render one.ron none.ron two.ron -o films/ --quiet").code(1).says("there is no file `none.ron`");
+    folder.jostle("render one.ron none.ron two.ron -o films/ --quiet").code(2).says("there is no file `none.ron`");
     assert!(folder.has("films/one.gif") && folder.has("films/two.gif"));
     // The gravest decides.
     folder.jostle("render none.ron boom.ron one.ron -o films/ --quiet").code(3);
-    folder.jostle("check one.ron none.ron").code(1);
+    folder.jostle("check one.ron none.ron").code(2);
 }
 
 #[test]

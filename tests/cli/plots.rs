@@ -105,12 +105,29 @@ fn channels_that_only_look_right_are_refused() {
     assert_eq!(folder.names(), ["fly.ron"]);
 }
 
+/// A pattern means the same of a scene and of the table that it makes: the figures have as many plots, so the same height.
+#[test]
+fn patterns_of_quantities_are_those_of_tables() {
+    let sensors = SCENE.trim_end().strip_suffix(')').unwrap().to_owned();
+    let sensors = sensors + "    sensors: [Pose(of: \"*\"), Velocity(of: \"*\"), Energy()],\n)";
+    let folder = Folder::new("plot_patterns").with("fly.ron", sensors);
+    folder.jostle("run fly.ron -o fly.csv --quiet").code(0);
+    for pattern in ["ball.position.*", "*.position.*", "energy.*"] {
+        folder.jostle(&format!("plot fly.ron -o scene.png --quiet --channels {pattern}")).code(0);
+        folder.jostle(&format!("plot fly.csv -o table.png --quiet --channels {pattern}")).code(0);
+        assert_eq!(picture(&folder, "scene.png").dimensions(), picture(&folder, "table.png").dimensions(), "{pattern}");
+    }
+    folder.jostle("plot fly.ron --channels ball.nowhere.*").code(2).says("nowhere");
+    let table = folder.with("gaps.csv", "time,a\n0,1\n1,nan\n2,inf\n3,\n");
+    table.jostle("plot gaps.csv").code(0).says("note: a: 3 of 4 cells hold no finite number");
+}
+
 #[test]
 fn figures_of_scenes_and_tables_are_drawn() {
     let folder = Folder::new("plot_figures").with("fly.ron", SCENE);
     folder.jostle("plot fly.ron").code(0).says("fly.png: one picture, ");
     assert_eq!(picture(&folder, "fly.png").dimensions(), (1200, 720));
-    folder.jostle("plot fly.ron -o two.png --channels energy.total,ball.*.x --quiet").code(2);
+    folder.jostle("plot fly.ron -o two.png --channels energy.total,ball.*.z --quiet").code(2);
     folder.jostle("plot fly.ron -o two.png --channels energy.total,b*.position.x --quiet").code(0);
     assert_eq!(picture(&folder, "two.png").dimensions(), (1200, 960));
     folder.jostle("plot fly.ron -o phase.png --x ball.position.y --channels ball.velocity.y --size 600x400").code(0);

@@ -6,7 +6,7 @@ use super::harness::Folder;
 fn a_missing_file_is_named_with_a_remedy() {
     let folder = Folder::new("missing");
     for command in ["run", "render", "check"] {
-        let ended = folder.jostle(&format!("{command} no/such.ron")).code(1);
+        let ended = folder.jostle(&format!("{command} no/such.ron")).code(2);
         let expected =
             "error: there is no file `no/such.ron`\n |\n = help: check the spelling and the folder you are in\n";
         assert_eq!(ended.err, expected);
@@ -55,7 +55,7 @@ fn nested_and_truncated_scenes_are_refused_with_a_place() {
 
 #[test]
 fn an_unknown_example_is_answered_with_the_known_ones() {
-    let ended = Folder::new("example").jostle("run example:chess").code(1);
+    let ended = Folder::new("example").jostle("run example:chess").code(2);
     assert!(ended.err.starts_with("error: there is no example `chess`\n"), "{ended:?}");
     assert!(ended.err.contains("= help: examples: billiards, "), "{ended:?}");
 }

@@ -13,8 +13,8 @@ fn a_reader_that_goes_away_does_no_harm() {
         ("run fall.ron", 0),
         ("check fall.ron", 0),
         ("render fall.ron", 0),
-        ("check none.ron", 1),
-        ("check none.ron --json", 1),
+        ("check none.ron", 2),
+        ("check none.ron --json", 2),
         ("run fall.ron --tick 0", 2),
         ("--help", 0),
     ] {

@@ -64,6 +64,35 @@ fn tables_depend_neither_on_threads_nor_on_shards() {
     folder.jostle("sweep --merge parts").code(2).says("different sweeps");
 }
 
+/// Scene, flags and what varies make a sweep; the number of threads and what is drawn do not.
+#[test]
+fn shards_of_different_sweeps_do_not_merge() {
+    let folder = Folder::new("sweep_others").with("ball.ron", thrown());
+    let other = thrown().replace("radius: 0.1", "radius: 0.2");
+    assert_ne!(other, thrown());
+    let folder = folder.with("other.ron", other);
+    let sweep = |arguments: &str, which: usize| {
+        folder.jostle(&format!("sweep {arguments} --quiet -o parts --shard {which}/2"));
+    };
+    let plain = "ball.ron --vary lift=1..4";
+    for different in [
+        "other.ron --vary lift=1..4",
+        "ball.ron --vary lift=1..4 --duration 0.1",
+        "ball.ron --vary lift=1..4 --set n=4",
+        "ball.ron --vary lift=1,2,3,5",
+    ] {
+        sweep(plain, 1);
+        sweep(different, 2);
+        let ended = folder.jostle("sweep --merge parts").code(2).says("of different sweeps: ");
+        for shard in ["`table.1-of-2.csv` of the sweep ", "`table.2-of-2.csv` of the sweep "] {
+            assert!(ended.err.contains(shard), "{different}: {ended:?}");
+        }
+        assert!(!folder.has("parts/table.csv"), "{different}");
+    }
+    sweep(&format!("{plain} --threads 1 --no-sheet"), 2);
+    folder.jostle("sweep --merge parts").code(0);
+}
+
 #[test]
 fn runs_that_fail_are_rows_with_their_reason() {
     let folder = Folder::new("sweep_failures").with("ball.ron", thrown());

@@ -45,7 +45,8 @@ fn the_exit_code_tells_the_worst() {
     let folder = mixed("test_codes").with("wild.ron", OVERFLOW).with("wrong.ron", "Scene(format: 1, clock: ())");
     folder.jostle("test scenes/holds.ron scenes/plain.ron").code(0);
     folder.jostle("test wrong.ron").code(1);
-    folder.jostle("test nowhere.ron").code(1);
+    folder.jostle("test nowhere.ron").code(2).says("nowhere.ron");
+    folder.jostle("test nofolder").code(2).says("nofolder");
     let ended = folder.jostle("test wild.ron wrong.ron").code(3);
     assert!(ended.out.starts_with("FAILED    wild.ron"), "{ended:?}");
     assert!(ended.out.contains("REFUSED   wrong.ron") && ended.out.contains("wrong.ron:1:"), "{ended:?}");

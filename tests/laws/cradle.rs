@@ -21,7 +21,7 @@ fn a_pulse_disperses_in_every_row() {
             let interaction = cradle::interaction_time(count, incoming);
             let mut worst = 0.0_f64;
             for phase in phases(16) {
-                let setting = Setting { method, tick, shift: phase * tick };
+                let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
                 let text = cradle::scene(&setting, 1.0, count, incoming);
                 let mut simulation = load(&text);
                 // All touch in the middle of it; shortly before the end some still do.

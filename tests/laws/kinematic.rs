@@ -9,7 +9,7 @@
 
 use jostle::problems;
 
-use super::support::{METHODS, assert_near, fitted_order, load, phases, run, table};
+use super::support::{METHODS, assert_near, fitted_order, fitted_order_above, load, phases, run, table};
 
 const GRAVITY: f64 = 9.81;
 const STIFFNESS: f64 = 1e4;
@@ -139,7 +139,8 @@ fn the_work_of_a_shaken_plate_is_booked() {
                 (tick, card.energy.residual.abs())
             })
             .collect();
-        let order = fitted_order(&points);
+        // Sums of a hundred joules: a hundred times their rounding over some thousand ticks.
+        let Some(order) = fitted_order_above(1e-11, &points) else { continue };
         assert!(order > f64::from(method.order) - 0.25, "{}: order {order}: {}", method.name, table(&points));
     }
 }

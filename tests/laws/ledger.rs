@@ -10,7 +10,7 @@
 
 use jostle::problems;
 
-use super::support::{METHODS, assert_near, fitted_order, run, table};
+use super::support::{METHODS, assert_near, fitted_order_above, run, table};
 
 const GRAVITY: &str = "gravity: (0, -9.81),";
 const DRAG: &str = "Drag(linear: 0.3), Drag(quadratic: 0.05),";
@@ -32,7 +32,11 @@ fn assert_that_the_ledger_closes(gravity: &str, forces: &str) {
                 (tick, simulation.card().energy.residual.abs())
             })
             .collect();
-        let order = fitted_order(&points);
+        // Sums of some ten joules: a hundred times their rounding over 6400 ticks.
+        let Some(order) = fitted_order_above(1e-11, &points) else {
+            println!("{}: rounding;{}", method.name, table(&points));
+            continue;
+        };
         println!("{}: order {order:.2};{}", method.name, table(&points));
         let expected = f64::from(method.order);
         assert!(order >= expected - 0.25, "{}: order {order:.2}, expected {expected};{}", method.name, table(&points));

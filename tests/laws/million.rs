@@ -2,7 +2,7 @@
 //! (Brouwer 1937); a symplectic method lets energy swing, not drift. Source: Hairer, McLachlan and Razakarivony 2008; truth
 //! file O06, which has the exact solution of both discrete methods after a million ticks.
 //!
-//! The oscillator of the truth file is a disc pressed so deep into the floor by gravity that it never parts. Tolerances: a
+//! The oscillator of the truth file is a disc pressed so deep into the floor by gravity that it never parts, and a mass on a spring. Tolerances: a
 //! state after `n` ticks is off by up to `n` roundings of the velocity of half an ulp, as a walk `sqrt(n)` of them, and each
 //! changes the phase in proportion to the ticks that follow, by `n^(3/2)` in all: `1e9 x 1e-16 x 3`, which is 3e-7; the truth
 //! itself knows the tick to an ulp. The momentum residual is a walk of roundings of the momentum: two a tick, each of half
@@ -36,6 +36,19 @@ fn oscillator(method: &str) -> (Truth, f64, Simulation) {
     (truth, tick, simulation)
 }
 
+/// The same oscillator as a mass on a spring without a length of its own.
+fn sprung(method: &str) -> (Truth, Simulation) {
+    let truth = Truth::read(include_str!("../../assets/truths/O06_million_steps.json"));
+    let tick = truth.number("dt");
+    let simulation = load(&format!(
+        "Scene(format: 1, clock: (duration: {:?}, tick: {tick:?}, method: {method}),
+        forces: [Spring(a: \"mass\", b: World, stiffness: {STIFFNESS:?}, length: 0)],
+        bodies: [(name: \"mass\", at: ({AMPLITUDE:?}, 0), atoms: Disc(radius: 0.1, mass: 1))])",
+        2e6 * tick
+    ));
+    (truth, simulation)
+}
+
 /// Displacement in m and velocity in m/s.
 fn state(simulation: &Simulation) -> (f64, f64) {
     let bodies = simulation.bodies();
@@ -52,6 +65,22 @@ fn a_million_ticks_arrive_where_the_discrete_solution_does() {
         let exact = truth.numbers(observable);
         simulation.run_to_tick(1_000_000).expect("numbers stay finite");
         let (x, v) = state(&simulation);
+        println!("{method}: x off by {:e}, v by {:e}", x - exact[0], v - exact[1]);
+        assert_near("x", x, exact[0], 3e-7 * AMPLITUDE);
+        assert_near("v", v, exact[1], 3e-7 * AMPLITUDE * STIFFNESS.sqrt());
+    }
+}
+
+#[test]
+fn a_million_ticks_on_a_spring_arrive_where_the_discrete_solution_does() {
+    for (method, observable) in METHODS.into_iter().zip([
+        "symplectic euler (v then x) discrete-exact x,v after n steps",
+        "verlet discrete-exact x,v after n steps",
+    ]) {
+        let (truth, mut simulation) = sprung(method);
+        let exact = truth.numbers(observable);
+        simulation.run_to_tick(1_000_000).expect("numbers stay finite");
+        let (x, v) = (simulation.bodies().position[0].x, simulation.bodies().velocity[0].x);
         println!("{method}: x off by {:e}, v by {:e}", x - exact[0], v - exact[1]);
         assert_near("x", x, exact[0], 3e-7 * AMPLITUDE);
         assert_near("v", v, exact[1], 3e-7 * AMPLITUDE * STIFFNESS.sqrt());

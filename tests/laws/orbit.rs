@@ -19,7 +19,7 @@ fn a_hundred_orbits_keep_energy_and_angular_momentum() {
     let truth = Truth::read(include_str!("../../assets/truths/P07_kepler.json"));
     let steps = 8000_u32;
     let tick = TAU / f64::from(steps);
-    let setting = Setting { method: "VelocityVerlet", tick, shift: 0.0 };
+    let setting = Setting { method: "VelocityVerlet", tick, shift: 0.0, ..Setting::default() };
     let mut simulation = kepler::PROBLEM.load(&setting).expect("the scene is correct");
     let mass = simulation.bodies().mass[1];
     let energy = truth.number("energy per unit reduced mass");

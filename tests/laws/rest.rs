@@ -45,7 +45,7 @@ fn a_ball_bounces_to_rest_as_the_closed_form_says() {
         for tick in [2e-4, 1e-4, 5e-5, 2.5e-5] {
             let mut worst = 0.0_f64;
             for phase in phases(8) {
-                let setting = Setting { method, tick, shift: phase * tick };
+                let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
                 let mut simulation = settling_bounce::PROBLEM.load(&setting).expect("the scene is correct");
                 let found = rebounds(&mut simulation, 2.56);
                 for (number, (found, exact)) in found.iter().zip(&exact).enumerate() {
@@ -78,7 +78,7 @@ fn the_ball_rests_inside_the_band_and_never_moves_again() {
     for method in METHODS {
         for tick in [2e-4, 5e-5] {
             for phase in phases(8) {
-                let setting = Setting { method, tick, shift: phase * tick };
+                let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
                 let text = (settling_bounce::PROBLEM.scene)(&setting, 10.0);
                 let mut simulation = load(&text);
                 let mut rested = f64::INFINITY;

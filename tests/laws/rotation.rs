@@ -16,7 +16,7 @@ fn a_fast_cluster_keeps_its_shape_and_its_momenta() {
     let truth = Truth::read(cluster_rotation::TRUTH);
     let atoms = truth.numbers("centre of mass");
     for method in METHODS {
-        let setting = Setting { method, tick: 1e-4, shift: 0.0 };
+        let setting = Setting { method, tick: 1e-4, shift: 0.0, ..Setting::default() };
         let mut simulation = cluster_rotation::PROBLEM.load(&setting).expect("the scene is correct");
         let bodies = simulation.bodies();
         assert_near("mass", bodies.mass[0], truth.number("mass"), 1e-15);

@@ -146,7 +146,7 @@ fn a_ball_bounces_alike_far_away() {
 fn a_cluster_turns_alike_far_away() {
     let far = 1e6;
     let Problem { scene, .. } = cluster_rotation::PROBLEM;
-    let setting = Setting { method: "VelocityVerlet", tick: 1e-4, shift: 0.0 };
+    let setting = Setting { method: "VelocityVerlet", tick: 1e-4, shift: 0.0, ..Setting::default() };
     let text = scene(&setting, 1.0);
     let mut here = load(&text);
     let mut there = load(&text.replace("at: (0, 0), velocity", &format!("at: ({far:?}, {far:?}), velocity")));

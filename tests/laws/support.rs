@@ -5,6 +5,7 @@ use std::fmt::Write;
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::contacts::ContactForces;
+use jostle::problems::{Problem, Setting};
 use jostle::scene::Source;
 use jostle::world::Bodies;
 use jostle::world::hash::state_hash;
@@ -38,6 +39,12 @@ pub fn fitted_order(points: &[(f64, f64)]) -> f64 {
     let covariance: f64 = logarithms.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
     let variance: f64 = logarithms.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
     covariance / variance
+}
+
+/// The same for those errors that are above `floor`, what rounding leaves; `None` if fewer than three are.
+pub fn fitted_order_above(floor: f64, points: &[(f64, f64)]) -> Option<f64> {
+    let above: Vec<(f64, f64)> = points.iter().copied().filter(|(_, error)| error.is_nan() || *error > floor).collect();
+    (above.len() >= 3).then(|| fitted_order(&above))
 }
 
 /// Ticks and errors, to be shown when a test fails.
@@ -108,4 +115,13 @@ pub fn assert_rest(what: &str, simulation: &mut Simulation, time: f64, still: f6
     let hash = state_hash(bodies);
     run_to(simulation, time + still);
     assert_eq!(state_hash(simulation.bodies()), hash, "{what}: the state changed after {time} s");
+}
+
+/// Whether nothing from outside acts on the bodies of a problem.
+pub fn is_closed(problem: &Problem) -> bool {
+    let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..Setting::default() };
+    let text = (problem.scene)(&setting, problem.duration());
+    let outside =
+        ["gravity:", "walls:", "fixed:", "kinematic:", "World", "Drag(", "Drive(", "Thrust(", "Torque(", "Wind("];
+    !outside.iter().any(|word| text.contains(word))
 }

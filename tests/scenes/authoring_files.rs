@@ -185,3 +185,129 @@ fn sections_of_plugins_work_in_templates() {
     let error = with_paint(&scene("\"2 cm\"")).err().expect("it is wrong").errors()[0].clone();
     assert_eq!(error.message, "expected a number, found the text \"0.01 m\"");
 }
+
+/// Names in a template mean things of the template, then those of its file, then of the file that includes it; a text
+/// that an instance gives means what the name means where the instance stands.
+#[test]
+fn names_in_a_template_are_those_of_its_file() {
+    let part = r#"Scene(format: 1,
+        materials: { "steel": (density: 2), "glass": (density: 3) },
+        templates: {
+            "bob": (args: ["x", "stuff"], bodies: [
+                (name: "ball", at: ("x", 5), material: "steel", atoms: Disc(radius: 0.125)),
+                (name: "weight", at: ("x", 7), material: "{stuff}", atoms: Disc(radius: 0.125)),
+            ]),
+            "push": (args: ["f"], forces: [
+                Thrust(of: "hand", force: ("f", 0)), Drag(linear: 0.5, of: "far"), Drag(linear: 0.25, of: "h*"),
+            ]),
+        },
+        instances: [
+            (of: "bob", name: "own", with: (x: 1, stuff: "glass")),
+            (of: "push", name: "p", with: (f: 1)),
+        ],
+        bodies: [(name: "hand", at: (3, 5), material: "steel", atoms: Disc(radius: 0.125))],
+    )"#;
+    let things = r#"materials: { "steel": (density: 5) },
+        bodies: [
+            (name: "hand", at: (5, 5), material: "steel", atoms: Disc(radius: 0.125)),
+            (name: "far", at: (7, 5), velocity: (1, 0), material: "steel", atoms: Disc(radius: 0.125)),
+        ],"#;
+    let main = format!(
+        r#"Scene(format: 1, clock: (duration: 0.5, tick: "1 ms"), {things}
+        include: [(file: "part.ron", prefix: "a")],
+        instances: [(of: "a/bob", name: "mine", with: (x: 9, stuff: "steel"))],
+    )"#
+    );
+    let by_hand = r#"Scene(format: 1, clock: (duration: 0.5, tick: "1 ms"),
+        materials: { "steel": (density: 5), "a/steel": (density: 2), "a/glass": (density: 3) },
+        bodies: [
+            (name: "hand", at: (5, 5), material: "steel", atoms: Disc(radius: 0.125)),
+            (name: "far", at: (7, 5), velocity: (1, 0), material: "steel", atoms: Disc(radius: 0.125)),
+            (name: "a/own/ball", at: (1, 5), material: "a/steel", atoms: Disc(radius: 0.125)),
+            (name: "a/own/weight", at: (1, 7), material: "a/glass", atoms: Disc(radius: 0.125)),
+            (name: "a/hand", at: (3, 5), material: "a/steel", atoms: Disc(radius: 0.125)),
+            (name: "mine/ball", at: (9, 5), material: "a/steel", atoms: Disc(radius: 0.125)),
+            (name: "mine/weight", at: (9, 7), material: "steel", atoms: Disc(radius: 0.125)),
+        ],
+        forces: [
+            Thrust(of: "a/hand", force: (1, 0)), Drag(linear: 0.5, of: "far"), Drag(linear: 0.25, of: "a/h*"),
+        ],
+    )"#;
+    let made = scene("templates", &[("main.ron", &main), ("part.ron", part)]);
+    assert_eq!(end(&made), end(&Source::new("a.ron", by_hand)));
+    // The instance is used ahead of its file; the bodies stand in the order of the sections.
+    let mass = |source: &Source, name: &str| {
+        let simulation = Simulation::load(source).unwrap();
+        let place = (0..simulation.bodies().len()).find(|&place| simulation.name(place) == name).unwrap();
+        simulation.bodies().mass[place]
+    };
+    for name in ["a/own/ball", "a/own/weight", "mine/ball", "mine/weight"] {
+        assert_eq!(mass(&made, name), mass(&Source::new("a.ron", by_hand), name), "{name}");
+    }
+    let notes = Simulation::load(&made).unwrap().header().remarks.clone();
+    assert!(notes.iter().any(|note| note.contains("the template `push` makes nothing called \"h*\"")), "{notes:?}");
+}
+
+/// A file that is good alone is good under a prefix too, also with patterns over what several entries of `fill` make and
+/// with channels of no body; and never takes for its own what only the main file has.
+#[test]
+fn patterns_and_channels_keep_to_their_file() {
+    let part = r#"Scene(format: 1, clock: (duration: 0.1, tick: "1 ms"),
+        fill: [Repeat(count: 2, make: (name: "ball_{i}", count: 1, seed: 1, atoms: Disc(radius: 0.125),
+            within: (("3 * i", 0), ("3 * i + 1", 1))))],
+        plots: [(channels: ["ball_*.position.x"])],
+        sensors: [Pose(of: "ball_*"), Energy()],
+        expect: [Inside(of: "ball_*", box: ((0, 0), (9, 9))), Channel(name: "energy.residual", below: 1),
+            Channel(name: "overlap.share", below: 1), Channel(name: "ball_1_0.position.x", below: 9)],
+    )"#;
+    // Far outside of the box: taking it for a ball of the part breaks the expectation.
+    let main = r#"Scene(format: 1, clock: (duration: 0.1, tick: "1 ms"), include: [(file: "part.ron", prefix: "a")],
+        bodies: [(name: "ball_9", at: (99, 0), atoms: Disc(radius: 0.125))])"#;
+    let mut made = Simulation::load(&scene("patterns", &[("main.ron", main), ("part.ron", part)]))
+        .unwrap_or_else(|errors| panic!("{errors}"));
+    made.run_to_end().unwrap();
+    let results = made.world().resource::<jostle::expect::Expectations>().outcomes();
+    assert_eq!(results.len(), 4);
+    assert!(results.iter().all(|result| result.holds), "{results:?}");
+}
+
+#[test]
+fn files_are_included_by_repetition() {
+    let part = r#"Scene(format: 1, params: { "x": 0 },
+        bodies: [(name: "ball", at: ("x", 1), atoms: Disc(radius: 0.125))])"#;
+    let main = r#"Scene(format: 1, clock: (duration: 0.1, tick: "1 ms"),
+        include: [Repeat(count: 3, make: (file: "part.ron", prefix: "p_{i}", with: (x: "2 * i")))])"#;
+    let by_hand = r#"Scene(format: 1, clock: (duration: 0.1, tick: "1 ms"), bodies: [
+        (name: "p_0/ball", at: (0, 1), atoms: Disc(radius: 0.125)),
+        (name: "p_1/ball", at: (2, 1), atoms: Disc(radius: 0.125)),
+        (name: "p_2/ball", at: (4, 1), atoms: Disc(radius: 0.125)),
+    ])"#;
+    let made = scene("repeated", &[("main.ron", main), ("part.ron", part)]);
+    assert_eq!(end(&made), end(&Source::new("a.ron", by_hand)));
+}
+
+/// Every scene that comes with the program can be a part of another: under a prefix it is read without a mistake and
+/// makes the same number of bodies. What is not tested: that it moves the same, as gravity and contacts are the main
+/// scene's.
+#[test]
+fn every_shipped_scene_can_be_included() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "ron") {
+            continue;
+        }
+        count += 1;
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let main = format!(
+            "Scene(format: 1, clock: (duration: 1, tick: \"1 ms\"), include: [(file: {name:?}, prefix: \"p\")])"
+        );
+        let main = Source { folder: Some(folder.clone()), ..Source::new("main.ron", main) };
+        let alone = Simulation::load(&Source::read(&path).unwrap()).unwrap_or_else(|errors| panic!("{errors}"));
+        let included = Simulation::load(&main).unwrap_or_else(|errors| panic!("{name}: {errors}"));
+        assert_eq!(included.bodies().len(), alone.bodies().len(), "{name}");
+        assert!((0..included.bodies().len()).all(|place| included.name(place).starts_with("p/")), "{name}");
+    }
+    assert_eq!(count, 18);
+}

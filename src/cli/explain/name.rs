@@ -4,10 +4,13 @@ use bevy_app::App;
 
 use super::words::{WORDS, Word};
 use crate::cli::Exit;
+use crate::cli::list::READER;
 use crate::cli::say::{print_line, say};
 use crate::integrate::Methods;
+use crate::raster::Theme;
 use crate::scene::schema::Language;
 use crate::scene::{Known, SceneRegistry, nearest_name};
+use crate::sensors::QUANTITIES;
 use crate::tick::TickAppExt;
 
 /// Explains a name; `what` may be written in capitals or not.
@@ -32,6 +35,35 @@ pub(super) fn explain(what: &str) -> Exit {
                 found.push(format!("{}\n{}", of_entry(section.name, entry), told(section.name, Some(entry.name))));
             }
         }
+    }
+    for (name, example) in language.unregistered(registry) {
+        names.push(name);
+        if same(name) {
+            let kind =
+                if name == "Repeat" { "stands in place of an item of a list" } else { "is a section of the scene" };
+            found.push(format!(
+                "`{name}` {kind}. It comes from {READER}.\nFor example: {example}\n{}",
+                told(name, None)
+            ));
+        }
+    }
+    if let Some((section, field)) = what.split_once('.') {
+        let beginning = format!("  {field}: ");
+        let fields = told(section, None);
+        if let Some(line) = fields.lines().find(|line| line.starts_with(&beginning)) {
+            found.push(format!("`{section}.{field}` is a field of the section `{section}`.\n{}", line.trim()));
+        } else if registry.words(QUANTITIES).contains(&field) {
+            found.push(format!(
+                "`{what}` is a channel: `{field}` of the body or wall `{section}`. Sensors, plots and `expect` name it so; \
+                 `jostle list quantities` shows what else can be measured."
+            ));
+        }
+    }
+    names.extend(Theme::names());
+    if let Some(theme) = Theme::names().into_iter().find(|theme| same(theme)) {
+        found.push(format!(
+            "{theme} is a theme: look: (theme: {theme:?}), or --theme {theme}; `jostle list themes` shows the others"
+        ));
     }
     for method in app.world().get_resource::<Methods>().map_or(&[][..], |methods| &methods.0) {
         names.push(method.name);

@@ -24,6 +24,18 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
         Table::from_csv(&text).map_err(|why| format!("`{}`: {why}", path.display()))
     };
     let tables = shards.values().map(read).collect::<Result<Vec<_>, _>>()?;
+    let named = |place: usize| {
+        let name = shards.values().nth(place).and_then(|path| path.file_name()).unwrap_or_default();
+        let sweep = tables[place].sweep.as_deref().unwrap_or("unknown");
+        format!("`{}` of the sweep {sweep}", name.display())
+    };
+    if let Some(other) = tables.iter().position(|table| table.sweep.is_none() || table.sweep != tables[0].sweep) {
+        return Err(format!(
+            "the tables in `{shown}` are of different sweeps: {} and {}. Scene, flags or what varies were not the same",
+            named(0),
+            named(other)
+        ));
+    }
     let merged = Table::merged(tables).map_err(|why| format!("the tables in `{shown}` do not fit together: {why}"))?;
     let path = folder.join("table.csv");
     write_whole(&path, &merged.to_csv()).map_err(|error| error.to_string())?;

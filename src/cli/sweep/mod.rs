@@ -25,8 +25,9 @@ use super::side_by_side::{all_cores, in_order};
 use super::target::Place;
 use super::trial::Verdict;
 use crate::output::{Target, write_whole};
-use crate::scene::Source;
+use crate::scene::{SceneRegistry, Source, suggest};
 use crate::simulation::Simulation;
+use crate::world::hash::of_bytes;
 
 /// The command `sweep`.
 #[derive(Args, Debug)]
@@ -80,9 +81,10 @@ Examples:
   jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of them, on one of 16 computers
   jostle sweep --merge out/                                               when all shards are there
 
-DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the
-energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and
+DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the \
+energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and \
 greatest value, taken at the times of the film's frames and at the end. A run that fails is a row with its reason.
+
 Exit codes are those of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 usage, 3 a run went wrong.";
 
 /// How many runs that did not reach their end are told one by one.
@@ -126,6 +128,7 @@ impl Sweep {
             Ok(theme) => theme,
             Err(exit) => return Ok(exit),
         };
+        self.strangers(&source, &plain)?;
         grid.scene(&source, 0)?;
         std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
@@ -141,7 +144,8 @@ impl Sweep {
         let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
         let path = folder.join(self.file("table", "csv"));
-        write_whole(&path, &Table { names, rows }.to_csv()).map_err(|error| error.to_string())?;
+        let sweep = self.shard.map(|_| self.fingerprint(&source));
+        write_whole(&path, &Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
         let image = folder.join(self.file("contact_sheet", "png"));
         if sheet {
             picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
@@ -155,6 +159,32 @@ impl Sweep {
             }
         }
         Ok(exit)
+    }
+
+    /// What varies and is neither a parameter nor, as a path, within a section: most likely a slip.
+    fn strangers(&self, source: &Source, plain: &Simulation) -> Result<(), String> {
+        let registry = plain.world().resource::<SceneRegistry>();
+        let params = source.params();
+        let sections = registry.sections().into_iter().map(|section| section.name);
+        let known: Vec<&str> = params.iter().map(String::as_str).chain(sections).collect();
+        let begin = |name: &str| name.split(['.', '[']).next().unwrap_or_default().to_owned();
+        match self.vary.iter().map(|variation| begin(&variation.name)).find(|name| !known.contains(&&**name)) {
+            Some(name) => Err(format!(
+                "--vary {name}: there is no parameter and no section of this name; {}",
+                suggest::among(&name, known.into_iter(), "parameters and sections", '`')
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
+    fn fingerprint(&self, source: &Source) -> String {
+        let OverrideFlags { duration, tick, method, tolerance, settings } = &self.overrides;
+        let flags = format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
+        let texts = [&source.text, &source.made(), &flags, env!("CARGO_PKG_VERSION")];
+        // No text has a byte 255 in it.
+        let bytes = texts.into_iter().flat_map(|text| text.bytes().chain([255]));
+        format!("{:016x}", of_bytes(bytes))
     }
 
     /// A flag of all runs for what is to vary.

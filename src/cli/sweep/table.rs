@@ -21,6 +21,8 @@ const FIXED: [&str; 8] = [
 ];
 const RUN: &str = "run";
 const REASON: &str = "reason";
+/// What the header of a shard's last column begins with; the column has no cells.
+const SWEEP: &str = "sweep ";
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +42,8 @@ pub(super) struct Row {
 pub(super) struct Table {
     /// Names of what varies.
     pub names: Vec<String>,
+    /// Of a shard: of which sweep. Equal where scene, flags and what varies are equal.
+    pub sweep: Option<String>,
     pub rows: Vec<Row>,
 }
 
@@ -106,7 +110,9 @@ impl Table {
         };
         let names = self.names.iter().map(String::as_str);
         let columns = channels.iter().map(String::as_str);
-        line([RUN].into_iter().chain(names).chain(FIXED).chain(columns).chain([REASON]).collect());
+        let sweep = self.sweep.as_ref().map(|sweep| format!("{SWEEP}{sweep}"));
+        let last = [REASON].into_iter().chain(sweep.as_deref());
+        line([RUN].into_iter().chain(names).chain(FIXED).chain(columns).chain(last).collect());
         for row in &self.rows {
             let run = row.run.to_string();
             let cell = |column: &String| {
@@ -114,7 +120,8 @@ impl Table {
             };
             let own = row.values.iter().chain(&row.fixed).map(String::as_str);
             let channels = channels.iter().map(cell);
-            line([run.as_str()].into_iter().chain(own).chain(channels).chain([row.reason.as_str()]).collect());
+            let last = [row.reason.as_str()].into_iter().chain(sweep.as_ref().map(|_| ""));
+            line([run.as_str()].into_iter().chain(own).chain(channels).chain(last).collect());
         }
         text
     }
@@ -122,7 +129,10 @@ impl Table {
     /// Reads a table that [`Table::to_csv`] has written.
     pub fn from_csv(text: &str) -> Result<Self, String> {
         let mut lines = records(text)?.into_iter();
-        let header = lines.next().ok_or("it is empty")?;
+        let mut header = lines.next().ok_or("it is empty")?;
+        let columns = header.len();
+        let sweep = header.last().and_then(|last| last.strip_prefix(SWEEP)).map(str::to_owned);
+        header.truncate(columns - usize::from(sweep.is_some()));
         let foreign = "it is no table of a sweep";
         let begin = header.windows(FIXED.len()).position(|columns| columns == FIXED).ok_or(foreign)?;
         let channels = begin + FIXED.len()..header.len() - 1;
@@ -130,8 +140,8 @@ impl Table {
             return Err(foreign.to_owned());
         }
         let row = |cells: Vec<String>| {
-            if cells.len() != header.len() {
-                return Err(format!("a row has {} cells instead of {}", cells.len(), header.len()));
+            if cells.len() != columns {
+                return Err(format!("a row has {} cells instead of {columns}", cells.len()));
             }
             let run = cells[0].parse().map_err(|_| format!("`{}` is no number of a run", cells[0]))?;
             let there = channels.clone().filter(|&column| !cells[column].is_empty());
@@ -141,10 +151,10 @@ impl Table {
             Ok(Row { run, values: cells[1..begin].to_vec(), fixed, channels, reason })
         };
         let rows = lines.map(row).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { names: header[1..begin].to_vec(), rows })
+        Ok(Self { names: header[1..begin].to_vec(), sweep, rows })
     }
 
-    /// Puts the tables of all shards together.
+    /// Puts the tables of all shards together, which are of one sweep.
     pub fn merged(shards: Vec<Self>) -> Result<Self, String> {
         let names = shards.first().map(|table| table.names.clone()).unwrap_or_default();
         if shards.iter().any(|table| table.names != names) {
@@ -155,7 +165,7 @@ impl Table {
         if rows.iter().enumerate().any(|(place, row)| row.run != place + 1) {
             return Err("runs are missing or there twice: they are shards of different sweeps".to_owned());
         }
-        let table = Self { names, rows };
+        let table = Self { names, sweep: None, rows };
         table
             .is_a_grid()
             .then_some(table)
@@ -256,12 +266,15 @@ mod tests {
         let names = vec!["gravity".to_owned(), "x, y".to_owned()];
         let verdict = |run: usize| if channels[run].is_empty() { Verdict::Refused } else { Verdict::Good };
         let rows: Vec<Row> = (0..6).map(|run| row(run + 1, values[run], channels[run], verdict(run))).collect();
-        let whole = Table { names: names.clone(), rows: rows.clone() };
+        let whole = Table { names: names.clone(), sweep: None, rows: rows.clone() };
         assert_eq!(Table::from_csv(&whole.to_csv()).unwrap().to_csv(), whole.to_csv());
         for shards in 1..=8 {
             let shard = |shard: usize| {
                 let rows = rows.iter().skip(shard).step_by(shards).cloned().collect();
-                Table::from_csv(&Table { names: names.clone(), rows }.to_csv()).unwrap()
+                let shard = Table { names: names.clone(), sweep: Some("1f".to_owned()), rows };
+                let read = Table::from_csv(&shard.to_csv()).unwrap();
+                assert_eq!(read.sweep, shard.sweep);
+                read
             };
             let merged = Table::merged((0..shards).rev().map(shard).collect()).unwrap();
             assert_eq!(merged.to_csv(), whole.to_csv(), "{shards} shards");
@@ -290,6 +303,7 @@ mod tests {
     fn shards_of_different_sweeps_are_refused() {
         let table = |runs: &[(usize, [&str; 2])]| Table {
             names: vec!["a".into(), "b".into()],
+            sweep: None,
             rows: runs.iter().map(|(run, values)| row(*run, *values, &["x"], Verdict::Good)).collect(),
         };
         let (one, two) = (table(&[(1, ["1", "1"])]), table(&[(2, ["1", "2"])]));

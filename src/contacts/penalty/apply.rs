@@ -9,6 +9,9 @@ use super::critical::Watch;
 use super::law::{LawTable, PairLaw, Side};
 use super::normal::{Approach, Mode, NormalForce};
 use super::rest::Rest;
+use super::rows::Rows;
+use super::staged;
+use super::switching::Told;
 use crate::contacts::events::Touches;
 use crate::contacts::points::{ContactPoint, Other};
 use crate::contacts::search::NEW;
@@ -31,6 +34,8 @@ pub struct PenaltyContacts {
     pub(super) touching_walls: Vec<Touching>,
     pub(super) rest: Rest,
     pub(super) watch: Watch,
+    pub(super) rows: Rows,
+    pub(super) told: Told,
 }
 
 /// A pair that touches in the present state.
@@ -242,6 +247,13 @@ pub(super) fn apply_penalty<N: NormalForce>(
     }
     let mut losses = Losses::default();
     let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
+    if evaluation.style.is_staged() {
+        staged::evaluate::<N>(&mut contacts, &pairs, evaluation.style, &mut sink);
+        if let Some(mut touches) = touches {
+            note_touches(&contacts, &bodies, &pairs, &mut touches);
+        }
+        return;
+    }
     let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
     touching_atoms.clear();
     for (place, (&AtomPair { a, b }, contact)) in pairs.atoms.iter().zip(atoms).enumerate() {

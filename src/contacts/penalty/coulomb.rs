@@ -18,6 +18,8 @@ pub enum Grip {
     Slip,
     /// At rest: the force is whatever keeps it so, up to the static limit.
     Hold,
+    /// It slips in the direction of the force in [`Slider::held`]: only where contacts are stages of a step.
+    Slide,
 }
 
 /// Coefficients of a spring with a Coulomb limit. For rolling, forces are torques, displacements angles and the
@@ -45,7 +47,7 @@ impl SliderLaw {
 pub struct Slider {
     /// Elongation in metres.
     pub elongation: f64,
-    /// Force in newtons while it holds; it counts as the pull of the spring does.
+    /// Force in newtons while it holds or slides; it counts as the pull of the spring does.
     pub held: f64,
     /// Its phase.
     pub grip: Grip,
@@ -56,7 +58,7 @@ impl Slider {
     #[inline]
     pub fn force(&self, law: &SliderLaw) -> f64 {
         match self.grip {
-            Grip::Hold => self.held,
+            Grip::Hold | Grip::Slide => self.held,
             Grip::Stick | Grip::Slip => law.stiffness * self.elongation,
         }
     }

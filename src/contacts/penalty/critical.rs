@@ -10,9 +10,10 @@ use super::apply::{End, PenaltyContacts, arms};
 use super::law::PairLaw;
 use super::normal::NormalForce;
 use super::rolling;
-use crate::contacts::response::{Spring, Springs};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
-use crate::tick::{Balance, Briefest, Clock, Fastest, Responses, Stability};
+use crate::tick::response::{Spring, Springs};
+use crate::tick::steady::SteadySprings;
+use crate::tick::{Balance, Briefest, Clock, Fastest, Holder, Responses, Stability};
 use crate::world::Bodies;
 
 /// Ticks after which an unchanged number of pairs is looked at again.
@@ -51,6 +52,7 @@ impl PenaltyContacts {
         clock: &Clock,
         stability: &Stability,
         balance: &mut Balance,
+        steady: Option<&SteadySprings>,
     ) {
         let touching = self.touching_atoms.len() + self.touching_walls.len();
         if touching == 0 {
@@ -61,7 +63,7 @@ impl PenaltyContacts {
         let watch = &self.watch;
         let changed = touching != watch.pairs && clock.ticks >= watch.earliest;
         if changed || clock.ticks >= watch.next {
-            self.measure::<N>(bodies, pairs, clock, stability);
+            self.measure::<N>(bodies, pairs, clock, stability, steady);
             let fastest = self.watch.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency);
             balance.alert |= clock.dt * fastest > ALERT;
         }
@@ -74,10 +76,16 @@ impl PenaltyContacts {
         pairs: &CandidatePairs,
         clock: &Clock,
         stability: &Stability,
+        steady: Option<&SteadySprings>,
     ) {
         let mut watch = std::mem::take(&mut self.watch);
         let weight = |angular_frequency: f64| angular_frequency * stability.weight_of_damping();
-        watch.springs.gather(self.springs::<N>(bodies, pairs, weight(stability.limit / clock.dt)), bodies);
+        // Springs of the scene hold the same bodies, and so count with the contacts.
+        let gather = |springs: &mut Springs, weight: f64| {
+            let others = steady.into_iter().flat_map(|steady| steady.rows(weight));
+            springs.gather(self.springs::<N>(bodies, pairs, weight), others, bodies);
+        };
+        gather(&mut watch.springs, weight(stability.limit / clock.dt));
         watch.pairs = self.touching_atoms.len() + self.touching_walls.len();
         watch.earliest = clock.ticks + watch.pairs as u64;
         watch.next = clock.ticks + PATIENCE;
@@ -102,16 +110,17 @@ impl PenaltyContacts {
             watch.solved = clock.ticks;
             watch.bound = watch.bound.max(bound.squared);
             let mut squared = watch.springs.largest();
-            if N::DEPENDS_ON_VELOCITY {
+            if N::DEPENDS_ON_VELOCITY || steady.is_some_and(SteadySprings::damped) {
                 // Damping counts by the tick that is sought; each round halves at least what is missing.
                 for _ in 0..ROUNDS {
-                    watch.springs.gather(self.springs::<N>(bodies, pairs, weight(squared.sqrt())), bodies);
+                    gather(&mut watch.springs, weight(squared.sqrt()));
                     squared = watch.springs.largest();
                 }
             }
             if squared > fastest * fastest {
                 let body = bodies.entity[bound.body];
-                found.fastest = Some(Fastest { angular_frequency: squared.sqrt(), body, time });
+                found.fastest =
+                    Some(Fastest { angular_frequency: squared.sqrt(), body, holder: Holder::Contacts, time });
             }
         }
         self.watch = watch;

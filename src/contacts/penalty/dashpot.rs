@@ -61,6 +61,30 @@ impl NormalForce for Dashpot {
         (law.stiffness * overlap - damping(law, approach.mobility) * approach.parting).max(0.0)
     }
 
+    /// A contact whose force has vanished before its overlap is slack: unloading, without a force.
+    fn smooth_force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64 {
+        match mode {
+            Mode::Unloading => 0.0,
+            _ => law.stiffness * overlap - damping(law, approach.mobility) * approach.parting,
+        }
+    }
+
+    fn remaining(mode: Mode, overlap: f64, force: f64) -> (f64, bool) {
+        if mode == Mode::Unloading { (overlap, true) } else { (force, false) }
+    }
+
+    fn stays(_: &PairLaw, mode: Mode, _: (f64, f64), loading: f64) -> Option<(f64, f64)> {
+        (mode == Mode::Unloading).then_some((-loading, f64::NAN))
+    }
+
+    fn after(mode: Mode, parted: bool) -> Mode {
+        match (mode, parted) {
+            (Mode::Unloading, true) => Mode::Open,
+            (Mode::Unloading, false) => Mode::Loading,
+            _ => Mode::Unloading,
+        }
+    }
+
     /// The force has one value at rest: that of the spring.
     fn band(_: &PairLaw, _: f64, present: f64) -> (f64, f64) {
         (present, present)

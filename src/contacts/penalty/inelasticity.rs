@@ -43,6 +43,15 @@ impl NormalForce for Inelasticity {
         law.stiffness * overlap * (1.0 + sign(mode) * law.inelasticity)
     }
 
+    fn stays(law: &PairLaw, mode: Mode, (parting, rate): (f64, f64), _: f64) -> Option<(f64, f64)> {
+        let sign = -sign(mode);
+        (law.inelasticity > 0.0).then_some((sign * parting, sign * rate))
+    }
+
+    fn after(_: Mode, parted: bool) -> Mode {
+        if parted { Mode::Open } else { Mode::Hold }
+    }
+
     #[inline]
     fn band(law: &PairLaw, overlap: f64, _: f64) -> (f64, f64) {
         let force = |mode| Self::force(law, mode, overlap, Approach::default());

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::Penalty;
 use super::coulomb::SliderLaw;
 use super::dashpot::Damping;
 use super::normal::NormalForce;
+use super::{Penalty, TangentialLaw};
 use crate::world::{MaterialIndex, Materials};
 
 /// Coefficients of one kind of pair.
@@ -23,6 +23,8 @@ pub struct PairLaw {
     pub friction_dynamic: f64,
     /// Stiffness of the tangential spring in N/m.
     pub tangential_stiffness: f64,
+    /// Whether friction sticks without a spring.
+    pub exact: bool,
     /// Share of the overlap that side A gives way: the softer side gives way more.
     pub share_a: f64,
     /// Share of the overlap that side B gives way.
@@ -84,13 +86,14 @@ impl LawTable {
 fn pair_law<N: NormalForce>(a: Side, b: Side, materials: &Materials, settings: &Penalty) -> PairLaw {
     let stiffness = 1.0 / (1.0 / a.stiffness + 1.0 / b.stiffness);
     let pair = materials.pair(a.material.place(), b.material.place());
-    let ratio = settings.tangential.ratio();
+    let (ratio, exact) = (settings.tangential.ratio(), settings.tangential == TangentialLaw::Exact);
     let friction = |coefficient: f64| if ratio.is_some() { coefficient } else { 0.0 };
     let mut law = PairLaw {
         stiffness,
         friction_static: friction(pair.friction_static),
         friction_dynamic: friction(pair.friction_dynamic),
-        tangential_stiffness: ratio.unwrap_or(0.0) * stiffness,
+        tangential_stiffness: if exact { stiffness } else { ratio.unwrap_or(0.0) * stiffness },
+        exact,
         share_a: stiffness / a.stiffness,
         share_b: stiffness / b.stiffness,
         ..PairLaw::default()

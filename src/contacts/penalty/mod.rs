@@ -15,6 +15,9 @@ mod modes;
 pub mod normal;
 mod rest;
 pub mod rolling;
+mod rows;
+mod staged;
+mod switching;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -31,13 +34,13 @@ use normal::NormalForce;
 
 use super::points::TellContacts;
 use super::search::{self, FindPairs};
-use super::{ContactLaw, DeepestOverlap, StiffestContact};
+use super::{ContactLaw, DeepestOverlap};
 use crate::report::card::Notes;
 use crate::scene::units::Damping;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
-use crate::tick::{Evaluate, EvaluateStage, Modes, Stability, TickAppExt};
+use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Modes, Stability, TickAppExt};
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
 
@@ -80,6 +83,9 @@ pub enum TangentialLaw {
         /// (Mindlin 1949).
         ratio: f64,
     },
+    /// Dry friction that sticks without any give, up to the static friction, and slips with the dynamic one. For few
+    /// contacts, under methods that locate events.
+    Exact,
 }
 
 impl Default for TangentialLaw {
@@ -94,6 +100,8 @@ impl TangentialLaw {
         match self {
             Self::None => None,
             Self::Spring { ratio } => Some(ratio),
+            // No spring; the number serves estimates of how fast contacts respond.
+            Self::Exact => Some(0.0),
         }
     }
 }
@@ -219,8 +227,10 @@ fn prepare<N: NormalForce>(world: &mut World) {
     let mut contacts = world.resource_mut::<PenaltyContacts>();
     (contacts.materials, contacts.settings) = (materials, settings);
     note_limits(world);
-    let stiffest = stiffest_contact::<N>(world.resource(), world.resource(), world.resource());
-    world.insert_resource(stiffest);
+    switching::install::<N>(world);
+    let angular_frequency = stiffest_contact::<N>(world.resource(), world.resource(), world.resource());
+    let foreseen = Foreseen { angular_frequency, holder: Holder::Contacts };
+    world.resource_mut::<Stability>().foreseen.push(foreseen);
 }
 
 fn elastic_energy(world: &World) -> f64 {
@@ -264,7 +274,7 @@ fn note_limits(world: &mut World) {
 ///
 /// Damping counts as if the method were the default one, the strictest: with `g = 2 c w` the frequency is
 /// `g/2 + sqrt(g^2/4 + omega^2)` (see [`Stability::damping_limit`]).
-fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, settings: &Penalty) -> StiffestContact {
+fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, settings: &Penalty) -> f64 {
     let ratio = settings.tangential.ratio().filter(|_| materials.any_friction()).unwrap_or(0.0);
     let turning = settings.rolling.ratio().unwrap_or(0.0);
     let weight = Stability::default().weight_of_damping();
@@ -283,5 +293,5 @@ fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, sett
         damped + (damped * damped + stiffness * mobility(distance) + across).sqrt()
     };
     let colliding = (0..bodies.atom_count()).filter(|&atom| bodies.collides[bodies.atom_body[atom] as usize]);
-    StiffestContact { angular_frequency: colliding.map(&mut frequency).fold(0.0, f64::max) }
+    colliding.map(&mut frequency).fold(0.0, f64::max)
 }

@@ -15,7 +15,8 @@ use super::normal::{Mode, NormalForce};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
-use crate::tick::{Balance, Clock, Ledger, Stability};
+use crate::tick::steady::SteadySprings;
+use crate::tick::{Balance, Clock, Evaluation, Ledger, Stability};
 use crate::world::Bodies;
 
 /// Working memory of the search for rest.
@@ -36,12 +37,16 @@ pub(super) fn choose_modes<N: NormalForce>(
     mut rolling: Option<ResMut<RollingContacts>>,
     mut balance: ResMut<Balance>,
     mut ledger: ResMut<Ledger>,
-    clock: Res<Clock>,
+    (clock, evaluation): (Res<Clock>, Res<Evaluation>),
     stability: Res<Stability>,
+    steady: Option<Res<SteadySprings>>,
     mut forces: Option<ResMut<ContactForces>>,
     mut scratch: Local<Scratch>,
 ) {
-    contacts.watch::<N>(&bodies, &pairs, &clock, &stability, &mut balance);
+    contacts.watch::<N>(&bodies, &pairs, &clock, &stability, &mut balance, steady.as_deref());
+    if evaluation.style.is_staged() {
+        return;
+    }
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
     let mut choice = Choice { sink, contacts, rolling, dt: clock.dt, losses: Losses::default() };

@@ -43,6 +43,24 @@ pub trait NormalForce: Send + Sync + 'static {
     /// Normal force in newtons, never below zero.
     fn force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64;
 
+    /// Its smooth continuation beyond where the mode ends, below zero too. Default: the force itself.
+    fn smooth_force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64 {
+        Self::force(law, mode, overlap, approach)
+    }
+
+    /// What is positive while the contact lasts, given overlap, present force and the force that its law would have; and
+    /// whether that is the overlap itself.
+    fn remaining(_: Mode, overlap: f64, _: f64) -> (f64, bool) {
+        (overlap, true)
+    }
+
+    /// What is positive while a contact stays in its mode, apart from [`NormalForce::remaining`], and its rate (not a number if
+    /// unknown), given what parts it (in m/s and m/s2) and the force it would have while loading. `None`: nothing ends it.
+    fn stays(law: &PairLaw, mode: Mode, parting: (f64, f64), loading: f64) -> Option<(f64, f64)>;
+
+    /// The mode for a first try when [`NormalForce::stays`] or [`NormalForce::remaining`] came to its end.
+    fn after(mode: Mode, parted: bool) -> Mode;
+
     /// The least and the greatest force in newtons that a contact at rest may have, if it has `present` now.
     fn band(law: &PairLaw, overlap: f64, present: f64) -> (f64, f64);
 

@@ -1,4 +1,4 @@
-//! The clock: the time of the frame, with digits that stand still.
+//! The clock: the time of the frame, with digits that stand still, in a unit that suits the steps of the film.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,10 @@ use crate::raster::text::{Lettering, Weight};
 use crate::raster::theme::Theme;
 
 /// Every letter a time may need, infinite and undefined ones too.
-const LETTERS: &str = "t = s-.0123456789infNa";
+const LETTERS: &str = "t = sminhda-.0123456789fN";
+
+/// Minutes, hours, days and years (of 365.25 days, the Julian year of astronomy) in seconds.
+const UNITS: [(f64, &str); 4] = [(31_557_600.0, "a"), (86_400.0, "d"), (3600.0, "h"), (60.0, "min")];
 
 /// The clock of a film.
 #[derive(Clone, Debug)]
@@ -17,6 +20,7 @@ pub(in crate::raster) struct Clock {
     letters: BTreeMap<char, Letter>,
     size: f32,
     decimals: usize,
+    unit: (f64, &'static str),
 }
 
 /// A letter and its halo, apart: no halo may cover the letter before.
@@ -29,8 +33,11 @@ struct Letter {
 }
 
 impl Clock {
-    /// A clock with letters of `size` pixels that shows so many decimals of a second.
-    pub(in crate::raster) fn new(size: f32, decimals: usize, theme: &Theme) -> Clock {
+    /// A clock with letters of `size` pixels that tells frames `step` seconds apart. Its unit is the largest that is not
+    /// longer than a step.
+    pub(in crate::raster) fn new(size: f32, step: f64, theme: &Theme) -> Clock {
+        let unit = UNITS.into_iter().find(|(seconds, _)| step >= *seconds).unwrap_or((1.0, "s"));
+        let decimals = decimals(step / unit.0);
         let lettering = Lettering::tabular(Weight::Regular, size, LETTERS);
         let letter = |letter: char| {
             let text = letter.to_string();
@@ -43,12 +50,12 @@ impl Clock {
             };
             (letter, made)
         };
-        Clock { letters: LETTERS.chars().map(letter).collect(), size, decimals }
+        Clock { letters: LETTERS.chars().map(letter).collect(), size, decimals, unit }
     }
 
     /// The width of a time of two digits, in pixels.
     pub(in crate::raster) fn width(&self) -> f32 {
-        let text = self.text(10.0);
+        let text = self.text(10.0 * self.unit.0);
         text.chars().filter_map(|letter| self.letters.get(&letter)).map(|letter| letter.advance).sum::<i32>() as f32
     }
 
@@ -72,12 +79,30 @@ impl Clock {
     }
 
     fn text(&self, time: f64) -> String {
-        format!("t = {time:.*} s", self.decimals)
+        let (seconds, unit) = self.unit;
+        format!("t = {} {unit}", grouped(&format!("{:.*}", self.decimals, time / seconds)))
     }
 }
 
+/// A number with a blank between thousands, from five digits on.
+pub(super) fn grouped(number: &str) -> String {
+    let start = usize::from(number.starts_with('-'));
+    let end = number.find('.').unwrap_or(number.len());
+    if end - start < 5 || !number[start..end].bytes().all(|byte| byte.is_ascii_digit()) {
+        return number.to_owned();
+    }
+    let mut text = number[..start].to_owned();
+    for (place, digit) in number[start..end].char_indices() {
+        if place > 0 && (end - start - place).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text + &number[end..]
+}
+
 /// The decimals that tell two frames `step` seconds apart: at least two, at most nine.
-pub(in crate::raster) fn decimals(step: f64) -> usize {
+fn decimals(step: f64) -> usize {
     let mut decimals = 2;
     let mut smallest = 0.01;
     // The last digit may count in steps of a few, not stand still: 1/30 s needs two decimals, 1 ms three.
@@ -98,6 +123,29 @@ mod tests {
             assert_eq!(decimals(step), expected, "{step}");
         }
         let theme = Theme::named("paper").expect("shipped");
-        assert_eq!(Clock::new(20.0, 3, &theme).text(2.0675), "t = 2.067 s");
+        assert_eq!(Clock::new(20.0, 1e-3, &theme).text(2.0675), "t = 2.067 s");
+        // 49 million seconds are 567 days and 3.1 hours.
+        for (step, time, text) in [
+            (1.0, 18_000.0, "t = 18 000.00 s"),
+            (59.0, 590.0, "t = 590.00 s"),
+            (60.0, 600.0, "t = 10.00 min"),
+            (3600.0, 5400.0, "t = 1.50 h"),
+            (1e5, 4.9e7, "t = 567.13 d"),
+            (4e7, 3_155_760e3, "t = 100.00 a"),
+            (f64::NAN, 1.0, "t = 1.00 s"),
+        ] {
+            let clock = Clock::new(20.0, step, &theme);
+            assert_eq!(clock.text(time), text);
+            assert!(text.chars().all(|letter| clock.letters.contains_key(&letter)), "{text}");
+        }
+    }
+
+    #[test]
+    fn thousands_are_set_apart() {
+        for (number, expected) in
+            [("1234.5", "1234.5"), ("12345.67", "12 345.67"), ("-1234567", "-1 234 567"), ("inf", "inf"), ("0", "0")]
+        {
+            assert_eq!(grouped(number), expected);
+        }
     }
 }

@@ -91,7 +91,9 @@ fn round_length(pixels_per_meter: f64, longest: f64) -> (f64, String) {
     let digit = [5.0, 2.0].into_iter().find(|digit| digit * power(decade) <= most).unwrap_or(1.0);
     // What follows a power of a thousand, and the power itself.
     let (unit, factor) = match decade {
-        3..=11 => ("km", decade - 3),
+        9..=11 => ("Gm", decade - 9),
+        6..=8 => ("Mm", decade - 6),
+        3..=5 => ("km", decade - 3),
         0..=2 => ("m", decade),
         -2..=-1 => ("cm", decade + 2),
         -3 => ("mm", 0),
@@ -115,6 +117,8 @@ mod tests {
             (1000.0, 100.0, "10 cm"),
             (4.0, 80.0, "20 m"),
             (4e-4, 80.0, "200 km"),
+            (2e-6, 100.0, "50 Mm"),
+            (2e-9, 100.0, "50 Gm"),
             (2e4, 100.0, "5 mm"),
             (5e6, 100.0, "20 µm"),
             (1e-12, 100.0, "1e14 m"),

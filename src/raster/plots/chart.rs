@@ -70,9 +70,10 @@ impl Chart {
     pub(in crate::raster) fn new(plot: &Plot, outer: Area, naming: Naming, sizes: &Sizes, tones: &Tones) -> Chart {
         let (text, small) = (sizes.text, tones.small(sizes));
         let times = matches!(plot.content, Content::Times(_));
-        let traces = plot.curves().iter().enumerate().map(|(place, curve)| {
-            let (color, dash) = tones.curve(place, &curve.label, sizes.line);
-            Trace { label: curve.label.clone(), color, dash, points: Vec::new(), samples: curve.samples.clone() }
+        let looks = tones.curves(plot.curves(), sizes.line);
+        let traces = plot.curves().iter().zip(looks).map(|(curve, (color, dash))| {
+            let (label, samples) = (curve.label.clone(), curve.samples.clone());
+            Trace { label, color, dash, points: Vec::new(), samples }
         });
         let traces: Vec<Trace> = traces.collect();
         let turned = naming == Naming::Full || !times;
@@ -92,7 +93,7 @@ impl Chart {
         let bottom = top + left_by(rows.len(), named).max(text);
 
         let ups = || plot.curves().iter().flat_map(|curve| curve.samples.iter().map(|sample| sample.y));
-        let most_up = ((bottom - top) / (2.4 * text)).clamp(1.0, 6.0) as usize;
+        let most_up = ((bottom - top) / (2.4 * text)).clamp(2.0, 6.0) as usize;
         let up_range = match &plot.content {
             Content::Bars(bars) => {
                 let most = bars.counts.iter().flat_map(|(_, counts)| &counts[..counts.len() - 1]).max();
@@ -134,9 +135,9 @@ impl Chart {
         let mut across_label = with_unit(&plot.across.label, &ticks::unit(&plot.across.unit, across_ticks.exponent));
         let mut aside = if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") };
         if let Content::Bars(bars) = &plot.content
-            && let Some(outside) = bars.counts.last().and_then(|(_, counts)| counts.last()).filter(|count| **count > 0)
+            && let Some(most) = bars.counts.iter().filter_map(|(_, counts)| counts.last()).max()
         {
-            aside = format!("({outside} outside at the end)");
+            aside = outside(*most);
         }
         if !named {
             across_label.clear();
@@ -198,8 +199,10 @@ impl Chart {
         let baseline = self.outer.top + 0.8 * sizes.title;
         let aside = small.width(&self.aside) + 0.5 * sizes.title;
         let title = heading.shortened(&self.title, self.outer.width() - aside);
-        let width = heading.write(picture, &title, (self.outer.left, baseline), Align::Left);
-        small.write(picture, &self.aside, (self.outer.left + width + 0.4 * sizes.title, baseline), Align::Left);
+        heading.write(picture, &title, (self.outer.left, baseline), Align::Left);
+        if self.bars.is_none() {
+            self.write_aside(picture, &self.aside);
+        }
 
         self.draw_grid(picture);
         let right = self.inner.left - 0.7 * sizes.text;
@@ -244,6 +247,15 @@ impl Chart {
         }
     }
 
+    /// Writes beside the title, where room is kept for the longest that is said there.
+    fn write_aside(&self, picture: &mut Pixmap, text: &str) {
+        let (sizes, heading, small) = (&self.sizes, self.tones.title(&self.sizes), self.tones.small(&self.sizes));
+        let kept = small.width(&self.aside) + 0.5 * sizes.title;
+        let title = heading.shortened(&self.title, self.outer.width() - kept);
+        let left = self.outer.left + heading.width(&title) + 0.4 * sizes.title;
+        small.write(picture, text, (left, self.outer.top + 0.8 * sizes.title), Align::Left);
+    }
+
     fn draw_grid(&self, picture: &mut Pixmap) {
         let Area { left, top, right, bottom } = self.inner;
         let thick = self.sizes.hair;
@@ -269,6 +281,10 @@ impl Chart {
 
     /// Draws what was measured up to a time (s).
     pub(in crate::raster) fn draw_until(&self, picture: &mut Pixmap, time: f64, tools: &mut Tools) {
+        let now = self.bars.as_ref().and_then(|bars| bars.at(time).last());
+        if let Some(count) = now.filter(|count| **count > 0) {
+            self.write_aside(picture, &outside(*count));
+        }
         let mut canvas = Canvas::new(picture);
         if let Some(bars) = &self.bars {
             self.draw_bars(bars.at(time), &mut canvas);
@@ -283,6 +299,9 @@ impl Chart {
             tools.sheet.begin(&sheet);
             tools.sheet.line(&tools.points, self.sizes.line, &trace.dash, &tools.weights);
             tools.sheet.put(&mut canvas, trace.color);
+            for (x, y) in lonely(&tools.points).filter(|_| !self.shows_heads) {
+                canvas.disc(x, y, self.sizes.dot, &Ink::plain(trace.color));
+            }
             if self.shows_heads
                 && (left - 1.0..=right + 1.0).contains(&head.0)
                 && (top - 1.0..=bottom + 1.0).contains(&head.1)
@@ -292,7 +311,13 @@ impl Chart {
         }
         for (head, radius, color) in nested(&heads, self.sizes.dot) {
             let (x, y) = (head.0.round() + 0.5, head.1.round() + 0.5);
-            canvas.disc(x, y, radius + self.sizes.hair, &Ink::plain(self.tones.card));
+            // Only from another dot: a curve is not cut by its own.
+            let close = |other: &&(Point, Rgb)| {
+                (other.0.0 - head.0).hypot(other.0.1 - head.1) < 2.0 * self.sizes.dot + self.sizes.hair
+            };
+            if heads.iter().filter(close).count() > 1 {
+                canvas.disc(x, y, radius + self.sizes.hair, &Ink::plain(self.tones.card));
+            }
             canvas.disc(x, y, radius, &Ink::plain(color));
         }
     }
@@ -347,6 +372,24 @@ pub(in crate::raster) struct Tools {
     sheet: Sheet,
     points: Vec<Point>,
     weights: Vec<f32>,
+}
+
+/// Points without a neighbour, of which no line would be seen.
+fn lonely(points: &[Point]) -> impl Iterator<Item = Point> {
+    let is_point = |point: &Point| point.0.is_finite() && point.1.is_finite();
+    // The last point may stand twice, as it is also the last sample.
+    let other = move |a: &Point, b: Option<&Point>| b.is_some_and(|b| is_point(b) && a != b);
+    let alone = move |place: &usize| {
+        let point = &points[*place];
+        let before = place.checked_sub(1).and_then(|before| points.get(before));
+        is_point(point) && !other(point, before) && !other(point, points.get(place + 1))
+    };
+    (0..points.len()).filter(alone).map(|place| points[place])
+}
+
+/// What is said beside the title of a histogram.
+fn outside(count: u64) -> String {
+    if count > 0 { format!("({count} outside)") } else { String::new() }
 }
 
 /// Counts have no halves.
@@ -419,7 +462,7 @@ mod tests {
     const AREA: Area = Area { left: 20.0, top: 10.0, right: 320.0, bottom: 260.0 };
 
     fn chart(samples: Vec<Sample>, phases: bool) -> Chart {
-        let curves = vec![Curve { label: "height".into(), samples }];
+        let curves = vec![Curve { label: "height".into(), body: None, samples }];
         let axis = |range| Axis { range: Some(range), ..Axis::default() };
         let content = if phases { Content::Phases(curves, None) } else { Content::Times(curves) };
         let plot = Plot { title: "height".into(), across: axis((0.0, 10.0)), up: axis((-2.0, 2.0)), content };
@@ -473,6 +516,28 @@ mod tests {
         }
     }
 
+    /// Law: the number outside is that of the moment: with none outside a histogram looks as if there had never been any,
+    /// and another number is another picture.
+    #[test]
+    fn what_lies_outside_is_counted_at_the_moment() {
+        let histogram = |outside: [u64; 3]| {
+            let counts = (0..3).map(|place| (place as f64, vec![1, 2, outside[place]])).collect();
+            let plot = Plot {
+                title: "x".into(),
+                across: Axis { range: Some((0.0, 1.0)), ..Axis::default() },
+                up: Axis::default(),
+                content: Content::Bars(Bars { counts }),
+            };
+            let theme = Theme::named("paper").expect("shipped");
+            Chart::new(&plot, AREA, Naming::Brief, &Sizes::new(1.0), &Tones::new(&theme))
+        };
+        let (some, none, other) = (histogram([0, 3, 0]), histogram([0, 0, 0]), histogram([0, 4, 0]));
+        for (time, shows) in [(0.5, false), (1.0, true), (1.9, true), (2.0, false)] {
+            assert_eq!(drawn(&some, time) != drawn(&none, time), shows, "{time}");
+            assert_eq!(drawn(&some, time) != drawn(&other, time), shows, "{time}");
+        }
+    }
+
     /// What is yet to come changes nothing of what is seen.
     #[test]
     fn the_future_does_not_show() {
@@ -484,6 +549,22 @@ mod tests {
             assert!(drawn(&one, time) == drawn(&other, time), "{time}");
         }
         assert!(drawn(&one, 6.0) != drawn(&other, 6.0));
+    }
+
+    /// Law: a value with gaps at both sides is seen, as a dot, and only such.
+    #[test]
+    fn a_value_alone_is_a_dot() {
+        let (gap, a, b) = ((f32::NAN, 1.0), (1.0, 1.0), (2.0, 1.0));
+        for (points, expected) in [
+            (&[a, a][..], &[a, a][..]),
+            (&[a], &[a]),
+            (&[a, b], &[]),
+            (&[gap, a, gap], &[a]),
+            (&[a, b, gap, b], &[b]),
+            (&[gap], &[]),
+        ] {
+            assert_eq!(lonely(points).collect::<Vec<_>>(), expected);
+        }
     }
 
     /// Dots at one place show a ring each, from back to front.

@@ -103,7 +103,7 @@ impl Cards {
     pub(super) fn new(panel: &Panel, theme: &Theme, fills: &[Rgb]) -> Cards {
         let ((width, height), (stage_width, stage_height)) = (panel.size, panel.stage());
         let unit = (width as f32 * height as f32 / (1280.0 * 720.0)).sqrt();
-        let (sizes, tones) = (Sizes::new(unit), Tones::new(theme));
+        let (sizes, tones) = (Sizes::new(unit), Tones::new(theme).with_bodies(theme, fills));
         let (left, top) = if panel.is_below() { (0, stage_height) } else { (stage_width, 0) };
         let whole = Area { left: left as f32, top: top as f32, right: width as f32, bottom: height as f32 };
         let plots = &panel.board.plots;

@@ -3,13 +3,13 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{FilmAppExt, Mark, MarkShape, Shown};
-use crate::scene::sections::look::LAYERS;
+use super::of_bodies::OfBodies;
+use super::{Layer, Mark, MarkShape, Shown};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Outline, SceneAppExt};
 use crate::world::Bodies;
 
 /// The bounding boxes of bodies: the smallest upright rectangles around their atoms.
@@ -21,27 +21,19 @@ struct Boxes {
     of: Option<Names>,
 }
 
-impl Entry for Boxes {
-    const SECTION: &'static str = LAYERS;
+impl OfBodies for Boxes {
     const NAME: &'static str = "Boxes";
     const EXAMPLE: &'static str = "Boxes(of: [\"ball\"])";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
+    fn of(&self) -> Option<&Names> {
+        self.of.as_ref()
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        Shown::check(self.of.as_ref(), outline, report);
-    }
-
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for entry in entries {
-            let shown = Shown::new(entry.value.of.as_ref(), outline);
-            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
-                let bodies = world.resource::<Bodies>();
-                let boxes = shown.places(bodies).filter_map(|body| bounding_box(bodies, body));
-                marks.extend(boxes.map(|(low, high)| Mark::new(MarkShape::Rectangle(low, high), "quiet")));
-            });
+    fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
+        move |world: &World, marks: &mut Vec<Mark>| {
+            let bodies = world.resource::<Bodies>();
+            let boxes = shown.places(bodies).filter_map(|body| bounding_box(bodies, body));
+            marks.extend(boxes.map(|(low, high)| Mark::new(MarkShape::Rectangle(low, high), "quiet")));
         }
     }
 }

@@ -8,17 +8,17 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::of_bodies::OfBodies;
 use super::scale::{Scale, round};
-use super::{FilmAppExt, Mark, PictureHeight, Shown};
+use super::{Layer, Mark, PictureHeight, Shown};
 use crate::contacts::points::{ContactPoint, Other, TellContacts, contact_points};
 use crate::forces::gravity::Gravity;
-use crate::scene::sections::look::LAYERS;
 use crate::scene::units::Force;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Outline, Report, SceneAppExt};
 use crate::simulation::Finishers;
 use crate::world::Bodies;
 
@@ -35,39 +35,38 @@ struct ContactForces {
     scale: Option<Force>,
 }
 
-impl Entry for ContactForces {
-    const SECTION: &'static str = LAYERS;
+impl OfBodies for ContactForces {
     const NAME: &'static str = "ContactForces";
     const EXAMPLE: &'static str = "ContactForces(of: [\"ball\"], scale: \"10 N\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
+    fn of(&self) -> Option<&Names> {
+        self.of.as_ref()
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        Shown::check(self.of.as_ref(), outline, report);
+    fn check_others(&self, report: &mut Report) {
         report.positive_if_given("scale", self.scale);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn prepare(app: &mut App) {
         app.world_mut().get_resource_or_init::<Finishers>().0.push(note_start);
-        for entry in entries {
-            let (shown, given) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.scale.map(Force::si));
-            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
-                if !world.contains_resource::<TellContacts>() {
-                    return;
-                }
-                let typical = world.get_resource::<TypicalForce>().map_or(1.0, |typical| typical.0);
-                let scale = Scale::new(given.unwrap_or(typical), PictureHeight::of(world), "N", "force");
-                marks.push(scale.key());
-                let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
-                let up = -world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0);
-                let loads = loads(contact_points(world), |body| places.binary_search(&body).is_ok());
-                marks.extend(loads.iter().filter_map(|load| {
-                    let turned = matches!(load.other, Other::Body(_)) && load.force.dot(up) < 0.0;
-                    scale.arrow(load.point, if turned { -load.force } else { load.force })
-                }));
-            });
+    }
+
+    fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
+        let given = self.scale.map(Force::si);
+        move |world: &World, marks: &mut Vec<Mark>| {
+            if !world.contains_resource::<TellContacts>() {
+                return;
+            }
+            let typical = world.get_resource::<TypicalForce>().map_or(1.0, |typical| typical.0);
+            let scale = Scale::new(given.unwrap_or(typical), PictureHeight::of(world), "N", "force");
+            marks.push(scale.key());
+            let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
+            let up = -world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0);
+            let loads = loads(contact_points(world), |body| places.binary_search(&body).is_ok());
+            marks.extend(loads.iter().filter_map(|load| {
+                let turned = matches!(load.other, Other::Body(_)) && load.force.dot(up) < 0.0;
+                scale.arrow(load.point, if turned { -load.force } else { load.force })
+            }));
         }
     }
 }

@@ -2,14 +2,14 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{FilmAppExt, Mark, MarkShape, Shown};
+use super::of_bodies::OfBodies;
+use super::{Layer, Mark, MarkShape, Shown};
 use crate::contacts::points::{Other, contact_points};
-use crate::scene::sections::look::LAYERS;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Outline, SceneAppExt};
 use crate::world::Bodies;
 
 /// The points where bodies touch each other and walls.
@@ -21,30 +21,22 @@ struct ContactPoints {
     of: Option<Names>,
 }
 
-impl Entry for ContactPoints {
-    const SECTION: &'static str = LAYERS;
+impl OfBodies for ContactPoints {
     const NAME: &'static str = "ContactPoints";
     const EXAMPLE: &'static str = "ContactPoints(of: [\"ball\"])";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
+    fn of(&self) -> Option<&Names> {
+        self.of.as_ref()
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        Shown::check(self.of.as_ref(), outline, report);
-    }
-
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for entry in entries {
-            let shown = Shown::new(entry.value.of.as_ref(), outline);
-            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
-                let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
-                let is_shown = |body: usize| places.binary_search(&body).is_ok();
-                let dots = contact_points(world).into_iter().filter(|contact| {
-                    is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
-                });
-                marks.extend(dots.map(|contact| Mark::new(MarkShape::Dot(contact.point), "force")));
+    fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
+        move |world: &World, marks: &mut Vec<Mark>| {
+            let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
+            let is_shown = |body: usize| places.binary_search(&body).is_ok();
+            let dots = contact_points(world).into_iter().filter(|contact| {
+                is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
             });
+            marks.extend(dots.map(|contact| Mark::new(MarkShape::Dot(contact.point), "force")));
         }
     }
 }

@@ -10,6 +10,7 @@ mod contact_forces;
 mod contact_points;
 mod mark;
 mod names;
+mod of_bodies;
 mod scale;
 mod scale_bar;
 mod time;

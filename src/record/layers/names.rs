@@ -2,14 +2,14 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::boxes::bounding_box;
-use super::{FilmAppExt, Mark, MarkShape, Shown};
-use crate::scene::sections::look::LAYERS;
+use super::of_bodies::OfBodies;
+use super::{Layer, Mark, MarkShape, Shown};
 use crate::scene::values::Names as Choice;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Outline, SceneAppExt};
 use crate::world::{Bodies, Name};
 
 /// More names than these would be a wall of text; who names the bodies in `of` gets them all.
@@ -24,28 +24,21 @@ struct Names {
     of: Option<Choice>,
 }
 
-impl Entry for Names {
-    const SECTION: &'static str = LAYERS;
+impl OfBodies for Names {
     const NAME: &'static str = "Names";
     const EXAMPLE: &'static str = "Names(of: [\"ball\"])";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
+    fn of(&self) -> Option<&Choice> {
+        self.of.as_ref()
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        Shown::check(self.of.as_ref(), outline, report);
-    }
-
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for entry in entries {
-            let (shown, chosen) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.of.is_some());
-            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
-                let bodies = world.resource::<Bodies>();
-                if chosen || shown.places(bodies).nth(MOST).is_none() {
-                    marks.extend(shown.places(bodies).filter_map(|body| label(world, bodies, body)));
-                }
-            });
+    fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
+        let chosen = self.of.is_some();
+        move |world: &World, marks: &mut Vec<Mark>| {
+            let bodies = world.resource::<Bodies>();
+            if chosen || shown.places(bodies).nth(MOST).is_none() {
+                marks.extend(shown.places(bodies).filter_map(|body| label(world, bodies, body)));
+            }
         }
     }
 }

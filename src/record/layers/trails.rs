@@ -8,14 +8,14 @@ use std::collections::{BTreeMap, VecDeque};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{FilmAppExt, Layer, Mark, MarkShape, Memory, Shown, stride};
-use crate::scene::sections::look::LAYERS;
+use super::of_bodies::OfBodies;
+use super::{Layer, Mark, MarkShape, Memory, Shown, stride};
 use crate::scene::units::Time;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Kind, Outline, Report, SceneAppExt};
 use crate::tick::Clock;
 use crate::world::Bodies;
 
@@ -41,28 +41,22 @@ fn half_a_second() -> Time {
     Time::new(0.5)
 }
 
-impl Entry for Trails {
-    const SECTION: &'static str = LAYERS;
+impl OfBodies for Trails {
     const NAME: &'static str = "Trails";
     const EXAMPLE: &'static str = "Trails(of: [\"ball\"], seconds: 0.5)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
+    fn of(&self) -> Option<&Names> {
+        self.of.as_ref()
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        Shown::check(self.of.as_ref(), outline, report);
+    fn check_others(&self, report: &mut Report) {
         report.positive("seconds", self.seconds);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for entry in entries {
-            let shown = Shown::new(entry.value.of.as_ref(), outline);
-            let count = shown.0.as_ref().map_or(outline.names(Kind::BODY).len(), Vec::len);
-            let points = (ALL_POINTS / count.max(1)).clamp(POINTS.0, POINTS.1);
-            let seconds = entry.value.seconds.si();
-            app.add_layer(Tracks { shown, seconds, points, looked: None, tracks: BTreeMap::new() });
-        }
+    fn layer(self, shown: Shown, outline: &Outline) -> impl Layer {
+        let count = shown.0.as_ref().map_or(outline.names(Kind::BODY).len(), Vec::len);
+        let points = (ALL_POINTS / count.max(1)).clamp(POINTS.0, POINTS.1);
+        Tracks { shown, seconds: self.seconds.si(), points, looked: None, tracks: BTreeMap::new() }
     }
 }
 

@@ -2,16 +2,16 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::of_bodies::OfBodies;
 use super::scale::{Scale, round};
-use super::{FilmAppExt, Mark, PictureHeight, Shown};
+use super::{Layer, Mark, PictureHeight, Shown};
 use crate::forces::gravity::Gravity;
-use crate::scene::sections::look::LAYERS;
 use crate::scene::units::Speed;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Outline, Report, SceneAppExt};
 use crate::simulation::Finishers;
 use crate::world::Bodies;
 
@@ -28,34 +28,33 @@ struct Velocities {
     scale: Option<Speed>,
 }
 
-impl Entry for Velocities {
-    const SECTION: &'static str = LAYERS;
+impl OfBodies for Velocities {
     const NAME: &'static str = "Velocities";
     const EXAMPLE: &'static str = "Velocities(of: [\"ball\"], scale: \"2 m/s\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
+    fn of(&self) -> Option<&Names> {
+        self.of.as_ref()
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
-        Shown::check(self.of.as_ref(), outline, report);
+    fn check_others(&self, report: &mut Report) {
         report.positive_if_given("scale", self.scale);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn prepare(app: &mut App) {
         app.world_mut().get_resource_or_init::<Finishers>().0.push(note_start);
-        for entry in entries {
-            let (shown, given) = (Shown::new(entry.value.of.as_ref(), outline), entry.value.scale.map(Speed::si));
-            app.add_layer(move |world: &World, marks: &mut Vec<Mark>| {
-                let bodies = world.resource::<Bodies>();
-                let height = PictureHeight::of(world);
-                let reference = given.unwrap_or_else(|| typical_speed(world, height));
-                let scale = Scale::new(reference, height, "m/s", "velocity");
-                marks.push(scale.key());
-                marks.extend(
-                    shown.places(bodies).filter_map(|body| scale.arrow(bodies.position[body], bodies.velocity[body])),
-                );
-            });
+    }
+
+    fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
+        let given = self.scale.map(Speed::si);
+        move |world: &World, marks: &mut Vec<Mark>| {
+            let bodies = world.resource::<Bodies>();
+            let height = PictureHeight::of(world);
+            let reference = given.unwrap_or_else(|| typical_speed(world, height));
+            let scale = Scale::new(reference, height, "m/s", "velocity");
+            marks.push(scale.key());
+            marks.extend(
+                shown.places(bodies).filter_map(|body| scale.arrow(bodies.position[body], bodies.velocity[body])),
+            );
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What the colours of a film mean, and a few facts of its scene.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -94,8 +94,14 @@ impl Legend {
             lines.push(Line { name, shared, fixed, place, bodies: 1 });
         }
         lines.sort_by_key(|line| line.fixed);
+        // Fixed and moving bodies of a material have a line each.
+        let moving_too: BTreeSet<String> =
+            known_lines.keys().filter(|(_, fixed)| !fixed).map(|(material, _)| material.clone()).collect();
         let entry = |line: Line| LegendEntry {
             label: match line.shared {
+                Some(material) if line.bodies > 1 && line.fixed && moving_too.contains(&material) => {
+                    format!("{material}, fixed")
+                }
                 Some(material) if line.bodies > 1 => material,
                 _ => line.name,
             },

@@ -27,6 +27,8 @@ pub struct Sample {
 pub struct Curve {
     /// What tells it from the other curves of the plot.
     pub label: String,
+    /// The place in the cast of the body of which it was measured, if it was of one.
+    pub body: Option<usize>,
     /// Its samples.
     pub samples: Vec<Sample>,
 }

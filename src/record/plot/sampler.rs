@@ -3,6 +3,8 @@
 //! A plot shows the whole time of its film at once, and its axes have to fit what is yet to come: so the channels are
 //! read in a run beforehand, and what is kept depends on what a picture can show, not on the length of the run.
 
+use std::collections::BTreeMap;
+
 use super::names::{common, headed, with_unit};
 use super::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
 use crate::scene::Outline;
@@ -43,6 +45,8 @@ pub struct Sampler {
     last: u64,
     every: u64,
     readings: u64,
+    /// Places in the cast.
+    bodies: BTreeMap<String, usize>,
 }
 
 struct Sampled {
@@ -74,7 +78,9 @@ impl Sampler {
             let gauge = gauge(simulation, entry, &outline).map_err(|channel| Missing { plot: place, channel })?;
             Ok(Sampled { entry: entry.clone(), gauge })
         });
-        Ok(Self { plots: sampled.collect::<Result<_, _>>()?, from, to, next, last, every, readings: 0 })
+        let plots = sampled.collect::<Result<_, _>>()?;
+        let bodies = (0..simulation.bodies().len()).map(|place| (simulation.name(place).to_owned(), place)).collect();
+        Ok(Self { plots, from, to, next, last, every, readings: 0, bodies })
     }
 
     /// Runs until `time` seconds, or the tick before, and reads on the way.
@@ -137,7 +143,8 @@ impl Sampler {
 
     /// The plots. `wrong` tells that the run went wrong: its wild end is left out.
     pub fn finish(self, wrong: bool) -> Vec<Plot> {
-        let mut plots: Vec<Plot> = self.plots.into_iter().map(|sampled| sampled.finish((self.from, self.to))).collect();
+        let finish = |sampled: Sampled| sampled.finish((self.from, self.to), &self.bodies);
+        let mut plots: Vec<Plot> = self.plots.into_iter().map(finish).collect();
         if wrong {
             plots.iter_mut().for_each(tame);
         }
@@ -186,7 +193,8 @@ fn keep(kept: &mut Vec<(f64, Vec<u64>)>, time: f64, bins: &[u64]) {
 }
 
 impl Sampled {
-    fn finish(self, span: (f64, f64)) -> Plot {
+    fn finish(self, span: (f64, f64), bodies: &BTreeMap<String, usize>) -> Plot {
+        let body = |channel: &Channel| bodies.get(channel.name.split_once('.')?.0).copied();
         let Sampled { entry, gauge } = self;
         let range = entry.range.map(|(low, high)| (low.si(), high.si()));
         let up = |label: String, unit: String| Axis { label, unit, range, logarithmic: entry.log };
@@ -201,7 +209,11 @@ impl Sampled {
             Gauge::Times(curves) => {
                 let (shared, unit, labels) = labels(curves.iter().map(|(channel, _)| channel));
                 let curves = curves.into_iter().zip(labels);
-                let curves = curves.map(|((_, decimator), label)| Curve { label, samples: decimator.finish() });
+                let curves = curves.map(|((channel, decimator), label)| Curve {
+                    label,
+                    body: body(&channel),
+                    samples: decimator.finish(),
+                });
                 Plot {
                     title: titled(shared.clone()),
                     across: across("time", "s", Some(span)),
@@ -212,7 +224,7 @@ impl Sampled {
             Gauge::Phases(x, curves) => {
                 let (shared, unit, labels) = labels(curves.iter().map(|(channel, _)| channel));
                 let curves = curves.into_iter().zip(labels);
-                let curves = curves.map(|((_, samples), label)| Curve { label, samples });
+                let curves = curves.map(|((channel, samples), label)| Curve { label, body: body(&channel), samples });
                 // What both axes begin with stands above them.
                 let (owner, [to_the_right, upwards]) = headed([&x.name, &shared]);
                 Plot {

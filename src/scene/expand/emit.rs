@@ -3,15 +3,15 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use super::scope::{Failed, Value, is_quantity};
+use super::scope::{Failed, Filled, Value, is_quantity};
 use super::write::Buffer;
-use super::{Expander, File, Outcome, picture};
+use super::{Expander, File, Outcome, picture, table};
 use crate::scene::outline::fits;
 use crate::scene::scan::skip_blank;
 use crate::scene::tree::{Form, Id, Tree};
 
 /// Fields that hold texts and never numbers: a parameter may have the same name as a material.
-const TEXTS: [&str; 9] = ["name", "title", "notes", "rows", "color", "material", "of", "on", "between"];
+const TEXTS: [&str; 11] = ["name", "title", "notes", "rows", "color", "material", "of", "on", "between", "a", "b"];
 /// Fields whose texts are never names of things.
 const WORDS: [&str; 4] = ["title", "notes", "rows", "color"];
 /// What a value counts, where work is counted: it may leave three pieces.
@@ -37,6 +37,8 @@ pub(super) struct Context {
 /// A part of the scene whose names have a prefix: an instance or an included file.
 #[derive(Default)]
 pub(super) struct Place {
+    /// Where names are looked for that the part does not have: the file of a template, the file that includes a file.
+    pub(super) around: Option<Rc<Place>>,
     /// Empty, or with a `/` at its end.
     pub(super) prefix: String,
     /// Names of the part, without the prefix.
@@ -44,6 +46,8 @@ pub(super) struct Place {
     /// Names of the part to which numbers are added, as `fill` does.
     pub(super) numbered: BTreeSet<String>,
     pub(super) overrides: Vec<Rc<Override>>,
+    /// The template of which this is an instance.
+    pub(super) template: Option<String>,
 }
 
 /// A value for one field of what a template makes.
@@ -72,30 +76,46 @@ impl Context {
 }
 
 impl Place {
-    /// The full name of what a text speaks of, if that is a thing of this part: `ball`, `ball.position.x`, `b*`.
+    /// The full name of what a text speaks of, if that is a thing of this part or of one around it: `ball`,
+    /// `ball.position.x`, `b*`.
     pub(super) fn resolved(&self, text: &str) -> Option<String> {
-        if self.prefix.is_empty() {
-            return None;
-        }
-        let name = text.split('.').next().unwrap_or(text);
-        let number = |rest: &str| rest.bytes().all(|byte| byte.is_ascii_digit() || byte == b'*');
-        let one_of_many =
-            || name.rsplit_once('_').is_some_and(|(stem, rest)| self.numbered.contains(stem) && number(rest));
-        let own = if name.contains('*') {
-            one_of_many() || self.names.iter().any(|known| fits(name, known))
-        } else {
-            let inside = name.match_indices('/').any(|(end, _)| self.names.contains(&name[..end]));
-            inside || one_of_many() || self.names.contains(name)
-        };
-        own.then(|| format!("{}{text}", self.prefix))
+        let around = || self.around.as_ref()?.resolved(text);
+        self.own(text).or_else(around)
     }
+
+    /// The full name of what a text speaks of, if that is a thing of this part.
+    pub(super) fn own(&self, text: &str) -> Option<String> {
+        (!self.prefix.is_empty() && self.has(text)).then(|| format!("{}{text}", self.prefix))
+    }
+
+    /// Whether a text speaks of things of this part.
+    fn has(&self, text: &str) -> bool {
+        let name = text.split('.').next().unwrap_or(text);
+        if name.contains('*') {
+            let numbered = self.numbered.iter().any(|stem| fits_numbered(name, stem));
+            return numbered || self.names.iter().any(|known| fits(name, known));
+        }
+        let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
+        let numbered = name.rsplit_once('_').is_some_and(|(stem, rest)| self.numbered.contains(stem) && number(rest));
+        let inside = name.match_indices('/').any(|(end, _)| self.names.contains(&name[..end]));
+        inside || numbered || self.names.contains(name)
+    }
+}
+
+/// Whether a pattern fits `stem_0`, `stem_1` or any other number of a stem.
+fn fits_numbered(pattern: &str, stem: &str) -> bool {
+    let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
+    // A number that fits at all is written in the pattern, after its last `_` or without one; or any does.
+    let written = [digits(pattern.rsplit('_').next().unwrap_or_default()), digits(pattern), "0".to_owned()];
+    written.iter().filter(|number| !number.is_empty()).any(|number| fits(pattern, &format!("{stem}_{number}")))
 }
 
 /// Of each value, whether it can be copied as it stands.
 pub(super) fn plain(tree: &Tree, text: &str) -> Vec<bool> {
     let mut plain = vec![true; tree.next() as usize];
     for id in (0..tree.next()).rev() {
-        let changes = tree.node(id).form == Form::Text || matches!(tree.name(id, text), "Repeat" | picture::NAME);
+        let changes =
+            tree.node(id).form == Form::Text || matches!(tree.name(id, text), "Repeat" | picture::NAME | table::NAME);
         plain[id as usize] = !changes && tree.children(id).iter().all(|&child| plain[child as usize]);
     }
     plain
@@ -116,13 +136,17 @@ impl Expander {
         self.value(context, out, id, "", &patches, true)
     }
 
-    /// The name of an entry, without the prefix.
+    /// The name that an entry brings, without the prefix. A name with a dot is that of a channel, which the entry only
+    /// speaks of.
     pub(super) fn name_of(&mut self, context: &Context, id: Id) -> Outcome<Option<String>> {
         let Some(field) = self.field(context, id, "name") else { return Ok(None) };
-        match context.text(field) {
-            Some((text, shift)) if text.contains(['{', '}']) => self.filled(context, field, &text, shift).map(Some),
-            found => Ok(found.map(|(text, _)| text)),
-        }
+        Ok(self.text_of(context, field)?.filter(|name| !name.contains('.')))
+    }
+
+    /// The letters of a text, with what stands in braces filled in.
+    pub(super) fn text_of(&mut self, context: &Context, id: Id) -> Outcome<Option<String>> {
+        let Some((text, shift)) = context.text(id) else { return Ok(None) };
+        self.filled(context, id, &text, shift).map(|filled| Some(filled.text))
     }
 
     /// Copies the values of a map whose keys name things.
@@ -174,6 +198,7 @@ impl Expander {
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())
             }
+            Form::Round if key == table::FIELD && tree.name(id, text) == table::NAME => self.table(context, out, id),
             Form::Round | Form::Braces | Form::List => {
                 let start = out.text.len();
                 let name = tree.name(id, text).len();
@@ -292,8 +317,11 @@ impl Expander {
             out.verbatim(&context.file, context.file.tree.span(id), context.step);
             return Ok(());
         };
-        let name = self.filled(context, id, &text, shift)?;
+        let name = self.filled(context, id, &text, shift)?.text;
         self.spend(context, id, 0, WORK + WORK_OF_TEXT * (text.len() + name.len()))?;
+        if name.contains('.') {
+            return self.text(context, out, id, "name");
+        }
         let full = quoted(&format!("{}{name}", context.place.prefix));
         out.made(&full, context.file.number, context.file.tree.span(id), context.step);
         Ok(())
@@ -308,8 +336,9 @@ impl Expander {
             return Ok(());
         };
         let mut text = written.clone();
+        let mut given = false;
         if text.contains(['{', '}']) {
-            text = self.filled(context, id, &text, shift)?;
+            Filled { text, given } = self.filled(context, id, &text, shift)?;
         } else if !TEXTS.contains(&key) && !is_quantity(&text) {
             let place = (file.number, span.start);
             self.quiet = self.reasons.contains_key(&place);
@@ -319,6 +348,7 @@ impl Expander {
                     return Ok(());
                 }
                 Ok(Value::Text(value)) => text = value,
+                Ok(Value::Given(value)) => (text, given) = (value, true),
                 Ok(Value::Node(there, value)) => {
                     self.depth += 1;
                     if self.depth > DEEPEST {
@@ -339,10 +369,14 @@ impl Expander {
             }
             self.quiet = false;
         }
-        if !WORDS.contains(&key)
-            && let Some(full) = context.place.resolved(&text)
-        {
-            text = full;
+        if !WORDS.contains(&key) {
+            let full = if given {
+                context.place.own(&text)
+            } else {
+                self.note_foreign(context, span.start, &text);
+                context.place.resolved(&text)
+            };
+            text = full.unwrap_or(text);
         }
         if text == written {
             out.verbatim(file, span, context.step);
@@ -351,6 +385,19 @@ impl Expander {
             out.made(&quoted(&text), file.number, span, context.step);
         }
         Ok(())
+    }
+}
+
+impl Expander {
+    /// A pattern in a template that fits nothing the template makes may be meant for the things around it, or be
+    /// misspelt: both read alike, so it is said.
+    fn note_foreign(&mut self, context: &Context, start: usize, text: &str) {
+        let is_pattern = text.contains('*') && !text.contains(char::is_whitespace);
+        let Some(template) = &context.place.template else { return };
+        if is_pattern && !context.place.has(text) && self.foreign.insert((context.file.number, start)) {
+            self.notes
+                .push(format!("the template `{template}` makes nothing called \"{text}\": things around it are meant"));
+        }
     }
 }
 

@@ -56,7 +56,7 @@ pub(super) fn evaluate(text: &str, look_up: LookUp) -> Outcome {
     if reader.at < text.len() {
         let rest = &text[reader.at..];
         let length = name_length(rest).max(rest.chars().next().map_or(0, char::len_utf8));
-        let help = "between two values stands one of `+ - * / ^`, as in `2 * r + gap`";
+        let help = slip(rest).unwrap_or("between two values stands one of `+ - * / ^`, as in `2 * r + gap`");
         return Err(wrong(reader.at..reader.at + length, "not expected here", Some(help.to_owned())));
     }
     if !value.si.is_finite() {
@@ -76,6 +76,17 @@ pub(super) fn name_length(text: &str) -> usize {
 
 fn wrong(range: Range<usize>, message: impl Into<String>, help: Option<String>) -> Wrong {
     Wrong { range, message: message.into(), help }
+}
+
+/// What is meant by a sign of other languages.
+fn slip(rest: &str) -> Option<&'static str> {
+    const SLIPS: [(&str, &str); 4] = [
+        ("**", "a power is written `2 ^ i`"),
+        ("=", "two values are compared by `==`, as in `if(mod(i, 2) == 0, 1, 2)`"),
+        ("&", "that two things hold is written `a * b`: comparisons are 1 or 0"),
+        ("|", "that one of two things holds is written `max(a, b)`: comparisons are 1 or 0"),
+    ];
+    SLIPS.into_iter().find(|(sign, _)| rest.starts_with(sign)).map(|(_, help)| help)
 }
 
 struct Reader<'a> {
@@ -190,7 +201,10 @@ impl Reader<'_> {
             let value = self.comparison()?;
             return match self.sign(&[")"]) {
                 Some(_) => Ok(value),
-                None => Err(wrong(start..start + 1, "this bracket is never closed", Some("close it with `)`".into()))),
+                None => self.unknown_sign().map_or_else(
+                    || Err(wrong(start..start + 1, "this bracket is never closed", Some("close it with `)`".into()))),
+                    Err,
+                ),
             };
         }
         let length = name_length(rest);
@@ -211,12 +225,18 @@ impl Reader<'_> {
             let message = found.map_or("a value is missing at the end".to_owned(), |c| format!("`{c}` is no value"));
             let end = start + found.map_or(0, char::len_utf8);
             let help = "a value is a number, a name, a function such as `sqrt(..)`, or an expression in brackets";
+            let help =
+                if self.text[..start].ends_with('*') { slip(&self.text[start - 1..]) } else { None }.unwrap_or(help);
             return Err(wrong(start..end, message, Some(help.to_owned())));
         }
         self.at += length;
         let end = self.at + self.unit_length();
         let unit = self.text[self.at..end].trim();
         self.at = end;
+        if rest[..length].parse().is_ok_and(f64::is_infinite) {
+            let help = format!("the largest number is {:e}", f64::MAX);
+            return Err(wrong(start..end, "this number is too large", Some(help)));
+        }
         let help = || format!("to multiply, write `{} * {unit}`", &rest[..length]);
         let (si, powers) =
             units::value_in(&rest[..length], unit).map_err(|why| wrong(start..end, why, Some(help())))?;
@@ -249,6 +269,15 @@ impl Reader<'_> {
         }
     }
 
+    /// A sign of another language that stands here.
+    fn unknown_sign(&self) -> Option<Wrong> {
+        let rest = self.text[self.at..].trim_start();
+        let start = self.text.len() - rest.len();
+        let help = slip(rest)?;
+        let length = rest.find(|c: char| !"=&|*".contains(c)).unwrap_or(rest.len());
+        Some(wrong(start..start + length, "not expected here", Some(help.to_owned())))
+    }
+
     fn function(&mut self, name: &str, start: usize) -> Outcome {
         let mut values = Vec::new();
         loop {
@@ -256,7 +285,10 @@ impl Reader<'_> {
             match self.sign(&[",", ")"]) {
                 Some(",") => {}
                 Some(_) => break,
-                None => return Err(self.since(start, format!("`)` is missing after the values of `{name}`"))),
+                None => {
+                    let missing = || self.since(start, format!("`)` is missing after the values of `{name}`"));
+                    return Err(self.unknown_sign().unwrap_or_else(missing));
+                }
             }
         }
         let span = start..start + name.len();
@@ -391,6 +423,23 @@ mod tests {
             let found = value(text).expect_err(text);
             assert_eq!((found.range, found.message.as_str()), (place, message), "{text}");
         }
+    }
+
+    #[test]
+    fn signs_of_other_languages_are_understood() {
+        for (text, place, help) in [
+            ("if(mod(n, 2) = 0, 1, 2)", 13..14, "compared by `==`"),
+            ("(n = 5)", 3..4, "compared by `==`"),
+            ("n = 5", 2..3, "compared by `==`"),
+            ("2 ** n", 3..4, "`2 ^ i`"),
+            ("max(n > 1 && n < 3, 0)", 10..12, "`a * b`"),
+        ] {
+            let found = value(text).expect_err(text);
+            assert_eq!(found.range, place, "{text}");
+            assert!(found.help.as_ref().is_some_and(|told| told.contains(help)), "{text}: {found:?}");
+        }
+        let huge = value("1e400").expect_err("beyond all numbers");
+        assert!(huge.message.contains("too large"), "{huge:?}");
     }
 
     #[test]

@@ -61,12 +61,15 @@ impl Expander {
         }
         let mut included = Vec::new();
         if let Some(include) = self.field(&context, 0, "include") {
+            let opening = std::mem::replace(&mut self.opening, true);
             for &item in self.list(&context, include, EXAMPLE)? {
-                match self.include(&context, item) {
-                    Ok(part) => included.push(part),
-                    Err(error) => self.collect(Err(error)),
-                }
+                let opened = self.each(&context, &[item], &mut |expander, context, item| {
+                    included.push(expander.include(context, item)?);
+                    Ok(())
+                });
+                self.collect(opened);
             }
+            self.opening = opening;
         }
         Ok(Part { context, included })
     }
@@ -158,7 +161,7 @@ impl Expander {
         self.fields(context, id, &["file", "prefix", "with"], EXAMPLE)?;
         let tree = &context.file.tree;
         let at = self.required(context, id, "file", EXAMPLE)?;
-        let Some((name, _)) = context.text(at) else {
+        let Some(name) = self.text_of(context, at)? else {
             return Err(Box::new(self.wrong_value(context, at, "the name of a file in quotes")));
         };
         let wrong = |expander: &Self, message: String, help: String| {
@@ -206,12 +209,10 @@ impl Expander {
         })?;
         self.spend(context, id, 0, source.text.len())?;
         let prefix = match self.field(context, id, "prefix") {
-            Some(prefix) => match context.text(prefix) {
-                Some((prefix, _)) if !prefix.is_empty() && !prefix.contains(['*', '.', ',', '"', '/', '{']) => {
-                    prefix + "/"
-                }
+            Some(at) => match self.text_of(context, at)? {
+                Some(prefix) if !prefix.is_empty() && !prefix.contains(['*', '.', ',', '"', '/', '{']) => prefix + "/",
                 _ => {
-                    let error = self.wrong_value(context, prefix, "a name in quotes");
+                    let error = self.wrong_value(context, at, "a name in quotes");
                     return Err(Box::new(error.with_help("use letters, digits and `_`")));
                 }
             },
@@ -250,21 +251,30 @@ impl Expander {
     /// Puts a file's sections into the scene, and at the place of `include` those of the files it includes.
     pub(super) fn part(&mut self, part: &Part) {
         let holder = if part.context.step == 0 { Holder::Scene } else { Holder::Included };
-        let mut context = part.context.clone();
-        if !context.place.prefix.is_empty() {
-            let (names, numbered) = self.names_of_part(part);
-            let prefix = context.place.prefix.clone();
-            context.place = Rc::new(Place { prefix, names, numbered, overrides: Vec::new() });
-        }
+        let context = &part.context;
         let (tree, text) = (&part.context.file.tree, &part.context.file.source.text);
         for &id in tree.children(0) {
             if &text[tree.key(id)] == "include" {
                 part.included.iter().for_each(|part| self.part(part));
             } else {
-                let done = self.section(&context, id, holder);
+                let done = self.section(context, id, holder);
                 self.collect(done);
             }
         }
+    }
+
+    /// Settles what names mean in a file and in those it includes, before anything is made: a template may be used
+    /// ahead of the file in which it stands.
+    pub(super) fn name_places(&mut self, part: &mut Part, around: Option<&Rc<Place>>) {
+        if !part.context.place.prefix.is_empty() {
+            let (names, numbered) = self.names_of_part(part);
+            let prefix = part.context.place.prefix.clone();
+            part.context.place =
+                Rc::new(Place { around: around.cloned(), prefix, names, numbered, ..Place::default() });
+        }
+        let place = Rc::clone(&part.context.place);
+        self.homes.insert(part.context.file.number, Rc::clone(&place));
+        part.included.iter_mut().for_each(|inner| self.name_places(inner, Some(&place)));
     }
 
     fn names_of_part(&mut self, part: &Part) -> (BTreeSet<String>, BTreeSet<String>) {

@@ -79,10 +79,16 @@ impl Expander {
         self.scopes.push(scope);
         let overrides = self.overrides(context, id)?;
         let own = overrides.len();
+        let around = self.homes.get(&template.context.file.number).cloned();
+        let prefix = format!("{}{name}/", context.place.prefix);
+        let place = |names, numbered, overrides| {
+            let (around, prefix, template) = (around.clone(), prefix.clone(), Some(called.clone()));
+            Rc::new(Place { around, prefix, names, numbered, overrides, template })
+        };
         let inner = Context {
             scope: scopes,
             step,
-            place: Rc::new(Place { prefix: format!("{}{name}/", context.place.prefix), ..Place::default() }),
+            place: place(BTreeSet::new(), BTreeSet::new(), Vec::new()),
             ..template.context.clone()
         };
         self.open_params(&inner, &template)?;
@@ -104,8 +110,7 @@ impl Expander {
         let overrides: Vec<Rc<Override>> = overrides.into_iter().chain(inherited).collect();
         let (names, numbered) = self.names_in(&inner, template.node);
         let known = names.clone();
-        let place = Place { prefix: inner.place.prefix.clone(), names, numbered, overrides };
-        let inner = Context { place: Rc::new(place), ..inner };
+        let inner = Context { place: place(names, numbered, overrides), ..inner };
         let made = self.sections_of(&inner, template.node, Holder::Template);
         self.scopes.truncate(scopes);
         made?;
@@ -127,8 +132,17 @@ impl Expander {
             let error = self.wrong_value(context, of, "the name of a template");
             return Err(Box::new(error.with_help(format!("for example: {EXAMPLE}"))));
         };
-        let name = self.filled(context, of, &text, shift)?;
-        let found = self.templates.get(&format!("{}{name}", context.home)).or_else(|| self.templates.get(&name));
+        let name = self.filled(context, of, &text, shift)?.text;
+        // Those of the file, then those of the files that include it.
+        let mut home = &*context.home;
+        let found = loop {
+            match self.templates.get(&format!("{home}{name}")) {
+                None if !home.is_empty() => {
+                    home = home[..home.len() - 1].rfind('/').map_or("", |slash| &home[..=slash]);
+                }
+                found => break found,
+            }
+        };
         match found {
             Some(template) => Ok((Rc::clone(template), name)),
             None => {
@@ -175,6 +189,7 @@ impl Expander {
         if let Some(with) = with {
             let known: BTreeSet<&str> = template.args.iter().chain(&optional).map(String::as_str).collect();
             self.give_values(context, with, &known, &format!("the template `{called}`"), &mut scope)?;
+            scope.mark_given();
         }
         if let Some(missing) = template.args.iter().find(|arg| !scope.has(arg)) {
             let at = with.unwrap_or(id);

@@ -1,5 +1,5 @@
 //! Scenes that are made rather than written out: `params`, `templates`, `instances`, `include` and `Repeat` become a
-//! text in which none of them stands, before any section is read; pictures (`Png`) become discs.
+//! text in which none of them stands, before any section is read; pictures (`Png`) become discs, tables (`Csv`) points.
 //!
 //! So every section, also one of a plugin, gets all of this without knowing of it. Each piece of the made text knows
 //! which piece of which file it comes from, and through which instances and repetitions: mistakes are told where the
@@ -14,6 +14,7 @@ mod number;
 mod picture;
 mod repeat;
 mod scope;
+mod table;
 mod write;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,7 +26,7 @@ use super::scan::{Scan, scan};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
-use emit::Context;
+use emit::{Context, Place};
 use instance::Template;
 use scope::Scope;
 use write::{Buffer, Merged};
@@ -93,7 +94,9 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
     !source.settings.is_empty()
         || sections.any(|name| SECTIONS.contains(&name))
         || source.text.contains("Repeat")
+        || source.text.contains("repeat(")
         || source.text.contains(picture::NAME)
+        || source.text.contains(table::NAME)
 }
 
 /// The sections that a scene has when everything is made, by name; none if it cannot be made.
@@ -127,6 +130,12 @@ struct Expander {
     /// Names with values, innermost last; what is made uses them only while it is made.
     scopes: Vec<Scope>,
     templates: BTreeMap<String, Rc<Template>>,
+    /// What names mean in each file.
+    homes: BTreeMap<usize, Rc<Place>>,
+    /// Patterns of templates that were noted as meaning things around them, by file and place.
+    foreign: BTreeSet<(usize, usize)>,
+    /// Whether files are being opened: their values are needed until all is made.
+    opening: bool,
     sections: Vec<Merged>,
     errors: Vec<SceneError>,
     notes: Vec<String>,
@@ -160,7 +169,10 @@ impl Expander {
             self.open_files.push(std::fs::canonicalize(&path).unwrap_or(path));
         }
         match self.open(file, 0, "", None) {
-            Ok(part) => self.part(&part),
+            Ok(mut part) => {
+                self.name_places(&mut part, None);
+                self.part(&part);
+            }
             Err(error) => self.errors.push(*error),
         }
     }

@@ -29,8 +29,12 @@ impl Expander {
     pub(super) fn each(&mut self, context: &Context, items: &[Id], act: Act) -> Outcome<()> {
         for &item in items {
             let tree = &context.file.tree;
-            if tree.node(item).form == Form::Round && tree.name(item, &context.file.source.text) == "Repeat" {
+            let name = tree.name(item, &context.file.source.text);
+            if tree.node(item).form == Form::Round && name == "Repeat" {
                 self.repeat(context, item, act)?;
+            } else if name.eq_ignore_ascii_case("repeat") && self.field(context, item, "make").is_some() {
+                let error = self.wrong(context, tree.head(item), format!("nothing is called `{name}` here"));
+                return Err(Box::new(error.with_help(format!("did you mean `Repeat`? For example: {EXAMPLE}"))));
             } else {
                 act(self, context, item)?;
             }
@@ -65,7 +69,9 @@ impl Expander {
                 self.scopes.push(scope);
                 let inner = Context { scope: self.scopes.len() - 1, step, ..context.clone() };
                 let done = self.each(&inner, items, act);
-                self.scopes.pop();
+                if !self.opening {
+                    self.scopes.pop();
+                }
                 done?;
             }
         }

@@ -21,6 +21,9 @@ const LONGEST_TEXT: usize = 1 << 16;
 pub(super) enum Value {
     Number(Number),
     Text(String),
+    /// A text that an instance gives its template: it speaks of things of the template, or of those of the place of the
+    /// instance, never of those of the template's file.
+    Given(String),
     /// Anything else, as it stands in a file.
     Node(Context, Id),
 }
@@ -32,6 +35,13 @@ enum Binding {
     Open(Context, Id),
     /// From outside the scene.
     Given(String),
+}
+
+/// A text with what stood in braces filled in.
+pub(super) struct Filled {
+    pub(super) text: String,
+    /// Whether a [`Value::Given`] is in it.
+    pub(super) given: bool,
 }
 
 /// Names with values; what is not here is looked for in the scope around it.
@@ -56,6 +66,15 @@ impl Scope {
 
     pub(super) fn give(&mut self, name: &str, text: &str) {
         self.bindings.insert(name.to_owned(), Binding::Given(text.to_owned()));
+    }
+
+    /// Marks its texts as those that an instance gives its template.
+    pub(super) fn mark_given(&mut self) {
+        for binding in self.bindings.values_mut() {
+            if let Binding::Known(Value::Text(text)) = binding {
+                *binding = Binding::Known(Value::Given(std::mem::take(text)));
+            }
+        }
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
@@ -157,6 +176,7 @@ impl Expander {
                 let value = value.map_err(|failed| failed.into_error(error))?;
                 Ok(match value {
                     Value::Text(text) => Value::Text(context.place.resolved(&text).unwrap_or(text)),
+                    Value::Given(text) => Value::Given(context.place.own(&text).unwrap_or(text)),
                     value => value,
                 })
             }
@@ -167,7 +187,8 @@ impl Expander {
     /// A text in quotes in place of a value: an expression, or a text if it cannot be meant as one.
     fn text_value(&mut self, scope: usize, text: &str, asked: &mut Vec<(usize, String)>) -> Result<Value, Failed> {
         if text.contains('{') {
-            return self.fill_in(scope, text, asked).map(Value::Text);
+            let Filled { text, given } = self.fill_in(scope, text, asked)?;
+            return Ok(if given { Value::Given(text) } else { Value::Text(text) });
         }
         if is_name(text) {
             return match self.find(scope, text.trim(), asked) {
@@ -201,7 +222,9 @@ impl Expander {
         let mut elsewhere = None;
         let value = expression::evaluate(text, &mut |name| match self.find(scope, name, asked) {
             Ok(Value::Number(number)) => Ok(number),
-            Ok(Value::Text(text)) => Err((format!("`{name}` is the text \"{text}\", not a number"), None)),
+            Ok(Value::Text(text) | Value::Given(text)) => {
+                Err((format!("`{name}` is the text \"{text}\", not a number"), None))
+            }
             Ok(Value::Node(..)) => Err((format!("`{name}` is not a number"), None)),
             Err(Missing::Unknown) if self.quiet => Err((String::new(), None)),
             Err(Missing::Unknown) => Err((format!("`{name}` has no value here"), Some(self.known(scope, name)))),
@@ -224,11 +247,12 @@ impl Expander {
     }
 
     /// `bob_{i}`: texts with expressions in braces; `{{` and `}}` are braces.
-    fn fill_in(&mut self, scope: usize, text: &str, asked: &mut Vec<(usize, String)>) -> Result<String, Failed> {
+    fn fill_in(&mut self, scope: usize, text: &str, asked: &mut Vec<(usize, String)>) -> Result<Filled, Failed> {
         let here = |range, message: &str, help: &str| {
             Failed::Here(Wrong { range, message: message.to_owned(), help: Some(help.to_owned()) })
         };
         let mut filled = String::new();
+        let mut given = false;
         let mut at = 0;
         while let Some(brace) = text[at..].find(['{', '}']).map(|length| at + length) {
             filled.push_str(&text[at..brace]);
@@ -252,6 +276,10 @@ impl Expander {
             };
             match value {
                 Some(Value::Text(text)) => filled.push_str(&text),
+                Some(Value::Given(text)) => {
+                    filled.push_str(&text);
+                    given = true;
+                }
                 _ => {
                     let number = self.evaluate(scope, inner, asked).map_err(|failed| match failed {
                         Failed::Here(wrong) => shift(wrong),
@@ -266,11 +294,14 @@ impl Expander {
             at = end + 1;
         }
         filled.push_str(&text[at..]);
-        Ok(filled)
+        Ok(Filled { text: filled, given })
     }
 
     /// A text of the scene with what stands in braces filled in.
-    pub(super) fn filled(&mut self, context: &Context, id: Id, text: &str, shift: Option<usize>) -> Outcome<String> {
+    pub(super) fn filled(&mut self, context: &Context, id: Id, text: &str, shift: Option<usize>) -> Outcome<Filled> {
+        if !text.contains(['{', '}']) {
+            return Ok(Filled { text: text.to_owned(), given: false });
+        }
         let filled = self.fill_in(context.scope, text, &mut Vec::new());
         filled.map_err(|failed| failed.into_error(|wrong| Box::new(self.wrong_expression(context, id, shift, wrong))))
     }

@@ -32,9 +32,11 @@ impl Language {
         for list in inside {
             if let Some((definition, field)) = self.field_of(&list.name) {
                 let field = &mut schema["$defs"][definition]["properties"][field];
-                let description = field["description"].take();
+                let description = field.get("description").cloned();
                 *field = list.json(self);
-                field["description"] = description;
+                if let Some(description) = description {
+                    field["description"] = description;
+                }
             }
         }
         self.complete_templates(&mut schema);
@@ -80,7 +82,9 @@ fn let_be_made(schema: &mut Value) {
 
 /// Lets the name of a parameter stand for a field that is a structure.
 fn name_structures(schema: &mut Value, structures: &[String]) {
-    for field in schema["properties"].as_object_mut().into_iter().flat_map(Map::values_mut) {
+    // `get_mut`: an index would add the key to a schema that has none.
+    let fields = schema.get_mut("properties").and_then(Value::as_object_mut);
+    for field in fields.into_iter().flat_map(Map::values_mut) {
         if field["$ref"].as_str().is_some_and(|name| structures.iter().any(|structure| structure == name)) {
             let structure = field["$ref"].take();
             field.as_object_mut().and_then(|field| field.shift_remove("$ref"));

@@ -112,6 +112,13 @@ impl Language {
         language
     }
 
+    /// The sections that no plugin brings, and `Repeat`, each with an example.
+    pub(crate) fn unregistered(&self, registry: &SceneRegistry) -> Vec<(&str, &'static str)> {
+        let registered = registry.readers();
+        let own = self.sections.iter().filter(|section| registered.iter().all(|(name, _)| *name != section.name));
+        own.chain([&self.repeat]).map(|section| (&*section.name, section.example)).collect()
+    }
+
     /// Fields of sections that are lists of entries, such as `look.layers`, are told after their sections, which lead there.
     fn lead_to_lists_inside(&mut self) {
         let (inside, mut sections): (Vec<_>, Vec<_>) =

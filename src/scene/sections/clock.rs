@@ -16,7 +16,7 @@ pub enum EventTiming {
     /// The engine chooses, and says so on the card.
     #[default]
     Auto,
-    /// At the moment itself; not available yet.
+    /// At the moment itself.
     Located,
     /// At the end of the tick in which it happens.
     PerTick,
@@ -55,8 +55,7 @@ impl ClockSection {
     /// The method that leaves the choice to the engine; it must be registered too.
     pub const AUTO: &'static str = "Auto";
     /// Methods of the language that are reserved until an integrator registers them.
-    pub const RESERVED_METHODS: [&'static str; 6] =
-        ["ExplicitEuler", "RungeKutta4", "Dop853", "ImplicitMidpoint", "Symplectic4", "Reference"];
+    pub const RESERVED_METHODS: [&'static str; 1] = ["Reference"];
 }
 
 impl Section for ClockSection {
@@ -88,9 +87,6 @@ impl Section for ClockSection {
                 "write `tick: \"1 ms\"` instead, or leave it out"
             };
             report.error("tolerance", "`tolerance` is not available yet").help(help);
-        }
-        if self.events == EventTiming::Located {
-            report.error("events", "`Located` is not available yet").help("write `events: Auto`, or leave it out");
         }
     }
 

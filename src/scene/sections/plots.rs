@@ -195,7 +195,8 @@ impl PlotEntry {
 
 impl Section for PlotsSection {
     const NAME: &'static str = "plots";
-    const EXAMPLE: &'static str = "plots: [(title: \"energy\", channels: [\"energy.kinetic\", \"energy.total\"])]";
+    const EXAMPLE: &'static str = "plots: [(title: \"energy\", channels: [\"energy.kinetic\", \"energy.total\"]), \
+                                   (histogram: (of: \"*\", quantity: \"position.x\", from: -3, to: 3))]";
 
     fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
         Some(generator.subschema_for::<Self>())

@@ -13,7 +13,7 @@ use crate::plugins;
 use crate::scene::scan::scan;
 use crate::scene::{Arity, Outline, SceneAppExt, SceneRegistry, Section};
 use in_json::in_json;
-use validate::complaints;
+use validate::{complaints, misshapen};
 
 fn language() -> Language {
     let mut app = App::empty();
@@ -58,6 +58,25 @@ fn every_scene_of_the_program_fits_the_schema() {
         let text = std::fs::read_to_string(&file).unwrap();
         let wrong = told_of(&text, &schema);
         assert!(wrong.is_empty(), "{}: {wrong:#?}", file.display());
+    }
+}
+
+/// What draft 2020-12 asks of a schema itself: each keyword has the JSON type that belongs to it, and each `$ref` leads
+/// somewhere. What is not tested here: that patterns are regular expressions.
+#[test]
+fn the_schema_is_a_schema() {
+    assert_eq!(misshapen(&language().json()), Vec::<String>::new());
+    for wrong in [
+        json!({"properties": null}),
+        json!({"properties": {"a": {"properties": null}}}),
+        json!({"type": "text"}),
+        json!({"items": [{}]}),
+        json!({"required": "a"}),
+        json!({"$ref": "#/$defs/nobody"}),
+        json!({"description": null}),
+        json!({"anyOf": []}),
+    ] {
+        assert_eq!(misshapen(&wrong).len(), 1, "{wrong}");
     }
 }
 

@@ -10,6 +10,65 @@ pub(super) fn complaints(value: &Value, schema: &Value) -> Vec<String> {
     told
 }
 
+/// Where a schema is none: keywords with a value of another type than theirs, and references that lead nowhere.
+pub(super) fn misshapen(schema: &Value) -> Vec<String> {
+    let mut told = Vec::new();
+    look(schema, schema, "", &mut told);
+    told
+}
+
+fn look(schema: &Value, root: &Value, place: &str, told: &mut Vec<String>) {
+    let keywords = match schema {
+        Value::Bool(_) => return,
+        Value::Object(keywords) => keywords,
+        other => return told.push(format!("{place}: {other} is no schema")),
+    };
+    let text = |rule: &Value| rule.is_string();
+    let several = |rule: &Value| rule.as_array().is_some_and(|list| !list.is_empty());
+    for (keyword, rule) in keywords {
+        let place = format!("{place}/{keyword}");
+        let good = match keyword.as_str() {
+            "$schema" | "title" | "description" | "pattern" => text(rule),
+            "$ref" => rule.as_str().and_then(|to| root.pointer(to.strip_prefix('#')?)).is_some(),
+            "default" | "const" => true,
+            "examples" => rule.is_array(),
+            "enum" => several(rule),
+            "required" => rule.as_array().is_some_and(|list| list.iter().all(text)),
+            "type" => match rule {
+                Value::Array(kinds) => several(rule) && kinds.iter().all(is_kind),
+                kind => is_kind(kind),
+            },
+            "minimum" | "maximum" | "exclusiveMinimum" | "exclusiveMaximum" => rule.is_number(),
+            "minItems" | "maxItems" | "minProperties" | "maxProperties" | "minLength" => rule.is_u64(),
+            "items" | "additionalProperties" => {
+                look(rule, root, &place, told);
+                true
+            }
+            "properties" | "$defs" => {
+                for (name, inner) in rule.as_object().into_iter().flatten() {
+                    look(inner, root, &format!("{place}/{name}"), told);
+                }
+                rule.is_object()
+            }
+            "prefixItems" | "anyOf" | "oneOf" | "allOf" => {
+                for (index, inner) in rule.as_array().into_iter().flatten().enumerate() {
+                    look(inner, root, &format!("{place}/{index}"), told);
+                }
+                several(rule)
+            }
+            _ => panic!("the keyword `{keyword}` is not known here"),
+        };
+        if !good {
+            told.push(format!("{place}: {rule}"));
+        }
+    }
+}
+
+fn is_kind(kind: &Value) -> bool {
+    let kinds = ["null", "boolean", "object", "array", "number", "integer", "string"];
+    kind.as_str().is_some_and(|kind| kinds.contains(&kind))
+}
+
 fn fits(value: &Value, schema: &Value, root: &Value) -> bool {
     let mut told = Vec::new();
     check(value, schema, root, "", &mut told);

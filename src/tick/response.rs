@@ -1,4 +1,5 @@
-//! How fast bodies that touch respond: the largest angular frequency of all contact springs together.
+//! How fast bodies that are held respond: the largest angular frequency of all springs together, those of contacts and those
+//! of the scene.
 //!
 //! With the springs' rows `j` (normal, tangential and rolling, lever arms included), stiffnesses `k` and the masses `M` the
 //! motion of small displacements is `K phi = omega^2 M phi`, `K = sum k j j^T`. A method that is stable up to
@@ -20,10 +21,10 @@ use crate::world::Bodies;
 /// Products with the rows. The result is exact after as many as there are degrees of freedom.
 const STEPS: usize = 16;
 
-/// Two springs of a contact between two bodies, or a body and a wall.
+/// Two springs, of a contact or of the scene, between two bodies, or a body and a wall or the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
-    /// Place of the body on side A and the arm from its centre of mass to the contact; `None`: a wall.
+    /// Place of the body on side A and the arm from its centre of mass to the contact; `None`: a wall or the world.
     pub a: Option<(usize, DVec2)>,
     /// The same for side B.
     pub b: (usize, DVec2),
@@ -44,10 +45,12 @@ struct Scaled {
     angular: f64,
 }
 
-/// Everything that touches at one moment, and working memory.
+/// Everything that holds bodies at one moment, and working memory.
 #[derive(Debug, Default)]
 pub struct Springs {
     list: Vec<Spring>,
+    /// How many of them are contacts: they come first.
+    contacts: usize,
     /// For each spring the slots of both sides; [`NOBODY`] for what does not move by forces.
     slots: Vec<(u32, u32)>,
     /// For each slot the body.
@@ -76,10 +79,17 @@ pub struct Bound {
 }
 
 impl Springs {
-    /// Takes up the springs of one moment.
-    pub fn gather(&mut self, springs: impl IntoIterator<Item = Spring>, bodies: &Bodies) {
+    /// Takes up the springs of one moment: those of contacts, and the others.
+    pub fn gather(
+        &mut self,
+        contacts: impl IntoIterator<Item = Spring>,
+        others: impl IntoIterator<Item = Spring>,
+        bodies: &Bodies,
+    ) {
         self.list.clear();
-        self.list.extend(springs);
+        self.list.extend(contacts);
+        self.contacts = self.list.len();
+        self.list.extend(others);
         self.slots.clear();
         self.bodies.clear();
         self.roots.clear();
@@ -128,7 +138,7 @@ impl Springs {
             let of_b = self.mobility(b, spring.b.1, spring.normal);
             let (normal, across) = spring.stiffness;
             let squared = normal * (of_a.0 + of_b.0);
-            if squared > found.pair_squared {
+            if number < self.contacts && squared > found.pair_squared {
                 (found.pair_squared, found.pair) = (squared, number);
             }
             let times = if a != NOBODY && b != NOBODY { 2.0 } else { 1.0 };
@@ -304,7 +314,7 @@ mod tests {
         for count in [1, 2, 5, 30, 100] {
             let (list, bodies) = heap(count);
             let mut springs = Springs::default();
-            springs.gather(list, &bodies);
+            springs.gather(list, [], &bodies);
             // The power method, until it has all digits that are asked for.
             let mut now: Vec<Scaled> = (0..springs.bodies.len()).map(start).collect();
             let mut next = now.clone();

@@ -1,0 +1,215 @@
+//! Contacts as one stage of a step: forces as a function of the state, in modes that stay as they are.
+//!
+//! What follows a contact from state to state elsewhere (the elongation of its springs) is part of the state here, and
+//! its losses are powers that the method integrates. Normal forces go on smoothly where the mode would end (a contact
+//! pulls beyond its end), because a trial step may overshoot an event before it is located.
+
+use glam::DVec2;
+
+use super::apply::{End, PenaltyContacts, Sink, Touching, approach, arms};
+use super::case::{Case, Other};
+use super::contact::Contact;
+use super::coulomb::Grip;
+use super::law::PairLaw;
+use super::normal::{Approach, Mode, NormalForce};
+use super::rows::Rows;
+use super::switching::following;
+use crate::contacts::{AtomPair, CandidatePairs, WallPair};
+use crate::tick::Style;
+use crate::world::Bodies;
+
+/// Where and how the two sides of a candidate pair stand and move.
+#[derive(Clone, Copy)]
+pub(super) struct Look {
+    pub case: Case,
+    /// Overlap in metres; negative: the gap.
+    pub overlap: f64,
+    /// Distance of the centres in metres; infinite for a wall.
+    pub distance: f64,
+    /// Velocity of the centre of side B seen from that of side A, or from the surface of the wall, in m/s.
+    pub velocity: DVec2,
+    /// Spins of side A and side B times their radii given way, for the velocity along the surface; see [`Look::sliding`].
+    spins: (f64, f64),
+}
+
+impl Look {
+    pub fn atoms(bodies: &Bodies, place: usize, AtomPair { a, b }: AtomPair, reach: f64) -> Self {
+        let between = bodies.atom_position[b as usize] - bodies.atom_position[a as usize];
+        let distance = between.length();
+        let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
+        let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+        Self {
+            overlap: reach - distance,
+            distance,
+            velocity: b.velocity(bodies) - a.velocity(bodies),
+            spins: (bodies.spin[a.body], bodies.spin[b.body]),
+            case: Case { place: place as u32, normal, other: Other::Atom(a), end: b },
+        }
+    }
+
+    pub fn wall(bodies: &Bodies, place: usize, WallPair { wall, atom }: WallPair) -> Self {
+        let (packed, end) = (bodies.walls[wall as usize], End::of(bodies, atom));
+        let height = (bodies.atom_position[atom as usize] - packed.point).dot(packed.normal);
+        let belt = bodies.belts.get(wall as usize).copied().unwrap_or(DVec2::ZERO);
+        Self {
+            overlap: end.radius - height,
+            distance: f64::INFINITY,
+            velocity: end.velocity(bodies) - belt,
+            spins: (0.0, bodies.spin[end.body]),
+            case: Case { place: place as u32, normal: packed.normal, other: Other::Wall(wall), end },
+        }
+    }
+
+    /// Velocity in m/s with which the sides part.
+    pub fn parting(&self) -> f64 {
+        self.velocity.dot(self.case.normal)
+    }
+
+    /// Velocity in m/s of side B along the surface of side A.
+    pub fn sliding(&self, law: &PairLaw) -> f64 {
+        let (radius_a, radius_b) = self.radii(law);
+        self.velocity.dot(self.case.normal.perp()) - self.spins.0 * radius_a - self.spins.1 * radius_b
+    }
+
+    /// Distances of the centres from where the sides touch, in metres.
+    fn radii(&self, law: &PairLaw) -> (f64, f64) {
+        let radius_a = self.case.other_end().map_or(0.0, |a| a.radius - law.share_a * self.overlap);
+        (radius_a, self.case.end.radius - law.share_b * self.overlap)
+    }
+
+    /// What the relative accelerations along normal and tangent would be if no force acted: the frame of the contact turns
+    /// and its lever arms change.
+    pub fn inertial(&self, law: &PairLaw, bodies: &Bodies) -> (f64, f64) {
+        let centripetal = |end: &End| end.arm * -(bodies.spin[end.body] * bodies.spin[end.body]);
+        let free = centripetal(&self.case.end) - self.case.other_end().map_or(DVec2::ZERO, centripetal);
+        let tangent = self.case.normal.perp();
+        let (along, parting) = (self.velocity.dot(tangent), self.parting());
+        let turning = along / self.distance;
+        let giving_way = law.share_a * self.spins.0 + law.share_b * self.spins.1;
+        (free.dot(self.case.normal) + along * turning, free.dot(tangent) - parting * turning - giving_way * parting)
+    }
+
+    /// Arms of both sides to where they touch.
+    pub fn contact_arms(&self, law: &PairLaw) -> (DVec2, DVec2) {
+        match &self.case.other {
+            Other::Atom(a) => arms((a, &self.case.end), self.case.normal, self.overlap, law),
+            Other::Wall(_) => {
+                (DVec2::ZERO, self.case.end.arm - self.case.normal * (self.case.end.radius - self.overlap))
+            }
+        }
+    }
+
+    pub fn approach(&self, bodies: &Bodies) -> Approach {
+        approach(bodies, self.case.other_end(), &self.case.end, self.case.normal)
+    }
+}
+
+/// Evaluates all contacts of a state.
+pub(super) fn evaluate<N: NormalForce>(
+    contacts: &mut PenaltyContacts,
+    pairs: &CandidatePairs,
+    style: Style,
+    sink: &mut Sink,
+) {
+    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, rows, .. } = contacts;
+    rows.clear();
+    touching_atoms.clear();
+    touching_walls.clear();
+    let looked = |contact: &Contact| style == Style::Instant || contact.mode != Mode::Open;
+    for (place, (&pair, contact)) in pairs.atoms.iter().zip(&mut *atoms).enumerate() {
+        if looked(contact) {
+            let look = Look::atoms(sink.bodies, place, pair, contact.reach);
+            if stage::<N>(contact, laws.get(contact.law), &look, style, sink, rows) {
+                touching_atoms.push(Touching { place: place as u32, normal: look.case.normal });
+            }
+        }
+    }
+    for (place, (&pair, contact)) in pairs.walls.iter().zip(&mut *walls).enumerate() {
+        if looked(contact) {
+            let look = Look::wall(sink.bodies, place, pair);
+            if stage::<N>(contact, laws.get(contact.law), &look, style, sink, rows) {
+                touching_walls.push(Touching { place: place as u32, normal: look.case.normal });
+            }
+        }
+    }
+    rows.solve(sink.bodies);
+    for (look, tangent, force) in rows.answers() {
+        let list = if look.case.other_end().is_some() { &mut *atoms } else { &mut *walls };
+        let contact = &mut list[look.case.place as usize];
+        let law = laws.get(contact.law);
+        let (normal, tangent_force) = if tangent {
+            contact.tangential.held = -force;
+            (0.0, -force)
+        } else {
+            contact.normal_force = force;
+            let sliding = contact.tangential.grip == Grip::Slide;
+            if sliding {
+                contact.slide(law, force);
+            }
+            (force, if sliding { contact.tangential.held } else { 0.0 })
+        };
+        let push = look.case.normal * normal - look.case.normal.perp() * tangent_force;
+        look.case.push(sink, law, look.overlap, push);
+        book::<N>(contact, law, &look, sink, normal, tangent_force);
+    }
+    rows.cancel(sink.bodies, sink.balance);
+}
+
+/// Evaluates one contact; says whether it touches.
+fn stage<N: NormalForce>(
+    contact: &mut Contact,
+    law: &PairLaw,
+    look: &Look,
+    style: Style,
+    sink: &mut Sink,
+    rows: &mut Rows,
+) -> bool {
+    let approach = look.approach(sink.bodies);
+    if style == Style::Instant {
+        contact.adapt::<N>(law, look, approach);
+        if contact.mode == Mode::Open {
+            return false;
+        }
+    }
+    contact.overlap = look.overlap;
+    let normal_held = contact.mode == Mode::Hold;
+    if !normal_held {
+        contact.normal_force = N::smooth_force(law, contact.mode, look.overlap, approach);
+    }
+    if contact.tangential.grip == Grip::Slide && !normal_held {
+        contact.slide(law, contact.normal_force);
+    }
+    let acts = law.tangential().acts();
+    let tangent_held = acts && contact.tangential.grip == Grip::Hold;
+    let tangent_waits = !acts || tangent_held || (normal_held && contact.tangential.grip == Grip::Slide);
+    let normal = if normal_held { 0.0 } else { contact.normal_force };
+    let tangential = if tangent_waits { 0.0 } else { contact.tangential_force(law) };
+    if normal_held {
+        let slope = if contact.tangential.grip == Grip::Slide {
+            law.friction_dynamic.copysign(contact.tangential.held)
+        } else {
+            0.0
+        };
+        rows.add_normal(look, law, slope, sink.bodies);
+    }
+    if tangent_held {
+        rows.add_tangent(look, law, sink.bodies);
+    }
+    if normal != 0.0 || tangential != 0.0 {
+        let push = look.case.normal * normal - look.case.normal.perp() * tangential;
+        look.case.push(sink, law, look.overlap, push);
+        book::<N>(contact, law, look, sink, normal, tangential);
+    }
+    true
+}
+
+/// Books the powers of a contact force, in two parts if need be: what the force takes from the bodies and the springs do not
+/// take up is lost. The spring of the elastic part takes up `k d` whatever the force is, booked with the normal force.
+fn book<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, sink: &mut Sink, normal: f64, tangential: f64) {
+    if normal != 0.0 {
+        sink.balance.inelasticity -= look.parting() * (normal - law.stiffness * look.overlap);
+    }
+    if tangential != 0.0 && contact.tangential.grip == Grip::Slide {
+        sink.balance.friction += tangential * (look.sliding(law) - following::<N>(contact, law, look));
+    }
+}

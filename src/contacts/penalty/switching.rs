@@ -1,0 +1,427 @@
+//! When the modes of contacts end, and what follows.
+//!
+//! | mode | lasts while | then |
+//! |---|---|---|
+//! | open | the gap is positive | loading |
+//! | loading, unloading | the law goes on (overlap, or force) | open |
+//! | loading with loss | the sides approach | held, for a first try |
+//! | unloading with loss | the sides part | held, for a first try |
+//! | held | the normal force is within the bounds of the law | loading or unloading |
+//! | stick | the tangential force is within the static cone | slip |
+//! | slip | the sides slide the same way | stick, for a first try |
+//!
+//! A mode that begins at rest is decided by accelerations, not by velocities: it is tried as held, and where the forces that
+//! would hold it are out of bounds it takes the mode beyond the bound.
+
+use bevy_ecs::prelude::*;
+
+use super::apply::PenaltyContacts;
+use super::contact::Contact;
+use super::coulomb::{Grip, Slider};
+use super::law::PairLaw;
+use super::normal::{Approach, Mode, NormalForce};
+use super::staged::Look;
+use super::{Penalty, RollingLaw, TangentialLaw};
+use crate::contacts::{CandidatePairs, DeepestOverlap};
+use crate::tick::{Clock, Evaluation, Indicator, Ledger, Models, Objection, StateBlock, Style, Watch};
+use crate::world::Bodies;
+
+/// What an indicator of a contact stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum What {
+    Touch,
+    Part,
+    Turn,
+    Lower,
+    Upper,
+    /// The cone is left with a force of this sign.
+    Give(bool),
+    Stop,
+}
+
+/// The indicators of the present modes: candidate pairs (pairs of atoms first, then walls) and what is watched of them.
+pub(super) type Told = Vec<(u32, What)>;
+
+/// Registers contacts with this law for methods with several stages.
+pub(super) fn install<N: NormalForce>(world: &mut World) {
+    let mut models = world.get_resource_or_init::<Models>();
+    models.blocks.push(StateBlock { length, read, write, rates });
+    models.watches.push(Watch {
+        tell: tell::<N>,
+        switch: switch::<N>,
+        settle: settle::<N>,
+        take_stock: take_stock::<N>,
+        tidy,
+        told: 0,
+    });
+    models.objections.push(object);
+}
+
+/// What these contacts cannot do yet, or cannot do at all.
+fn object(world: &World, style: Style) -> Option<Objection> {
+    let settings = world.resource::<Penalty>();
+    let friction = world.resource::<PenaltyContacts>().materials.any_friction();
+    let (path, message, help) = match (style, settings.tangential) {
+        (Style::Following, TangentialLaw::Exact) => (
+            "contacts.Penalty.tangential",
+            "`Exact` friction needs a method that locates events inside a tick",
+            "write `clock: (.., method: RungeKutta4)`, `method: Dop853` or `events: Located`; or `tangential: Spring(ratio: 0.8)`",
+        ),
+        (Style::Instant, TangentialLaw::Spring { .. }) if friction => (
+            "clock.events",
+            "tangential springs need their events located under a method with several stages",
+            "write `events: Located`, or `tangential: Exact` or `None`, or `method: VelocityVerlet`",
+        ),
+        (Style::Frozen | Style::Instant, _) if settings.rolling != RollingLaw::None => (
+            "contacts.Penalty.rolling",
+            "a rolling spring is not available yet under a method that locates events",
+            "write `method: VelocityVerlet` and `events: PerTick`, or `rolling: None`",
+        ),
+        _ => return None,
+    };
+    Some(Objection { path, message: message.to_owned(), help })
+}
+
+/// All candidate pairs with their contacts.
+struct View<'a> {
+    bodies: &'a Bodies,
+    pairs: &'a CandidatePairs,
+    contacts: &'a mut PenaltyContacts,
+}
+
+impl View<'_> {
+    fn len(&self) -> usize {
+        self.contacts.atoms.len() + self.contacts.walls.len()
+    }
+
+    fn look(&self, place: usize) -> Look {
+        let atoms = self.contacts.atoms.len();
+        match place.checked_sub(atoms) {
+            None => Look::atoms(self.bodies, place, self.pairs.atoms[place], self.contacts.atoms[place].reach),
+            Some(place) => Look::wall(self.bodies, place, self.pairs.walls[place]),
+        }
+    }
+
+    fn contact(&mut self, place: usize) -> (&mut Contact, &PairLaw) {
+        let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
+        let count = atoms.len();
+        let contact = if place < count { &mut atoms[place] } else { &mut walls[place - count] };
+        let law = laws.get(contact.law);
+        (contact, law)
+    }
+}
+
+fn view<R>(world: &mut World, see: impl FnOnce(&mut World, &mut View) -> R) -> R {
+    world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
+        world.resource_scope(|world, bodies: Mut<Bodies>| {
+            world.resource_scope(|world, pairs: Mut<CandidatePairs>| {
+                see(world, &mut View { bodies: &bodies, pairs: &pairs, contacts: &mut contacts })
+            })
+        })
+    })
+}
+
+/// Contacts whose tangential spring holds: its elongation is state.
+fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = &Contact> {
+    contacts.atoms.iter().chain(&contacts.walls).filter(|contact| is_spring(contact))
+}
+
+fn is_spring(contact: &Contact) -> bool {
+    contact.mode != Mode::Open && contact.tangential.grip == Grip::Stick
+}
+
+fn length(world: &World) -> usize {
+    springs(world.resource::<PenaltyContacts>()).count()
+}
+
+fn read(world: &World, state: &mut [f64]) {
+    for (state, contact) in state.iter_mut().zip(springs(world.resource())) {
+        *state = contact.tangential.elongation;
+    }
+}
+
+fn write(world: &mut World, state: &[f64]) {
+    let mut contacts = world.resource_mut::<PenaltyContacts>();
+    let PenaltyContacts { atoms, walls, .. } = &mut *contacts;
+    let all = atoms.iter_mut().chain(walls).filter(|contact| is_spring(contact));
+    for (state, contact) in state.iter().zip(all) {
+        contact.tangential.elongation = *state;
+    }
+}
+
+fn rates(world: &World, rates: &mut [f64]) {
+    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+    let contacts = world.resource::<PenaltyContacts>();
+    let of_atoms = contacts.atoms.iter().zip(&pairs.atoms).enumerate();
+    let of_atoms = of_atoms.filter(|(_, (contact, _))| is_spring(contact)).map(|(place, (contact, pair))| {
+        Look::atoms(bodies, place, *pair, contact.reach).sliding(contacts.laws.get(contact.law))
+    });
+    let of_walls = contacts.walls.iter().zip(&pairs.walls).enumerate();
+    let of_walls = of_walls
+        .filter(|(_, (contact, _))| is_spring(contact))
+        .map(|(place, (contact, pair))| Look::wall(bodies, place, *pair).sliding(contacts.laws.get(contact.law)));
+    rates.iter_mut().zip(of_atoms.chain(of_walls)).for_each(|(rate, sliding)| *rate = sliding);
+}
+
+/// The rate at which the elongation of a slipping spring follows the normal force.
+pub(super) fn following<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look) -> f64 {
+    if law.exact || contact.mode == Mode::Hold {
+        return 0.0;
+    }
+    let per_overlap = N::smooth_force(law, contact.mode, 1.0, Approach::default());
+    -law.friction_dynamic.copysign(contact.tangential.held) * per_overlap * look.parting() / law.tangential_stiffness
+}
+
+fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
+    view(world, |_, view| {
+        let mut what = std::mem::take(&mut view.contacts.told);
+        what.clear();
+        for place in 0..view.len() {
+            let look = view.look(place);
+            let bodies = view.bodies;
+            let (contact, law) = view.contact(place);
+            let mut say = |event: What, value: f64, slope: f64| {
+                what.push((place as u32, event));
+                told.push(Indicator { value, slope });
+            };
+            if contact.mode == Mode::Open {
+                say(What::Touch, -look.overlap, look.parting());
+                continue;
+            }
+            let unknown = f64::NAN;
+            if contact.mode == Mode::Hold {
+                let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+                say(What::Lower, contact.normal_force - least, unknown);
+                say(What::Upper, greatest - contact.normal_force, unknown);
+            } else {
+                let (value, known) = N::remaining(contact.mode, contact.overlap, contact.normal_force);
+                say(What::Part, value, if known { -look.parting() } else { unknown });
+                let parting = (look.parting(), look.parting_rate(law, bodies));
+                let loading = N::smooth_force(law, Mode::Loading, look.overlap, look.approach(bodies));
+                if let Some((value, slope)) = N::stays(law, contact.mode, parting, loading) {
+                    say(What::Turn, value, slope);
+                }
+            }
+            if law.tangential().acts() {
+                let force = contact.tangential_force(law);
+                match contact.tangential.grip {
+                    Grip::Slide => {
+                        let slip = look.sliding(law) - following::<N>(contact, law, &look);
+                        say(What::Stop, slip.copysign(slip * contact.tangential.held.signum()), unknown);
+                    }
+                    grip => {
+                        // At rest along the normal friction too may be any force within its cone once the sides stop.
+                        if grip == Grip::Stick && contact.mode == Mode::Hold {
+                            let sliding = look.sliding(law);
+                            say(What::Stop, sliding.copysign(sliding * contact.tangential.held.signum()), unknown);
+                        }
+                        let limit = law.friction_static * contact.normal_force;
+                        say(What::Give(true), limit - force, unknown);
+                        say(What::Give(false), limit + force, unknown);
+                    }
+                }
+            }
+        }
+        view.contacts.told = what;
+    });
+}
+
+impl Look {
+    /// The rate of [`Look::parting`] under the present forces, in m/s2.
+    fn parting_rate(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
+        let acceleration = |body: usize, arm: glam::DVec2| {
+            bodies.force[body] * bodies.inverse_mass[body]
+                + arm.perp() * (bodies.torque[body] * bodies.inverse_inertia[body])
+        };
+        let own = acceleration(self.case.end.body, self.case.end.arm);
+        let other = self.case.other_end().map_or(glam::DVec2::ZERO, |a| acceleration(a.body, a.arm));
+        (own - other).dot(self.case.normal) + self.inertial(law, bodies).0
+    }
+}
+
+fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
+    let mut friction = 0.0;
+    view(world, |_, view| {
+        for &place in fired {
+            let (pair, what) = view.contacts.told[place];
+            let look = view.look(pair as usize);
+            let (contact, law) = view.contact(pair as usize);
+            let before = contact.tangential.energy(&law.tangential());
+            contact.switch::<N>(law, what, &look);
+            contact.come_loose(law, &look);
+            friction += before - contact.tangential.energy(&law.tangential());
+        }
+    });
+    world.resource_mut::<Ledger>().friction.add(friction);
+}
+
+fn settle<N: NormalForce>(world: &mut World) -> bool {
+    let (mut corrected, mut friction) = (false, 0.0);
+    view(world, |_, view| {
+        for place in 0..view.len() {
+            let look = view.look(place);
+            let (contact, law) = view.contact(place);
+            if contact.mode == Mode::Hold {
+                let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+                if contact.normal_force < least || contact.normal_force > greatest {
+                    contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
+                    friction += contact.come_loose(law, &look);
+                    corrected = true;
+                }
+            }
+            if contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold {
+                let force = contact.tangential.held;
+                if force.abs() > law.friction_static * contact.normal_force {
+                    contact.tangential.grip = Grip::Slide;
+                    corrected = true;
+                }
+            }
+        }
+    });
+    world.resource_mut::<Ledger>().friction.add(friction);
+    corrected
+}
+
+fn take_stock<N: NormalForce>(world: &mut World) {
+    view(world, |_, view| {
+        for place in 0..view.len() {
+            let look = view.look(place);
+            let (contact, law) = view.contact(place);
+            if contact.mode == Mode::Open && look.overlap > 0.0 {
+                contact.overlap = look.overlap;
+                contact.begin::<N>(law, &look);
+            }
+            if contact.mode != Mode::Open && contact.mode != Mode::Hold {
+                contact.mode = standing::<N>(law, contact.mode, look.parting());
+            }
+        }
+    });
+}
+
+/// The mode of a contact that parts with `parting` m/s; one that does neither is held, for a first try.
+fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode {
+    if parting == 0.0 && N::SET_VALUED && N::dissipates(law) { Mode::Hold } else { N::chosen(present, parting) }
+}
+
+/// After a step: what is held stands, and the deepest overlap is noted.
+fn tidy(world: &mut World) -> bool {
+    let (time, dt) = (world.resource::<Evaluation>().time, world.resource::<Clock>().dt);
+    let mut moved = false;
+    world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
+        world.resource_scope(|world, mut bodies: Mut<Bodies>| {
+            if !contacts.rows.is_empty() {
+                let before = (crate::tick::balance::momentum(&bodies), crate::tick::balance::angular_momentum(&bodies));
+                moved = contacts.rows.stop(&mut bodies, dt);
+                let mut ledger = world.resource_mut::<Ledger>();
+                let by = crate::tick::balance::momentum(&bodies) - before.0;
+                ledger.impulse[0].add(by.x);
+                ledger.impulse[1].add(by.y);
+                ledger.angular_impulse.add(crate::tick::balance::angular_momentum(&bodies) - before.1);
+            }
+        });
+    });
+    view(world, |world, view| {
+        for place in 0..view.len() {
+            if view.contact(place).0.mode == Mode::Open {
+                continue;
+            }
+            let look = view.look(place);
+            let entity = |body: usize| view.bodies.entity[body];
+            let (b, radius) = (look.case.end.body, look.case.end.radius);
+            let other = match look.case.other {
+                super::case::Other::Atom(a) => (entity(a.body), a.radius),
+                super::case::Other::Wall(wall) => (view.bodies.walls[wall as usize].entity, f64::INFINITY),
+            };
+            let pair = (other.0, entity(b));
+            world.resource_mut::<DeepestOverlap>().note(look.overlap, radius.min(other.1), time, || pair);
+        }
+    });
+    moved
+}
+
+impl Contact {
+    /// A pair begins to touch.
+    fn begin<N: NormalForce>(&mut self, law: &PairLaw, look: &Look) {
+        self.mode = standing::<N>(law, Mode::Loading, look.parting());
+        self.tangential = Slider::default();
+        if !law.tangential().acts() {
+            return;
+        }
+        let sliding = look.sliding(law);
+        let sticks = if law.exact {
+            sliding == 0.0
+        } else {
+            // Near the touch both forces grow from zero: the spring's with the way along, the limit with the overlap.
+            let rate = N::smooth_force(law, Mode::Loading, 1.0, Approach::default());
+            look.overlap > 0.0
+                || law.tangential_stiffness * sliding.abs() <= law.friction_static * rate * look.parting().abs()
+        };
+        let held = law.exact || sliding == 0.0 && self.mode == Mode::Hold;
+        (self.tangential.grip, self.tangential.held) = match (sticks, held) {
+            (true, true) => (Grip::Hold, 0.0),
+            (true, false) => (Grip::Stick, 0.0_f64.copysign(sliding)),
+            (false, _) => (Grip::Slide, 0.0_f64.copysign(sliding)),
+        };
+    }
+
+    /// One of the contact's modes ends.
+    fn switch<N: NormalForce>(&mut self, law: &PairLaw, what: What, look: &Look) {
+        match what {
+            What::Touch if self.mode == Mode::Open => self.begin::<N>(law, look),
+            What::Part => {
+                self.mode = N::after(self.mode, true);
+                if self.mode == Mode::Open {
+                    *self = Self { reach: self.reach, law: self.law, ..Self::default() };
+                }
+            }
+            What::Turn => self.mode = N::after(self.mode, false),
+            What::Lower => self.mode = Mode::Unloading,
+            What::Upper => self.mode = Mode::Loading,
+            What::Give(positive) if self.mode != Mode::Open => {
+                self.tangential.grip = Grip::Slide;
+                self.tangential.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
+                self.slide(law, self.normal_force);
+            }
+            What::Stop if self.mode != Mode::Open => {
+                let held = law.exact || self.mode == Mode::Hold;
+                self.tangential.grip = if held { Grip::Hold } else { Grip::Stick };
+            }
+            What::Touch | What::Give(_) | What::Stop => {}
+        }
+    }
+
+    /// Brings the spring into line with a normal mode that has changed: it takes over from a hold when the normal is held no
+    /// longer, and one that holds remembers which way it is going. Returns the energy lost in J.
+    fn come_loose(&mut self, law: &PairLaw, look: &Look) -> f64 {
+        let slider = &mut self.tangential;
+        let lost = if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {
+            slider.let_go(&law.tangential())
+        } else {
+            0.0
+        };
+        if slider.grip == Grip::Stick {
+            slider.held = 0.0_f64.copysign(look.sliding(law));
+        }
+        lost
+    }
+
+    /// While it slips: the force along the surface under a normal force, in the direction it has.
+    pub(super) fn slide(&mut self, law: &PairLaw, normal_force: f64) {
+        let slider = &mut self.tangential;
+        slider.held = (law.friction_dynamic * normal_force).abs().copysign(slider.held);
+        slider.elongation = if law.exact { 0.0 } else { slider.held / law.tangential_stiffness };
+    }
+
+    /// Modes that follow from the state itself.
+    pub(super) fn adapt<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, approach: Approach) {
+        if look.overlap <= 0.0 {
+            *self = Self { reach: self.reach, law: self.law, ..Self::default() };
+            return;
+        }
+        self.mode = N::chosen(Mode::Loading, approach.parting);
+        let limit = law.friction_dynamic * N::smooth_force(law, self.mode, look.overlap, approach).max(0.0);
+        let sliding = look.sliding(law);
+        self.tangential.grip = Grip::Slide;
+        self.tangential.held = limit.copysign(sliding);
+    }
+}

@@ -1,0 +1,230 @@
+//! Aiming: a body gets the velocity of a given size with which its centre of mass flies through a place.
+//!
+//! Gravity, drag and wind of the scene are reckoned with (see [`super::ballistics`]); contacts and other forces are not, and
+//! the card says so. It acts once, before the first tick, and is no force.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+use super::ballistics::{Arc, Flight, Miss, Shot};
+use super::gravity::Gravity;
+use super::{drag, wind};
+use crate::report::card::{Notes, number};
+use crate::scene::units::{Position, Speed};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, SceneError, Written};
+use crate::simulation::{Finishers, LateErrors};
+use crate::world::{Bodies, Velocity};
+
+/// Gives a body the velocity at the start with which its centre of mass flies through a place. Gravity, drag and wind of the
+/// scene count; what else acts on it makes it miss. What cannot be reached is an error that says which speed would do.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Aim {
+    /// The body that is thrown. It has no `velocity` of its own.
+    of: String,
+    /// The place it is to fly through, in metres.
+    at: Position,
+    /// Its speed at the start in m/s. Above zero.
+    speed: Speed,
+    /// Which of the two ways. Default: `Low`.
+    #[serde(default)]
+    arc: AimArc,
+}
+
+/// One of the two ways to a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+enum AimArc {
+    /// The shorter flight.
+    #[default]
+    Low,
+    /// The longer flight.
+    High,
+}
+
+/// What the solution reckons with.
+const RECKONED: [&str; 3] = ["Drag", "Wind", "Aim"];
+
+impl Entry for Aim {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Aim";
+    const EXAMPLE: &'static str = "Aim(of: \"ball\", at: (40, 5), speed: 25, arc: High)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        outline.require(Kind::BODY, &self.of, "of", report);
+        report.positive("speed", self.speed);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let mentions = outline.entries(Self::SECTION).iter();
+        let paths = mentions.clone().filter(|mention| mention.name == Self::NAME).map(|mention| mention.path.clone());
+        let aim = |(Written { value, .. }, path): (Written<Self>, String)| AimedBody {
+            key: outline.position(Kind::BODY, &value.of).unwrap_or_default() as u64,
+            name: value.of,
+            at: value.at.si(),
+            speed: value.speed.si(),
+            arc: if value.arc == AimArc::Low { Arc::Low } else { Arc::High },
+            path,
+        };
+        let aims = entries.into_iter().zip(paths).map(aim).collect();
+        let mut others: Vec<String> = mentions.map(|mention| mention.name.clone()).collect();
+        others.retain(|name| !RECKONED.contains(&name.as_str()));
+        others.sort();
+        others.dedup();
+        app.insert_resource(Aims { aims, others });
+        app.world_mut().get_resource_or_init::<Finishers>().0.push(aim_bodies);
+    }
+}
+
+struct AimedBody {
+    key: u64,
+    name: String,
+    at: DVec2,
+    speed: f64,
+    arc: Arc,
+    path: String,
+}
+
+#[derive(Resource)]
+struct Aims {
+    aims: Vec<AimedBody>,
+    /// Names of forces of the scene that the solution does not reckon with.
+    others: Vec<String>,
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Aim>();
+}
+
+fn aim_bodies(world: &mut World) {
+    let Some(Aims { aims, others }) = world.remove_resource::<Aims>() else { return };
+    let (mut errors, mut notes) = (Vec::new(), Vec::new());
+    let mut aimed: Vec<u64> = Vec::new();
+    for aim in &aims {
+        let found = if aimed.contains(&aim.key) {
+            let message = format!("`{}` is aimed twice", aim.name);
+            Err(Box::new(SceneError::new(format!("{}.of", aim.path), message).with_help("keep one of the two")))
+        } else {
+            aim.solve(world)
+        };
+        aimed.push(aim.key);
+        match found {
+            Ok((body, shot)) => {
+                let mut bodies = world.resource_mut::<Bodies>();
+                bodies.velocity[body] = shot.velocity;
+                let entity = bodies.entity[body];
+                world.entity_mut(entity).insert(Velocity(shot.velocity));
+                let DVec2 { x, y } = shot.velocity;
+                let angle = number(libm::atan2(y, x).to_degrees());
+                let (name, time) = (&aim.name, number(shot.time));
+                notes.push(format!("`{name}` is thrown at {angle} deg and reaches its aim at t = {time} s"));
+            }
+            Err(error) => errors.push(*error),
+        }
+    }
+    if !others.is_empty() && errors.is_empty() {
+        notes.push(format!("the aim reckons with gravity, drag and wind, not with {}", others.join(", ")));
+    }
+    world.resource_mut::<Notes>().0.extend(notes);
+    world.get_resource_or_init::<LateErrors>().0.extend(errors);
+}
+
+impl AimedBody {
+    /// Place of the body, and how it is thrown.
+    fn solve(&self, world: &World) -> Result<(usize, Shot), Box<SceneError>> {
+        let Self { key, name, at, speed, arc, path } = self;
+        let wrong = |field: &str, message: String, help: String| {
+            Err(Box::new(SceneError::new(format!("{path}.{field}"), message).with_help(help)))
+        };
+        let bodies = world.resource::<Bodies>();
+        let body = bodies.key.binary_search(key).ok().filter(|&body| bodies.dynamic[body]);
+        let Some(body) = body else {
+            let help = "aim a body that is neither `fixed` nor `kinematic`".to_owned();
+            return wrong("of", format!("`{name}` does not move by forces"), help);
+        };
+        if bodies.velocity[body] != DVec2::ZERO {
+            let help = "remove its `velocity`: the aim gives it one".to_owned();
+            return wrong("of", format!("`{name}` has a `velocity` already"), help);
+        }
+        let gravity = world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0);
+        let mut air = drag::resistance(world, *key);
+        air.extend(wind::resistance(world, *key));
+        let flight = Flight { gravity, mass: bodies.mass[body], air };
+        match flight.aim(*at - bodies.position[body], *speed, *arc) {
+            Ok(shot) => Ok((body, shot)),
+            Err(Miss::Here) => {
+                let message = format!("`{name}` is at ({}, {}) already", number(at.x), number(at.y));
+                wrong("at", message, "aim at another place, or start elsewhere".into())
+            }
+            Err(Miss::Short { least, reach }) => {
+                let (least, reach, speed) = (number(least), number(reach), number(*speed));
+                let message = format!("{speed} m/s are too slow to reach ({}, {})", number(at.x), number(at.y));
+                let help = format!("{least} m/s reach it; {speed} m/s reach {reach} m in this direction");
+                wrong("speed", message, help)
+            }
+            Err(Miss::Never) => {
+                let message = format!("no way to ({}, {}) was found at this speed", number(at.x), number(at.y));
+                wrong("at", message, "aim nearer, or let the drag be less".into())
+            }
+            Err(Miss::OneWay) => {
+                let message = "without gravity there is one way to the place, not two".to_owned();
+                wrong("arc", message, "remove `arc`".into())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Simulation;
+    use crate::scene::Source;
+
+    /// The engine flies the shot: after the time of flight of the truth file P06, in whole ticks, the ball is at its aim. In
+    /// vacuum velocity Verlet is exact: rounding of 64 ticks.
+    #[test]
+    fn an_aimed_ball_flies_through_its_aim() {
+        for (arc, time) in [("Low", 1.807_590_318_824_812_6), ("High", 4.546_609_596_782_668)] {
+            let scene = format!(
+                "Scene(format: 1, clock: (duration: {time:?}, tick: {:?}), gravity: (0, -9.81),
+                bodies: [(name: \"ball\", at: (2, -1), atoms: Disc(radius: 0.1))],
+                forces: [Aim(of: \"ball\", at: (42, 4), speed: 25, arc: {arc})])",
+                time / 64.0
+            );
+            let mut simulation = Simulation::load(&Source::new("aim.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
+            simulation.run_to_end().unwrap();
+            let missed = simulation.bodies().position[0].distance(glam::DVec2::new(42.0, 4.0));
+            assert!(missed < 64.0 * f64::EPSILON * 60.0, "{arc}: {missed:e}");
+            let card = simulation.card();
+            assert!(card.notes.iter().any(|note| note.contains("is thrown at")), "{:?}", card.notes);
+            assert!(card.energy.work.abs() < 1e-12, "it starts with its velocity: {:?}", card.energy);
+        }
+    }
+
+    /// Drag and wind of several entries add up; others are not meant. Tolerance: order 2, `(0.5/s x 1 ms)^2` of a
+    /// way of 30 m; half a tick from the aim the way bends by `20 m/s2 (dt/2)^2/2`.
+    #[test]
+    fn drag_and_wind_of_the_scene_count() {
+        let scene = "Scene(format: 1, clock: (duration: 10, tick: \"1 ms\"), gravity: (0, -9.81),
+            bodies: [(name: \"ball\", at: (0, 0), mass: 2, atoms: Disc(radius: 0.1))],
+            forces: [Drag(linear: 0.3), Drag(quadratic: 0.01, of: \"b*\"), Wind(velocity: (-3, 1), linear: 0.2),
+                     Aim(of: \"ball\", at: (20, 3), speed: 30, arc: High)])";
+        let mut simulation = Simulation::load(&Source::new("aim.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
+        let mut nearest = f64::INFINITY;
+        let aim = glam::DVec2::new(20.0, 3.0);
+        for tick in 1..=simulation.ticks() {
+            simulation.run_to_tick(tick).unwrap();
+            let (place, velocity) = (simulation.bodies().position[0], simulation.bodies().velocity[0]);
+            // How far the line of its motion passes by the aim.
+            if place.distance(aim) < 0.05 {
+                nearest = nearest.min((aim - place).perp_dot(velocity.normalize()).abs());
+            }
+        }
+        assert!(nearest < 7.5e-6 + 2.5e-6, "{nearest:e}");
+    }
+}

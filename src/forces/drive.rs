@@ -1,0 +1,278 @@
+//! A force or torque that follows a course in time: `F(t) = F0 s(t)`, with `s` a sine, or a table between whose points it is
+//! linear.
+//!
+//! It is sampled at the time of each evaluation, so an integrator with stages sees it where its stages are, and keeps its
+//! order. A table has kinks at its points: a method of an order above 2 shows order 2 where they fall inside a tick.
+
+use std::f64::consts::TAU;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::thrust::ThrustFrame;
+use super::{Targets, check_targets};
+use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::{Balance, Dependence, Evaluation, TickAppExt};
+use crate::world::Bodies;
+
+/// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Drive {
+    /// The bodies it acts on, `*` matches.
+    of: Names,
+    /// Force in newtons where the course is 1. Default: none; a drive has a force, a torque or both.
+    force: Option<ForcePair>,
+    /// Torque in N m, counter-clockwise, where the course is 1. Default: none.
+    torque: Option<units::Torque>,
+    /// Where the force acts, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
+    #[serde(default)]
+    at: Position,
+    /// Whether the force turns with the body. Default: `World`.
+    #[serde(default)]
+    frame: ThrustFrame,
+    /// The course in time.
+    course: Course,
+}
+
+/// A number that depends on time.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Course {
+    /// `amplitude sin(2 pi frequency t + phase)`.
+    Sine {
+        /// The largest value. Default: 1.
+        #[serde(default = "one")]
+        amplitude: Scalar,
+        /// Periods per second, in Hz. Not negative. Either this or `angular_frequency`. Default: `angular_frequency` says
+        /// it.
+        frequency: Option<Rate>,
+        /// `2 pi` times that, in rad/s. Not negative. Default: `frequency` says it.
+        angular_frequency: Option<Spin>,
+        /// At the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
+        #[serde(default)]
+        phase: Angle,
+    },
+    /// Times in seconds, ascending, and values: linear between them. Before the first and after the last point it keeps
+    /// their values.
+    Piecewise(Vec<(Time, Scalar)>),
+    /// The same from a file of two columns, time in seconds and value, with or without a line of names: a path from the
+    /// folder of the file in which this stands.
+    Csv(String),
+}
+
+fn one() -> Scalar {
+    Scalar::new(1.0)
+}
+
+impl Entry for Drive {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Drive";
+    const EXAMPLE: &'static str = "Drive(of: \"T\", force: (2, 0), course: Sine(frequency: \"1.5 Hz\"))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        check_targets(Some(&self.of), outline, report);
+        if self.force.is_none() && self.torque.is_none() {
+            report.error("", "this drive pushes nothing").help("give `force: (2, 0)`, `torque: 0.05` or both");
+        }
+        if self.force.is_none() && self.at != Position::default() {
+            report.error("at", "`at` is where a force acts, and there is none").help("give `force`, or remove `at`");
+        }
+        report.within("course", |report| self.course.check(report));
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let drive = |Written { value, .. }: Written<Self>| DriveForce {
+            of: Targets::named(Some(&value.of), outline),
+            at: value.at.si(),
+            force: value.force.map_or(DVec2::ZERO, ForcePair::si),
+            torque: value.torque.map_or(0.0, units::Torque::si),
+            turns: value.frame == ThrustFrame::Body,
+            course: value.course,
+        };
+        install(entries.into_iter().map(drive).collect(), app);
+    }
+}
+
+impl Course {
+    fn check(&self, report: &mut Report) {
+        match self {
+            Self::Sine { frequency, angular_frequency, .. } => {
+                if let Some(frequency) = frequency {
+                    report.not_negative("frequency", *frequency);
+                }
+                if let Some(angular_frequency) = angular_frequency {
+                    report.not_negative("angular_frequency", *angular_frequency);
+                }
+                if frequency.is_some() == angular_frequency.is_some() {
+                    let message = "either `frequency` or `angular_frequency` says how fast it is";
+                    report.error("", message).help("for example `Sine(frequency: \"1.5 Hz\")`");
+                }
+            }
+            Self::Piecewise(points) => {
+                if points.is_empty() {
+                    let help = "for example `Piecewise([(0, 0), (\"0.5 s\", 1)])`";
+                    report.error("[0]", "must hold at least one point").help(help);
+                }
+                for (index, pair) in points.windows(2).enumerate() {
+                    let (before, time) = (pair[0].0.si(), pair[1].0.si());
+                    if time <= before {
+                        let message = format!("must be above the time before it, {before} s, got {time} s");
+                        report
+                            .error(&format!("[0][{}]", index + 1), message)
+                            .help("the points stand in the order of their times; a jump takes a short time");
+                    }
+                }
+            }
+            Self::Csv(file) => {
+                report.error("", format!("`{file}` was not read")).help("`Csv` stands in `course` of a scene");
+            }
+        }
+    }
+
+    /// The value at `time` seconds.
+    pub fn at(&self, time: f64) -> f64 {
+        match self {
+            Self::Sine { amplitude, frequency, angular_frequency, phase } => {
+                let rate = frequency.map_or(0.0, |rate| TAU * rate.si()) + angular_frequency.map_or(0.0, Spin::si);
+                amplitude.si() * libm::sin(rate * time + phase.si())
+            }
+            Self::Piecewise(points) => {
+                let next = points.partition_point(|point| point.0.si() <= time);
+                let point = |place: usize| (points[place].0.si(), points[place].1.si());
+                match (next.checked_sub(1), next < points.len()) {
+                    (Some(before), true) => {
+                        let ((begin, from), (end, to)) = (point(before), point(next));
+                        from + (to - from) * ((time - begin) / (end - begin))
+                    }
+                    (Some(before), false) => point(before).1,
+                    (None, true) => point(next).1,
+                    (None, false) => 0.0,
+                }
+            }
+            // A check refuses it.
+            Self::Csv(_) => 0.0,
+        }
+    }
+}
+
+/// One entry, ready to be applied.
+#[derive(Clone, Debug)]
+pub struct DriveForce {
+    /// The bodies it acts on.
+    pub of: Targets,
+    /// Where the force acts, in the body's frame from its centre of mass, in metres.
+    pub at: DVec2,
+    /// Force in newtons where the course is 1.
+    pub force: DVec2,
+    /// Torque in N m where the course is 1.
+    pub torque: f64,
+    /// Whether the force turns with the body.
+    pub turns: bool,
+    /// The course in time.
+    pub course: Course,
+}
+
+#[derive(Resource)]
+struct Drives(Vec<DriveForce>);
+
+/// Installs drives.
+pub fn install(drives: Vec<DriveForce>, app: &mut App) {
+    app.insert_resource(Drives(drives));
+    // The force does not depend on velocities, its power does.
+    app.add_packed_force(Dependence::Velocity, apply_drives);
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Drive>();
+}
+
+fn apply_drives(
+    mut drives: ResMut<Drives>,
+    mut bodies: ResMut<Bodies>,
+    mut balance: ResMut<Balance>,
+    now: Res<Evaluation>,
+) {
+    let bodies = &mut *bodies;
+    for drive in &mut drives.0 {
+        let value = drive.course.at(now.time);
+        let (push, torque) = (drive.force * value, drive.torque * value);
+        for body in drive.of.places(bodies) {
+            let (mut force, mut arm) = (push, drive.at);
+            if drive.turns || drive.at != DVec2::ZERO {
+                let (sin, cos) = libm::sincos(bodies.angle[body]);
+                let rotation = DVec2::new(cos, sin);
+                arm = rotation.rotate(arm);
+                force = if drive.turns { rotation.rotate(force) } else { force };
+            }
+            bodies.push(body, arm, force);
+            bodies.torque[body] += torque;
+            balance.outside(bodies.position[body], force, arm.perp_dot(force) + torque);
+            balance.work += force.dot(bodies.velocity_at(body, arm)) + torque * bodies.spin[body];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Simulation;
+    use crate::scene::Source;
+
+    #[test]
+    fn a_table_is_linear_between_its_points_and_keeps_its_ends() {
+        let points = [(1.0, 2.0), (3.0, -2.0), (3.5, 0.0)];
+        let course = Course::Piecewise(points.map(|(time, value)| (Time::new(time), Scalar::new(value))).to_vec());
+        for (time, value) in [(-5.0, 2.0), (1.0, 2.0), (1.5, 1.0), (2.0, 0.0), (3.0, -2.0), (3.25, -1.0), (9.0, 0.0)] {
+            assert_eq!(course.at(time), value, "{time}");
+        }
+    }
+
+    fn driven(course: &str, method: &str) -> Simulation {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 2, tick: \"1 ms\", method: {method}),
+            bodies: [(name: \"cart\", at: (0, 0), mass: 2, inertia: 0.5, atoms: Disc(radius: 0.1))],
+            forces: [Drive(of: \"cart\", force: (4, 0), torque: 1, at: (0, 0.25), course: {course})])"
+        );
+        let mut simulation = Simulation::load(&Source::new("drive.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run_to_end().unwrap();
+        simulation
+    }
+
+    /// `v = F/m integral of s`: of `sin(w t)` it is `(1 - cos w t)/w`. Tolerance: the trapezoidal rule of order 2 errs by
+    /// `(w dt)^2/12`, 5e-6 of the amplitude `F/(m w)`. Not tested: the way.
+    #[test]
+    fn a_sine_swings_as_its_integral() {
+        let rate = 2.0 * TAU * 0.6;
+        let simulation = driven("Sine(amplitude: 3, frequency: \"1.2 Hz\")", "VelocityVerlet");
+        let exact = 3.0 * 2.0 * (1.0 - libm::cos(rate * 2.0)) / rate;
+        let share = (rate * 1e-3_f64).powi(2) / 12.0;
+        let velocity = simulation.bodies().velocity[0].x;
+        assert!((velocity - exact).abs() < 12.0 / rate * share, "{velocity} {exact}");
+        let card = simulation.card();
+        assert!(card.momentum_residual[0].abs() < 1e-12 && card.angular_momentum_residual.abs() < 1e-12);
+        // `w` in rad/s is the same.
+        let other = driven(&format!("Sine(amplitude: 3, angular_frequency: {rate:?})"), "VelocityVerlet");
+        assert!((other.bodies().velocity[0].x - velocity).abs() < 1e-12);
+    }
+
+    /// A ramp is integrated exactly by the trapezoidal rule whose ticks meet its kinks: rounding of 2000 ticks.
+    #[test]
+    fn a_ramp_gives_the_area_below_it() {
+        let simulation = driven("Piecewise([(0.5, 0), (1, 2), (1.5, 0)])", "VelocityVerlet");
+        let velocity = simulation.bodies().velocity[0].x;
+        assert!((velocity - 2.0).abs() < 2000.0 * f64::EPSILON * 2.0, "{velocity}");
+        // Force and torque turn the body in opposite ways, as much: 4 J go into its motion.
+        let card = simulation.card();
+        assert!((card.energy.work - 4.0).abs() < 1e-5 && card.energy_error() < 1e-5, "{:?}", card.energy);
+    }
+}

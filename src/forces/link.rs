@@ -1,0 +1,173 @@
+//! The two ends of a spring: points of two bodies, or of a body and the world.
+
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer};
+use std::borrow::Cow;
+
+use crate::scene::{Kind, Outline, Report};
+use crate::tick::Balance;
+use crate::world::Bodies;
+
+/// What holds an end: the body of a name, or the word `World`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Partner {
+    /// The body of this name.
+    Body(String),
+    /// The world: the end does not move.
+    World,
+}
+
+const EXPECTED: &str = "expected the name of a body such as \"ball\", or the word `World`";
+
+impl<'de> Deserialize<'de> for Partner {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        // A word and a text in quotes at one place: only the text as it was written tells them apart.
+        let written = Box::<ron::value::RawValue>::deserialize(reader)?;
+        let written = written.trim().get_ron();
+        if written == "World" {
+            return Ok(Self::World);
+        }
+        ron::from_str(written).map(Self::Body).map_err(|_| de::Error::custom(format!("{EXPECTED}, found {written}")))
+    }
+}
+
+impl JsonSchema for Partner {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "partner".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "x-value": "name of a body, or the word World" })
+    }
+}
+
+/// Reports ends that are nobody's, or both of one body.
+pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut Report) {
+    outline.require(Kind::BODY, a, "a", report);
+    if let Partner::Body(b) = b {
+        outline.require(Kind::BODY, b, "b", report);
+        if a == b {
+            let help = "name two bodies, or hold one to the world with `b: World`";
+            report.error("b", format!("both ends are on \"{a}\": nothing would be moved")).help(help);
+        }
+    }
+}
+
+/// Two ends, found again when bodies come or go.
+#[derive(Clone, Debug)]
+pub struct Link {
+    keys: (u64, Option<u64>),
+    anchors: (DVec2, DVec2),
+    generation: u64,
+    places: Option<(usize, Option<usize>)>,
+}
+
+/// An end in the present state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// Place of its body; `None`: the world.
+    pub body: Option<usize>,
+    /// From the body's centre of mass, in metres.
+    pub arm: DVec2,
+    /// Where it is, in metres.
+    pub position: DVec2,
+    /// How it moves, in m/s.
+    pub velocity: DVec2,
+}
+
+impl End {
+    fn of(body: usize, anchor: DVec2, bodies: &Bodies) -> Self {
+        let mut arm = anchor;
+        // The centre of mass needs no angle.
+        if anchor != DVec2::ZERO {
+            let (sin, cos) = libm::sincos(bodies.angle[body]);
+            arm = DVec2::new(cos, sin).rotate(anchor);
+        }
+        let (position, velocity) = (bodies.position[body] + arm, bodies.velocity_at(body, arm));
+        Self { body: Some(body), arm, position, velocity }
+    }
+
+    /// Whether forces move it.
+    fn dynamic(&self, bodies: &Bodies) -> bool {
+        self.body.is_some_and(|body| bodies.dynamic[body])
+    }
+
+    /// Angle in rad and spin in rad/s of its body; the world does not turn.
+    pub fn turn(&self, bodies: &Bodies) -> (f64, f64) {
+        self.body.map_or((0.0, 0.0), |body| (bodies.angle[body], bodies.spin[body]))
+    }
+}
+
+impl Link {
+    /// Between bodies of these keys, `None` for the world, at anchors in the frames of the bodies, from their centres of
+    /// mass, or at a place in the world, in metres.
+    pub fn new(a: u64, b: Option<u64>, anchors: (DVec2, DVec2)) -> Self {
+        Self { keys: (a, b), anchors, generation: 0, places: None }
+    }
+
+    /// Between those that a scene names. The keys of a scene's bodies are their places in the outline.
+    pub(super) fn named(a: &str, b: &Partner, anchors: (DVec2, DVec2), outline: &Outline) -> Self {
+        let key = |name: &str| outline.position(Kind::BODY, name).unwrap_or_default() as u64;
+        let b = match b {
+            Partner::Body(name) => Some(key(name)),
+            Partner::World => None,
+        };
+        Self::new(key(a), b, anchors)
+    }
+
+    /// Looks the bodies up again if some have come or gone.
+    pub fn refresh(&mut self, bodies: &Bodies) {
+        if self.generation != bodies.generation {
+            self.generation = bodies.generation;
+            self.places = self.look_up(bodies);
+        }
+    }
+
+    fn look_up(&self, bodies: &Bodies) -> Option<(usize, Option<usize>)> {
+        let place = |key: u64| bodies.key.binary_search(&key).ok();
+        let b = match self.keys.1 {
+            Some(key) => Some(place(key)?),
+            None => None,
+        };
+        Some((place(self.keys.0)?, b))
+    }
+
+    /// Both ends in the present state; `None` if one of the bodies is gone.
+    pub fn ends(&self, bodies: &Bodies) -> Option<(End, End)> {
+        let (a, b) = if self.generation == bodies.generation { self.places } else { self.look_up(bodies) }?;
+        let world = End { body: None, arm: DVec2::ZERO, position: self.anchors.1, velocity: DVec2::ZERO };
+        Some((End::of(a, self.anchors.0, bodies), b.map_or(world, |b| End::of(b, self.anchors.1, bodies))))
+    }
+}
+
+/// Adds `force` newtons to end A and its opposite to end B. What comes from an end that forces do not move comes from
+/// outside; its motion does work.
+pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, balance: &mut Balance) {
+    for (end, other, force) in [(a, b, force), (b, a, -force)] {
+        if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {
+            bodies.push(body, end.arm, force);
+            if !other.dynamic(bodies) {
+                balance.outside(end.position, force, 0.0);
+                balance.work += force.dot(other.velocity);
+            }
+        }
+    }
+}
+
+/// Adds `torque` N m to end B and its opposite to end A, likewise.
+pub(super) fn twist(a: &End, b: &End, torque: f64, bodies: &mut Bodies, balance: &mut Balance) {
+    for (end, other, torque) in [(a, b, -torque), (b, a, torque)] {
+        if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {
+            bodies.torque[body] += torque;
+            if !other.dynamic(bodies) {
+                balance.torque += torque;
+                balance.work += torque * other.turn(bodies).1;
+            }
+        }
+    }
+}

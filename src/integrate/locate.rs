@@ -1,0 +1,265 @@
+//! Where in a step an indicator first vanishes.
+//!
+//! Every guess costs a step, so guesses are good: the cubic through both ends of the bracket where slopes are known, the
+//! chord otherwise (Illinois variant: Dowell and Jarratt 1971), and halving where these fail to shrink it.
+
+use crate::tick::Indicator;
+
+/// An indicator counts as zero below this share of its greatest value in the step: about the share of the step within
+/// which events count as simultaneous.
+const ZERO: f64 = 1e-12;
+/// Where the first event is located the indicator is brought down to this share.
+const GOAL: f64 = 1e-15;
+/// Guesses; halving alone would need fifty.
+const MOST_GUESSES: u32 = 80;
+/// Guesses for an indicator that begins at zero and ends below it, until it is seen above zero.
+const MOST_HALVINGS: u32 = 24;
+/// Guesses in a row on one side of the event, after which the bracket is halved.
+const MOST_ON_ONE_SIDE: i32 = 3;
+
+/// The indicators at a share of a step.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// Share of the step, 0 to 1.
+    pub share: f64,
+    /// Indicators there.
+    pub indicators: Vec<Indicator>,
+}
+
+/// The part of a step in which the first event is.
+#[derive(Debug)]
+pub struct Bracket {
+    /// Length of the step in seconds.
+    length: f64,
+    low: Moment,
+    high: Moment,
+    /// Greatest value of each indicator at both ends of the step.
+    scale: Vec<f64>,
+    /// Which were above zero at the beginning.
+    above: Vec<bool>,
+    /// Which have been seen below zero after that.
+    crossing: Vec<bool>,
+    /// The share tried last.
+    tried: f64,
+    guesses: u32,
+    /// A share at which a double root is suspected.
+    suspect: Option<f64>,
+    /// How often the lower end (positive) or the upper one (negative) was replaced in a row.
+    replaced: i32,
+    /// The share tried last is the event.
+    met: bool,
+}
+
+impl Bracket {
+    /// The bracket of a step of `length` seconds with these indicators at its ends; nothing, if there is no event in it.
+    pub fn around(begin: &[Indicator], end: &[Indicator], length: f64) -> Option<Self> {
+        let crossing: Vec<bool> = end.iter().map(|indicator| indicator.value < 0.0).collect();
+        let suspect = begin.iter().zip(end).filter_map(|(begin, end)| double_root(begin, end, length));
+        let suspect = suspect.fold(f64::INFINITY, f64::min);
+        if suspect == f64::INFINITY && !crossing.contains(&true) {
+            return None;
+        }
+        Some(Self {
+            length,
+            scale: begin.iter().zip(end).map(|(begin, end)| begin.value.abs().max(end.value.abs())).collect(),
+            above: begin.iter().map(|indicator| indicator.value > 0.0).collect(),
+            low: Moment { share: 0.0, indicators: begin.to_vec() },
+            high: Moment { share: 1.0, indicators: end.to_vec() },
+            crossing,
+            tried: 1.0,
+            guesses: 0,
+            suspect: (suspect < 1.0).then_some(suspect),
+            replaced: 0,
+            met: false,
+        })
+    }
+
+    /// The share to be tried next; nothing when the event is located, or there is none.
+    pub fn next(&mut self) -> Option<f64> {
+        if self.met || self.guesses >= MOST_GUESSES {
+            return None;
+        }
+        self.tried = match self.suspect.take() {
+            Some(share) => share,
+            None => self.guess()?,
+        };
+        self.guesses += 1;
+        Some(self.tried)
+    }
+
+    /// Takes the indicators at the share that was tried.
+    pub fn narrow(&mut self, moment: Moment) {
+        let mut beyond = false;
+        let (mut met, mut passed) = (false, false);
+        for (place, indicator) in moment.indicators.iter().enumerate() {
+            if indicator.value < 0.0 && self.above[place] {
+                self.crossing[place] = true;
+            }
+            if self.crossing[place] {
+                beyond |= indicator.value < 0.0;
+                met |= indicator.value.abs() <= GOAL * self.scale[place];
+                passed |= indicator.value < -ZERO * self.scale[place];
+            }
+        }
+        self.met = met && !passed;
+        if beyond {
+            self.replaced = self.replaced.min(0) - 1;
+            self.high = moment;
+        } else {
+            self.replaced = self.replaced.max(0) + 1;
+            self.low = moment;
+        }
+    }
+
+    /// Where the step is to end.
+    pub fn share(&self) -> f64 {
+        match (self.met, self.crossing.contains(&true)) {
+            (true, _) => self.tried,
+            (false, true) => self.high.share,
+            (false, false) => 1.0,
+        }
+    }
+
+    /// The share that was tried last.
+    pub fn last_tried(&self) -> f64 {
+        self.tried
+    }
+
+    /// The indicators that vanish together at the end of the step, where they have these values.
+    pub fn fired(&self, indicators: &[Indicator]) -> Vec<usize> {
+        let vanishes = |place: &usize| indicators[*place].value <= ZERO * self.scale[*place];
+        (0..indicators.len()).filter(|&place| self.crossing[place]).filter(vanishes).collect()
+    }
+
+    /// The earliest of the guesses for all that have crossed.
+    fn guess(&self) -> Option<f64> {
+        let (a, b) = (self.low.share, self.high.share);
+        let middle = 0.5 * (a + b);
+        if middle <= a || middle >= b || b - a <= f64::EPSILON * b {
+            return None;
+        }
+        let crossed = |place: &usize| self.crossing[*place] && self.high.indicators[*place].value < 0.0;
+        let guess = |place: usize| {
+            let (low, high) = (&self.low.indicators[place], &self.high.indicators[place]);
+            if low.value <= 0.0 || self.replaced.abs() > MOST_ON_ONE_SIDE {
+                // It began at zero and has to be seen above it first; or the guesses do not shrink the bracket.
+                return middle;
+            }
+            let share = cubic_root(low, high, (b - a) * self.length);
+            a + (b - a) * share.unwrap_or_else(|| chord(low, high, self.replaced))
+        };
+        let earliest = (0..self.scale.len()).filter(crossed).map(guess).fold(f64::INFINITY, f64::min);
+        if self.low_is_zero() && self.guesses > MOST_HALVINGS {
+            return None;
+        }
+        Some(if earliest > a && earliest < b { earliest } else { middle })
+    }
+
+    /// Whether nothing that crossed was seen above zero yet.
+    fn low_is_zero(&self) -> bool {
+        !(0..self.scale.len()).any(|place| self.crossing[place] && self.low.indicators[place].value > 0.0)
+    }
+}
+
+/// The share of the step at which an indicator that is above zero at both ends has a minimum below zero, as far as a
+/// cubic can tell.
+fn double_root(begin: &Indicator, end: &Indicator, length: f64) -> Option<f64> {
+    if !(begin.value > 0.0 && end.value >= 0.0 && begin.slope < 0.0 && end.slope > 0.0) {
+        return None;
+    }
+    let (mut a, mut b) = (0.0, 1.0);
+    for _ in 0..40 {
+        let middle = 0.5 * (a + b);
+        if cubic(begin, end, length, middle).1 < 0.0 { a = middle } else { b = middle }
+    }
+    (cubic(begin, end, length, a).0 < 0.0).then_some(a)
+}
+
+/// Value and slope (per share) of the cubic through both ends at `share`.
+fn cubic(begin: &Indicator, end: &Indicator, length: f64, share: f64) -> (f64, f64) {
+    let rest = 1.0 - share;
+    let (first, second) = (begin.slope * length, end.slope * length);
+    let way = end.value - begin.value;
+    let value = begin.value + way * share * share * (3.0 - 2.0 * share) + first * share * rest * rest
+        - second * share * share * rest;
+    let slope = 6.0 * way * share * rest + first * rest * (1.0 - 3.0 * share) + second * share * (3.0 * share - 2.0);
+    (value, slope)
+}
+
+/// Where the cubic through a value above and one below zero vanishes.
+fn cubic_root(begin: &Indicator, end: &Indicator, length: f64) -> Option<f64> {
+    if !(begin.slope.is_finite() && end.slope.is_finite()) {
+        return None;
+    }
+    let (mut a, mut b) = (0.0, 1.0);
+    while b - a > f64::EPSILON {
+        let middle = 0.5 * (a + b);
+        if middle <= a || middle >= b {
+            break;
+        }
+        if cubic(begin, end, length, middle).0 > 0.0 { a = middle } else { b = middle }
+    }
+    Some(0.5 * (a + b))
+}
+
+/// Where the chord vanishes; an end that stayed twice counts half (Illinois).
+fn chord(low: &Indicator, high: &Indicator, replaced: i32) -> f64 {
+    let (above, below) = match replaced {
+        2.. => (low.value, 0.5 * high.value),
+        ..=-2 => (0.5 * low.value, high.value),
+        _ => (low.value, high.value),
+    };
+    above / (above - below)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn find(indicators: impl Fn(f64) -> Vec<Indicator>, length: f64) -> Option<(f64, Vec<usize>, u32)> {
+        let mut bracket = Bracket::around(&indicators(0.0), &indicators(length), length)?;
+        while let Some(share) = bracket.next() {
+            bracket.narrow(Moment { share, indicators: indicators(share * length) });
+        }
+        let share = bracket.share();
+        let fired = bracket.fired(&indicators(share * length));
+        Some((share * length, fired, bracket.guesses))
+    }
+
+    fn known(value: f64, slope: f64) -> Indicator {
+        Indicator { value, slope }
+    }
+
+    fn unknown(value: f64) -> Indicator {
+        Indicator { value, slope: f64::NAN }
+    }
+
+    #[test]
+    fn a_root_is_found_to_rounding_with_and_without_slopes() {
+        let (time, fired, guesses) = find(|t| vec![known(libm::cos(t), -libm::sin(t))], 2.0).expect("a root");
+        assert!((time - std::f64::consts::FRAC_PI_2).abs() < 1e-14 && fired == [0] && guesses < 10, "{time} {guesses}");
+        let (time, fired, guesses) = find(|t| vec![unknown(libm::cos(t))], 2.0).expect("a root");
+        assert!((time - std::f64::consts::FRAC_PI_2).abs() < 1e-14 && fired == [0] && guesses < 16, "{time} {guesses}");
+    }
+
+    #[test]
+    fn the_first_of_several_counts_and_simultaneous_ones_fire_together() {
+        let three = |t: f64| vec![unknown(1.0 - t), unknown(0.25 - t * t), known(0.5 - t, -1.0), unknown(1.0)];
+        let (time, fired, _) = find(three, 2.0).expect("a root");
+        assert!((time - 0.5).abs() < 1e-14 && fired == [1, 2], "{time} {fired:?}");
+    }
+
+    #[test]
+    fn a_touch_between_the_ends_is_seen() {
+        let dip = |t: f64| vec![known((t - 0.4) * (t - 0.6), 2.0 * t - 1.0)];
+        let (time, fired, _) = find(dip, 1.0).expect("a double root");
+        assert!((time - 0.4).abs() < 1e-14 && fired == [0]);
+        assert!(find(|t| vec![known((t - 0.5) * (t - 0.5) + 0.01, 2.0 * t - 1.0)], 1.0).is_none());
+    }
+
+    #[test]
+    fn an_indicator_that_begins_at_zero_fires_when_it_comes_back() {
+        let (time, fired, _) = find(|t| vec![unknown(t * (0.3 - t))], 1.0).expect("a root");
+        assert!((time - 0.3).abs() < 1e-14 && fired == [0], "{time}");
+    }
+}

@@ -1,0 +1,212 @@
+//! Implicit midpoint rule: `y' = y + h r(t + h/2, (y + y')/2)` for every number of the state.
+//!
+//! Order 2, symmetric in time, symplectic, keeps quadratic invariants (the energy of linear springs) to rounding, stable for
+//! every step with linear springs and damping (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006,
+//! sections II.1, IV.2 and VI.4). What it does not resolve it keeps going: a spring with `omega h` large
+//! changes sign with each step instead of standing still.
+//!
+//! The unknown is half the change of velocities, `w = h/2 a(t + h/2, q + h/2 (v + w), v + w, z)`. Positions follow from it;
+//! `z`, the midpoint of states of models, is found for each `w` by iteration (`fixed_point.rs`), so it must not depend
+//! stiffly on itself: `h/2` times that rate less than 1. What couples it to velocities may be as stiff as it likes.
+//!
+//! Newton's method to rounding, with differences for derivatives. Evaluations: one at first, as many as coordinates for the
+//! matrix, one for each iteration, of which there are 2 to 4; with states of models twice as many or more. The matrix is made
+//! in each step, and again where an iteration gains less than a digit. A step of length 0 changes nothing.
+
+use super::elimination::Elimination;
+use super::fixed_point::FixedPoint;
+use super::settling::{LIMIT, Settling};
+use super::{Flow, OneStep, Start};
+
+/// Implicit midpoint rule.
+#[derive(Default)]
+pub struct ImplicitMidpoint {
+    /// Half the change of velocities.
+    half_change: Vec<f64>,
+    middle: Midpoint,
+    disturbed: Midpoint,
+    matrix: Elimination,
+    correction: Vec<f64>,
+}
+
+/// A state in the middle of the step, and its rates.
+#[derive(Default)]
+struct Midpoint {
+    state: Vec<f64>,
+    rates: Vec<f64>,
+    fixed_point: FixedPoint,
+}
+
+impl Midpoint {
+    fn copy(&mut self, state: &[f64], rates: &[f64]) {
+        self.state.clear();
+        self.state.extend_from_slice(state);
+        self.rates.clear();
+        self.rates.extend_from_slice(rates);
+    }
+
+    /// Rates in the middle for a half change of velocities. The rates at hand are the first guess of those of models.
+    fn evaluate(&mut self, flow: &mut dyn Flow, start: Start, length: f64, half_change: &[f64]) {
+        let Self { state, rates, fixed_point } = self;
+        let (time, half) = (start.time + length / 2.0, length / 2.0);
+        let coordinates = half_change.len();
+        for place in 0..coordinates {
+            state[place + coordinates] = start.state[place + coordinates] + half_change[place];
+            state[place] = start.state[place] + half * state[place + coordinates];
+        }
+        let own = 2 * coordinates..state.len();
+        let middle = |place: usize, rate: f64| start.state[place] + half * rate;
+        if own.is_empty() {
+            flow.rates(time, state, rates);
+        } else {
+            fixed_point.find(flow, time, own, middle, state, rates);
+        }
+    }
+}
+
+impl OneStep for ImplicitMidpoint {
+    fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
+        let velocities = flow.velocities();
+        let coordinates = velocities.start;
+        let half = length / 2.0;
+        if length == 0.0 {
+            return change.fill(0.0);
+        }
+        self.half_change.clear();
+        self.half_change.resize(coordinates, 0.0);
+        self.correction.resize(coordinates, 0.0);
+        self.middle.copy(start.state, start.rates);
+        self.middle.evaluate(flow, start, length, &self.half_change);
+        let mut settling = Settling::default();
+        for iteration in 0..LIMIT {
+            if iteration == 0 || settling.slow() {
+                self.make_matrix(flow, start, length);
+            }
+            for place in 0..coordinates {
+                self.correction[place] = half * self.middle.rates[place + coordinates] - self.half_change[place];
+            }
+            self.matrix.solve(&mut self.correction);
+            for (half_change, correction) in self.half_change.iter_mut().zip(&self.correction) {
+                *half_change += correction;
+            }
+            self.middle.evaluate(flow, start, length, &self.half_change);
+            let velocities = &start.state[velocities.clone()];
+            let arrived = settling.arrived(self.correction.iter().zip(&self.half_change).zip(velocities).map(
+                |((correction, half_change), velocity)| {
+                    (*correction, (velocity + half_change).abs() + half_change.abs())
+                },
+            ));
+            if arrived {
+                break;
+            }
+        }
+        for place in 0..coordinates {
+            change[place + coordinates] = 2.0 * self.half_change[place];
+            change[place] = length * self.middle.state[place + coordinates];
+        }
+        for (change, rate) in change.iter_mut().zip(&self.middle.rates).skip(velocities.end) {
+            *change = length * rate;
+        }
+    }
+}
+
+impl ImplicitMidpoint {
+    /// Makes `1 - h/2 da/dw` by differences, and eliminates.
+    fn make_matrix(&mut self, flow: &mut dyn Flow, start: Start, length: f64) {
+        let coordinates = self.half_change.len();
+        self.matrix.begin(coordinates);
+        for column in 0..coordinates {
+            let kept = self.half_change[column];
+            self.half_change[column] += disturbance(&self.middle.state, column, coordinates, length, kept);
+            let disturbance = self.half_change[column] - kept;
+            self.disturbed.copy(&self.middle.state, &self.middle.rates);
+            self.disturbed.evaluate(flow, start, length, &self.half_change);
+            self.half_change[column] = kept;
+            for row in 0..coordinates {
+                let place = row + coordinates;
+                let difference = self.disturbed.rates[place] - self.middle.rates[place];
+                let one = if row == column { 1.0 } else { 0.0 };
+                *self.matrix.entry(row, column) = one - length / 2.0 * difference / disturbance;
+            }
+        }
+        self.matrix.eliminate();
+    }
+}
+
+/// By how much a velocity is changed to see what that does: half of the digits of the velocity itself, and what moves the
+/// coordinate by a quarter of its digits, so that rounding leaves three or more in the difference.
+fn disturbance(middle: &[f64], coordinate: usize, coordinates: usize, length: f64, half_change: f64) -> f64 {
+    let digits = f64::EPSILON.sqrt();
+    let by_velocity = digits * (middle[coordinate + coordinates].abs() + half_change.abs());
+    let by_place = digits * digits.sqrt() * (2.0 * middle[coordinate] / length).abs();
+    let disturbance = by_velocity.max(by_place);
+    if disturbance > 0.0 { disturbance } else { digits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::problems::{ELONGATION, KEPLER, Motion, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
+    use super::*;
+
+    /// Law: order 2 on smooth motion (section II.1 of the source). Tolerance: a quarter of an order.
+    #[test]
+    fn the_order_is_2() {
+        demand_order(&mut ImplicitMidpoint::default(), 2, 6.0, 1.37);
+    }
+
+    /// Law: a symplectic method keeps the energy near its value for exponentially long (section IX.8 of the source).
+    #[test]
+    fn energy_stays() {
+        demand_bounded_energy(&mut ImplicitMidpoint::default(), KEPLER, 200.3);
+    }
+
+    /// Law: a symmetric method runs back to where it began (section V.1 of the source). Tolerance: rounding.
+    #[test]
+    fn runs_backwards() {
+        demand_reversible(&mut ImplicitMidpoint::default(), 1.0);
+    }
+
+    /// Law: quadratic invariants are kept (theorem IV.2.1 of the source), at any step: here `omega h` is 0.3 and 1000, for a
+    /// spring, one that is a state of its own, and a chain of five masses whose slowest mode has it. Tolerance: four roundings
+    /// for each step (both numbers of the state, squared).
+    #[test]
+    fn quadratic_energy_is_kept_by_stiff_springs() {
+        for (motion, slowest) in [(OSCILLATOR, 1.0), (ELONGATION, 1.0), (CHAIN, 0.517)] {
+            for product in [0.3, 1000.0] {
+                let mut run = Run::of(motion);
+                let beginning = (motion.energy)(&run.state);
+                let mut off = 0.0_f64;
+                let mut method = ImplicitMidpoint::default();
+                for _ in 0..10_000 {
+                    run.step(&mut method, product / slowest);
+                    off = off.max(((motion.energy)(&run.state) / beginning - 1.0).abs());
+                }
+                assert!(off <= 10_000.0 * 4.0 * f64::EPSILON, "{}, {product}: energy off by {off:e}", motion.name);
+            }
+        }
+    }
+
+    /// Five masses of 1 kg between two walls, springs of 1 N/m. The slowest frequency is `2 sin(pi/12)`, 0.518 per second.
+    const CHAIN: Motion = Motion {
+        name: "chain",
+        coordinates: 5,
+        dimension: 10,
+        rates: |_, state, rates| {
+            for place in 0..5 {
+                let left = if place == 0 { 0.0 } else { state[place - 1] };
+                let right = if place == 4 { 0.0 } else { state[place + 1] };
+                rates[place] = state[place + 5];
+                rates[place + 5] = (left - state[place]) + (right - state[place]);
+            }
+        },
+        exact: |_| vec![1.0, 0.5, 0.0, -0.25, 0.125, 0.0, 0.0, 1.0, 0.0, 0.0],
+        energy: |state| {
+            let kinetic: f64 = state[5..].iter().map(|velocity| 0.5 * velocity * velocity).sum();
+            let ends = state[0] * state[0] + state[4] * state[4];
+            let springs: f64 = state[..5].windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum();
+            kinetic + 0.5 * (ends + springs)
+        },
+        ..OSCILLATOR
+    };
+}

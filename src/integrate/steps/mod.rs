@@ -1,0 +1,102 @@
+//! One-step maps of ordinary differential equations: each file one method, its order of accuracy stated.
+//!
+//! They know nothing of bodies: a [`Flow`] gives the rates of a state, a [`OneStep`] turns a state at one time into the
+//! change until another. The same map that makes a step makes any part of it, which is how events are located.
+
+mod dop853;
+mod elimination;
+mod explicit_euler;
+mod fixed_point;
+mod implicit_midpoint;
+#[cfg(test)]
+mod problems;
+#[cfg(test)]
+mod rooted_trees;
+mod runge_kutta4;
+mod semi_implicit_euler;
+mod settling;
+mod splitting;
+mod symplectic4;
+#[cfg(test)]
+mod trials;
+mod velocity_verlet;
+
+use std::ops::Range;
+
+pub use dop853::Dop853;
+pub use explicit_euler::ExplicitEuler;
+pub use implicit_midpoint::ImplicitMidpoint;
+pub use runge_kutta4::RungeKutta4;
+pub use semi_implicit_euler::SemiImplicitEuler;
+pub use symplectic4::Symplectic4;
+pub use velocity_verlet::VelocityVerlet;
+
+/// A system of ordinary differential equations of motion, `q' = v`, `v' = a(t, q, v, z)`, `z' = r(t, q, v, z)`.
+///
+/// A state is one list of numbers: coordinates `q`, as many velocities `v`, and behind them whatever models keep of their
+/// own (`z`): elongations, states of controllers, accounts of energy.
+pub trait Flow {
+    /// Number of coordinates, and of velocities.
+    fn coordinates(&self) -> usize;
+
+    /// Length of a state.
+    fn dimension(&self) -> usize;
+
+    /// Whether accelerations depend on velocities.
+    fn velocity_dependent(&self) -> bool;
+
+    /// The rates of `state` at `time` seconds; both have [`Flow::dimension`] numbers.
+    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]);
+
+    /// How many numbers at the end of a state are accounts of what makes the velocities change, on which no rate depends: they
+    /// are advanced as velocities are, so that both agree to rounding.
+    fn accounts(&self) -> usize {
+        0
+    }
+
+    /// Places of the velocities in a state.
+    fn velocities(&self) -> Range<usize> {
+        self.coordinates()..2 * self.coordinates()
+    }
+}
+
+/// Where a step begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a> {
+    /// Time in seconds.
+    pub time: f64,
+    /// The state.
+    pub state: &'a [f64],
+    /// Its rates.
+    pub rates: &'a [f64],
+}
+
+/// A method that makes steps. It may keep working memory, nothing else: a step is a function of its start and length.
+pub trait OneStep: Send + Sync {
+    /// The change of the state over `length` seconds, to be added to it.
+    fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]);
+
+    /// After a step: its estimated error over what is allowed, with `scale` the allowed error of each number of the state
+    /// (an infinite one is not looked at). At most 1: good. `None`: the method does not know.
+    fn error(&self, scale: &[f64]) -> Option<f64> {
+        let _ = scale;
+        None
+    }
+
+    /// The order of the estimate of the error: it falls with this power of the length.
+    fn order_of_error(&self) -> u32 {
+        0
+    }
+
+    /// After a step: makes ready to tell states inside it, if the method has dense output of its own. Returns whether it has;
+    /// without, whoever wants a state inside uses the cubic through both ends. It may take further rates.
+    fn make_dense(&mut self, flow: &mut dyn Flow, start: Start, length: f64) -> bool {
+        let _ = (flow, start, length);
+        false
+    }
+
+    /// After [`OneStep::make_dense`]: the change of the state over the `share` (0 to 1) of the step.
+    fn dense(&self, share: f64, change: &mut [f64]) {
+        let _ = (share, change);
+    }
+}

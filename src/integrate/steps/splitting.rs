@@ -1,0 +1,111 @@
+//! The three parts of which the splitting methods are made: kick, drift, and the advance of what models keep of their own.
+//!
+//! - kick: `v' = v + h a(t, q, (v + v')/2, z)`;
+//! - drift: `q' = q + h v`, `t' = t + h`;
+//! - own: `z' = z + h r(t, q, v, (z + z')/2)`.
+//!
+//! Each is undone by itself with `-h`, so whatever is a palindrome of them is symmetric in time. Kick and own are implicit
+//! midpoint rules, iterated to rounding (`fixed_point.rs`). Kicks of accelerations without velocities take one evaluation,
+//! and none where neither time nor place has changed.
+//!
+//! Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, sections II.3 to II.5.
+
+use std::ops::Range;
+
+use super::fixed_point::FixedPoint;
+use super::{Flow, Start};
+
+/// Working memory of a step that is made of parts.
+#[derive(Default)]
+pub(super) struct Splitting {
+    state: Vec<f64>,
+    rates: Vec<f64>,
+    fixed_point: FixedPoint,
+}
+
+/// A step in the making.
+pub(super) struct Making<'a> {
+    flow: &'a mut dyn Flow,
+    start: Start<'a>,
+    change: &'a mut [f64],
+    work: &'a mut Splitting,
+    time: f64,
+    velocities: Range<usize>,
+    accounts: Range<usize>,
+    velocity_dependent: bool,
+    /// Whether the rates in working memory are those of the present time and place.
+    fresh: bool,
+}
+
+impl Splitting {
+    /// Begins a step whose change is to be written to `change`.
+    pub(super) fn begin<'a>(
+        &'a mut self,
+        flow: &'a mut dyn Flow,
+        start: Start<'a>,
+        change: &'a mut [f64],
+    ) -> Making<'a> {
+        self.state.clear();
+        self.state.extend_from_slice(start.state);
+        self.rates.clear();
+        self.rates.extend_from_slice(start.rates);
+        change.fill(0.0);
+        let (velocities, velocity_dependent) = (flow.velocities(), flow.velocity_dependent());
+        let accounts = change.len() - flow.accounts()..change.len();
+        let time = start.time;
+        Making { flow, start, change, work: self, time, velocities, accounts, velocity_dependent, fresh: true }
+    }
+}
+
+impl Making<'_> {
+    /// Velocities by accelerations.
+    pub(super) fn kick(&mut self, length: f64) {
+        if self.velocity_dependent {
+            self.settle(self.velocities.clone(), length);
+            return self.add(self.accounts.clone(), length);
+        }
+        if !self.fresh {
+            self.flow.rates(self.time, &self.work.state, &mut self.work.rates);
+            self.fresh = true;
+        }
+        self.add(self.velocities.clone(), length);
+        self.add(self.accounts.clone(), length);
+    }
+
+    /// Coordinates by velocities, and time.
+    pub(super) fn drift(&mut self, length: f64) {
+        let coordinates = self.velocities.start;
+        for place in 0..coordinates {
+            let velocity = self.start.state[place + coordinates] + self.change[place + coordinates];
+            self.change[place] += length * velocity;
+            self.work.state[place] = self.start.state[place] + self.change[place];
+        }
+        self.time += length;
+        self.fresh = false;
+    }
+
+    /// States of models by their rates.
+    pub(super) fn own(&mut self, length: f64) {
+        let own = self.velocities.end..self.accounts.start;
+        if !own.is_empty() {
+            self.settle(own, length);
+            self.fresh = false;
+        }
+    }
+
+    /// Numbers by their rates at the middle of their own change. The rates at hand are the first guess.
+    fn settle(&mut self, places: Range<usize>, length: f64) {
+        let Splitting { state, rates, fixed_point } = &mut *self.work;
+        let (start, change) = (self.start.state, &*self.change);
+        let middle = |place: usize, rate: f64| start[place] + (change[place] + length / 2.0 * rate);
+        fixed_point.find(self.flow, self.time, places.clone(), middle, state, rates);
+        self.add(places, length);
+    }
+
+    fn add(&mut self, places: Range<usize>, length: f64) {
+        for place in places {
+            self.change[place] += length * self.work.rates[place];
+            self.work.state[place] = self.start.state[place] + self.change[place];
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Fourth-order symplectic composition of the halves of velocity Verlet (Blanes and Moan, Practical symplectic partitioned
+//! Runge-Kutta and Runge-Kutta-Nystrom methods, J. Comput. Appl. Math. 142, 2002, 313-330, scheme S6).
+//!
+//! Verlet is two halves: kick, drift, and the mirror image drift, kick. Twelve such halves of the lengths below, alternating,
+//! have order 4, whatever the parts do, as long as the second half undoes the first with `-h`: so accelerations that depend
+//! on velocities keep the order, and so do states of models, advanced where two halves meet.
+//!
+//! Order 4, symmetric in time, symplectic for accelerations without velocities, stable for `omega h < 3.13`. Six evaluations
+//! per step. At the same number of evaluations its error on a Kepler ellipse is 2.7 times smaller than that of Suzuki's or
+//! McLachlan's five Verlet steps.
+//!
+//! Accelerations that depend on velocities are iterated to rounding in each of twelve kicks, and states of models in twelve
+//! parts: 40 to 70 evaluations per step. There Runge-Kutta methods reach the same error for less; what they do not give is
+//! symmetry in time. Two halves go backwards, where damping drives; damping alone is stable for `h c/m < 5.4` all the same.
+
+use super::splitting::Splitting;
+use super::{Flow, OneStep, Start};
+
+/// Lengths of the first six halves, as shares of the step; the other six are their mirror image.
+const HALVES: [f64; 6] = [
+    0.0792036964311957,
+    0.13031141018216617,
+    0.22286149586760735,
+    -0.36671326904742535,
+    0.32464818868970585,
+    0.10968847787675028,
+];
+
+/// Fourth-order symplectic composition.
+#[derive(Default)]
+pub struct Symplectic4 {
+    work: Splitting,
+}
+
+impl OneStep for Symplectic4 {
+    fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
+        let mut making = self.work.begin(flow, start, change);
+        for pair in 0..HALVES.len() {
+            let (first, second) = (length * half(2 * pair), length * half(2 * pair + 1));
+            making.kick(first);
+            making.drift(first);
+            making.own(first);
+            making.own(second);
+            making.drift(second);
+            making.kick(second);
+        }
+    }
+}
+
+/// Length of one of the twelve halves.
+fn half(number: usize) -> f64 {
+    HALVES[number.min(2 * HALVES.len() - 1 - number)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
+    use super::*;
+
+    /// Law: conditions of order 4 of a palindrome of kicks and drifts (Hairer, Lubich, Wanner, III.3): with `a` the kicks, `b`
+    /// the drifts and `c`, `d` how far the others have come, the sums of `a`, `b`, `a c^2`, `b d^2` are 1, 1, 1/3, 1/3.
+    /// Tolerance: the 15 digits of the published coefficients.
+    #[test]
+    fn coefficients_have_order_4() {
+        let (mut kicked, mut drifted, mut kick_moment, mut drift_moment) = (0.0, 0.0, 0.0, 0.0);
+        for pair in 0..HALVES.len() {
+            let (first, second) = (half(2 * pair), half(2 * pair + 1));
+            kick_moment += first * drifted * drifted;
+            kicked += first;
+            drift_moment += (first + second) * kicked * kicked;
+            drifted += first + second;
+            kick_moment += second * drifted * drifted;
+            kicked += second;
+        }
+        for (sum, expected) in [(kicked, 1.0), (drifted, 1.0), (kick_moment, 1.0 / 3.0), (drift_moment, 1.0 / 3.0)] {
+            assert!((sum - expected).abs() < 1e-15, "{sum} instead of {expected}");
+        }
+    }
+
+    /// Law: order 4 on smooth motion, with velocities in the accelerations and states of models too (a composition of a
+    /// first-order map and its adjoint asks for nothing else; McLachlan 1995). Tolerance: a quarter of an order.
+    #[test]
+    fn the_order_is_4() {
+        demand_order(&mut Symplectic4::default(), 4, 1.0, 1.37);
+    }
+
+    /// Law: a symplectic method keeps the energy near its value for exponentially long (Hairer, Lubich, Wanner, IX.8).
+    #[test]
+    fn energy_stays() {
+        for (motion, steps) in [(OSCILLATOR, 5.3), (ELONGATION, 5.3), (KEPLER, 60.3)] {
+            demand_bounded_energy(&mut Symplectic4::default(), motion, steps);
+        }
+    }
+
+    /// Law: a symmetric method runs back to where it began (Hairer, Lubich, Wanner, V.1). Tolerance: rounding.
+    #[test]
+    fn runs_backwards() {
+        demand_reversible(&mut Symplectic4::default(), 1.0);
+    }
+
+    /// The stated limit, 3.13: there the trace of the matrix of a step, which is 2 or less for bounded motion, exceeds it.
+    #[test]
+    fn stable_below_3_13() {
+        for (length, stable) in [(3.125, true), (3.145, false)] {
+            let mut run = Run::of(OSCILLATOR);
+            let mut most = 0.0_f64;
+            for _ in 0..10_000 {
+                run.step(&mut Symplectic4::default(), length);
+                most = most.max((OSCILLATOR.energy)(&run.state));
+            }
+            assert_eq!(most < 1e3, stable, "{length}: energy up to {most}");
+        }
+    }
+
+    #[test]
+    fn six_evaluations() {
+        let mut run = Run::of(KEPLER);
+        run.step(&mut Symplectic4::default(), 0.1);
+        assert_eq!(run.flow.evaluations, 6);
+    }
+}

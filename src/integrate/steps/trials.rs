@@ -1,0 +1,151 @@
+//! Runs of methods on the motions of `problems.rs`, and what is demanded of them.
+
+use std::f64::consts::TAU;
+
+use super::problems::{Counted, MOTIONS, Motion};
+use super::{OneStep, Start};
+
+/// A run with equal steps. Changes are added with compensation (Kahan 1965), so that rounding does not grow with their
+/// number.
+pub(super) struct Run {
+    pub(super) flow: Counted,
+    pub(super) time: f64,
+    pub(super) state: Vec<f64>,
+    lost: Vec<f64>,
+    lost_time: f64,
+    rates: Vec<f64>,
+    change: Vec<f64>,
+}
+
+impl Run {
+    /// At the beginning of a motion.
+    pub(super) fn of(motion: Motion) -> Self {
+        Self::at(motion, 0.0)
+    }
+
+    /// At some time of a motion.
+    pub(super) fn at(motion: Motion, time: f64) -> Self {
+        Self::from(motion, time, (motion.exact)(time))
+    }
+
+    /// From another time and state.
+    pub(super) fn from(motion: Motion, time: f64, state: Vec<f64>) -> Self {
+        let zero = vec![0.0; state.len()];
+        let flow = Counted { motion, evaluations: 0 };
+        Self { flow, time, state, lost: zero.clone(), lost_time: 0.0, rates: zero.clone(), change: zero }
+    }
+
+    /// One step. The rates at its beginning are taken here and not counted.
+    pub(super) fn step(&mut self, method: &mut dyn OneStep, length: f64) {
+        (self.flow.motion.rates)(self.time, &self.state, &mut self.rates);
+        let start = Start { time: self.time, state: &self.state, rates: &self.rates };
+        method.step(&mut self.flow, start, length, &mut self.change);
+        for ((state, lost), change) in self.state.iter_mut().zip(&mut self.lost).zip(&self.change) {
+            add(state, lost, *change);
+        }
+        add(&mut self.time, &mut self.lost_time, length);
+    }
+
+    /// Largest difference of a number of the state from the exact motion.
+    pub(super) fn error(&self) -> f64 {
+        distance(&self.state, &(self.flow.motion.exact)(self.time))
+    }
+}
+
+/// Adds with compensation.
+fn add(sum: &mut f64, lost: &mut f64, change: f64) {
+    let change = change + *lost;
+    let next = *sum + change;
+    *lost = change - (next - *sum);
+    *sum = next;
+}
+
+/// Largest difference of two numbers at the same place.
+pub(super) fn distance(left: &[f64], right: &[f64]) -> f64 {
+    left.iter().zip(right).fold(0.0, |most, (left, right)| (left - right).abs().max(most))
+}
+
+/// Slope of a straight line through points, by least squares.
+pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
+    let (mut above, mut below) = (0.0, 0.0);
+    for point in points {
+        above += (point.0 - x) * (point.1 - y);
+        below += (point.0 - x) * (point.0 - x);
+    }
+    above / below
+}
+
+/// Measured order of a method on a motion: slope of the logarithm of the error, its root of the mean square over all steps,
+/// over that of the length, from six lengths. `fineness` is how many times the steps of a method of order 4 are taken at
+/// first, `ratio` that of steps from then on.
+fn measured_order(method: &mut dyn OneStep, motion: Motion, fineness: f64, ratio: f64) -> f64 {
+    let points: Vec<_> = (0..6)
+        .map(|number| {
+            let steps = (motion.steps * fineness * libm::pow(ratio, f64::from(number))).round();
+            let length = motion.duration / steps;
+            let mut run = Run::of(motion);
+            let mut squares = 0.0;
+            for _ in 0..steps as usize {
+                run.step(method, length);
+                squares += run.error() * run.error();
+            }
+            (libm::log(length), 0.5 * libm::log(squares / steps))
+        })
+        .collect();
+    slope(&points)
+}
+
+/// Demands the order of a method on all motions, to a quarter.
+pub(super) fn demand_order(method: &mut dyn OneStep, order: u32, fineness: f64, ratio: f64) {
+    for motion in MOTIONS {
+        let measured = measured_order(method, motion, fineness, ratio);
+        let off = (measured - f64::from(order)).abs();
+        assert!(off <= 0.25, "{}: order {measured:.3} instead of {order}", motion.name);
+    }
+}
+
+/// Demands that energy swings in the last hundred of 10 000 periods of 2 pi as far as in the first hundred, to a tenth: the
+/// phases at which a hundred periods are sampled differ by less. A drift, even one that is not seen in the first hundred,
+/// would make it a hundred times as far.
+pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: Motion, steps_per_period: f64) {
+    let length = TAU / steps_per_period;
+    let mut run = Run::of(motion);
+    let beginning = (motion.energy)(&run.state);
+    let hundred = (100.0 * steps_per_period) as usize;
+    let (mut first, mut last) = (0.0_f64, 0.0_f64);
+    for number in 0..100 * hundred {
+        run.step(method, length);
+        let off = ((motion.energy)(&run.state) - beginning).abs();
+        if number < hundred {
+            first = first.max(off);
+        } else if number >= 99 * hundred {
+            last = last.max(off);
+        }
+    }
+    assert!(first > 0.0 && last <= 1.1 * first, "{}: energy is off by {first:e}, later {last:e}", motion.name);
+}
+
+/// Demands that as many steps backwards return to the start, to eight roundings for each step times the condition number
+/// of the way back (measured: how much larger a small displacement becomes on it).
+pub(super) fn demand_reversible(method: &mut dyn OneStep, fineness: f64) {
+    for motion in MOTIONS {
+        let steps = (motion.steps * fineness).round();
+        let length = motion.duration / steps;
+        let mut run = Run::of(motion);
+        for _ in 0..steps as usize {
+            run.step(method, length);
+        }
+        let displacement = 1e-6;
+        let mut displaced = Run::from(motion, run.time, run.state.iter().map(|number| number + displacement).collect());
+        for _ in 0..steps as usize {
+            run.step(method, -length);
+            displaced.step(method, -length);
+        }
+        let condition = (distance(&displaced.state, &run.state) / displacement).max(1.0);
+        let off = distance(&run.state, &(motion.exact)(0.0));
+        let allowed = 16.0 * steps * f64::EPSILON * condition;
+        assert!(off <= allowed, "{}: {off:e} off after the way back, {allowed:e} would be rounding", motion.name);
+    }
+}

@@ -1,0 +1,84 @@
+//! Velocity Verlet: kick by `h/2`, drift by `h`, kick by `h/2`; states of models are advanced in the middle of the drift.
+//!
+//! Order 2, symmetric in time, symplectic for accelerations without velocities, stable for `omega h < 2`, and with damping
+//! as long as the kicks converge, `h c/m < 4` (Swope, Andersen, Berens, Wilson 1982; Hairer, Lubich, Wanner, Geometric
+//! Numerical Integration, 2nd ed. 2006, sections I.1.4 and II.5).
+//!
+//! One evaluation per step: the first kick has the rates of the beginning. Accelerations that depend on velocities are
+//! iterated to rounding in both kicks, 3 to 5 evaluations each for `h c/m` up to 0.2; states of models cost two evaluations,
+//! more if their rates depend on themselves.
+
+use super::splitting::Splitting;
+use super::{Flow, OneStep, Start};
+
+/// Velocity Verlet.
+#[derive(Default)]
+pub struct VelocityVerlet {
+    work: Splitting,
+}
+
+impl OneStep for VelocityVerlet {
+    fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
+        let mut making = self.work.begin(flow, start, change);
+        making.kick(length / 2.0);
+        making.drift(length / 2.0);
+        making.own(length);
+        making.drift(length / 2.0);
+        making.kick(length / 2.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
+    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
+    use super::*;
+
+    /// Law: order 2 on smooth motion, with velocities in the accelerations and states of models too (theorem II.3.2 of the
+    /// source: symmetric methods have even order). Tolerance: a quarter of an order.
+    #[test]
+    fn the_order_is_2() {
+        demand_order(&mut VelocityVerlet::default(), 2, 6.0, 1.37);
+    }
+
+    /// Law: a symplectic method keeps the energy near its value for exponentially long (section IX.8 of the source).
+    #[test]
+    fn energy_stays() {
+        for (motion, steps) in [(OSCILLATOR, 20.3), (ELONGATION, 20.3), (KEPLER, 200.3)] {
+            demand_bounded_energy(&mut VelocityVerlet::default(), motion, steps);
+        }
+    }
+
+    /// Law: a symmetric method runs back to where it began (section V.1 of the source). Tolerance: rounding.
+    #[test]
+    fn runs_backwards() {
+        demand_reversible(&mut VelocityVerlet::default(), 1.0);
+    }
+
+    /// Law: `v^2 + (1 - h^2/4) q^2` of an oscillator is kept, so from rest its energy never rises, and it does for steps above
+    /// 2; the same where the spring is a state of its own. Tolerance: rounding of the steps.
+    #[test]
+    fn stable_below_2() {
+        for motion in [OSCILLATOR, ELONGATION] {
+            for (length, stable) in [(1.99, true), (2.01, false)] {
+                let mut run = Run::of(motion);
+                let mut most = 0.0_f64;
+                for _ in 0..1000 {
+                    run.step(&mut VelocityVerlet::default(), length);
+                    most = most.max(2.0 * (motion.energy)(&run.state));
+                }
+                let rounding = 1000.0 * 8.0 * f64::EPSILON;
+                assert_eq!(most <= 1.0 + rounding, stable, "{}, {length}: energy up to {most}", motion.name);
+            }
+        }
+    }
+
+    #[test]
+    fn one_evaluation() {
+        for (motion, evaluations) in [(KEPLER, 1), (ELONGATION, 3)] {
+            let mut run = Run::of(motion);
+            run.step(&mut VelocityVerlet::default(), 0.1);
+            assert_eq!(run.flow.evaluations, evaluations, "{}", motion.name);
+        }
+    }
+}

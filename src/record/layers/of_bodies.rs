@@ -1,0 +1,53 @@
+//! What layers of bodies have in common: an entry of `look.layers` with the field `of`.
+
+use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::DeserializeOwned;
+
+use super::{FilmAppExt, Layer, Shown};
+use crate::scene::sections::look::LAYERS;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, Written};
+
+/// A layer that shows the bodies of its field `of`, or all that move.
+pub(super) trait OfBodies: DeserializeOwned + JsonSchema + Send + Sync + 'static {
+    /// Its name in the scene.
+    const NAME: &'static str;
+    /// One correct use.
+    const EXAMPLE: &'static str;
+
+    /// The field `of`.
+    fn of(&self) -> Option<&Names>;
+
+    /// Reports mistakes in its other fields.
+    fn check_others(&self, _report: &mut Report) {}
+
+    /// Installs once what all layers of the kind need.
+    fn prepare(_app: &mut App) {}
+
+    /// What is drawn.
+    fn layer(self, shown: Shown, outline: &Outline) -> impl Layer;
+}
+
+impl<L: OfBodies> Entry for L {
+    const SECTION: &'static str = LAYERS;
+    const NAME: &'static str = <L as OfBodies>::NAME;
+    const EXAMPLE: &'static str = <L as OfBodies>::EXAMPLE;
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        Shown::check(self.of(), outline, report);
+        self.check_others(report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        Self::prepare(app);
+        for entry in entries {
+            let shown = Shown::new(entry.value.of(), outline);
+            app.add_layer(entry.value.layer(shown, outline));
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The world as a system of ordinary differential equations: `q` are positions and angles of the dynamic bodies, `v` their
+//! velocities, `z` what models keep of their own and the accounts of energy and momentum.
+
+use glam::DVec2;
+
+use super::balance::Ledger;
+use super::{Balance, Census, Models, StateBlock, Tick};
+use crate::integrate::steps::Flow;
+use crate::world::Bodies;
+
+/// Accounts at the end of a state: drag, work, friction, inelasticity, impulse (2), angular impulse.
+const ACCOUNTS: usize = 7;
+/// Those that depend on no velocity if forces do not.
+const IMPULSES: usize = 3;
+
+/// The world as seen by a method that takes several stages per step.
+pub struct WorldFlow<'t, 'w> {
+    /// The tick under way.
+    pub tick: &'t mut Tick<'w>,
+    dynamic: Vec<usize>,
+    blocks: Vec<(StateBlock, usize)>,
+    dimension: usize,
+    velocity_dependent: bool,
+    watched: bool,
+}
+
+impl<'t, 'w> WorldFlow<'t, 'w> {
+    /// The world in this tick. Made anew when modes have changed.
+    pub fn new(tick: &'t mut Tick<'w>) -> Self {
+        let bodies = tick.world.resource::<Bodies>();
+        let dynamic: Vec<usize> = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).collect();
+        let blocks: Vec<(StateBlock, usize)> =
+            tick.world.resource::<Models>().blocks.iter().map(|block| (*block, (block.length)(tick.world))).collect();
+        let own: usize = blocks.iter().map(|(_, length)| length).sum();
+        let dimension = 6 * dynamic.len() + own + ACCOUNTS;
+        let velocity_dependent = tick.world.resource::<Census>().velocity_dependent;
+        let watched = !tick.world.resource::<Models>().watches.is_empty();
+        Self { tick, dynamic, blocks, dimension, velocity_dependent, watched }
+    }
+
+    /// Places of the accounts in a state.
+    pub fn places_of_accounts(&self) -> std::ops::Range<usize> {
+        self.dimension - ACCOUNTS..self.dimension
+    }
+
+    /// The present state. Accounts begin at zero.
+    pub fn read(&self, state: &mut Vec<f64>) {
+        state.clear();
+        let bodies = self.tick.world.resource::<Bodies>();
+        for &body in &self.dynamic {
+            state.extend([bodies.position[body].x, bodies.position[body].y, bodies.angle[body]]);
+        }
+        for &body in &self.dynamic {
+            state.extend([bodies.velocity[body].x, bodies.velocity[body].y, bodies.spin[body]]);
+        }
+        state.resize(self.dimension, 0.0);
+        let mut place = 6 * self.dynamic.len();
+        for &(block, length) in &self.blocks {
+            (block.read)(self.tick.world, &mut state[place..place + length]);
+            place += length;
+        }
+    }
+
+    /// Makes `state` the present one.
+    pub fn write(&mut self, state: &[f64]) {
+        let mut bodies = self.tick.world.resource_mut::<Bodies>();
+        let velocities = 3 * self.dynamic.len();
+        for (place, &body) in self.dynamic.iter().enumerate() {
+            let (q, v) = (&state[3 * place..], &state[velocities + 3 * place..]);
+            bodies.position[body] = DVec2::new(q[0], q[1]);
+            bodies.angle[body] = q[2];
+            bodies.velocity[body] = DVec2::new(v[0], v[1]);
+            bodies.spin[body] = v[2];
+        }
+        let mut place = 2 * velocities;
+        for &(block, length) in &self.blocks {
+            (block.write)(self.tick.world, &state[place..place + length]);
+            place += length;
+        }
+    }
+
+    /// The rates of the state that was evaluated last.
+    pub fn read_rates(&self, rates: &mut [f64]) {
+        let bodies = self.tick.world.resource::<Bodies>();
+        let velocities = 3 * self.dynamic.len();
+        for (place, &body) in self.dynamic.iter().enumerate() {
+            let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass[body]);
+            let turning = bodies.torque[body] * bodies.inverse_inertia[body];
+            rates[3 * place..3 * place + 3].copy_from_slice(&[velocity.x, velocity.y, bodies.spin[body]]);
+            rates[velocities + 3 * place..velocities + 3 * place + 3].copy_from_slice(&[force.x, force.y, turning]);
+        }
+        let mut place = 2 * velocities;
+        for &(block, length) in &self.blocks {
+            (block.rates)(self.tick.world, &mut rates[place..place + length]);
+            place += length;
+        }
+        let balance = self.tick.world.resource::<Balance>();
+        let Balance { force, torque, drag, work, friction, inelasticity, .. } = *balance;
+        rates[place..].copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
+    }
+
+    /// Books what a step has added to the accounts.
+    pub fn book(&mut self, change: &[f64]) {
+        let [drag, work, friction, inelasticity, x, y, angular] = change[self.places_of_accounts()] else { return };
+        let mut ledger = self.tick.world.resource_mut::<Ledger>();
+        ledger.impulse[0].add(x);
+        ledger.impulse[1].add(y);
+        ledger.angular_impulse.add(angular);
+        ledger.drag.add(drag);
+        ledger.work.add(work);
+        ledger.friction.add(friction);
+        ledger.inelasticity.add(inelasticity);
+    }
+}
+
+impl Flow for WorldFlow<'_, '_> {
+    fn coordinates(&self) -> usize {
+        3 * self.dynamic.len()
+    }
+
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn accounts(&self) -> usize {
+        // Powers of contacts depend on velocities where their forces do not.
+        if self.velocity_dependent || self.watched { IMPULSES } else { ACCOUNTS }
+    }
+
+    fn velocity_dependent(&self) -> bool {
+        self.velocity_dependent
+    }
+
+    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        self.write(state);
+        self.tick.evaluate_stage(time);
+        self.read_rates(rates);
+    }
+}

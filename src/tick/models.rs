@@ -1,0 +1,70 @@
+//! What models tell an integrator that takes several stages per step: state of their own, and where their forces jump.
+
+use bevy_ecs::prelude::*;
+
+use super::Style;
+
+/// Models that have more to say than forces.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Models {
+    /// State beside poses and velocities, in the order of registration.
+    pub blocks: Vec<StateBlock>,
+    /// What is watched for events, in the order of registration.
+    pub watches: Vec<Watch>,
+    /// Times at which forces are known to jump: each gives the first one after a time in seconds, or infinity.
+    pub edges: Vec<fn(&World, f64) -> f64>,
+    /// Models that cannot be evaluated in every style: each says why not, as the path of what is in the way, what is wrong
+    /// and what would help.
+    pub objections: Vec<fn(&World, Style) -> Option<Objection>>,
+}
+
+/// Why a model cannot be evaluated in a style.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// The path of what is in the way in the scene.
+    pub path: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// What would help.
+    pub help: &'static str,
+}
+
+/// State that a model keeps of its own and the integrator advances by the same method as positions: the elongation of a
+/// tangential spring, the integral of a controller.
+#[derive(Clone, Copy, Debug)]
+pub struct StateBlock {
+    /// How many numbers; it may change when modes do, never inside a step.
+    pub length: fn(&World) -> usize,
+    /// Model -> state.
+    pub read: fn(&World, &mut [f64]),
+    /// State -> model, before an evaluation.
+    pub write: fn(&mut World, &[f64]),
+    /// Their rates, after an evaluation.
+    pub rates: fn(&World, &mut [f64]),
+}
+
+/// An indicator of an event: it is positive while a mode holds, and the event is where it vanishes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Indicator {
+    /// Its value in the state just evaluated.
+    pub value: f64,
+    /// Its rate per second there; not a number if the model does not know.
+    pub slope: f64,
+}
+
+/// A model whose forces jump, or whose modes end.
+#[derive(Clone, Copy, Debug)]
+pub struct Watch {
+    /// Adds the indicators of the state just evaluated to the list. Their number and order change only where modes do.
+    pub tell: fn(&mut World, &mut Vec<Indicator>),
+    /// Changes the modes whose indicators vanished, given by their places in the model's own list of the present modes.
+    pub switch: fn(&mut World, &[usize]),
+    /// Looks at accelerations just evaluated in the present modes and corrects modes that cannot last; says whether it did.
+    pub settle: fn(&mut World) -> bool,
+    /// Chooses all modes of a state that did not follow from the one before.
+    pub take_stock: fn(&mut World),
+    /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
+    pub tidy: fn(&mut World) -> bool,
+    /// How many indicators it told last; kept by the engine.
+    pub told: usize,
+}
