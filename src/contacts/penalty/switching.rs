@@ -18,7 +18,7 @@ use bevy_ecs::prelude::*;
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
-use super::law::PairLaw;
+use super::law::{LawTable, PairLaw};
 use super::normal::{Approach, Mode, NormalForce};
 use super::staged::Look;
 use super::{Penalty, RollingLaw, TangentialLaw};
@@ -123,11 +123,12 @@ fn view<R>(world: &mut World, see: impl FnOnce(&mut World, &mut View) -> R) -> R
 
 /// Contacts whose tangential spring holds: its elongation is state.
 fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = &Contact> {
-    contacts.atoms.iter().chain(&contacts.walls).filter(|contact| is_spring(contact))
+    contacts.atoms.iter().chain(&contacts.walls).filter(|contact| is_spring(contact, &contacts.laws))
 }
 
-fn is_spring(contact: &Contact) -> bool {
-    contact.mode != Mode::Open && contact.tangential.grip == Grip::Stick
+fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
+    let sticks = contact.mode != Mode::Open && contact.tangential.grip == Grip::Stick;
+    sticks && laws.get(contact.law).tangential().acts()
 }
 
 fn length(world: &World) -> usize {
@@ -142,8 +143,8 @@ fn read(world: &World, state: &mut [f64]) {
 
 fn write(world: &mut World, state: &[f64]) {
     let mut contacts = world.resource_mut::<PenaltyContacts>();
-    let PenaltyContacts { atoms, walls, .. } = &mut *contacts;
-    let all = atoms.iter_mut().chain(walls).filter(|contact| is_spring(contact));
+    let PenaltyContacts { atoms, walls, laws, .. } = &mut *contacts;
+    let all = atoms.iter_mut().chain(walls).filter(|contact| is_spring(contact, laws));
     for (state, contact) in state.iter().zip(all) {
         contact.tangential.elongation = *state;
     }
@@ -153,12 +154,13 @@ fn rates(world: &World, rates: &mut [f64]) {
     let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
     let contacts = world.resource::<PenaltyContacts>();
     let of_atoms = contacts.atoms.iter().zip(&pairs.atoms).enumerate();
-    let of_atoms = of_atoms.filter(|(_, (contact, _))| is_spring(contact)).map(|(place, (contact, pair))| {
-        Look::atoms(bodies, place, *pair, contact.reach).sliding(contacts.laws.get(contact.law))
-    });
+    let of_atoms =
+        of_atoms.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
+            Look::atoms(bodies, place, *pair, contact.reach).sliding(contacts.laws.get(contact.law))
+        });
     let of_walls = contacts.walls.iter().zip(&pairs.walls).enumerate();
     let of_walls = of_walls
-        .filter(|(_, (contact, _))| is_spring(contact))
+        .filter(|(_, (contact, _))| is_spring(contact, &contacts.laws))
         .map(|(place, (contact, pair))| Look::wall(bodies, place, *pair).sliding(contacts.laws.get(contact.law)));
     rates.iter_mut().zip(of_atoms.chain(of_walls)).for_each(|(rate, sliding)| *rate = sliding);
 }

@@ -62,12 +62,12 @@ fn sum(rates: &[f64], dimension: usize, weights: Sum, place: usize) -> f64 {
     weights.iter().fold(0.0, |sum, (stage, weight)| sum + weight * rates[stage * dimension + place])
 }
 
-/// The mean rate of the step, for one number of the state. Counted from the rate at the beginning: a rate that does not
-/// change comes out as it is, where weights that are rounded would not add up to one.
+/// The mean rate of the step, for one number of the state. A rate that does not change comes out as it is: weights that are
+/// rounded do not add up to one, which a body that spins fast would show.
 fn result(rates: &[f64], dimension: usize, place: usize) -> f64 {
     let beginning = rates[place];
-    let others = RESULT.iter().filter(|(stage, _)| *stage > 0);
-    beginning + others.fold(0.0, |sum, (stage, weight)| sum + weight * (rates[stage * dimension + place] - beginning))
+    let constant = RESULT.iter().all(|(stage, _)| rates[stage * dimension + place] == beginning);
+    if constant { beginning } else { sum(rates, dimension, RESULT, place) }
 }
 
 impl OneStep for Dop853 {
