@@ -18,6 +18,10 @@ use crate::world::Bodies;
 /// Events that are located in one tick; whatever happens beyond takes place at the end of a step.
 const MOST_EVENTS: u32 = 256;
 
+/// How often a step is made again with lists that reach farther, each time four times as far. What outgrows them all moves
+/// beyond all numbers, and the run ends with that.
+const MOST_RENEWALS: u32 = 16;
+
 /// How many events were located, and how many ticks had too many.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LocatedEvents {
@@ -82,19 +86,22 @@ impl Staged {
     fn go(&mut self, flow: &mut WorldFlow, from: f64, until: f64, locate: bool) -> (f64, Vec<usize>) {
         let length = until - from;
         let mut reach_of_lists = 1.5;
-        loop {
-            flow.tick.reserve(length, reach_of_lists);
-            let went = self.attempt(flow, from, until, locate);
+        flow.tick.reserve(length, reach_of_lists);
+        let mut went = self.attempt(flow, from, until, locate);
+        for _ in 0..MOST_RENEWALS {
             if !flow.tick.outgrown() {
-                self.accept();
-                flow.book(&self.work.change);
-                return went;
+                break;
             }
             // Forces grew inside the step: from its beginning once more, with lists that reach farther.
             reach_of_lists *= 4.0;
             flow.write(&self.state);
             flow.tick.renew_lists(from);
+            flow.tick.reserve(length, reach_of_lists);
+            went = self.attempt(flow, from, until, locate);
         }
+        self.accept();
+        flow.book(&self.work.change);
+        went
     }
 
     fn attempt(&mut self, flow: &mut WorldFlow, from: f64, until: f64, locate: bool) -> (f64, Vec<usize>) {
@@ -162,7 +169,8 @@ impl Integrator for Staged {
             self.take_up(&flow);
             let (reached, fired) = self.go(&mut flow, now, until, locate);
             now = reached;
-            events += u32::from(!fired.is_empty());
+            // A step cut short counts, whatever it was for: so a tick comes to its end.
+            events += u32::from(now < until || !fired.is_empty());
             tick.end_step(&fired);
         }
         let from = std::mem::take(&mut self.work.from);

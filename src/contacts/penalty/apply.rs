@@ -36,6 +36,8 @@ pub struct PenaltyContacts {
     pub(super) watch: Watch,
     pub(super) rows: Rows,
     pub(super) told: Told,
+    /// Energy in J of the tangential springs before modes were switched.
+    pub(super) held_before: Option<f64>,
 }
 
 /// A pair that touches in the present state.

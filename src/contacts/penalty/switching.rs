@@ -242,23 +242,28 @@ impl Look {
 }
 
 fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
-    let mut friction = 0.0;
     view(world, |_, view| {
+        // What springs hold before and no longer after is lost; it is booked when all modes have settled.
+        view.contacts.held_before = Some(stored(view.contacts));
         for &place in fired {
             let (pair, what) = view.contacts.told[place];
             let look = view.look(pair as usize);
             let (contact, law) = view.contact(pair as usize);
-            let before = contact.tangential.energy(&law.tangential());
             contact.switch::<N>(law, what, &look);
             contact.come_loose(law, &look);
-            friction += before - contact.tangential.energy(&law.tangential());
         }
     });
-    world.resource_mut::<Ledger>().friction.add(friction);
+}
+
+/// Energy in J of all tangential springs.
+fn stored(contacts: &PenaltyContacts) -> f64 {
+    let touching = contacts.atoms.iter().chain(&contacts.walls).filter(|contact| contact.mode != Mode::Open);
+    let energy = |contact: &Contact| contact.tangential.energy(&contacts.laws.get(contact.law).tangential());
+    touching.map(energy).fold(0.0, |sum, energy| sum + energy)
 }
 
 fn settle<N: NormalForce>(world: &mut World) -> bool {
-    let (mut corrected, mut friction) = (false, 0.0);
+    let mut corrected = false;
     view(world, |_, view| {
         for place in 0..view.len() {
             let look = view.look(place);
@@ -267,7 +272,7 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
                 if contact.normal_force < least || contact.normal_force > greatest {
                     contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
-                    friction += contact.come_loose(law, &look);
+                    contact.come_loose(law, &look);
                     corrected = true;
                 }
             }
@@ -280,7 +285,6 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
             }
         }
     });
-    world.resource_mut::<Ledger>().friction.add(friction);
     corrected
 }
 
@@ -310,6 +314,9 @@ fn tidy(world: &mut World) -> bool {
     let (time, dt) = (world.resource::<Evaluation>().time, world.resource::<Clock>().dt);
     let mut moved = false;
     world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
+        if let Some(before) = contacts.held_before.take() {
+            world.resource_mut::<Ledger>().friction.add(before - stored(&contacts));
+        }
         world.resource_scope(|world, mut bodies: Mut<Bodies>| {
             if !contacts.rows.is_empty() {
                 let before = (crate::tick::balance::momentum(&bodies), crate::tick::balance::angular_momentum(&bodies));
@@ -393,18 +400,15 @@ impl Contact {
     }
 
     /// Brings the spring into line with a normal mode that has changed: it takes over from a hold when the normal is held no
-    /// longer, and one that holds remembers which way it is going. Returns the energy lost in J.
-    fn come_loose(&mut self, law: &PairLaw, look: &Look) -> f64 {
+    /// longer, and one that holds remembers which way it is going.
+    fn come_loose(&mut self, law: &PairLaw, look: &Look) {
         let slider = &mut self.tangential;
-        let lost = if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {
-            slider.let_go(&law.tangential())
-        } else {
-            0.0
-        };
+        if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {
+            slider.let_go(&law.tangential());
+        }
         if slider.grip == Grip::Stick {
             slider.held = 0.0_f64.copysign(look.sliding(law));
         }
-        lost
     }
 
     /// While it slips: the force along the surface under a normal force, in the direction it has.
