@@ -4,6 +4,7 @@ use bevy_ecs::prelude::*;
 
 use super::card::number;
 use crate::contacts::ContactLaw;
+use crate::integrate::LocatedEvents;
 use crate::tick::{Clock, Responses, far_travel};
 use crate::world::{Bodies, Name};
 
@@ -54,6 +55,15 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
             name(far.body),
             number(far.time),
             advised,
+        ));
+    }
+    let located = world.get_resource::<LocatedEvents>().copied().unwrap_or_default();
+    if located.given_up > 0 {
+        warnings.push(format!(
+            "in {} ticks more events happened than are located in one: the rest of each went on without locating them; use \
+             --tick {} or `events: PerTick`",
+            located.given_up,
+            number(0.25 * clock.dt),
         ));
     }
     warnings

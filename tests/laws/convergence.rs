@@ -13,7 +13,7 @@
 //!
 //! Where events are located a method keeps its order through kinks and jumps. Methods of higher order begin at coarser ticks,
 //! closer to each other, because rounding ends the line soon: points within a hundred times the worst case of rounding
-//! are left out, and at least three must be left. Coarse ticks bend their line upwards, so that only methods up to order 2 are
+//! are left out. Where fewer than three are left the method is at rounding from the beginning, and nothing else is asked. Coarse ticks bend their line upwards, so that only methods up to order 2 are
 //! held to "not better than stated". Of a ladder the six finest ticks above rounding count.
 //!
 //! Not tested: the size of the errors (see `problems`).
