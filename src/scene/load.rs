@@ -387,31 +387,33 @@ impl Loading<'_> {
 
     /// Looks up where the mistakes of the checks stand in the text.
     fn place(&mut self, problems: &[Problem]) {
-        let Walked { text, tree } = self.walked;
-        for problem in problems.iter().take(MOST_PROBLEMS) {
-            let mut error = SceneError::new(problem.path.clone(), problem.message.clone());
-            error.help.clone_from(&problem.help);
-            if let Some(place) = tree.find(&problem.path, text) {
-                let (span, label) = match &problem.missing {
-                    Some(field) => (tree.head(place.node), format!("`{field}: ..` is missing in here")),
-                    None if !place.whole || place.node == 0 => (tree.head(place.node), "in here".to_owned()),
-                    None if problem.also.is_some() => (tree.head_or_value(place.node), "here again".to_owned()),
-                    None => (tree.head_or_value(place.node), "this value".to_owned()),
-                };
-                error = error.at(span, label);
-            }
-            if let Some((path, label)) = &problem.also
-                && let Some(place) = tree.find(path, text)
-            {
-                error = error.also(tree.head_or_value(place.node), label);
-            }
-            self.errors.push(error);
-        }
-        if problems.len() > MOST_PROBLEMS {
-            let message = format!("{} more mistakes were found by the checks", problems.len() - MOST_PROBLEMS);
-            self.errors.push(SceneError::new("", message));
+        let (told, counted) = problems.split_at(problems.len().min(MOST_PROBLEMS));
+        self.errors.extend(told.iter().map(|problem| placed(&self.walked, problem)));
+        if let Some(next) = counted.first() {
+            let message = format!("{} more mistakes were found by the checks, the first of them here", counted.len());
+            self.errors.push(SceneError { message, help: None, ..placed(&self.walked, next) });
         }
     }
+}
+
+fn placed(Walked { text, tree }: &Walked, problem: &Problem) -> SceneError {
+    let mut error = SceneError::new(problem.path.clone(), problem.message.clone());
+    error.help.clone_from(&problem.help);
+    if let Some(place) = tree.find(&problem.path, text) {
+        let (span, label) = match &problem.missing {
+            Some(field) => (tree.head(place.node), format!("`{field}: ..` is missing in here")),
+            None if !place.whole || place.node == 0 => (tree.head(place.node), "in here".to_owned()),
+            None if problem.also.is_some() => (tree.head_or_value(place.node), "here again".to_owned()),
+            None => (tree.head_or_value(place.node), "this value".to_owned()),
+        };
+        error = error.at(span, label);
+    }
+    if let Some((path, label)) = &problem.also
+        && let Some(place) = tree.find(path, text)
+    {
+        error = error.also(tree.head_or_value(place.node), label);
+    }
+    error
 }
 
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {

@@ -57,7 +57,9 @@ fn thousands_are_counted_by_the_report() {
         (0..2000).map(|n| format!("(name: \"b{n}\", at: (0, 0), atoms: Disc(radius: 0)),\n")).collect();
     let found = errors(&scene(&bodies));
     assert_eq!(found.errors().len(), 1001);
-    assert_eq!(found.errors()[1000].message, "1000 more mistakes were found by the checks");
+    let rest = &found.errors()[1000];
+    assert_eq!(rest.message, "1000 more mistakes were found by the checks, the first of them here");
+    assert_eq!((rest.path.as_str(), rest.line), ("bodies[1000].atoms.radius", Some(1002)));
 }
 
 #[test]
