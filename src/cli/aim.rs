@@ -11,7 +11,7 @@ use crate::record::follow::Follower;
 use crate::record::plot::{Board, Legend, Missing, Plot, Sampler};
 use crate::record::{Recorder, Schedule};
 use crate::scene::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};
-use crate::simulation::Simulation;
+use crate::simulation::{Overrides, Simulation};
 
 /// How large the picture may grow, in its size at the beginning, when the run is known to go wrong: a body that
 /// leaves at enormous speed must not shrink all others to a point.
@@ -42,7 +42,7 @@ impl Order<'_> {
         let plots = simulation.world().get_resource::<PlotsSection>().filter(|plots| !plots.0.is_empty());
         let (mut bounds, mut panel) = (None, None);
         if fits || plots.is_some() {
-            let mut ahead = self.again()?;
+            let mut ahead = self.again(simulation)?;
             let legend = plots.map(|_| Legend::of(&ahead));
             let sampler = plots.map(|plots| self.sampler(&mut ahead, &plots.0)).transpose()?;
             let none = Schedule::default();
@@ -127,8 +127,9 @@ impl Order<'_> {
     }
 
     /// The scene once more, from its beginning.
-    pub(super) fn again(&self) -> Result<Simulation, Exit> {
-        let again = Simulation::load_with(self.source, self.overrides, |_| {});
+    pub(super) fn again(&self, simulation: &Simulation) -> Result<Simulation, Exit> {
+        let overrides = Overrides { plan: simulation.plan().cloned(), ..self.overrides.clone() };
+        let again = Simulation::load_with(self.source, &overrides, |_| {});
         again.map_err(|errors| self.request.refuse_scene(&errors))
     }
 }

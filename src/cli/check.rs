@@ -7,7 +7,7 @@ use super::flags::OverrideFlags;
 use super::load::Request;
 use super::pace::Runner;
 use super::progress::Progress;
-use super::result::{self, Detail};
+use super::result::{self, Detail, Ran};
 use super::say::{count, print_line, say};
 use crate::simulation::Simulation;
 
@@ -59,7 +59,7 @@ impl Check {
         let progress = Progress::new(simulation.ticks(), "ticks", self.json);
         let end = simulation.ticks();
         let failure = Runner { progress, wall_clock: None }.run_to(&mut simulation, end).err();
-        let exit = result::tell(request, &simulation, failure.as_ref(), false, Detail::of(self.json, true));
+        let exit = result::tell(request, &Ran::whole(&simulation, failure.as_ref()), Detail::of(self.json, true));
         if exit == Exit::Good && !self.json {
             let holding = match simulation.outcomes().len() {
                 0 => "nothing is expected".to_owned(),

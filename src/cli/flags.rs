@@ -1,8 +1,11 @@
 //! Flags that several commands share, and how their values are read: a wrong value is named before anything runs.
 
+use std::io::IsTerminal;
+
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
+use super::say::say;
 use crate::integrate::Methods;
 use crate::record::layers::WORDS;
 use crate::scene::sections::{ClockSection, film};
@@ -28,8 +31,8 @@ pub(super) struct OverrideFlags {
     /// Integration method, instead of the scene's
     #[arg(long, value_name = "NAME", value_parser = methods())]
     pub method: Option<String>,
-    /// Error allowed, instead of a tick (not available yet)
-    #[arg(long, value_name = "X", value_parser = not_available_yet, allow_negative_numbers = true)]
+    /// Error allowed, instead of a tick: a share such as 1e-6 of how far and how fast bodies go
+    #[arg(long, value_name = "X", value_parser = share, allow_negative_numbers = true, conflicts_with = "tick")]
     pub tolerance: Option<f64>,
     /// Give a parameter of the scene (`params`) another value: a number or an expression; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
@@ -39,7 +42,21 @@ pub(super) struct OverrideFlags {
 impl OverrideFlags {
     /// What is to be otherwise than the scene says.
     pub fn overrides(&self) -> Overrides {
-        Overrides { tick: self.tick, method: self.method.clone(), duration: self.duration, ..Overrides::default() }
+        Overrides {
+            tick: self.tick,
+            method: self.method.clone(),
+            tolerance: self.tolerance,
+            duration: self.duration,
+            tell: Some(tell_trial),
+            ..Overrides::default()
+        }
+    }
+}
+
+/// Says which trial of a scene is under way, where somebody looks.
+fn tell_trial(number: u32, what: &str) {
+    if std::io::stderr().is_terminal() {
+        say(&format!("finding the steps: run {number}, {what}"));
     }
 }
 
@@ -49,7 +66,9 @@ fn methods() -> PossibleValuesParser {
     app.add_tick();
     crate::plugins::standard(&mut app);
     let registered = app.world().get_resource::<Methods>().map_or_else(Vec::new, |methods| methods.0.clone());
-    let names = std::iter::once(ClockSection::AUTO).chain(registered.into_iter().map(|method| method.name));
+    let names = [ClockSection::AUTO, ClockSection::REFERENCE]
+        .into_iter()
+        .chain(registered.into_iter().map(|method| method.name));
     PossibleValuesParser::new(names.collect::<Vec<_>>())
 }
 
@@ -61,8 +80,10 @@ fn setting(text: &str) -> Result<(String, String), String> {
         .ok_or_else(|| "expected a parameter and its value, such as n=9 or gap=\"2 cm\"".to_owned())
 }
 
-fn not_available_yet(_: &str) -> Result<f64, String> {
-    Err("not available yet; use `--tick`".to_owned())
+/// A share of the motion.
+fn share(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse().ok().filter(|value| (f64::MIN_POSITIVE..1.0).contains(value));
+    value.ok_or_else(|| "expected a share above zero and below one, such as 1e-6".to_owned())
 }
 
 /// A time as in a scene: a number of seconds, or a number with its unit.

@@ -99,7 +99,7 @@ impl Order<'_> {
         if freezes.iter().all(|freeze| freeze.touch.is_none()) {
             return Ok(found);
         }
-        let mut ahead = self.again()?;
+        let mut ahead = self.again(simulation)?;
         watch(ahead.world_mut());
         let pairs: Vec<Option<Touching>> = freezes.iter().map(|freeze| pair(&mut ahead, freeze)).collect();
         let mut missing = pairs.iter().flatten().count();

@@ -8,7 +8,7 @@ use super::Exit;
 use super::film::{Made, Order, Shot};
 use super::flags::{self, OverrideFlags};
 use super::load::Request;
-use super::result::{self, Detail};
+use super::result::{self, Detail, Ran};
 use super::say::{count as in_words, say};
 use super::target::{Place, Wish, places};
 use crate::output::{Target, Written};
@@ -164,7 +164,8 @@ impl Render {
         {
             report(written, failure.is_some());
         }
-        result::tell(request, &simulation, failure.as_ref(), self.still().is_some(), detail)
+        let ran = Ran { cut: self.still().is_some(), ..Ran::whole(&simulation, failure.as_ref()) };
+        result::tell(request, &ran, detail)
     }
 }
 

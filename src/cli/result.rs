@@ -8,6 +8,7 @@ use super::say::{count, print_line, say};
 use crate::expect::Outcome;
 use crate::report::Card;
 use crate::report::card::number;
+use crate::report::reversal::Reversal;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
@@ -32,15 +33,26 @@ impl Detail {
     }
 }
 
-/// Tells how a run went, and returns how it ended. A run that was `cut` short on purpose breaks no expectation that
-/// was to be judged later.
-pub(super) fn tell(
-    request: Request,
-    simulation: &Simulation,
-    failure: Option<&Failure>,
-    cut: bool,
-    detail: Detail,
-) -> Exit {
+/// A run that has come to its end.
+pub(super) struct Ran<'a> {
+    pub simulation: &'a Simulation,
+    /// What went wrong.
+    pub failure: Option<&'a Failure>,
+    /// It was cut short on purpose: that breaks no expectation that was to be judged later.
+    pub cut: bool,
+    /// How it came back, if that was asked for.
+    pub back: Option<&'a Result<Reversal, Failure>>,
+}
+
+impl<'a> Ran<'a> {
+    pub fn whole(simulation: &'a Simulation, failure: Option<&'a Failure>) -> Self {
+        Self { simulation, failure, cut: false, back: None }
+    }
+}
+
+/// Tells how a run went, and returns how it ended.
+pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
+    let Ran { simulation, failure, cut, back } = *ran;
     let mut card = simulation.card();
     let mut exit = Exit::Good;
     if let Some(failure) = failure {
@@ -58,11 +70,23 @@ pub(super) fn tell(
     if !broken.is_empty() {
         exit = exit.worse(Exit::SceneWrong);
     }
+    let back = match back {
+        Some(Err(failure)) => {
+            say(&format!("error: {}: the way back went wrong: {failure}", request.name));
+            exit = exit.worse(Exit::RunWrong);
+            None
+        }
+        Some(Ok(back)) => Some(back),
+        None => None,
+    };
     if detail == Detail::Json {
-        return exit.worse(print_json(request.name, simulation, &card, &outcomes));
+        return exit.worse(print_json(request.name, simulation, &card, &outcomes, back));
     }
     if detail == Detail::Card {
         say(&format!("{}\n{card}", simulation.header().title.as_deref().unwrap_or(request.name)));
+    }
+    if let Some(back) = back {
+        say(&format!("  {}", returned(back)));
     }
     for outcome in &broken {
         let place = if detail == Detail::Card { "  " } else { &format!("{}: ", request.name) };
@@ -73,6 +97,15 @@ pub(super) fn tell(
         say(&format!("  {}", count(holding, "expectation holds", "expectations hold")));
     }
     exit
+}
+
+/// How a scene came back, in a sentence.
+fn returned(back: &Reversal) -> String {
+    let because = back.because.as_ref().map_or_else(String::new, |because| format!(": {because}"));
+    format!(
+        "There and back: places to {:.1e} m, velocities to {:.1e} m/s, angles to {:.1e} rad of the beginning{because}.",
+        back.position, back.velocity, back.angle
+    )
 }
 
 /// The likely cause of a run that went wrong, and what to try.
@@ -112,10 +145,18 @@ struct RunResult<'a> {
     bodies: Vec<BodyState<'a>>,
     card: &'a Card,
     expect: &'a [Outcome],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reverse: Option<&'a Reversal>,
 }
 
 /// Prints the result of a run as JSON, one line.
-fn print_json(scene: &str, simulation: &Simulation, card: &Card, expect: &[Outcome]) -> Exit {
+fn print_json(
+    scene: &str,
+    simulation: &Simulation,
+    card: &Card,
+    expect: &[Outcome],
+    reverse: Option<&Reversal>,
+) -> Exit {
     let (bodies, clock) = (simulation.bodies(), simulation.clock());
     let state = |place: usize| BodyState {
         name: simulation.name(place),
@@ -132,6 +173,7 @@ fn print_json(scene: &str, simulation: &Simulation, card: &Card, expect: &[Outco
         bodies: (0..bodies.len()).map(state).collect(),
         card,
         expect,
+        reverse,
     };
     match serde_json::to_string(&result) {
         Ok(text) => print_line(&text),

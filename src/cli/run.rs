@@ -9,14 +9,15 @@ use super::flags::{self, OverrideFlags};
 use super::load::Request;
 use super::pace::Runner;
 use super::progress::Progress;
-use super::result::{self, Detail};
+use super::result::{self, Detail, Ran};
 use super::say::say;
 use super::target::{is_directory, takes_no_file};
 use super::wall_clock::WallClock;
 use crate::output::OutputError;
 use crate::output::csv::Table;
+use crate::report::reversal::Reversal;
 use crate::sensors::Channels;
-use crate::simulation::Simulation;
+use crate::simulation::{Overrides, Simulation};
 use crate::tick::Failure;
 
 /// The command `run`.
@@ -32,6 +33,10 @@ pub(super) struct Run {
     output: Option<PathBuf>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    /// Afterwards run there and back: to the end, all velocities turned round, and as long again. Says how closely the scene
+    /// comes back to its beginning
+    #[arg(long)]
+    reverse: bool,
     /// Run no faster than the clock on the wall: a second of physics takes a second. What comes too late is counted.
     /// Otherwise as fast as possible
     #[arg(long)]
@@ -53,6 +58,9 @@ Examples:
   jostle run my.ron -o channels.csv             what the sensors measured
   jostle run my.ron -o - --quiet | head         the same for another program
   jostle run my.ron --tick 0.1ms --json         another tick; the result for a program
+  jostle run my.ron --tolerance 1e-6            the coarsest steps whose error stays below a millionth of the motion
+  jostle run my.ron --method Reference          the smallest error there is, and how large it is
+  jostle run my.ron --reverse                   there and back: how closely it returns
   jostle run my.ron --pace                      at the speed of the clock on the wall
 
 The card and all messages go to standard error (`2> card.txt` keeps them), results for programs to standard output.";
@@ -77,7 +85,7 @@ impl Run {
         if self.json && self.output.as_deref() == Some(Path::new("-")) {
             return request.usage("standard output takes the channels or the result as JSON, not both: give -o a file");
         }
-        let (_, mut simulation) = match request.load(&self.overrides.settings, &self.overrides.overrides()) {
+        let (source, mut simulation) = match request.load(&self.overrides.settings, &self.overrides.overrides()) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
@@ -106,7 +114,19 @@ impl Run {
             Err(Trouble::Run(failure)) => Some(failure),
             Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
         };
-        result::tell(request, &simulation, failure.as_ref(), false, Detail::of(self.json, self.quiet))
+        let back = if self.reverse && failure.is_none() {
+            let plan = simulation.plan().cloned();
+            let overrides = Overrides { plan, ..self.overrides.overrides() };
+            let again = Simulation::load_with(&source, &overrides, |_| {});
+            match again.map_err(|errors| request.refuse_scene(&errors)) {
+                Ok(mut again) => Some(Reversal::of(&mut again)),
+                Err(exit) => return exit,
+            }
+        } else {
+            None
+        };
+        let ran = Ran { simulation: &simulation, failure: failure.as_ref(), cut: false, back: back.as_ref() };
+        result::tell(request, &ran, Detail::of(self.json, self.quiet))
     }
 }
 

@@ -37,7 +37,7 @@ pub struct Gravity(pub DVec2);
 /// Installs the field.
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
-    app.add_packed_force(Dependence::Position, apply_gravity);
+    app.add_packed_force(Dependence::Nothing, apply_gravity);
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
 }
 

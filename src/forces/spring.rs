@@ -250,7 +250,7 @@ mod tests {
     /// The frequency of two masses on a spring, `sqrt(k (1/m1 + 1/m2))`, is exact after two products.
     #[test]
     fn a_stiff_spring_shortens_the_tick_and_stands_on_the_card() {
-        let scene = "Scene(format: 1, clock: (duration: 1), contacts: None,
+        let scene = "Scene(format: 1, clock: (duration: 1, method: VelocityVerlet), contacts: None,
             bodies: [(name: \"a\", at: (0, 0), mass: 2, atoms: Disc(radius: 0.1)),
                      (name: \"b\", at: (1, 0), mass: 2, atoms: Disc(radius: 0.1))],
             forces: [Spring(a: \"a\", b: \"b\", stiffness: 1e6)])";

@@ -193,7 +193,7 @@ mod tests {
     /// `(w dt)^2 = 1.6e-5` of the angle. Not tested: two bodies (see below).
     #[test]
     fn a_wound_up_flywheel_swings_back() {
-        let scene = "Scene(format: 1, clock: (duration: 2, tick: \"1 ms\"),
+        let scene = "Scene(format: 1, clock: (duration: 2, tick: \"1 ms\", method: VelocityVerlet),
             bodies: [(name: \"wheel\", at: (0, 0), angle: \"900 deg\", inertia: 0.5, atoms: Disc(radius: 0.3, mass: 1))],
             forces: [TorsionSpring(a: \"wheel\", b: World, stiffness: 8, damping: 1.6, angle: 0)])";
         let mut simulation = Simulation::load(&Source::new("wheel.ron", scene)).unwrap();

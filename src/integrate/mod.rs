@@ -3,6 +3,9 @@
 //! An integrator advances the state by one tick. Forces of the state at the beginning are there when it is called;
 //! forces of the state at the end must be there when it returns.
 
+mod control;
+mod crowd;
+mod inside;
 mod locate;
 mod semi_implicit_euler;
 mod staged;
@@ -12,8 +15,9 @@ mod velocity_verlet;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
+pub use control::Allowance;
 pub use semi_implicit_euler::SemiImplicitEuler;
-pub use staged::{LocatedEvents, Staged};
+pub use staged::{LocatedEvents, Pace, Staged, StepCount};
 pub use velocity_verlet::VelocityVerlet;
 
 use crate::scene::SceneAppExt;
@@ -63,10 +67,12 @@ pub struct Description {
 
 impl Description {
     /// The method with events where they are wanted, and whether they are located. `None`: it cannot.
-    pub fn make(&self, events: EventTiming) -> Option<(Method, bool)> {
+    ///
+    /// A pace other than one step per tick is for methods that make steps inside ticks.
+    pub fn make(&self, events: EventTiming, pace: Pace) -> Option<(Method, bool)> {
         let staged =
-            |located: bool| self.one_step.map(|make| (Method(Box::new(Staged::new(make(), located))), located));
-        let whole = self.whole_ticks.map(|make| (make(), false));
+            |located: bool| self.one_step.map(|make| (Method(Box::new(Staged::new(make(), located, pace))), located));
+        let whole = self.whole_ticks.filter(|_| pace == Pace::Even(1)).map(|make| (make(), false));
         match events {
             EventTiming::Auto => whole.or_else(|| staged(true)),
             EventTiming::Located => staged(true),

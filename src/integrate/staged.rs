@@ -10,35 +10,102 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::Integrator;
+use super::control::{Allowance, Control};
+use super::crowd::Crowd;
+use super::inside::Inside;
 use super::locate::{Bracket, Moment};
 use super::steps::{Flow, OneStep, Start};
-use crate::tick::{Indicator, Models, Style, Tick, WorldFlow};
+use crate::tick::{Evaluation, Indicator, Models, Style, Tick, WorldFlow};
 use crate::world::Bodies;
 
-/// Events that are located in one tick; whatever happens beyond takes place at the end of a step.
-const MOST_EVENTS: u32 = 256;
+/// Steps as long as their error allows make ticks of frames, in which so many times as much may happen as in others.
+const EVENTS_PER_FRAME: u32 = 16;
 
 /// How often a step is made again with lists that reach farther, each time four times as far. What outgrows them all moves
 /// beyond all numbers, and the run ends with that.
 const MOST_RENEWALS: u32 = 16;
+
+/// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
+/// it.
+const MOST_REJECTIONS: u32 = 60;
 
 /// How many events were located, and how many ticks had too many.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LocatedEvents {
     /// Events.
     pub count: u64,
-    /// Ticks in which `MOST_EVENTS` were reached, so that the rest of the tick went on without locating.
+    /// Ticks that went on under velocity Verlet, for contacts were too many.
     pub given_up: u64,
+}
+
+/// How many steps were made, and how long they were.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepCount {
+    /// Steps accepted.
+    pub accepted: u64,
+    /// Steps whose error was too large.
+    pub rejected: u64,
+    /// The longest accepted one, in s.
+    pub longest: f64,
+}
+
+/// How a tick is divided into steps, when nothing happens in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// So many equal steps.
+    Even(u32),
+    /// Steps as long as their error allows, be it longer than a tick. For methods that estimate it.
+    Allowed(Allowance),
 }
 
 /// A one-step method as the integrator of a run.
 pub struct Staged {
     method: Box<dyn OneStep>,
     located: bool,
-    /// The state at the end of the last tick, and what rounding left over of it.
+    /// Steps per tick, where no control says how long they are.
+    parts: u32,
+    control: Option<Control>,
+    /// The state at the end of the last tick, or at the beginning of the step that goes beyond it, and what rounding left
+    /// over of it.
     state: Vec<f64>,
     rest: Vec<f64>,
+    /// The step that goes beyond the last tick.
+    under_way: Option<Made>,
     work: Work,
+    crowd: Crowd,
+}
+
+/// A step that was made: its change of the state is in the working memory.
+#[derive(Clone, Debug)]
+struct Made {
+    from: f64,
+    until: f64,
+    /// Length of the step whose states inside the method knows, in s; whether it was asked to get to know them.
+    length: f64,
+    dense: bool,
+    /// The indicators that vanish at its end.
+    fired: Vec<usize>,
+    /// Whether it was cut short.
+    cut: bool,
+    /// What was booked of it, and the state shown, at the end of the last tick.
+    shown: Option<Shown>,
+}
+
+/// What the method knows of the step that is being tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Known {
+    /// Nothing: each part of it is a step of its own, so that an event has the order of the method.
+    Nothing,
+    /// Its end.
+    Whole,
+    /// Any state inside, whose error is about that which the step is allowed.
+    Inside,
+}
+
+#[derive(Clone, Debug)]
+struct Shown {
+    state: Vec<f64>,
+    change: Vec<f64>,
 }
 
 /// Working memory.
@@ -52,9 +119,17 @@ struct Work {
 }
 
 impl Staged {
-    /// A method; `located`: events are located inside ticks.
-    pub fn new(method: Box<dyn OneStep>, located: bool) -> Self {
-        Self { method, located, state: Vec::new(), rest: Vec::new(), work: Work::default() }
+    /// A method; `located`: events are located inside ticks. A method that knows no estimate of its error makes one step per
+    /// tick where the pace asks for one.
+    pub fn new(method: Box<dyn OneStep>, located: bool, pace: Pace) -> Self {
+        let estimates = method.order_of_error() > 0;
+        let (parts, control) = match pace {
+            Pace::Even(parts) => (parts, None),
+            Pace::Allowed(allowance) => (1, estimates.then(|| Control::new(allowance))),
+        };
+        let (state, rest, work) = (Vec::new(), Vec::new(), Work::default());
+        let crowd = Crowd::patient(if control.is_some() { EVENTS_PER_FRAME } else { 1 });
+        Self { method, located, parts, control, state, rest, under_way: None, work, crowd }
     }
 
     /// Adds the change of a step to the state, with compensation.
@@ -81,13 +156,23 @@ impl Staged {
         }
     }
 
-    /// Goes on from `from` towards `until` seconds with frozen modes, no further than to the first event. Returns how far it
-    /// came and which indicators vanished there. The state there is the present one, and evaluated.
-    fn go(&mut self, flow: &mut WorldFlow, from: f64, until: f64, locate: bool) -> (f64, Vec<usize>) {
-        let length = until - from;
+    /// Makes a step with frozen modes from `from` towards `until` seconds, no further than to the first event. The state at
+    /// its end is the present one, and evaluated. `None`: too many indicators vanish, and the state is the one of the beginning.
+    fn make(&mut self, flow: &mut WorldFlow, from: f64, until: f64) -> Option<Made> {
+        self.begin(flow);
+        let mut until = until;
+        if let Some(control) = &mut self.control {
+            control.look(flow);
+            let start = (from, self.state.as_slice(), self.work.rates.as_slice());
+            let length = control.length(flow, self.method.order_of_error(), start, until - from);
+            until = if length < until - from { from + length } else { until };
+            flow.write(&self.state);
+        }
         let mut reach_of_lists = 1.5;
-        flow.tick.reserve(length, reach_of_lists);
-        let mut went = self.attempt(flow, from, until, locate);
+        if flow.tick.reserve(until - from, reach_of_lists) {
+            self.begin(flow);
+        }
+        let mut made = self.attempt(flow, from, until);
         for _ in 0..MOST_RENEWALS {
             if !flow.tick.outgrown() {
                 break;
@@ -96,32 +181,65 @@ impl Staged {
             reach_of_lists *= 4.0;
             flow.write(&self.state);
             flow.tick.renew_lists(from);
-            flow.tick.reserve(length, reach_of_lists);
-            went = self.attempt(flow, from, until, locate);
+            flow.tick.reserve(until - from, reach_of_lists);
+            self.begin(flow);
+            made = self.attempt(flow, from, until);
         }
-        self.accept();
-        flow.book(&self.work.change);
-        went
+        if made.is_none() {
+            flow.write(&self.state);
+            flow.tick.evaluate_stage(from);
+        }
+        made
     }
 
-    fn attempt(&mut self, flow: &mut WorldFlow, from: f64, until: f64, locate: bool) -> (f64, Vec<usize>) {
-        let length = until - from;
-        let Work { rates, change, trial, indicators, .. } = &mut self.work;
+    /// Notes the rates and indicators of the present state, which is evaluated.
+    fn begin(&mut self, flow: &mut WorldFlow) {
+        let Work { rates, change, indicators, .. } = &mut self.work;
         rates.resize(flow.dimension(), 0.0);
         change.resize(flow.dimension(), 0.0);
         flow.read_rates(rates);
         indicators.clear();
-        if locate {
+        if self.located {
             flow.tick.tell(indicators);
         }
+    }
+
+    fn attempt(&mut self, flow: &mut WorldFlow, from: f64, mut until: f64) -> Option<Made> {
+        let locate = self.located;
+        let Work { rates, change, trial, indicators, .. } = &mut self.work;
         let start = Start { time: from, state: &self.state, rates };
         let (method, rest) = (&mut self.method, &self.rest);
-        let mut told = Vec::new();
+        let mut rejected = 0;
+        if let Some(control) = &mut self.control {
+            let (reach, order) = (flow.reach(), method.order_of_error());
+            for _ in 0..MOST_REJECTIONS {
+                let length = until - from;
+                method.step(flow, start, length, change);
+                let error = control.error(&**method, flow, (reach, length)).unwrap_or_default();
+                let next = control.adapt(length, error, order);
+                if error <= 1.0 || from + next <= from {
+                    break;
+                }
+                rejected += 1;
+                until = from + next;
+            }
+        }
+        let length = until - from;
+        let controlled = self.control.is_some();
+        let mut known = if controlled { Known::Whole } else { Known::Nothing };
         let mut reach = |flow: &mut WorldFlow, share: f64, told: &mut Vec<Indicator>| {
-            method.step(flow, start, share * length, change);
-            trial.clear();
-            let sum = |((state, rest), change): ((&f64, &f64), &f64)| state + (change + rest);
-            trial.extend(start.state.iter().zip(rest).zip(&*change).map(sum));
+            match known {
+                Known::Whole if share == 1.0 => {}
+                Known::Whole | Known::Inside => {
+                    if known == Known::Whole {
+                        method.make_dense(flow, start, length);
+                        known = Known::Inside;
+                    }
+                    method.dense(share, change);
+                }
+                Known::Nothing => method.step(flow, start, share * length, change),
+            }
+            add(start.state, rest, change, trial);
             flow.write(trial);
             // The end of a tick is the beginning of the next to the last bit.
             flow.tick.evaluate_stage(if share == 1.0 { until } else { from + share * length });
@@ -130,27 +248,141 @@ impl Staged {
                 flow.tick.tell(told);
             }
         };
-        reach(flow, 1.0, &mut told);
-        let mut share = 1.0;
-        let mut fired = Vec::new();
-        if let Some(mut bracket) = Bracket::around(indicators, &told, length) {
+        let (mut told, mut share, mut fired) = (Vec::new(), 1.0, Vec::new());
+        reach(flow, share, &mut told);
+        if !self.crowd.bears(told.iter().filter(|indicator| indicator.value < 0.0).count()) {
+            return None;
+        }
+        let mut inside = Inside::of(indicators, &told, length);
+        while let Some(next) = inside.next() {
+            share = next;
+            reach(flow, next, &mut told);
+            inside.see(Moment { share: next, indicators: told.clone() });
+        }
+        let (low, high) = inside.last_two();
+        let ends_at = high.share;
+        let bracket = Bracket::between(indicators, low, high, length);
+        if bracket.is_none() && share != ends_at {
+            share = ends_at;
+            reach(flow, share, &mut told);
+        }
+        if let Some(mut bracket) = bracket {
+            let mut last = share;
             while let Some(next) = bracket.next() {
+                last = next;
                 reach(flow, next, &mut told);
                 bracket.narrow(Moment { share: next, indicators: told.clone() });
             }
             share = bracket.share();
-            if share != bracket.last_tried() {
+            if share != last {
                 reach(flow, share, &mut told);
             }
             fired = bracket.fired(&told);
         }
-        (if share == 1.0 { until } else { from + share * length }, fired)
+        let dense = known == Known::Inside;
+        let mut count = flow.tick.world.get_resource_or_init::<StepCount>();
+        count.accepted += 1;
+        count.rejected += rejected;
+        count.longest = count.longest.max(share * length);
+        let cut = share < 1.0 || !fired.is_empty();
+        let until = if share == 1.0 { until } else { from + share * length };
+        Some(Made { from, until, length, dense, fired, cut, shown: None })
     }
+
+    /// The motion that comes does not follow smoothly from the one before.
+    fn forget(&mut self) {
+        if let Some(control) = &mut self.control {
+            control.forget();
+        }
+    }
+
+    /// How far the next step may go from `now` towards the end of the tick, in a whole part of which it is `part`.
+    fn target(&self, tick: &Tick, now: f64, part: u32) -> f64 {
+        let edges = tick.world.resource::<Models>().edges.clone();
+        let edge = edges.iter().map(|edge| edge(tick.world, now)).fold(f64::INFINITY, f64::min);
+        let end = match &self.control {
+            // A prescribed motion is told from tick to tick.
+            Some(control) if tick.world.resource::<Bodies>().prescribed.motions.is_empty() => now + control.longest(),
+            Some(_) => tick.end,
+            None if part + 1 >= self.parts => tick.end,
+            None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
+        };
+        if edge < end { edge } else { end }
+    }
+
+    /// Goes to the end of the step that was made.
+    fn finish(&mut self, tick: &mut Tick, made: Made) {
+        let mut flow = WorldFlow::new(tick);
+        if let Some(shown) = &made.shown {
+            add(&self.state, &self.rest, &self.work.change, &mut self.work.trial);
+            flow.write(&self.work.trial);
+            flow.tick.evaluate_stage(made.until);
+            self.accept();
+            let accounts = flow.places_of_accounts();
+            let left = self.work.change[accounts.clone()].iter_mut().zip(&shown.change[accounts]);
+            left.for_each(|(change, booked)| *change -= booked);
+        } else {
+            self.accept();
+        }
+        flow.book(&self.work.change);
+        if !made.fired.is_empty() {
+            self.forget();
+        }
+        tick.end_step(&made.fired);
+    }
+
+    /// Shows the state at the end of the tick, inside a step that goes beyond it.
+    fn show(&mut self, tick: &mut Tick, mut made: Made) {
+        let end = tick.end;
+        let mut flow = WorldFlow::new(tick);
+        let mut change = vec![0.0; flow.dimension()];
+        self.method.dense((end - made.from) / made.length, &mut change);
+        let mut state = Vec::new();
+        add(&self.state, &self.rest, &change, &mut state);
+        flow.write(&state);
+        flow.tick.show(end);
+        let mut booked = change.clone();
+        if let Some(before) = &made.shown {
+            booked.iter_mut().zip(&before.change).for_each(|(change, before)| *change -= before);
+        }
+        flow.book(&booked);
+        made.shown = Some(Shown { state, change });
+        self.under_way = Some(made);
+    }
+
+    /// The step under way, if the state is still the one it was left in.
+    fn resume(&mut self, tick: &mut Tick) -> Option<Made> {
+        let made = self.under_way.take()?;
+        let fresh = tick.is_fresh();
+        let flow = WorldFlow::new(tick);
+        let mut now = Vec::new();
+        flow.read(&mut now);
+        let accounts = flow.places_of_accounts().start;
+        let same = made.shown.as_ref().is_some_and(|shown| shown.state.get(..accounts) == now.get(..accounts));
+        if same && !fresh {
+            return Some(made);
+        }
+        self.forget();
+        if tick.world.resource::<Evaluation>().stale {
+            tick.evaluate_stage(tick.begin);
+        }
+        None
+    }
+}
+
+/// `state + (change + rest)`.
+fn add(state: &[f64], rest: &[f64], change: &[f64], sum: &mut Vec<f64>) {
+    sum.clear();
+    sum.extend(state.iter().zip(rest).zip(change).map(|((state, rest), change)| state + (change + rest)));
 }
 
 impl Integrator for Staged {
     fn style(&self) -> Style {
-        if self.located { Style::Frozen } else { Style::Instant }
+        match self.located {
+            true if self.crowd.lasts() => Style::Following,
+            true => Style::Frozen,
+            false => Style::Instant,
+        }
     }
 
     fn advance(&mut self, tick: &mut Tick) {
@@ -158,26 +390,53 @@ impl Integrator for Staged {
         self.work.from.clear();
         self.work.from.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
         let (mut now, end) = (tick.begin, tick.end);
-        let mut events = 0;
-        while now < end {
-            let models = tick.world.resource::<Models>().clone();
-            let edge = models.edges.iter().map(|edge| edge(tick.world, now)).fold(f64::INFINITY, f64::min);
-            let until = if edge < end { edge } else { end };
-            tick.choose_modes(now, until);
-            let locate = self.located && events < MOST_EVENTS;
-            let mut flow = WorldFlow::new(tick);
-            self.take_up(&flow);
-            let (reached, fired) = self.go(&mut flow, now, until, locate);
-            now = reached;
-            // A step cut short counts, whatever it was for: so a tick comes to its end.
-            events += u32::from(now < until || !fired.is_empty());
-            tick.end_step(&fired);
+        let (mut events, mut part) = (0, 0);
+        if self.crowd.follows() && self.crowd.ends(tick) {
+            self.crowd.end();
+            tick.begin_stages(Style::Frozen);
+        }
+        let mut under_way = self.resume(tick);
+        while now < end && !self.crowd.follows() {
+            let made = match under_way.take() {
+                Some(made) => made,
+                None => {
+                    if self.located && self.crowd.comes(tick, events) {
+                        self.crowd.begin(tick, now);
+                        break;
+                    }
+                    let until = self.target(tick, now, part);
+                    tick.choose_modes(now, until);
+                    let mut flow = WorldFlow::new(tick);
+                    self.take_up(&flow);
+                    let Some(made) = self.make(&mut flow, now, until) else {
+                        self.crowd.begin(tick, now);
+                        break;
+                    };
+                    // A step cut short counts, whatever it was for: so a tick comes to its end.
+                    events += u32::from(made.cut);
+                    part += u32::from(made.until == until);
+                    if made.until > end && !made.dense {
+                        let start = Start { time: made.from, state: &self.state, rates: &self.work.rates };
+                        self.method.make_dense(&mut flow, start, made.length);
+                    }
+                    made
+                }
+            };
+            now = made.until.min(end);
+            if made.until > end { self.show(tick, made) } else { self.finish(tick, made) }
+        }
+        let crowded = self.crowd.follows();
+        if crowded {
+            self.crowd.advance(tick, now);
+            self.forget();
+        } else {
+            self.crowd.stays_away(events);
         }
         let from = std::mem::take(&mut self.work.from);
         tick.book_travel(&from);
         self.work.from = from;
         let mut located = tick.world.get_resource_or_init::<LocatedEvents>();
         located.count += u64::from(events);
-        located.given_up += u64::from(events >= MOST_EVENTS);
+        located.given_up += u64::from(crowded);
     }
 }

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting};
+use super::{Class, Constant, Problem, Setting};
 use crate::Simulation;
 
 /// The problem.
@@ -17,11 +17,15 @@ pub const PROBLEM: Problem = Problem {
     tick: 1e-4,
     samples: &[1e-4, 1e-2, 1.0, 10.0],
     unit: "m",
+    always_located: false,
     scene,
     error,
-    leading_error: |_, _| 0.0,
+    leading_error: Some(|_, _| 0.0),
+    constants: CONSTANTS,
     rounding: |_| FLOOR,
 };
+
+const CONSTANTS: &[Constant] = &[];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/P05_cluster_rotation.json");

@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Class, EventTiming, Problem, Setting, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -20,11 +20,23 @@ pub const PROBLEM: Problem = Problem {
     tick: 4e-3,
     samples: &[0.66, 1.17, 1.7, 2.83],
     unit: "1",
+    always_located: true,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(2.83 / tick, 10.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 4.928e1),
+    Constant::located("SemiImplicitEuler", 1, 1.586e0),
+    Constant::located("VelocityVerlet", 2, 1.496e1),
+    Constant::located("ImplicitMidpoint", 2, 2.974e1),
+    Constant::located("RungeKutta4", 4, 3.017e2),
+    Constant::located("Symplectic4", 4, 5.063e-1),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/F03_spring_coulomb.json");
@@ -80,7 +92,7 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
 /// Order 2: the frequency of velocity Verlet is off by a share `(w dt)^2/24`, the place at most by as much times `w t` for the
 /// 1.9 s in which it moves; each of six turns, located by steps of another length, by `(w dt)^2/8` of the swing. Order 1:
 /// the energy of semi-implicit Euler swings by a share `w dt/2`, so each turn is off by as much.
-fn leading_error(order: u32, tick: f64) -> f64 {
+pub fn leading_error(order: u32, tick: f64) -> f64 {
     let step = STIFFNESS.sqrt() * tick;
     if order >= 2 { step * step * (STIFFNESS.sqrt() * 1.9 / 24.0 + 6.0 / 8.0) } else { 6.0 * step / 2.0 }
 }

@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -17,11 +17,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 5e-4,
     samples: &[0.07],
     unit: "1",
+    always_located: false,
     scene: |setting, duration| scene(setting, duration, 5, 1),
     error: |simulation, _, _| error_of(simulation, 5, 1),
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(0.07 / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 2.464e2),
+    Constant::per_tick("SemiImplicitEuler", 2, 1.229e3),
+    Constant::located("SemiImplicitEuler", 2, 2.545e3),
+    Constant::per_tick("VelocityVerlet", 2, 1.229e3),
+    Constant::located("VelocityVerlet", 2, 1.180e3),
+    Constant::located("ImplicitMidpoint", 2, 2.353e3),
+    Constant::located("RungeKutta4", 4, 9.695e6),
+    Constant::located("Symplectic4", 4, 1.600e4),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/M01_newton_cradle.json");

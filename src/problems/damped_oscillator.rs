@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -17,12 +17,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 0.05 / 64.0,
     samples: &[0.05, 0.2, 0.5, 1.0],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // Places are 1 m beside displacements of 0.1 m: an ulp of them is ten of the displacement.
     rounding: |tick| rounding_of(1.0 / tick, 20.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 2.505e1),
+    Constant::per_tick("SemiImplicitEuler", 1, 4.663e0),
+    Constant::located("SemiImplicitEuler", 1, 4.663e0),
+    Constant::per_tick("VelocityVerlet", 2, 2.437e1),
+    Constant::located("VelocityVerlet", 2, 1.634e1),
+    Constant::located("ImplicitMidpoint", 2, 3.114e1),
+    Constant::located("RungeKutta4", 4, 3.474e2),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/O02_damped_oscillator.json");

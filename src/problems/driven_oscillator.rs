@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -16,15 +16,27 @@ pub const PROBLEM: Problem = Problem {
     source: "textbook; truth file O03",
     class: Class::VelocityDependent,
     tick: 1.0 / 512.0,
-    samples: &[1.0, 5.0, 20.0],
+    samples: &[1.0, 5.0, 20.0, 60.0],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // Transient and steady swing together are up to four amplitudes; off resonance forces are up to eight times what moves
     // the mass.
-    rounding: |tick| rounding_of(20.0 / tick, 32.0),
+    rounding: |tick| rounding_of(60.0 / tick, 32.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 5.849e1),
+    Constant::per_tick("SemiImplicitEuler", 1, 5.231e0),
+    Constant::located("SemiImplicitEuler", 1, 5.231e0),
+    Constant::per_tick("VelocityVerlet", 2, 2.348e1),
+    Constant::located("VelocityVerlet", 2, 1.675e1),
+    Constant::located("ImplicitMidpoint", 2, 3.885e1),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/O03_driven_resonance.json");

@@ -4,7 +4,7 @@
 //! With `w = sqrt(k/m)` and the impact speed `v = sqrt(2 g h)` contact lasts `(2/w) (pi - atan(v w/g))`. The force has a
 //! kink where contact begins and ends: methods that do not locate it show order 2 at most.
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -16,11 +16,25 @@ pub const PROBLEM: Problem = Problem {
     tick: PERIOD / 1000.0,
     samples: &[0.3 * PERIOD, 0.499 * PERIOD, 0.8 * PERIOD, 1.3 * PERIOD],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(1.3 * PERIOD / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 5.417e2),
+    Constant::per_tick("SemiImplicitEuler", 1, 2.072e0),
+    Constant::located("SemiImplicitEuler", 1, 2.951e0),
+    Constant::per_tick("VelocityVerlet", 2, 1.689e3),
+    Constant::located("VelocityVerlet", 2, 8.059e1),
+    Constant::located("ImplicitMidpoint", 2, 1.051e2),
+    Constant::located("RungeKutta4", 5, 5.755e8),
+    Constant::located("Symplectic4", 4, 8.802e2),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/C01_wall_bounce_elastic.json");

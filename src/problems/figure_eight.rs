@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -19,13 +19,27 @@ pub const PROBLEM: Problem = Problem {
     tick: PERIOD / 1024.0,
     samples: &[0.25 * PERIOD, 0.5 * PERIOD, PERIOD],
     unit: "m",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // A rounding error of the energy makes a phase error that grows with time: see below. The truth is known to 1e-13 in the
     // first period: so far the state after it is from the one at its beginning.
     rounding: |tick| rounding_of(PERIOD / tick, PHASE_GROWTH) + 1e-13,
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 1.715e2),
+    Constant::per_tick("SemiImplicitEuler", 1, 2.534e0),
+    Constant::located("SemiImplicitEuler", 1, 2.534e0),
+    Constant::per_tick("VelocityVerlet", 2, 6.402e0),
+    Constant::located("VelocityVerlet", 2, 6.402e0),
+    Constant::located("ImplicitMidpoint", 2, 1.042e1),
+    Constant::located("RungeKutta4", 4, 5.595e0),
+    Constant::located("Symplectic4", 4, 3.091e-1),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/P08_figure_eight.json");

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -19,12 +19,24 @@ pub const PROBLEM: Problem = Problem {
     tick: 1.0 / 64.0,
     samples: &[0.5, 1.0, 2.0, 4.0],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // Angles are found to a part in 1e12, at ways of up to 2.5 times the distance.
     rounding: |tick| rounding_of(4.0 / tick, 4.0) + 2.5e-12,
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 4.867e-1),
+    Constant::per_tick("SemiImplicitEuler", 1, 5.403e-1),
+    Constant::located("SemiImplicitEuler", 1, 5.403e-1),
+    Constant::per_tick("VelocityVerlet", 2, 6.230e-3),
+    Constant::located("VelocityVerlet", 2, 2.152e-3),
+    Constant::located("ImplicitMidpoint", 2, 3.709e-3),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/P06_firing_solution.json");

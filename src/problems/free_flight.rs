@@ -4,7 +4,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -16,13 +16,22 @@ pub const PROBLEM: Problem = Problem {
     tick: 0.05,
     samples: &[0.5, 1.0, 2.0, 3.0],
     unit: "m",
+    always_located: false,
     scene,
     error,
     // The exact discrete solution of a method of order 1: g t dt/2.
-    leading_error: |_, tick| GRAVITY * 3.0 * tick / 2.0,
+    leading_error: Some(|_, tick| GRAVITY * 3.0 * tick / 2.0),
+    constants: CONSTANTS,
     // Velocities round at every tick (not compensated): that adds up over the flight of 3 s at up to 20 m/s.
     rounding: |tick| rounding_of(3.0 / tick, 60.0),
 };
+
+/// Derived: under constant acceleration `g` methods of order 1 are ahead or behind by `g t dt/2`, at most after 3 s.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 1.5 * GRAVITY),
+    Constant::per_tick("SemiImplicitEuler", 1, 1.5 * GRAVITY),
+    Constant::located("SemiImplicitEuler", 1, 1.5 * GRAVITY),
+];
 
 const GRAVITY: f64 = 9.81;
 

@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -19,11 +19,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 1e-3,
     samples: &[0.05, 0.08],
     unit: "1",
+    always_located: false,
     scene: |setting, duration| scene(setting, duration, INELASTICITY),
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(0.08 / tick, 10.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 5.048e1),
+    Constant::per_tick("SemiImplicitEuler", 1, 6.376e0),
+    Constant::located("SemiImplicitEuler", 2, 3.947e2),
+    Constant::per_tick("VelocityVerlet", 1, 5.324e0),
+    Constant::located("VelocityVerlet", 2, 6.201e2),
+    Constant::located("ImplicitMidpoint", 2, 4.129e2),
+    Constant::located("RungeKutta4", 4, 4.947e5),
+    Constant::located("Symplectic4", 4, 1.000e4),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/C02_inelastic_restitution.json");

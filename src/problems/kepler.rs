@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -20,12 +20,25 @@ pub const PROBLEM: Problem = Problem {
     tick: TAU / 16_000.0,
     samples: &[0.25 * TAU, 0.5 * TAU, 1.3 * TAU],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // A rounding error of the energy makes a phase error that grows with time: see below.
     rounding: |tick| rounding_of(1.3 * TAU / tick, PHASE_GROWTH),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 5.860e3),
+    Constant::per_tick("SemiImplicitEuler", 1, 2.414e0),
+    Constant::located("SemiImplicitEuler", 1, 2.414e0),
+    Constant::per_tick("VelocityVerlet", 2, 3.895e2),
+    Constant::located("VelocityVerlet", 2, 3.895e2),
+    Constant::located("ImplicitMidpoint", 2, 7.791e2),
+    Constant::located("RungeKutta4", 4, 1.420e5),
+];
 
 /// Eccentricity.
 pub const ECCENTRICITY: f64 = 0.9;
@@ -48,12 +61,17 @@ pub fn state(time: f64) -> (DVec2, DVec2) {
 }
 
 fn scene(setting: &Setting, duration: f64) -> String {
+    scene_of(setting, duration, ECCENTRICITY)
+}
+
+/// The planet on an ellipse of any eccentricity.
+pub fn scene_of(setting: &Setting, duration: f64, eccentricity: f64) -> String {
     let clock = setting.clock(duration);
-    let speed = ((1.0 - ECCENTRICITY) / (1.0 + ECCENTRICITY)).sqrt();
+    let (farthest, speed) = (1.0 + eccentricity, ((1.0 - eccentricity) / (1.0 + eccentricity)).sqrt());
     format!(
         "Scene({clock}, forces: [Attraction(constant: 1)], bodies: [
             (name: \"sun\", fixed: true, at: (0, 0), collides: false, atoms: Disc(radius: 0.01, mass: 1)),
-            (name: \"planet\", at: (-1.9, 0), velocity: (0, -{speed:?}), collides: false,
+            (name: \"planet\", at: (-{farthest:?}, 0), velocity: (0, -{speed:?}), collides: false,
              atoms: Disc(radius: 0.01, mass: 0.5)),
         ])"
     )

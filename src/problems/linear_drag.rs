@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -17,11 +17,24 @@ pub const PROBLEM: Problem = Problem {
     tick: 0.025,
     samples: &SAMPLES,
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(10.0 / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 4.228e-1),
+    Constant::per_tick("SemiImplicitEuler", 1, 8.158e-1),
+    Constant::located("SemiImplicitEuler", 1, 8.158e-1),
+    Constant::per_tick("VelocityVerlet", 2, 2.641e-2),
+    Constant::located("VelocityVerlet", 2, 1.416e-2),
+    Constant::located("ImplicitMidpoint", 2, 1.759e-2),
+    Constant::located("RungeKutta4", 4, 1.105e-4),
+];
 
 const SAMPLES: [f64; 5] = [0.5, 1.0, 2.0, 5.0, 10.0];
 /// `c/m` in 1/s.

@@ -8,7 +8,7 @@
 //!
 //! let problem = linear_drag::PROBLEM;
 //! let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..Setting::default() };
-//! assert!(problem.measure(&setting)? <= problem.bound(2, problem.tick));
+//! assert!(Some(problem.measure(&setting)?) <= problem.bound(2, problem.tick));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -17,11 +17,14 @@ pub mod constant_acceleration;
 pub mod coulomb_oscillator;
 pub mod cradle;
 pub mod damped_oscillator;
+pub mod dashpot_impact;
 pub mod driven_oscillator;
 pub mod elastic_bounce;
 pub mod figure_eight;
 pub mod firing;
 pub mod free_flight;
+pub mod frictional_collision;
+pub mod incline;
 pub mod inelastic_impact;
 pub mod kepler;
 pub mod linear_drag;
@@ -33,6 +36,7 @@ pub mod settling_bounce;
 pub mod slide_to_roll;
 pub mod sliding_stop;
 pub mod spring_mass;
+pub mod stick_slip;
 pub mod tangential_impact;
 pub mod truth;
 
@@ -70,6 +74,10 @@ pub const ALL: &[Problem] = &[
     overlap_release::PROBLEM,
     sliding_stop::PROBLEM,
     slide_to_roll::PROBLEM,
+    dashpot_impact::PROBLEM,
+    frictional_collision::PROBLEM,
+    incline::PROBLEM,
+    stick_slip::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.
@@ -151,6 +159,32 @@ impl Setting<'_> {
     }
 }
 
+/// What a method errs by on a problem: `constant dt^order` for small ticks `dt`, as a root mean square over phases where the class
+/// depends on them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant {
+    /// Name of the method.
+    pub method: &'static str,
+    /// When jumps of the forces take place.
+    pub events: EventTiming,
+    /// The order that the method shows: at least what the class leaves of its own.
+    pub order: u32,
+    /// In units of the error over seconds to the power of the order.
+    pub constant: f64,
+}
+
+impl Constant {
+    /// Where events take place at the ends of ticks.
+    pub const fn per_tick(method: &'static str, order: u32, constant: f64) -> Self {
+        Self { method, events: EventTiming::PerTick, order, constant }
+    }
+
+    /// Where events are located.
+    pub const fn located(method: &'static str, order: u32, constant: f64) -> Self {
+        Self { method, events: EventTiming::Located, order, constant }
+    }
+}
+
 /// A scene whose answer is known.
 #[derive(Clone, Copy)]
 pub struct Problem {
@@ -169,12 +203,16 @@ pub struct Problem {
     pub samples: &'static [f64],
     /// Unit of the error: "1" or "m".
     pub unit: &'static str,
+    /// Whether events are located under every method: the scene's friction sticks without any give.
+    pub always_located: bool,
     /// The scene as RON text, of a given length in seconds.
     pub scene: fn(&Setting, f64) -> String,
     /// The error of a state, given time and shift in seconds.
     pub error: fn(&Simulation, f64, f64) -> f64,
-    /// Bound of the leading error term of a method that shows an order at a tick.
-    pub leading_error: fn(u32, f64) -> f64,
+    /// Bound of the leading error term of a method that goes by whole ticks and shows an order at a tick, where one is derived.
+    pub leading_error: Option<fn(u32, f64) -> f64>,
+    /// Leading error constants of the methods.
+    pub constants: &'static [Constant],
     /// Bound of what rounding does at a tick.
     pub rounding: fn(f64) -> f64,
 }
@@ -183,6 +221,19 @@ impl Problem {
     /// Length of the run in seconds.
     pub fn duration(&self) -> f64 {
         self.samples.last().copied().unwrap_or_default()
+    }
+
+    /// The same with those samples only that lie within so many of its ticks, at least the first.
+    pub fn within_ticks(&self, ticks: f64) -> Self {
+        let within = self.samples.iter().take_while(|time| **time <= ticks * self.tick).count();
+        Self { samples: &self.samples[..within.max(1)], ..*self }
+    }
+
+    /// The ways in which a method can go through the events of the problem.
+    pub fn timings(&self, method: &Description) -> Vec<EventTiming> {
+        let whole = method.whole_ticks.filter(|_| !self.always_located).map(|_| EventTiming::PerTick);
+        let located = method.one_step.map(|_| EventTiming::Located);
+        whole.into_iter().chain(located).collect()
     }
 
     /// The scene, ready to run.
@@ -212,13 +263,19 @@ impl Problem {
         Ok(greatest)
     }
 
-    /// The error that a method of order `order` may have at a tick: leading error term and rounding.
-    pub fn bound(&self, order: u32, tick: f64) -> f64 {
+    /// The leading error constant of a method, if one is tabulated: otherwise its errors are rounding.
+    pub fn constant(&self, method: &str, events: EventTiming) -> Option<&Constant> {
+        self.constants.iter().find(|constant| constant.method == method && constant.events == events)
+    }
+
+    /// The error that a method of order `order` that goes by whole ticks may have at a tick: leading error term and rounding. `None`:
+    /// there is no derived bound.
+    pub fn bound(&self, order: u32, tick: f64) -> Option<f64> {
         let leading = match self.class.expected(order) {
             Expected::Exact => 0.0,
-            Expected::Order(order) => (self.leading_error)(order, tick),
+            Expected::Order(order) => self.leading_error?(order, tick),
         };
-        leading + (self.rounding)(tick)
+        Some(leading + (self.rounding)(tick))
     }
 }
 

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -18,11 +18,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 5e-4,
     samples: &[0.04],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(0.04 / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 9.953e1),
+    Constant::per_tick("SemiImplicitEuler", 2, 3.300e2),
+    Constant::located("SemiImplicitEuler", 2, 1.102e3),
+    Constant::per_tick("VelocityVerlet", 2, 3.300e2),
+    Constant::located("VelocityVerlet", 2, 3.979e1),
+    Constant::located("ImplicitMidpoint", 2, 1.041e2),
+    Constant::located("RungeKutta4", 4, 1.282e5),
+    Constant::located("Symplectic4", 4, 4.570e1),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/C06_disc_oblique_frictionless.json");

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -17,11 +17,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 1e-4,
     samples: &[0.002, 0.004, 0.007],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(0.007 / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 1.923e2),
+    Constant::per_tick("SemiImplicitEuler", 1, 1.232e2),
+    Constant::located("SemiImplicitEuler", 1, 1.229e2),
+    Constant::per_tick("VelocityVerlet", 2, 8.572e3),
+    Constant::located("VelocityVerlet", 2, 1.000e4),
+    Constant::located("ImplicitMidpoint", 2, 1.043e4),
+    Constant::located("RungeKutta4", 4, 1.118e8),
+    Constant::located("Symplectic4", 4, 1.193e6),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/H04_initial_overlap.json");

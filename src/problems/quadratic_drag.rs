@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -18,11 +18,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 0.0125,
     samples: &SAMPLES,
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(4.0 / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 3.953e0),
+    Constant::per_tick("SemiImplicitEuler", 1, 4.016e0),
+    Constant::located("SemiImplicitEuler", 1, 4.016e0),
+    Constant::per_tick("VelocityVerlet", 2, 4.067e-1),
+    Constant::located("VelocityVerlet", 2, 1.202e-1),
+    Constant::located("ImplicitMidpoint", 2, 1.818e-1),
+    Constant::located("RungeKutta4", 4, 1.079e-1),
+    Constant::located("Symplectic4", 4, 2.364e-3),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/P04_quadratic_drag.json");

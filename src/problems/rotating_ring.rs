@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -18,12 +18,24 @@ pub const PROBLEM: Problem = Problem {
     tick: TURN / 256.0,
     samples: &[TURN, 2.0 * TURN, 3.0 * TURN, 4.0 * TURN, 5.0 * TURN, 6.0 * TURN, 7.0 * TURN, 8.0 * TURN, 100.0 * TURN],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // Two springs pull at each mass, with ten times the force that is left over.
     rounding: |tick| rounding_of(100.0 * TURN / tick, 20.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::per_tick("SemiImplicitEuler", 1, 8.169e-1),
+    Constant::located("SemiImplicitEuler", 1, 8.169e-1),
+    Constant::per_tick("VelocityVerlet", 2, 1.319e0),
+    Constant::located("VelocityVerlet", 2, 1.319e0),
+    Constant::located("ImplicitMidpoint", 2, 1.309e1),
+    Constant::located("RungeKutta4", 4, 1.562e3),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/O04_rotating_ring.json");

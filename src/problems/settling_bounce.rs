@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -19,12 +19,26 @@ pub const PROBLEM: Problem = Problem {
     // In the flights after the first and the second impact.
     samples: &[0.8, 1.4],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // An ulp of the impact speed grows as the tick's own error does: by the length of the flights after it.
     rounding: |tick| rounding_of(1.4 / tick, 20.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 6.075e2),
+    Constant::per_tick("SemiImplicitEuler", 2, 1.273e4),
+    Constant::located("SemiImplicitEuler", 2, 1.188e4),
+    Constant::per_tick("VelocityVerlet", 2, 1.932e4),
+    Constant::located("VelocityVerlet", 2, 1.103e4),
+    Constant::located("ImplicitMidpoint", 2, 4.558e1),
+    Constant::located("RungeKutta4", 5, 1.122e11),
+    Constant::located("Symplectic4", 4, 2.458e6),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/C05_zeno_bounce.json");

@@ -4,7 +4,7 @@
 //! the tangential spring is drawn out, `T = k_t q`; then it slips with `T = mu m g` until the point of contact stands
 //! still; then the spring, full, swings for ever, since nothing damps it: the disc rolls and sways. All three are closed.
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -16,11 +16,23 @@ pub const PROBLEM: Problem = Problem {
     tick: 4e-4,
     samples: &[0.1, 0.2, 0.4],
     unit: "m",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(0.4 / tick, 10.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 1.743e0),
+    Constant::per_tick("SemiImplicitEuler", 2, 1.078e2),
+    Constant::located("SemiImplicitEuler", 2, 1.049e2),
+    Constant::per_tick("VelocityVerlet", 2, 1.078e2),
+    Constant::located("VelocityVerlet", 2, 2.296e0),
+    Constant::located("ImplicitMidpoint", 2, 2.878e0),
+];
 
 /// The reference values of the ideal law.
 pub const TRUTH: &str = include_str!("../../assets/truths/F05_rolling_disc.json");

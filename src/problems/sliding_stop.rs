@@ -5,7 +5,7 @@
 //! is soft, so that the beginning is resolved by the tick. The force has a kink at its end; at the stop the velocity is
 //! taken to zero exactly, so that the way is off by no more than a tick of the last velocity.
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -17,11 +17,24 @@ pub const PROBLEM: Problem = Problem {
     tick: 2e-3,
     samples: &[0.2, 0.5, 1.0],
     unit: "m",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding: |tick| rounding_of(1.0 / tick, 4.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 2.981e0),
+    Constant::per_tick("SemiImplicitEuler", 2, 1.677e1),
+    Constant::located("SemiImplicitEuler", 2, 1.546e1),
+    Constant::per_tick("VelocityVerlet", 2, 1.721e1),
+    Constant::located("VelocityVerlet", 2, 6.073e-1),
+    Constant::located("ImplicitMidpoint", 2, 2.438e-1),
+    Constant::located("RungeKutta4", 4, 1.951e0),
+];
 
 /// The reference values of the ideal law.
 pub const TRUTH: &str = include_str!("../../assets/truths/F02_sliding_stop.json");

@@ -2,7 +2,7 @@
 //!
 //! The spring has no length of its own, so it is linear through its middle.
 
-use super::{Class, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, Setting, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -14,12 +14,25 @@ pub const PROBLEM: Problem = Problem {
     tick: 0.1 / 128.0,
     samples: &[0.1, 1.0, 10.0, 20.0],
     unit: "1",
+    always_located: false,
     scene,
     error,
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     // Each tick rounds the velocity, by an ulp of at most `A w`: that is an ulp of the amplitude in the place.
     rounding: |tick| rounding_of(20.0 / tick, 2.0),
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 2.924e2),
+    Constant::per_tick("SemiImplicitEuler", 1, 4.147e0),
+    Constant::located("SemiImplicitEuler", 1, 4.147e0),
+    Constant::per_tick("VelocityVerlet", 2, 8.276e2),
+    Constant::located("VelocityVerlet", 2, 8.276e2),
+    Constant::located("ImplicitMidpoint", 2, 1.665e3),
+    Constant::located("RungeKutta4", 4, 1.665e4),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/O01_spring_mass.json");

@@ -4,9 +4,9 @@
 //! `psi1` is the tangential speed of the point of contact over the normal speed before, `psi2` after the impact. At small
 //! `psi1` the contact sticks first and rebounds backwards; at large ones it slips throughout and `psi2 = psi1 - 3 mu (1 + e)`.
 //!
-//! The disc is so slow that it sinks in by 3e-7 of its radius: as the truth has it, the arm of friction is the radius.
+//! The disc is so slow that it sinks in by 1e-8 of its radius: as the truth has it, the arm of friction is the radius.
 
-use super::{Class, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use crate::Simulation;
 
 /// The problem.
@@ -15,19 +15,31 @@ pub const PROBLEM: Problem = Problem {
     law: "a contact that grips rebounds along its tangent too",
     source: "piecewise closed form (Maw, Barber, Fawcett, Wear 38, 1976, for the regimes); truth file C08",
     class: Class::Kink,
-    tick: CONTACT_TIME / 40.0,
+    tick: CONTACT_TIME / 80.0,
     samples: &[1.3 * CONTACT_TIME],
     unit: "1",
+    always_located: false,
     scene: |setting, duration| scene(setting, duration, 1.0),
     error: |simulation, _, _| error_of(simulation, 1.0),
-    leading_error,
+    leading_error: Some(leading_error),
+    constants: CONSTANTS,
     rounding,
 };
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 4.026e2),
+    Constant::per_tick("SemiImplicitEuler", 2, 8.152e3),
+    Constant::located("SemiImplicitEuler", 2, 1.269e4),
+    Constant::per_tick("VelocityVerlet", 2, 8.152e3),
+    Constant::located("VelocityVerlet", 2, 4.426e3),
+    Constant::located("ImplicitMidpoint", 2, 4.079e2),
+];
 
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../assets/truths/C08_disc_tangential_spring.json");
 /// Normal speed before the impact in m/s.
-pub const SPEED: f64 = 1e-5;
+pub const SPEED: f64 = 3e-7;
 /// Radius in m.
 pub const RADIUS: f64 = 0.1;
 /// `pi sqrt(m/k)` in s.

@@ -10,7 +10,7 @@ use super::advice::Known;
 use super::energy::EnergyLedger;
 use super::warnings::{FEWEST_TICKS, warnings};
 use crate::contacts::DeepestOverlap;
-use crate::integrate::LocatedEvents;
+use crate::integrate::{LocatedEvents, StepCount};
 use crate::tick::balance::Totals;
 use crate::tick::{Clock, Holder, Ledger, Responses, Stability, largest_travel};
 use crate::world::hash::state_hash;
@@ -20,9 +20,21 @@ use crate::world::{Bodies, Name};
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Notes(pub Vec<String>);
 
-/// Name of the method of the run.
+/// The method of the run.
 #[derive(Resource, Clone, Copy, Debug)]
-pub struct ChosenMethod(pub &'static str);
+pub struct ChosenMethod {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether events are located inside ticks.
+    pub located: bool,
+}
+
+impl ChosenMethod {
+    /// Whether events are located inside ticks: then nothing passes through others unseen.
+    pub(super) fn locates(world: &World) -> bool {
+        world.get_resource::<Self>().is_some_and(|method| method.located)
+    }
+}
 
 /// The deepest overlap of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -60,6 +72,24 @@ pub struct ErrorEstimate {
     /// Time in seconds after which chaos has eaten all digits.
     pub horizon: Option<f64>,
 }
+
+impl ErrorEstimate {
+    fn verdict(&self) -> String {
+        let Some((position, velocity)) = self.position.discretisation.zip(self.velocity.discretisation) else {
+            return "Do not trust its places: runs of it differ by more than can be told.".to_owned();
+        };
+        let until = self.horizon.map_or_else(String::new, |horizon| format!(" until about t = {} s", number(horizon)));
+        format!(
+            "Trust it{until}: places to about {} m, velocities to about {} m/s, as several runs of it tell.",
+            rough(position),
+            rough(velocity)
+        )
+    }
+}
+
+/// The error that a run is known to have.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct KnownError(pub Option<ErrorEstimate>);
 
 /// The error card.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -105,6 +135,10 @@ pub struct Card {
     #[serde(skip)]
     holder: Option<Holder>,
     #[serde(skip)]
+    located: bool,
+    #[serde(skip)]
+    steps: StepCount,
+    #[serde(skip)]
     ticks: u64,
     #[serde(skip)]
     time: f64,
@@ -121,7 +155,7 @@ impl Card {
     /// The card of the present state, after `seconds_spent` seconds of computing.
     pub fn of(world: &World, seconds_spent: f64) -> Self {
         let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
-        let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.0);
+        let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.name);
         let (responses, stability) = (Responses::of(world), world.resource::<Stability>());
         let foreseen = stability.fastest_foreseen();
         let critical_tick = responses.fastest.map(|fastest| fastest.critical_tick(world));
@@ -153,9 +187,11 @@ impl Card {
             verdict: String::new(),
             notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
             warnings: Vec::new(),
-            error: None,
+            error: world.get_resource::<KnownError>().and_then(|known| known.0),
             shortest_contact,
             holder: responses.fastest.map(|fastest| fastest.holder),
+            located: ChosenMethod::locates(world),
+            steps: world.get_resource().copied().unwrap_or_default(),
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
@@ -201,9 +237,12 @@ impl Card {
         if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
             return format!("Do not trust it: numbers are no longer finite. Use {finer} or finer.");
         }
+        if let Some(known) = &self.error {
+            return known.verdict();
+        }
         let contact_ticks = self.shortest_contact.map(|shortest| shortest / self.tick);
         let overlap = &self.largest_overlap;
-        if self.critical_tick.is_some_and(|critical| critical < self.tick) {
+        if self.error.is_none() && self.critical_tick.is_some_and(|critical| critical < self.tick) {
             let holder = self.holder.unwrap_or(Holder::Contacts);
             return format!("Do not trust it: the tick is longer than the {holder} can bear. Use {finer} or finer.");
         }
@@ -222,7 +261,7 @@ impl Card {
             let ticks = contact_ticks.unwrap_or_default();
             return format!("Trust it roughly: the stiffest contact lasts only {ticks:.1} ticks. Use {finer}.");
         }
-        if self.largest_travel_share > 1.0 {
+        if self.largest_travel_share > 1.0 && !self.located {
             return format!(
                 "Trust it roughly: something travelled {:.1} radii in one tick and may have missed a contact. Use {finer}.",
                 self.largest_travel_share,
@@ -271,6 +310,12 @@ impl fmt::Display for Card {
             |critical| format!("critical {} s, used {:.1} %", number(critical), self.tick / critical * 100.0),
         );
         row("method", format!("{}, tick {} s ({critical})", self.method, number(self.tick)))?;
+        let StepCount { accepted, rejected, longest } = self.steps;
+        if accepted > 0 {
+            let again = if rejected > 0 { format!(", {rejected} made again") } else { String::new() };
+            let events = self.events_located;
+            row("steps", format!("{accepted} of up to {} s{again}; {events} events located", number(longest)))?;
+        }
         row(
             "time",
             format!(
@@ -328,6 +373,11 @@ fn parts(parts: &[(&str, f64)]) -> String {
         .map(|(name, value)| format!("{name} {} J", number(*value)))
         .collect();
     if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
+}
+
+/// A number of which only the size counts.
+pub(crate) fn rough(value: f64) -> String {
+    if value < 1e-16 { "0 or rounding".to_owned() } else { format!("{value:.0e}") }
 }
 
 /// A number in at most five digits, as people write it.

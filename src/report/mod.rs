@@ -1,8 +1,10 @@
 //! How wrong the result is.
 
+pub mod accuracy;
 mod advice;
 pub mod card;
 pub mod energy;
+pub mod reversal;
 mod warnings;
 
 pub use card::Card;

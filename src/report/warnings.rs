@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 
-use super::card::number;
+use super::card::{ChosenMethod, KnownError, number};
 use crate::contacts::ContactLaw;
 use crate::integrate::LocatedEvents;
 use crate::tick::{Clock, Responses, far_travel};
@@ -19,6 +19,9 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
     let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
     let advised = number(advised);
     let mut warnings = Vec::new();
+    // Where steps are as long as their error allows, ticks are only moments at which the run is looked at.
+    let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.0.is_none());
+    let responses = if by_ticks { responses } else { Responses::default() };
     let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
     if let Some(fastest) = beyond {
         let critical = fastest.critical_tick(world);
@@ -46,7 +49,8 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
             advised,
         ));
     }
-    let far = far_travel(world).filter(|_| world.contains_resource::<ContactLaw>());
+    let unseen = world.contains_resource::<ContactLaw>() && !ChosenMethod::locates(world);
+    let far = far_travel(world).filter(|_| unseen);
     if let Some(far) = far {
         let radii = far.travel / world.resource::<Bodies>().smallest_radius;
         warnings.push(format!(
@@ -60,10 +64,10 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
     let located = world.get_resource::<LocatedEvents>().copied().unwrap_or_default();
     if located.given_up > 0 {
         warnings.push(format!(
-            "in {} ticks more events happened than are located in one: the rest of each went on without locating them; use \
-             --tick {} or `events: PerTick`",
+            "in {} of {} ticks contacts were too many to locate their events one by one: those went on under velocity Verlet, \
+             whose order is 2, and 1 where forces jump",
             located.given_up,
-            number(0.25 * clock.dt),
+            clock.ticks,
         ));
     }
     warnings

@@ -39,6 +39,10 @@ pub struct Evaluation {
     pub elapsed: f64,
     /// How contacts and other models with a history are to be evaluated.
     pub style: Style,
+    /// How often forces were evaluated so far: the cost of a method.
+    pub count: u64,
+    /// Bodies have moved on since: forces are those of an earlier state.
+    pub stale: bool,
 }
 
 /// How models with a history are evaluated.
@@ -67,6 +71,8 @@ pub struct Span {
     pub begin: f64,
     /// Its end in seconds.
     pub end: f64,
+    /// Its length in seconds: that of a tick to the last bit where it is one.
+    pub length: f64,
 }
 
 impl Span {

@@ -83,6 +83,9 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
             break;
         }
     }
+    if world.resource::<Evaluation>().stale {
+        refresh(world);
+    }
     // The last kick of the batch is seen by no drift any more.
     if world.resource::<Drive>().failure.is_none() {
         note_failure(world);
@@ -165,6 +168,7 @@ pub(super) fn integrate(world: &mut World) {
         has_modes: *has_modes,
         style,
         fresh: !current || before.is_some(),
+        looked_at: ordinary,
         dt: clock.dt,
         begin: clock.time(),
         end: clock.time_of(clock.ticks + 1),
@@ -195,6 +199,20 @@ pub(super) fn integrate(world: &mut World) {
     } else if energy.is_due(clock.ticks + 1, travel) {
         look_closer(world, energy, travel);
     }
+}
+
+/// After a batch of ticks whoever looks finds the forces of the present state.
+fn refresh(world: &mut World) {
+    let mut running = world.resource_mut::<Drive>().running.take().expect("put there by `step`");
+    let clock = *world.resource::<Clock>();
+    let Running { method, evaluate, modes, has_modes } = &mut *running;
+    let (style, now) = (method.0.style(), clock.time());
+    let (looked_at, has_modes) = (true, *has_modes);
+    let (fresh, alert) = (false, false);
+    let mut tick =
+        Tick { world, evaluate, modes, has_modes, style, fresh, looked_at, dt: clock.dt, begin: now, end: now, alert };
+    tick.evaluate_stage(now);
+    world.resource_mut::<Drive>().running = Some(running);
 }
 
 /// Looks for a body that travelled too far, and at the energy.
@@ -276,9 +294,11 @@ pub struct Tick<'a> {
     evaluate: &'a mut Schedule,
     modes: &'a mut Schedule,
     has_modes: bool,
-    style: Style,
+    pub(super) style: Style,
     /// Whether the state was changed by others since the last tick, or is the first of all.
     pub(super) fresh: bool,
+    /// Whether systems in the tick may look at forces.
+    looked_at: bool,
     /// Length of the tick in seconds.
     pub dt: f64,
     /// Time at its beginning in seconds.
@@ -322,15 +342,37 @@ impl Tick<'_> {
             drive.travelled += sum;
         }
         *self.world.resource_mut::<Balance>() = Balance::default();
-        *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed, style: Style::Following };
+        self.announce(time, elapsed, Style::Following);
         self.evaluate.run(self.world);
         self.world.resource_mut::<Bodies>().swap_estimate();
     }
 
+    fn announce(&mut self, time: f64, elapsed: f64, style: Style) {
+        let mut evaluation = self.world.resource_mut::<Evaluation>();
+        *evaluation = Evaluation { time, elapsed, style, count: evaluation.count + 1, stale: false };
+    }
+
+    /// Whether the state is the first of all, or was changed by others since the last tick.
+    pub fn is_fresh(&self) -> bool {
+        self.fresh
+    }
+
     /// Lets forces and contacts choose their modes from `begin` to `end`.
     pub fn choose_modes(&mut self, begin: f64, end: f64) {
+        let mut bodies = self.bodies();
+        if !bodies.prescribed.motions.is_empty() {
+            let middle = 0.5 * (begin + end);
+            let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
+            // On another piece of a path what rides on it has other forces from its first moment on.
+            let passed = bodies.prescribed.next_point(before) < middle;
+            if passed && self.style.is_staged() {
+                self.evaluate_stage(begin);
+            }
+        }
         if self.has_modes {
-            *self.world.resource_mut::<Span>() = Span { begin, end };
+            let whole = begin == self.begin && end == self.end;
+            let length = if whole { self.dt } else { end - begin };
+            *self.world.resource_mut::<Span>() = Span { begin, end, length };
             self.modes.run(self.world);
         }
     }
@@ -344,12 +386,12 @@ impl Tick<'_> {
         }
         bodies.pose();
         *self.world.resource_mut::<Balance>() = Balance::default();
-        *self.world.resource_mut::<Evaluation>() = Evaluation { time, elapsed: 0.0, style: self.style };
+        self.announce(time, 0.0, self.style);
         self.evaluate.run(self.world);
     }
 
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
-    fn begin_anew(&mut self) {
+    pub(super) fn begin_anew(&mut self) {
         self.evaluate_stage(self.begin);
         let models = self.world.resource::<Models>().clone();
         for watch in &models.watches {
@@ -397,9 +439,9 @@ impl Tick<'_> {
     }
 
     /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
-    /// it, `times` as far as their present velocities and accelerations say.
-    pub fn reserve(&mut self, length: f64, times: f64) {
-        let Some(mut bounds) = self.world.remove_resource::<Bounds>() else { return };
+    /// it, `times` as far as their present velocities and accelerations say. Says whether the state was evaluated for that.
+    pub fn reserve(&mut self, length: f64, times: f64) -> bool {
+        let Some(mut bounds) = self.world.remove_resource::<Bounds>() else { return false };
         let bodies = self.world.resource::<Bodies>();
         let travel = |body: usize| {
             let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
@@ -415,6 +457,18 @@ impl Tick<'_> {
             let time = self.world.resource::<Evaluation>().time;
             self.evaluate_stage(time);
         }
+        renew
+    }
+
+    /// Shows the state as it stands at `time` seconds, between states that the motion goes by: forces are evaluated only if
+    /// somebody looks at them.
+    pub fn show(&mut self, time: f64) {
+        if self.looked_at || !self.world.resource::<Models>().watches.is_empty() {
+            return self.evaluate_stage(time);
+        }
+        self.world.resource_mut::<Bodies>().pose();
+        let mut evaluation = self.world.resource_mut::<Evaluation>();
+        (evaluation.time, evaluation.stale) = (time, true);
     }
 
     /// Candidate lists are made anew for the state as it stands.

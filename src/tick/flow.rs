@@ -13,6 +13,15 @@ const ACCOUNTS: usize = 7;
 /// Those that depend on no velocity if forces do not.
 const IMPULSES: usize = 3;
 
+/// How far bodies can get within a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Greatest speed of any point of a dynamic body, in m/s.
+    pub speed: f64,
+    /// Greatest acceleration of any such point by what acts on its body, in m/s2.
+    pub acceleration: f64,
+}
+
 /// The world as seen by a method that takes several stages per step.
 pub struct WorldFlow<'t, 'w> {
     /// The tick under way.
@@ -97,6 +106,52 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let balance = self.tick.world.resource::<Balance>();
         let Balance { force, torque, drag, work, friction, inelasticity, .. } = *balance;
         rates[place..].copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
+    }
+
+    /// Positions and angles of the dynamic bodies.
+    pub fn places(&self) -> Vec<(DVec2, f64)> {
+        let bodies = self.tick.world.resource::<Bodies>();
+        self.dynamic.iter().map(|&body| (bodies.position[body], bodies.angle[body])).collect()
+    }
+
+    /// How far any point of a dynamic body is from where it was at these `places`, in m, and how fast, in m/s. A turn counts
+    /// as no more than one radian.
+    pub fn sizes_since(&self, places: &[(DVec2, f64)]) -> (f64, f64) {
+        let bodies = self.tick.world.resource::<Bodies>();
+        let far = |(&body, &(position, angle)): (&usize, &(DVec2, f64))| {
+            let turn = (bodies.angle[body] - angle).abs().min(1.0);
+            (bodies.position[body] - position).length() + turn * bodies.extent[body]
+        };
+        (self.dynamic.iter().zip(places).map(far).fold(0.0, f64::max), self.reach().speed)
+    }
+
+    /// The greatest distance of a dynamic body from the origin along an axis, in m.
+    pub fn farthest(&self) -> f64 {
+        let bodies = self.tick.world.resource::<Bodies>();
+        self.dynamic.iter().map(|&body| bodies.position[body].abs().max_element()).fold(0.0, f64::max)
+    }
+
+    /// How far bodies can get from the state that was evaluated last.
+    pub fn reach(&self) -> Reach {
+        let bodies = self.tick.world.resource::<Bodies>();
+        self.dynamic.iter().fold(Reach::default(), |reach, &body| {
+            let speed = bodies.velocity[body].length() + bodies.spin[body].abs() * bodies.extent[body];
+            let turning = bodies.torque[body].abs() * bodies.inverse_inertia[body] * bodies.extent[body];
+            let acceleration = bodies.force[body].length() * bodies.inverse_mass[body] + turning;
+            Reach { speed: reach.speed.max(speed), acceleration: reach.acceleration.max(acceleration) }
+        })
+    }
+
+    /// What errors of each number of a state are measured by, given a distance in m and a speed in m/s: angles are measured at
+    /// the farthest point of their body, numbers of models' own as positions, accounts not at all.
+    pub fn measures(&self, distance: f64, speed: f64, sizes: &mut Vec<f64>) {
+        let bodies = self.tick.world.resource::<Bodies>();
+        let turns = |size: f64, body: usize| size / bodies.extent[body].max(f64::MIN_POSITIVE);
+        sizes.clear();
+        sizes.extend(self.dynamic.iter().flat_map(|&body| [distance, distance, turns(distance, body)]));
+        sizes.extend(self.dynamic.iter().flat_map(|&body| [speed, speed, turns(speed, body)]));
+        sizes.resize(self.dimension - ACCOUNTS, distance);
+        sizes.resize(self.dimension, f64::INFINITY);
     }
 
     /// Books what a step has added to the accounts.

@@ -27,6 +27,7 @@ pub mod clock;
 mod drive;
 mod failure;
 pub mod flow;
+mod following;
 mod guard;
 pub mod models;
 pub mod response;
@@ -43,7 +44,7 @@ pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
 pub use drive::{FarTravel, Tick, far_travel, largest_travel, set_method, step};
 pub use failure::{Failure, Wrong};
-pub use flow::WorldFlow;
+pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use models::{Indicator, Models, Objection, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
@@ -89,6 +90,8 @@ pub enum EvaluateStage {
 /// those who need them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependence {
+    /// Nothing: the force is the same always.
+    Nothing,
     /// Time and positions only.
     Position,
     /// Velocities too.
@@ -107,6 +110,8 @@ pub(crate) struct Census {
     pub ordinary_forces: usize,
     pub force_slots: u32,
     pub velocity_dependent: bool,
+    /// Some force is not the same always.
+    pub changing_forces: bool,
 }
 
 /// How plugins add systems to the tick.
@@ -219,6 +224,7 @@ pub fn add_packed_observer<M>(
 fn next_force_slot(app: &mut App, dependence: Dependence) -> ForceSlot {
     let mut census = app.world_mut().resource_mut::<Census>();
     census.velocity_dependent |= dependence == Dependence::Velocity;
+    census.changing_forces |= dependence != Dependence::Nothing;
     let slot = ForceSlot(census.force_slots);
     census.force_slots += 1;
     app.configure_sets(Evaluate, slot.in_set(EvaluateStage::Forces));

@@ -13,6 +13,10 @@ pub struct Models {
     pub watches: Vec<Watch>,
     /// Times at which forces are known to jump: each gives the first one after a time in seconds, or infinity.
     pub edges: Vec<fn(&World, f64) -> f64>,
+    /// What changes in a model when states become stages of steps, or follow one another from then on.
+    pub handovers: Vec<fn(&mut World, Style)>,
+    /// Whether a model holds more than can be resolved exactly in steps from event to event.
+    pub crowds: Vec<fn(&World) -> bool>,
     /// Models that cannot be evaluated in every style: each says why not, as the path of what is in the way, what is wrong
     /// and what would help.
     pub objections: Vec<fn(&World, Style) -> Option<Objection>>,

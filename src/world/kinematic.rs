@@ -64,6 +64,48 @@ impl Path {
     }
 }
 
+impl Path {
+    /// Acceleration in m/s2 and rate of the spin in rad/s2, `time` seconds after the beginning, of the piece on which it is
+    /// `middle` seconds after the beginning: at a point of the path, that of the piece before or behind.
+    pub fn acceleration(&self, time: f64, middle: f64) -> (DVec2, f64) {
+        let last = self.points[self.points.len() - 1];
+        if middle >= last.time && (!self.repeat || last.time == 0.0) {
+            return (DVec2::ZERO, 0.0);
+        }
+        let began = if middle >= last.time { (middle / last.time).floor() * last.time } else { 0.0 };
+        let next = self.points.partition_point(|point| point.time <= middle - began);
+        match self.points.get(next) {
+            Some(to) => bending(&self.points[next - 1], to, time - began),
+            None => (DVec2::ZERO, 0.0),
+        }
+    }
+
+    /// The first point after `time` seconds, at which acceleration may jump; infinity if there is none.
+    pub fn next_point(&self, time: f64) -> f64 {
+        let last = self.points[self.points.len() - 1].time;
+        let rounds = if self.repeat && last > 0.0 && time > 0.0 { (time / last).floor() } else { 0.0 };
+        // Rounding may put a point into the round before or behind.
+        let times = (0..3).flat_map(|round| {
+            let began = (rounds + f64::from(round) - 1.0) * last;
+            self.points.iter().map(move |point| began + point.time)
+        });
+        let times = times.filter(|&point| point > time && (self.repeat || point <= last));
+        times.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Second derivatives of the cubic.
+fn bending(from: &PathPoint, to: &PathPoint, time: f64) -> (DVec2, f64) {
+    let length = to.time - from.time;
+    let s = (time - from.time) / length;
+    let (way, first, second) = (6.0 * (1.0 - 2.0 * s) / length, 6.0 * s - 4.0, 6.0 * s - 2.0);
+    let (by, turn) = (to.by - from.by, to.turn - from.turn);
+    (
+        (by * way + from.velocity * first + to.velocity * second) / length,
+        (turn * way + from.spin * first + to.spin * second) / length,
+    )
+}
+
 fn uniform(from: &PathPoint, time: f64) -> PathPoint {
     let passed = time - from.time;
     PathPoint { time, by: from.by + from.velocity * passed, turn: from.turn + from.spin * passed, ..*from }
@@ -133,6 +175,21 @@ impl Kinematic {
     }
 }
 
+impl Kinematic {
+    /// Acceleration of the centre of mass in m/s2 and rate of the spin in rad/s2 at `time` seconds, on the piece of the path
+    /// on which it is at `middle` seconds.
+    pub fn acceleration(&self, time: f64, middle: f64) -> (DVec2, f64) {
+        let (led, turning) = self.path.acceleration(time - self.since, middle - self.since);
+        if self.center == DVec2::ZERO {
+            return (led, turning);
+        }
+        let point = self.path.at(time - self.since);
+        let (sin, cos) = libm::sincos(self.angle + point.turn);
+        let arm = DVec2::new(cos, sin).rotate(self.center);
+        (led + arm.perp() * turning - arm * (point.spin * point.spin), turning)
+    }
+}
+
 /// The prescribed bodies of the packed state.
 #[derive(Clone, Debug, Default)]
 pub struct Prescribed {
@@ -140,9 +197,25 @@ pub struct Prescribed {
     pub motions: Vec<(usize, Kinematic)>,
     /// Time in seconds of the state they were last put in.
     pub time: f64,
+    /// A time in seconds inside the step under way: accelerations are those of the piece of a path that holds it.
+    pub middle: f64,
 }
 
 impl Prescribed {
+    /// Acceleration in m/s2 and rate of the spin in rad/s2 of body `body`; none if it does not move as prescribed.
+    pub fn acceleration(&self, body: usize) -> (DVec2, f64) {
+        match self.motions.binary_search_by_key(&body, |motion| motion.0) {
+            Ok(place) => self.motions[place].1.acceleration(self.time, self.middle),
+            Err(_) => (DVec2::ZERO, 0.0),
+        }
+    }
+
+    /// The first point of a path after `time` seconds, at which acceleration may jump; infinity if there is none.
+    pub fn next_point(&self, time: f64) -> f64 {
+        let next = |(_, motion): &(usize, Kinematic)| motion.path.next_point(time - motion.since) + motion.since;
+        self.motions.iter().map(next).filter(|&point| point > time).fold(f64::INFINITY, f64::min)
+    }
+
     /// The state of body `body` in `ahead` seconds, if it moves as prescribed.
     pub fn ahead(&self, body: usize, ahead: f64) -> Option<PrescribedState> {
         let place = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;

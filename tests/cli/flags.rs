@@ -17,7 +17,12 @@ fn impossible_values_of_flags_are_refused() {
         ("--size", "WxH", &["0x0", "1e9x1", "8193x16", "720", "64x", "x"], size),
         ("--fps", "N", &["0", "-1", "nan", "1e9", "1001"], rate),
         ("--threads", "N", &["0", "-1", "1025", "99999999999999999999", "all"], threads),
-        ("--tolerance", "X", &["1e-8", "-1"], "not available yet; use `--tick`"),
+        (
+            "--tolerance",
+            "X",
+            &["-1", "0", "1", "nan", "fine"],
+            "expected a share above zero and below one, such as 1e-6",
+        ),
     ] {
         for value in values {
             let ended = folder.jostle(&format!("render fall.ron {flag} {value}")).code(2);
@@ -31,7 +36,7 @@ fn impossible_values_of_flags_are_refused() {
 #[test]
 fn an_unknown_method_is_answered_with_the_registered_ones() {
     let folder = Folder::new("method").with("fall.ron", FALL);
-    let known = "[possible values: Auto, ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4";
+    let known = "[possible values: Auto, Reference, ExplicitEuler, SemiImplicitEuler, VelocityVerlet, RungeKutta4";
     folder.jostle("run fall.ron --method Leapfrog").code(2).says("'Leapfrog' for '--method <NAME>'").says(known);
     folder
         .jostle("run fall.ron --method SemiImplicitEuler")

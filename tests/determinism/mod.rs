@@ -89,7 +89,7 @@ fn new_clump(world: &World, number: usize) -> NewBody {
     }
 }
 
-fn load(text: &str, plugins: impl FnOnce(&mut App)) -> Simulation {
+fn load(text: &str, plugins: impl Fn(&mut App)) -> Simulation {
     let source = Source::new("same.ron", text);
     Simulation::load_with(&source, &Overrides::default(), plugins).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
 }

@@ -60,7 +60,7 @@ fn a_sled_on_a_spring_sticks_after_the_exact_number_of_half_swings() {
         }
         assert_eq!(found, half_swings, "{method}");
         let error = simulation.bodies().position[0].x - place;
-        let order = if method == "Dop853" { 0.0 } else { (coulomb_oscillator::PROBLEM.leading_error)(2, tick) };
+        let order = if method == "Dop853" { 0.0 } else { coulomb_oscillator::leading_error(2, tick) };
         assert_near(method, error / coulomb_oscillator::BEGIN, 0.0, order + 1e-12);
         assert_rest(method, &mut simulation, 3.0, 4.0);
         let card = simulation.card();

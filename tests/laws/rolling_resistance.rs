@@ -98,6 +98,30 @@ fn a_rolling_disc_slows_down_evenly_and_stops_for_ever() {
     }
 }
 
+/// The same where events are located: the spring's angle is state, it gives way and sticks at events of its own, and is held at
+/// rest. The springs of friction and of rolling follow to the order of the method, so the energy is accounted for to that:
+/// `(w dt)^4` of what both springs hold, with `w dt` below 1; and the disc stops as exactly as above.
+#[test]
+fn a_rolling_disc_stops_for_ever_where_events_are_located() {
+    let (resistance, speed) = (0.05, 1.0);
+    let exact = acceleration(0.0, resistance);
+    let (time, way) = (-speed / exact, speed * speed / (-2.0 * exact));
+    for method in ["RungeKutta4", "Dop853"] {
+        let mut simulation = load(&scene(method, 0.0, resistance, speed));
+        let late = off(exact) / -exact + 2.0 * TICK;
+        run_to(&mut simulation, time - late);
+        assert!(state(&simulation, 0.0).1 > 0.0, "{method}: it should roll until {time} s");
+        assert_rest(method, &mut simulation, ((time + late) / TICK).ceil() * TICK, 0.5);
+        assert_near("stopping way", state(&simulation, 0.0).0, way, off(exact) * time + speed * TICK);
+        let card = simulation.card();
+        let springs = 0.5 * (resistance * RADIUS * GRAVITY).powi(2) / (0.8 * STIFFNESS * RADIUS * RADIUS)
+            + 0.5 * (exact * exact) / (0.8 * STIFFNESS / 3.0);
+        println!("{method}: residual {:e}, events {}", card.energy.residual, card.events_located);
+        assert_near("residual", card.energy.residual, 0.0, springs + 1e-12 * 0.75 * speed * speed);
+        assert!(card.events_located > 0 && card.events_located < 64, "{method}: {} events", card.events_located);
+    }
+}
+
 /// Torque times turn is lost, to what is missing in the first tick; semi-implicit Euler is ahead by half a tick of its speed.
 #[test]
 fn what_rolling_resistance_takes_is_booked_as_friction() {

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::contacts::ContactForces;
-use jostle::problems::{Problem, Setting};
+use jostle::integrate::Description;
+use jostle::problems::{EventTiming, Problem, Setting};
 use jostle::scene::Source;
 use jostle::world::Bodies;
 use jostle::world::hash::state_hash;
@@ -28,6 +29,30 @@ pub fn run(text: &str) -> Simulation {
 /// `count` phases between 0 and 1 that no tick falls on twice: multiples of the golden section.
 pub fn phases(count: u32) -> impl Iterator<Item = f64> {
     (1..=count).map(|number| (f64::from(number) * 0.618_033_988_749_894_9).fract())
+}
+
+/// Phases over which errors are averaged.
+const PHASES: u32 = 16;
+
+/// Errors of a method at a tick: one, or where events fall on other places of ticks one for each of 16 phases, each with its
+/// own tick, up to a tenth shorter; infinite where a run explodes. With it the tick.
+pub fn errors_at(problem: &Problem, method: &Description, events: EventTiming, tick: f64) -> Vec<(f64, f64)> {
+    let measure = |setting: Setting| (setting.tick, problem.measure(&setting).unwrap_or(f64::INFINITY));
+    let setting = Setting { method: method.name, tick, shift: 0.0, events };
+    if !problem.class.depends_on_phase() {
+        return vec![measure(setting)];
+    }
+    let at_phase = |(number, phase): (usize, f64)| {
+        let tick = tick * (1.0 - 0.1 * (number as f64 * std::f64::consts::SQRT_2).fract());
+        measure(Setting { tick, shift: phase * tick, ..setting })
+    };
+    phases(PHASES).enumerate().map(at_phase).collect()
+}
+
+/// Root mean square of [`errors_at`].
+pub fn rms_error(problem: &Problem, method: &Description, events: EventTiming, tick: f64) -> f64 {
+    let errors = errors_at(problem, method, events, tick);
+    (errors.iter().map(|(_, error)| error * error).sum::<f64>() / errors.len() as f64).sqrt()
 }
 
 /// The power of the tick with which errors fall: least squares of their logarithms.

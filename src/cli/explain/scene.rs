@@ -12,7 +12,7 @@ use crate::cli::say::{count, number};
 use crate::contacts::search::CandidatePairs;
 use crate::report::Card;
 use crate::scene::{Known, SceneRegistry};
-use crate::simulation::Simulation;
+use crate::simulation::{Overrides, Simulation};
 use crate::tick::stopwatch::{self, Part, Stopwatch};
 
 /// How long a scene is run, twice.
@@ -61,8 +61,9 @@ impl Anatomy {
         let (source, mut plain) = request.load(&flags.settings, &flags.overrides())?;
         let failure = run_for(&mut plain, BUDGET).err().map(|failure| failure.to_string());
         let ticks = plain.clock().ticks;
-        let mut watched = Simulation::load_with(&source, &flags.overrides(), |_| {})
-            .map_err(|errors| request.refuse_scene(&errors))?;
+        let overrides = Overrides { plan: plain.plan().cloned(), ..flags.overrides() };
+        let mut watched =
+            Simulation::load_with(&source, &overrides, |_| {}).map_err(|errors| request.refuse_scene(&errors))?;
         stopwatch::watch(watched.world_mut());
         // It fails where the other one did.
         let _ = watched.run_to_tick(ticks);

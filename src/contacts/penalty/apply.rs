@@ -9,6 +9,7 @@ use super::critical::Watch;
 use super::law::{LawTable, PairLaw, Side};
 use super::normal::{Approach, Mode, NormalForce};
 use super::rest::Rest;
+use super::rolling::RollingContacts;
 use super::rows::Rows;
 use super::staged;
 use super::switching::Told;
@@ -38,6 +39,8 @@ pub struct PenaltyContacts {
     pub(super) told: Told,
     /// Energy in J of the tangential springs before modes were switched.
     pub(super) held_before: Option<f64>,
+    /// Energy in J of the tangential springs that slip, at the beginning of the step.
+    pub(super) slid: f64,
 }
 
 /// A pair that touches in the present state.
@@ -239,7 +242,7 @@ pub(super) fn apply_penalty<N: NormalForce>(
     mut deepest: ResMut<DeepestOverlap>,
     evaluation: Res<Evaluation>,
     mut forces: Option<ResMut<ContactForces>>,
-    touches: Option<ResMut<Touches>>,
+    (touches, mut rolling): (Option<ResMut<Touches>>, Option<ResMut<RollingContacts>>),
 ) {
     if contacts.version != pairs.version {
         carry_history::<N>(&mut contacts, &bodies, &pairs);
@@ -250,7 +253,10 @@ pub(super) fn apply_penalty<N: NormalForce>(
     let mut losses = Losses::default();
     let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     if evaluation.style.is_staged() {
-        staged::evaluate::<N>(&mut contacts, &pairs, evaluation.style, &mut sink);
+        if let Some(rolling) = &mut rolling {
+            rolling.carry(&pairs);
+        }
+        staged::evaluate::<N>(&mut contacts, rolling.as_deref_mut(), &pairs, evaluation.style, &mut sink);
         if let Some(mut touches) = touches {
             note_touches(&contacts, &bodies, &pairs, &mut touches);
         }

@@ -15,7 +15,7 @@
 
 use super::Penalty;
 use super::law::PairLaw;
-use super::normal::{Approach, Mode, NormalForce, lost_work};
+use super::normal::{Approach, Change, Mode, NormalForce, lost_work};
 use crate::world::material::restitution_of;
 
 /// The least restitution that is converted; zero would need infinite damping.
@@ -67,6 +67,19 @@ impl NormalForce for Dashpot {
             Mode::Unloading => 0.0,
             _ => law.stiffness * overlap - damping(law, approach.mobility) * approach.parting,
         }
+    }
+
+    /// The damping of a ratio is in proportion to `1/sqrt(mobility)`.
+    fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64 {
+        if mode == Mode::Unloading {
+            return 0.0;
+        }
+        let damping = damping(law, approach.mobility);
+        let thinning = match law.damping {
+            Damping::Ratio(_) => 0.5 * change.mobility / approach.mobility,
+            Damping::Coefficient(_) => 0.0,
+        };
+        -law.stiffness * approach.parting - damping * (change.parting - thinning * approach.parting)
     }
 
     fn remaining(mode: Mode, overlap: f64, force: f64) -> (f64, bool) {

@@ -11,7 +11,7 @@
 
 use super::Penalty;
 use super::law::PairLaw;
-use super::normal::{Approach, Mode, NormalForce, elastic_energy};
+use super::normal::{Approach, Change, Mode, NormalForce, elastic_energy};
 
 /// The law.
 pub struct Inelasticity;
@@ -41,6 +41,10 @@ impl NormalForce for Inelasticity {
     #[inline]
     fn force(law: &PairLaw, mode: Mode, overlap: f64, _: Approach) -> f64 {
         law.stiffness * overlap * (1.0 + sign(mode) * law.inelasticity)
+    }
+
+    fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, _: Change) -> f64 {
+        -Self::force(law, mode, approach.parting, approach)
     }
 
     fn stays(law: &PairLaw, mode: Mode, (parting, rate): (f64, f64), _: f64) -> Option<(f64, f64)> {

@@ -7,6 +7,7 @@ pub mod coulomb;
 mod critical;
 pub mod dashpot;
 mod frame;
+mod handover;
 pub mod hold;
 pub mod inelasticity;
 mod islands;
@@ -15,7 +16,9 @@ mod modes;
 pub mod normal;
 mod rest;
 pub mod rolling;
+mod rolling_stages;
 mod rows;
+mod split;
 mod staged;
 mod switching;
 

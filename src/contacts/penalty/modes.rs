@@ -16,7 +16,7 @@ use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
 use crate::tick::steady::SteadySprings;
-use crate::tick::{Balance, Clock, Evaluation, Ledger, Stability};
+use crate::tick::{Balance, Clock, Evaluation, Ledger, Span, Stability};
 use crate::world::Bodies;
 
 /// Working memory of the search for rest.
@@ -37,7 +37,7 @@ pub(super) fn choose_modes<N: NormalForce>(
     mut rolling: Option<ResMut<RollingContacts>>,
     mut balance: ResMut<Balance>,
     mut ledger: ResMut<Ledger>,
-    (clock, evaluation): (Res<Clock>, Res<Evaluation>),
+    (clock, span, evaluation): (Res<Clock>, Res<Span>, Res<Evaluation>),
     stability: Res<Stability>,
     steady: Option<Res<SteadySprings>>,
     mut forces: Option<ResMut<ContactForces>>,
@@ -49,7 +49,7 @@ pub(super) fn choose_modes<N: NormalForce>(
     }
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
-    let mut choice = Choice { sink, contacts, rolling, dt: clock.dt, losses: Losses::default() };
+    let mut choice = Choice { sink, contacts, rolling, dt: span.length, losses: Losses::default() };
     choice.wake_touched(&pairs);
     let Scratch { cases, moved } = &mut *scratch;
     cases.clear();

@@ -26,6 +26,15 @@ pub struct Approach {
     pub mobility: f64,
 }
 
+/// How an [`Approach`] changes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Change {
+    /// Rate of the velocity with which the sides part, in m/s2.
+    pub parting: f64,
+    /// Rate of the mobility in 1/(kg s): lever arms turn.
+    pub mobility: f64,
+}
+
 /// A normal law over the spring of the pair.
 pub trait NormalForce: Send + Sync + 'static {
     /// Whether the force depends on velocities. If not, [`Approach`] is not filled in.
@@ -47,6 +56,9 @@ pub trait NormalForce: Send + Sync + 'static {
     fn smooth_force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64 {
         Self::force(law, mode, overlap, approach)
     }
+
+    /// The rate of [`NormalForce::smooth_force`] in N/s, where the contact moves and is accelerated like this.
+    fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64;
 
     /// What is positive while the contact lasts, given overlap, present force and the force that its law would have; and
     /// whether that is the overlap itself.

@@ -64,6 +64,12 @@ impl Rest {
         self.resting.push(Resting { body, position, angle, load, left_over: None });
     }
 
+    /// Wakes all.
+    pub fn clear(&mut self) {
+        self.resting.clear();
+        self.still.clear();
+    }
+
     /// Wakes `body`; returns whether it was at rest.
     pub fn wake(&mut self, body: usize) -> bool {
         let was = self.has(body);
@@ -82,8 +88,7 @@ impl Rest {
         }
         if self.generation != bodies.generation {
             // Places have changed. Whoever rests is found at rest again before the next step.
-            self.resting.clear();
-            self.still.clear();
+            self.clear();
             return;
         }
         let still = &mut self.still;

@@ -50,6 +50,15 @@ impl RollingContacts {
         }
     }
 
+    /// Gives every pair of a new list its spring, with its history if it had one.
+    pub(super) fn carry(&mut self, pairs: &CandidatePairs) {
+        if self.version != pairs.version {
+            self.version = pairs.version;
+            self.atoms = carried(&pairs.atoms_before, &self.atoms);
+            self.walls = carried(&pairs.walls_before, &self.walls);
+        }
+    }
+
     /// Elastic energy in J.
     pub fn energy(&self, bodies: &Bodies, pairs: &CandidatePairs, contacts: &PenaltyContacts) -> f64 {
         let mut energy = 0.0;
@@ -133,10 +142,10 @@ pub(super) fn apply_rolling(
     mut ledger: ResMut<Ledger>,
     evaluation: Res<Evaluation>,
 ) {
-    if rolling.version != pairs.version {
-        rolling.version = pairs.version;
-        rolling.atoms = carried(&pairs.atoms_before, &rolling.atoms);
-        rolling.walls = carried(&pairs.walls_before, &rolling.walls);
+    rolling.carry(&pairs);
+    if evaluation.style.is_staged() {
+        // They have acted with their contacts.
+        return;
     }
     let (mut atoms, mut walls) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.walls));
     let mut follow =

@@ -11,9 +11,10 @@ use super::case::{Case, Other};
 use super::contact::Contact;
 use super::coulomb::Grip;
 use super::law::PairLaw;
-use super::normal::{Approach, Mode, NormalForce};
-use super::rows::Rows;
-use super::switching::following;
+use super::normal::{Approach, Change, Mode, NormalForce};
+use super::rolling::RollingContacts;
+use super::rolling_stages::{self, Roller};
+use super::rows::{Kind, Rows};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::Style;
 use crate::world::Bodies;
@@ -71,6 +72,11 @@ impl Look {
         self.velocity.dot(self.case.normal.perp()) - self.spins.0 * radius_a - self.spins.1 * radius_b
     }
 
+    /// Spin of side B seen from side A, in rad/s.
+    pub fn turning(&self) -> f64 {
+        self.spins.1 - self.spins.0
+    }
+
     /// Distances of the centres from where the sides touch, in metres.
     fn radii(&self, law: &PairLaw) -> (f64, f64) {
         let radius_a = self.case.other_end().map_or(0.0, |a| a.radius - law.share_a * self.overlap);
@@ -80,13 +86,22 @@ impl Look {
     /// What the relative accelerations along normal and tangent would be if no force acted: the frame of the contact turns
     /// and its lever arms change.
     pub fn inertial(&self, law: &PairLaw, bodies: &Bodies) -> (f64, f64) {
-        let centripetal = |end: &End| end.arm * -(bodies.spin[end.body] * bodies.spin[end.body]);
-        let free = centripetal(&self.case.end) - self.case.other_end().map_or(DVec2::ZERO, centripetal);
+        let own = |end: &End| {
+            let (acceleration, turning) = bodies.prescribed.acceleration(end.body);
+            end.arm * -(bodies.spin[end.body] * bodies.spin[end.body]) + acceleration + end.arm.perp() * turning
+        };
+        let spinning = |end: Option<&End>| end.map_or(0.0, |end| bodies.prescribed.acceleration(end.body).1);
+        let free = own(&self.case.end) - self.case.other_end().map_or(DVec2::ZERO, own);
+        let (radius_a, radius_b) = self.radii(law);
+        let rolling = spinning(self.case.other_end()) * radius_a + spinning(Some(&self.case.end)) * radius_b;
         let tangent = self.case.normal.perp();
         let (along, parting) = (self.velocity.dot(tangent), self.parting());
         let turning = along / self.distance;
         let giving_way = law.share_a * self.spins.0 + law.share_b * self.spins.1;
-        (free.dot(self.case.normal) + along * turning, free.dot(tangent) - parting * turning - giving_way * parting)
+        (
+            free.dot(self.case.normal) + along * turning,
+            free.dot(tangent) - parting * turning - giving_way * parting - rolling,
+        )
     }
 
     /// Arms of both sides to where they touch.
@@ -99,6 +114,31 @@ impl Look {
         }
     }
 
+    /// How [`Look::approach`] changes under the present forces.
+    pub fn change(&self, law: &PairLaw, bodies: &Bodies) -> Change {
+        let normal = self.case.normal;
+        let swing = normal.perp() * (self.velocity.dot(normal.perp()) / self.distance);
+        let mobility = |end: &End| {
+            let (lever, spin) = (end.arm.perp_dot(normal), bodies.spin[end.body]);
+            let rate = spin * end.arm.perp().perp_dot(normal) + end.arm.perp_dot(swing);
+            2.0 * lever * rate * bodies.inverse_inertia[end.body]
+        };
+        Change {
+            parting: self.parting_rate(law, bodies),
+            mobility: mobility(&self.case.end) + self.case.other_end().map_or(0.0, mobility),
+        }
+    }
+
+    /// The rate of [`Look::parting`] under the present forces, in m/s2.
+    pub fn parting_rate(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
+        let acceleration = |end: &End| {
+            bodies.force[end.body] * bodies.inverse_mass[end.body]
+                + end.arm.perp() * (bodies.torque[end.body] * bodies.inverse_inertia[end.body])
+        };
+        let other = self.case.other_end().map_or(DVec2::ZERO, acceleration);
+        (acceleration(&self.case.end) - other).dot(self.case.normal) + self.inertial(law, bodies).0
+    }
+
     pub fn approach(&self, bodies: &Bodies) -> Approach {
         approach(bodies, self.case.other_end(), &self.case.end, self.case.normal)
     }
@@ -107,6 +147,7 @@ impl Look {
 /// Evaluates all contacts of a state.
 pub(super) fn evaluate<N: NormalForce>(
     contacts: &mut PenaltyContacts,
+    mut rolling: Option<&mut RollingContacts>,
     pairs: &CandidatePairs,
     style: Style,
     sink: &mut Sink,
@@ -119,7 +160,9 @@ pub(super) fn evaluate<N: NormalForce>(
     for (place, (&pair, contact)) in pairs.atoms.iter().zip(&mut *atoms).enumerate() {
         if looked(contact) {
             let look = Look::atoms(sink.bodies, place, pair, contact.reach);
-            if stage::<N>(contact, laws.get(contact.law), &look, style, sink, rows) {
+            let law = laws.get(contact.law);
+            let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
+            if stage::<N>((contact, law, roller), &look, style, sink, rows) {
                 touching_atoms.push(Touching { place: place as u32, normal: look.case.normal });
             }
         }
@@ -127,38 +170,56 @@ pub(super) fn evaluate<N: NormalForce>(
     for (place, (&pair, contact)) in pairs.walls.iter().zip(&mut *walls).enumerate() {
         if looked(contact) {
             let look = Look::wall(sink.bodies, place, pair);
-            if stage::<N>(contact, laws.get(contact.law), &look, style, sink, rows) {
+            let law = laws.get(contact.law);
+            let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
+            if stage::<N>((contact, law, roller), &look, style, sink, rows) {
                 touching_walls.push(Touching { place: place as u32, normal: look.case.normal });
             }
         }
     }
     rows.solve(sink.bodies);
-    for (look, tangent, force) in rows.answers() {
+    for (look, kind, force) in rows.answers() {
         let list = if look.case.other_end().is_some() { &mut *atoms } else { &mut *walls };
         let contact = &mut list[look.case.place as usize];
         let law = laws.get(contact.law);
-        let (normal, tangent_force) = if tangent {
-            contact.tangential.held = -force;
-            (0.0, -force)
-        } else {
-            contact.normal_force = force;
-            let sliding = contact.tangential.grip == Grip::Slide;
-            if sliding {
-                contact.slide(law, force);
+        let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
+        let (normal, tangent_force) = match (kind, roller) {
+            (Kind::Rolling, roller) => {
+                if let Some((slider, rolling_law)) = roller {
+                    slider.held = -force;
+                    rolling_stages::push(slider, &rolling_law, &look, sink);
+                }
+                continue;
             }
-            (force, if sliding { contact.tangential.held } else { 0.0 })
+            (Kind::Tangent, _) => {
+                contact.tangential.held = -force;
+                (None, -force)
+            }
+            (Kind::Normal, roller) => {
+                contact.normal_force = force;
+                if let Some((slider, rolling_law)) = roller
+                    && slider.grip == Grip::Slide
+                {
+                    rolling_stages::slip(slider, &rolling_law, force);
+                    rolling_stages::push(slider, &rolling_law, &look, sink);
+                }
+                let sliding = contact.tangential.grip == Grip::Slide;
+                if sliding {
+                    contact.slide(law, force);
+                }
+                (Some(force), if sliding { contact.tangential.held } else { 0.0 })
+            }
         };
-        let push = look.case.normal * normal - look.case.normal.perp() * tangent_force;
+        let push = look.case.normal * normal.unwrap_or(0.0) - look.case.normal.perp() * tangent_force;
         look.case.push(sink, law, look.overlap, push);
-        book::<N>(contact, law, &look, sink, normal, tangent_force);
+        book(contact, law, &look, sink, normal, tangent_force);
     }
     rows.cancel(sink.bodies, sink.balance);
 }
 
 /// Evaluates one contact; says whether it touches.
 fn stage<N: NormalForce>(
-    contact: &mut Contact,
-    law: &PairLaw,
+    (contact, law, roller): (&mut Contact, &PairLaw, Option<Roller>),
     look: &Look,
     style: Style,
     sink: &mut Sink,
@@ -182,7 +243,7 @@ fn stage<N: NormalForce>(
     let acts = law.tangential().acts();
     let tangent_held = acts && contact.tangential.grip == Grip::Hold;
     let tangent_waits = !acts || tangent_held || (normal_held && contact.tangential.grip == Grip::Slide);
-    let normal = if normal_held { 0.0 } else { contact.normal_force };
+    let normal = (!normal_held).then_some(contact.normal_force);
     let tangential = if tangent_waits { 0.0 } else { contact.tangential_force(law) };
     if normal_held {
         let slope = if contact.tangential.grip == Grip::Slide {
@@ -190,26 +251,32 @@ fn stage<N: NormalForce>(
         } else {
             0.0
         };
-        rows.add_normal(look, law, slope, sink.bodies);
+        let twist = roller.as_ref().map_or(0.0, |roller| rolling_stages::slope(roller, contact));
+        rows.add_normal(look, law, (slope, twist), sink.bodies);
     }
     if tangent_held {
-        rows.add_tangent(look, law, sink.bodies);
+        rows.add_tangent(look, law, contact, sink.bodies);
     }
-    if normal != 0.0 || tangential != 0.0 {
-        let push = look.case.normal * normal - look.case.normal.perp() * tangential;
+    if normal.is_some() || tangential != 0.0 {
+        let push = look.case.normal * normal.unwrap_or(0.0) - look.case.normal.perp() * tangential;
         look.case.push(sink, law, look.overlap, push);
-        book::<N>(contact, law, look, sink, normal, tangential);
+        book(contact, law, look, sink, normal, tangential);
+    }
+    if let Some(roller) = roller {
+        rolling_stages::stage(roller, (contact, law), look, sink, rows);
     }
     true
 }
 
 /// Books the powers of a contact force, in two parts if need be: what the force takes from the bodies and the springs do not
-/// take up is lost. The spring of the elastic part takes up `k d` whatever the force is, booked with the normal force.
-fn book<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, sink: &mut Sink, normal: f64, tangential: f64) {
-    if normal != 0.0 {
+/// take up is lost. The spring of the elastic part takes up `k d` whatever the force is, booked with the normal force. A
+/// spring that slips takes up or gives what its energy says at the end of a step ([`super::switching`]).
+fn book(contact: &Contact, law: &PairLaw, look: &Look, sink: &mut Sink, normal: Option<f64>, tangential: f64) {
+    // Without a force too, where a contact has gone slack: the spring gives up what it has.
+    if let Some(normal) = normal {
         sink.balance.inelasticity -= look.parting() * (normal - law.stiffness * look.overlap);
     }
     if tangential != 0.0 && contact.tangential.grip == Grip::Slide {
-        sink.balance.friction += tangential * (look.sliding(law) - following::<N>(contact, law, look));
+        sink.balance.friction += tangential * look.sliding(law);
     }
 }

@@ -18,8 +18,11 @@ use bevy_ecs::prelude::*;
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
+use super::handover;
 use super::law::{LawTable, PairLaw};
 use super::normal::{Approach, Mode, NormalForce};
+use super::rolling::RollingContacts;
+use super::rolling_stages::{self, Roller};
 use super::staged::Look;
 use super::{Penalty, RollingLaw, TangentialLaw};
 use crate::contacts::{CandidatePairs, DeepestOverlap};
@@ -37,6 +40,9 @@ pub(super) enum What {
     /// The cone is left with a force of this sign.
     Give(bool),
     Stop,
+    /// The rolling spring gives way with a torque of this sign.
+    RollingGive(bool),
+    RollingStop,
 }
 
 /// The indicators of the present modes: candidate pairs (pairs of atoms first, then walls) and what is watched of them.
@@ -44,8 +50,12 @@ pub(super) type Told = Vec<(u32, What)>;
 
 /// Registers contacts with this law for methods with several stages.
 pub(super) fn install<N: NormalForce>(world: &mut World) {
+    let rolls = world.contains_resource::<RollingContacts>();
     let mut models = world.get_resource_or_init::<Models>();
     models.blocks.push(StateBlock { length, read, write, rates });
+    if rolls {
+        models.blocks.push(rolling_stages::BLOCK);
+    }
     models.watches.push(Watch {
         tell: tell::<N>,
         switch: switch::<N>,
@@ -54,7 +64,10 @@ pub(super) fn install<N: NormalForce>(world: &mut World) {
         tidy,
         told: 0,
     });
+    models.edges.push(|world, now| world.resource::<Bodies>().prescribed.next_point(now));
     models.objections.push(object);
+    models.handovers.push(handover::hand_over::<N>);
+    models.crowds.push(handover::crowded);
 }
 
 /// What these contacts cannot do yet, or cannot do at all.
@@ -72,10 +85,10 @@ fn object(world: &World, style: Style) -> Option<Objection> {
             "tangential springs need their events located under a method with several stages",
             "write `events: Located`, or `tangential: Exact` or `None`, or `method: VelocityVerlet`",
         ),
-        (Style::Frozen | Style::Instant, _) if settings.rolling != RollingLaw::None => (
-            "contacts.Penalty.rolling",
-            "a rolling spring is not available yet under a method that locates events",
-            "write `method: VelocityVerlet` and `events: PerTick`, or `rolling: None`",
+        (Style::Instant, _) if settings.rolling != RollingLaw::None => (
+            "clock.events",
+            "rolling springs need their events located under a method with several stages",
+            "write `events: Located`, or `rolling: None`, or `method: VelocityVerlet`",
         ),
         _ => return None,
     };
@@ -83,18 +96,19 @@ fn object(world: &World, style: Style) -> Option<Objection> {
 }
 
 /// All candidate pairs with their contacts.
-struct View<'a> {
-    bodies: &'a Bodies,
+pub(super) struct View<'a> {
+    pub bodies: &'a Bodies,
     pairs: &'a CandidatePairs,
-    contacts: &'a mut PenaltyContacts,
+    pub contacts: &'a mut PenaltyContacts,
+    pub rolling: Option<RollingContacts>,
 }
 
 impl View<'_> {
-    fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.contacts.atoms.len() + self.contacts.walls.len()
     }
 
-    fn look(&self, place: usize) -> Look {
+    pub fn look(&self, place: usize) -> Look {
         let atoms = self.contacts.atoms.len();
         match place.checked_sub(atoms) {
             None => Look::atoms(self.bodies, place, self.pairs.atoms[place], self.contacts.atoms[place].reach),
@@ -102,7 +116,16 @@ impl View<'_> {
         }
     }
 
-    fn contact(&mut self, place: usize) -> (&mut Contact, &PairLaw) {
+    /// A contact with its law, and its rolling spring in scenes that have them.
+    pub fn whole(&mut self, place: usize, look: &Look) -> (&mut Contact, &PairLaw, Option<Roller<'_>>) {
+        let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
+        let count = atoms.len();
+        let contact = if place < count { &mut atoms[place] } else { &mut walls[place - count] };
+        let law = laws.get(contact.law);
+        (contact, law, self.rolling.as_mut().map(|rolling| rolling.of(look, law)))
+    }
+
+    pub fn contact(&mut self, place: usize) -> (&mut Contact, &PairLaw) {
         let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
         let count = atoms.len();
         let contact = if place < count { &mut atoms[place] } else { &mut walls[place - count] };
@@ -111,11 +134,17 @@ impl View<'_> {
     }
 }
 
-fn view<R>(world: &mut World, see: impl FnOnce(&mut World, &mut View) -> R) -> R {
+pub(super) fn view<R>(world: &mut World, see: impl FnOnce(&mut World, &mut View) -> R) -> R {
     world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
         world.resource_scope(|world, bodies: Mut<Bodies>| {
             world.resource_scope(|world, pairs: Mut<CandidatePairs>| {
-                see(world, &mut View { bodies: &bodies, pairs: &pairs, contacts: &mut contacts })
+                let rolling = world.remove_resource::<RollingContacts>();
+                let mut view = View { bodies: &bodies, pairs: &pairs, contacts: &mut contacts, rolling };
+                let seen = see(world, &mut view);
+                if let Some(rolling) = view.rolling {
+                    world.insert_resource(rolling);
+                }
+                seen
             })
         })
     })
@@ -166,22 +195,33 @@ fn rates(world: &World, rates: &mut [f64]) {
 }
 
 /// The rate at which the elongation of a slipping spring follows the normal force.
-pub(super) fn following<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look) -> f64 {
+fn following<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodies: &Bodies) -> f64 {
     if law.exact || contact.mode == Mode::Hold {
         return 0.0;
     }
-    let per_overlap = N::smooth_force(law, contact.mode, 1.0, Approach::default());
-    -law.friction_dynamic.copysign(contact.tangential.held) * per_overlap * look.parting() / law.tangential_stiffness
+    let rate = N::force_rate(law, contact.mode, look.approach(bodies), look.change(law, bodies));
+    law.friction_dynamic.copysign(contact.tangential.held) * rate / law.tangential_stiffness
+}
+
+/// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to look.
+fn is_idle(world: &World) -> bool {
+    let contacts = world.resource::<PenaltyContacts>();
+    let near = !contacts.atoms.is_empty() || !contacts.walls.is_empty();
+    !near && contacts.rows.is_empty() && contacts.held_before.is_none() && contacts.slid == 0.0
 }
 
 fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
+    if is_idle(world) {
+        world.resource_mut::<PenaltyContacts>().told.clear();
+        return;
+    }
     view(world, |_, view| {
         let mut what = std::mem::take(&mut view.contacts.told);
         what.clear();
         for place in 0..view.len() {
             let look = view.look(place);
             let bodies = view.bodies;
-            let (contact, law) = view.contact(place);
+            let (contact, law, roller) = view.whole(place, &look);
             let mut say = |event: What, value: f64, slope: f64| {
                 what.push((place as u32, event));
                 told.push(Indicator { value, slope });
@@ -208,7 +248,7 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
                 let force = contact.tangential_force(law);
                 match contact.tangential.grip {
                     Grip::Slide => {
-                        let slip = look.sliding(law) - following::<N>(contact, law, &look);
+                        let slip = look.sliding(law) - following::<N>(contact, law, &look, bodies);
                         say(What::Stop, slip.copysign(slip * contact.tangential.held.signum()), unknown);
                     }
                     grip => {
@@ -223,43 +263,70 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
                     }
                 }
             }
+            if let Some(roller) = roller {
+                rolling_stages::tell::<N>(&roller, (contact, law), &look, bodies, |what, value| {
+                    say(what, value, unknown);
+                });
+            }
         }
         view.contacts.told = what;
     });
 }
 
-impl Look {
-    /// The rate of [`Look::parting`] under the present forces, in m/s2.
-    fn parting_rate(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
-        let acceleration = |body: usize, arm: glam::DVec2| {
-            bodies.force[body] * bodies.inverse_mass[body]
-                + arm.perp() * (bodies.torque[body] * bodies.inverse_inertia[body])
-        };
-        let own = acceleration(self.case.end.body, self.case.end.arm);
-        let other = self.case.other_end().map_or(glam::DVec2::ZERO, |a| acceleration(a.body, a.arm));
-        (own - other).dot(self.case.normal) + self.inertial(law, bodies).0
-    }
-}
-
 fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
-    view(world, |_, view| {
+    view(world, |world, view| {
+        view.close_slides(&mut world.resource_mut::<Ledger>());
         // What springs hold before and no longer after is lost; it is booked when all modes have settled.
-        view.contacts.held_before = Some(stored(view.contacts));
+        view.contacts.held_before = Some(view.stored(|_| true));
         for &place in fired {
             let (pair, what) = view.contacts.told[place];
             let look = view.look(pair as usize);
-            let (contact, law) = view.contact(pair as usize);
+            let (contact, law, roller) = view.whole(pair as usize, &look);
             contact.switch::<N>(law, what, &look);
             contact.come_loose(law, &look);
+            match (roller, what) {
+                (Some(roller), What::Touch) => rolling_stages::begin::<N>(roller, (contact, law), &look),
+                (Some(roller), _) => rolling_stages::switch(roller, contact, what, &look),
+                (None, _) => {}
+            }
         }
     });
 }
 
-/// Energy in J of all tangential springs.
-fn stored(contacts: &PenaltyContacts) -> f64 {
-    let touching = contacts.atoms.iter().chain(&contacts.walls).filter(|contact| contact.mode != Mode::Open);
-    let energy = |contact: &Contact| contact.tangential.energy(&contacts.laws.get(contact.law).tangential());
-    touching.map(energy).fold(0.0, |sum, energy| sum + energy)
+impl View<'_> {
+    /// Energy in J of those tangential and rolling springs whose grip is asked for.
+    pub fn stored(&mut self, which: impl Fn(Grip) -> bool) -> f64 {
+        let mut sum = 0.0;
+        for place in 0..self.len() {
+            let (contact, law) = self.contact(place);
+            if contact.mode == Mode::Open {
+                continue;
+            }
+            if which(contact.tangential.grip) {
+                sum += contact.tangential.energy(&law.tangential());
+            }
+            if self.rolling.is_some() {
+                let look = self.look(place);
+                if let (_, _, Some((slider, law))) = self.whole(place, &look)
+                    && which(slider.grip)
+                {
+                    sum += slider.energy(&law);
+                }
+            }
+        }
+        sum
+    }
+
+    /// What the springs that slip have taken up since the step began is not lost.
+    fn close_slides(&mut self, ledger: &mut Ledger) {
+        let now = self.sliding_energy();
+        ledger.friction.add(self.contacts.slid - now);
+        self.contacts.slid = now;
+    }
+
+    fn sliding_energy(&mut self) -> f64 {
+        self.stored(|grip| grip == Grip::Slide)
+    }
 }
 
 fn settle<N: NormalForce>(world: &mut World) -> bool {
@@ -267,14 +334,20 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
     view(world, |_, view| {
         for place in 0..view.len() {
             let look = view.look(place);
-            let (contact, law) = view.contact(place);
+            let (contact, law, mut roller) = view.whole(place, &look);
             if contact.mode == Mode::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
                 if contact.normal_force < least || contact.normal_force > greatest {
                     contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
                     contact.come_loose(law, &look);
+                    if let Some((slider, law)) = &mut roller {
+                        rolling_stages::come_loose((slider, *law), contact, &look);
+                    }
                     corrected = true;
                 }
+            }
+            if let Some(roller) = roller.filter(|_| contact.mode != Mode::Open) {
+                corrected |= rolling_stages::settle(roller, contact);
             }
             if contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold {
                 let force = contact.tangential.held;
@@ -284,6 +357,9 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
                 }
             }
         }
+        if !corrected {
+            view.contacts.slid = view.sliding_energy();
+        }
     });
     corrected
 }
@@ -292,10 +368,13 @@ fn take_stock<N: NormalForce>(world: &mut World) {
     view(world, |_, view| {
         for place in 0..view.len() {
             let look = view.look(place);
-            let (contact, law) = view.contact(place);
+            let (contact, law, roller) = view.whole(place, &look);
             if contact.mode == Mode::Open && look.overlap > 0.0 {
                 contact.overlap = look.overlap;
                 contact.begin::<N>(law, &look);
+                if let Some(roller) = roller {
+                    rolling_stages::begin::<N>(roller, (contact, law), &look);
+                }
             }
             if contact.mode != Mode::Open && contact.mode != Mode::Hold {
                 contact.mode = standing::<N>(law, contact.mode, look.parting());
@@ -311,17 +390,26 @@ fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode 
 
 /// After a step: what is held stands, and the deepest overlap is noted.
 fn tidy(world: &mut World) -> bool {
+    if is_idle(world) {
+        return false;
+    }
     let (time, dt) = (world.resource::<Evaluation>().time, world.resource::<Clock>().dt);
     let mut moved = false;
-    world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
-        if let Some(before) = contacts.held_before.take() {
-            world.resource_mut::<Ledger>().friction.add(before - stored(&contacts));
+    view(world, |world, view| {
+        let mut ledger = world.resource_mut::<Ledger>();
+        view.close_slides(&mut ledger);
+        if let Some(before) = view.contacts.held_before.take() {
+            let now = view.stored(|_| true);
+            ledger.friction.add(before - now);
+            view.contacts.slid = view.sliding_energy();
         }
+    });
+    world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
         world.resource_scope(|world, mut bodies: Mut<Bodies>| {
             if !contacts.rows.is_empty() {
                 let before = (crate::tick::balance::momentum(&bodies), crate::tick::balance::angular_momentum(&bodies));
-                moved = contacts.rows.stop(&mut bodies, dt);
                 let mut ledger = world.resource_mut::<Ledger>();
+                moved = contacts.rows.stop(&mut bodies, dt, &mut ledger);
                 let by = crate::tick::balance::momentum(&bodies) - before.0;
                 ledger.impulse[0].add(by.x);
                 ledger.impulse[1].add(by.y);
@@ -395,7 +483,7 @@ impl Contact {
                 let held = law.exact || self.mode == Mode::Hold;
                 self.tangential.grip = if held { Grip::Hold } else { Grip::Stick };
             }
-            What::Touch | What::Give(_) | What::Stop => {}
+            What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop => {}
         }
     }
 

@@ -88,11 +88,9 @@ pub trait OneStep: Send + Sync {
         0
     }
 
-    /// After a step: makes ready to tell states inside it, if the method has dense output of its own. Returns whether it has;
-    /// without, whoever wants a state inside uses the cubic through both ends. It may take further rates.
-    fn make_dense(&mut self, flow: &mut dyn Flow, start: Start, length: f64) -> bool {
+    /// After a step: makes ready to tell states inside it. A method that estimates its error does; it may take further rates.
+    fn make_dense(&mut self, flow: &mut dyn Flow, start: Start, length: f64) {
         let _ = (flow, start, length);
-        false
     }
 
     /// After [`OneStep::make_dense`]: the change of the state over the `share` (0 to 1) of the step.

@@ -173,7 +173,7 @@ mod tests {
         let arrow = LegendEntry { label: "contact force".into(), mark: LegendMark::Arrow(Some("red".into())) };
         let added = arrow.clone();
         let simulation = Simulation::load_with(&Source::new("legend.ron", scene), &Default::default(), move |app| {
-            app.add_legend(added);
+            app.add_legend(added.clone());
         });
         let legend = Legend::of(&simulation.unwrap_or_else(|errors| panic!("{errors}")));
         let line = |label: &str, place| LegendEntry { label: label.into(), mark: LegendMark::Body(place) };

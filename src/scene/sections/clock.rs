@@ -36,7 +36,8 @@ pub struct ClockSection {
     #[serde(default = "auto")]
     #[schemars(extend("x-words" = "method"))]
     pub method: Word,
-    /// The error allowed, instead of `tick`: the engine chooses the tick. Not available yet. Default: none.
+    /// The error allowed to places, as a share of how far bodies go, and to velocities, as a share of how fast they are; instead
+    /// of `tick`: the engine finds the steps with which it stays below. Default: none.
     #[serde(default)]
     pub tolerance: Option<Scalar>,
     /// When jumps of the forces take place. Default: `Auto`.
@@ -54,8 +55,8 @@ impl ClockSection {
     pub const METHODS: &'static str = "method";
     /// The method that leaves the choice to the engine; it must be registered too.
     pub const AUTO: &'static str = "Auto";
-    /// Methods of the language that are reserved until an integrator registers them.
-    pub const RESERVED_METHODS: [&'static str; 1] = ["Reference"];
+    /// The method that makes the smallest error there is, and says how large it is; it must be registered too.
+    pub const REFERENCE: &'static str = "Reference";
 }
 
 impl Section for ClockSection {
@@ -80,13 +81,25 @@ impl Section for ClockSection {
             report.error("tick", message).help("a tick is some milliseconds: write `tick: \"1 ms\"`, or leave it out");
         }
         self.method.check(outline, Self::METHODS, "method", report);
-        if self.tolerance.is_some() {
-            let help = if self.tick.is_some() {
-                "`tick` alone will do"
-            } else {
-                "write `tick: \"1 ms\"` instead, or leave it out"
-            };
-            report.error("tolerance", "`tolerance` is not available yet").help(help);
+        let Some(tolerance) = self.tolerance else { return };
+        if !report.positive("tolerance", tolerance) {
+            return;
+        }
+        if self.tick.is_some() {
+            report
+                .error(
+                    "tolerance",
+                    "both a `tick` and a `tolerance` are given, but a tolerance chooses the steps itself",
+                )
+                .help("leave out one of the two");
+        } else if self.method.0 == Self::REFERENCE {
+            report
+                .error("tolerance", "`Reference` makes the smallest error there is: it takes no tolerance")
+                .help("leave out the tolerance, or write `method: Auto`");
+        } else if tolerance.si() >= 1.0 {
+            report
+                .error("tolerance", format!("an error of {} times the motion itself says nothing", tolerance.si()))
+                .help("write a share such as 1e-6: places are then wrong by a millionth of how far bodies go");
         }
     }
 

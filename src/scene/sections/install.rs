@@ -14,9 +14,7 @@ const RESERVED: [&str; 4] = ["joints", "randomise", "controllers", "scene"];
 /// Registers the sections that describe the run and the film, and keeps the names of later ones.
 pub fn plugin(app: &mut App) {
     app.register_word(ClockSection::METHODS, ClockSection::AUTO);
-    for method in ClockSection::RESERVED_METHODS {
-        app.reserve_word(ClockSection::METHODS, method);
-    }
+    app.register_word(ClockSection::METHODS, ClockSection::REFERENCE);
     app.register_section::<ClockSection>();
     app.register_section::<FilmSection>();
     app.register_section::<LookSection>();

@@ -198,9 +198,7 @@ pub(super) fn app() -> App {
         .reserve_section("joints")
         .register_word("method", "Auto")
         .register_word("method", "SemiImplicitEuler")
-        .register_word("method", "VelocityVerlet");
-    for method in ClockSection::RESERVED_METHODS {
-        app.reserve_word("method", method);
-    }
+        .register_word("method", "VelocityVerlet")
+        .reserve_word("method", "Reference");
     app
 }

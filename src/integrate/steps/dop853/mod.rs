@@ -107,13 +107,12 @@ impl OneStep for Dop853 {
         8
     }
 
-    fn make_dense(&mut self, flow: &mut dyn Flow, start: Start, length: f64) -> bool {
+    fn make_dense(&mut self, flow: &mut dyn Flow, start: Start, length: f64) {
         debug_assert_eq!(length, self.length, "dense output is of the step that was made last");
         for (number, stage) in (STAGES..).zip(&DENSE) {
             self.evaluate(flow, start, number, stage);
         }
         self.interpolate();
-        true
     }
 
     fn dense(&self, share: f64, change: &mut [f64]) {

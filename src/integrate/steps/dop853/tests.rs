@@ -141,7 +141,7 @@ fn error_inside(run: &mut Run, length: f64) -> f64 {
     let start = Start { time, state: &state, rates: &rates };
     let mut method = Dop853::default();
     method.step(&mut run.flow, start, length, &mut change);
-    assert!(method.make_dense(&mut run.flow, start, length));
+    method.make_dense(&mut run.flow, start, length);
     (1..10).fold(0.0_f64, |most, tenth| {
         let share = f64::from(tenth) / 10.0;
         method.dense(share, &mut change);

@@ -1,0 +1,107 @@
+//! Contacts between the two ways to evaluate them: as stages of steps ([`super::staged`]), and following from state to state
+//! ([`super::apply`]).
+//!
+//! Both know the same modes. A spring that slips has the same elongation in both; friction that sticks without a spring gets
+//! one that begins without any elongation, and gives up what it has on the way back. What is held stays so as long as the
+//! contact stands but for rounding; whatever moves goes on in the mode of its velocity, and stops at an event of its own. The
+//! energy of springs that a change takes is lost to friction.
+
+use bevy_ecs::prelude::*;
+
+use super::apply::PenaltyContacts;
+use super::contact::Contact;
+use super::coulomb::{Grip, Slider, SliderLaw};
+use super::law::PairLaw;
+use super::normal::{Mode, NormalForce};
+use super::rolling::RollingContacts;
+use super::staged::Look;
+use super::switching::view;
+use crate::tick::{Clock, Style};
+
+/// Rows of held contacts that are solved together; they cost the third power of their number.
+const MOST_ROWS: usize = 64;
+
+/// A share of a contact force over a tick that counts as rounding: what the search for rest leaves.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether more contacts are held than rows can be solved for.
+pub(super) fn crowded(world: &World) -> bool {
+    let contacts = world.resource::<PenaltyContacts>();
+    let rows = |contact: &Contact| {
+        usize::from(contact.mode == Mode::Hold) + usize::from(contact.tangential.grip == Grip::Hold)
+    };
+    let atoms = contacts.touching_atoms.iter().map(|touching| &contacts.atoms[touching.place as usize]);
+    let walls = contacts.touching_walls.iter().map(|touching| &contacts.walls[touching.place as usize]);
+    let rolling = world.get_resource::<RollingContacts>();
+    let rolling = rolling.into_iter().flat_map(|rolling| rolling.atoms.iter().chain(&rolling.walls));
+    let rolling = rolling.filter(|slider| slider.grip == Grip::Hold).count();
+    atoms.chain(walls).map(rows).sum::<usize>() + rolling > MOST_ROWS
+}
+
+/// The way in which contacts are evaluated changes.
+pub(super) fn hand_over<N: NormalForce>(world: &mut World, style: Style) {
+    let dt = world.resource::<Clock>().dt;
+    view(world, |_, view| {
+        view.contacts.rest.clear();
+        if style == Style::Following {
+            view.contacts.rows.clear();
+            let PenaltyContacts { atoms, walls, .. } = &mut *view.contacts;
+            let tangential = atoms.iter_mut().chain(walls).map(|contact| &mut contact.tangential);
+            let rolling =
+                view.rolling.iter_mut().flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.walls));
+            for slider in tangential.chain(rolling).filter(|slider| slider.grip == Grip::Slide) {
+                slider.grip = Grip::Slip;
+            }
+            return;
+        }
+        view.contacts.held_before = Some(view.stored(|_| true));
+        for place in 0..view.len() {
+            let (look, bodies) = (view.look(place), view.bodies);
+            let (contact, law, roller) = view.whole(place, &look);
+            if contact.mode == Mode::Open {
+                continue;
+            }
+            let rounding = ROUNDING * contact.normal_force * dt * look.approach(bodies).mobility;
+            contact.take_over::<N>(law, &look, rounding);
+            if let Some((slider, rolling_law)) = roller {
+                let stands = look.turning().abs() * look.case.end.radius <= rounding;
+                slider.take_over(&rolling_law, stands && contact.mode == Mode::Hold, look.turning());
+            }
+        }
+    });
+}
+
+impl Contact {
+    /// Goes on as a stage of a step; velocities up to `rounding` m/s count as none.
+    fn take_over<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, rounding: f64) {
+        let (parting, sliding) = (look.parting(), look.sliding(law));
+        if self.mode == Mode::Hold && parting.abs() > rounding {
+            self.mode = N::chosen(self.mode, parting);
+        }
+        let held = sliding.abs() <= rounding && (law.exact || self.mode == Mode::Hold);
+        if law.exact {
+            // It had a spring for want of anything better.
+            let grip = if held { Grip::Hold } else { Grip::Slide };
+            self.tangential = Slider { elongation: 0.0, held: 0.0_f64.copysign(sliding), grip };
+        } else {
+            self.tangential.take_over(&law.tangential(), held, sliding);
+        }
+    }
+}
+
+impl Slider {
+    /// Goes on as a stage of a step, `held` or not, where the sides move past each other with `velocity`.
+    fn take_over(&mut self, law: &SliderLaw, held: bool, velocity: f64) {
+        if self.grip == Grip::Hold && !held {
+            self.let_go(law);
+        }
+        match self.grip {
+            Grip::Slip | Grip::Slide => {
+                self.grip = Grip::Slide;
+                self.held = 0.0_f64.copysign(self.elongation);
+            }
+            Grip::Stick => self.held = 0.0_f64.copysign(velocity),
+            Grip::Hold => {}
+        }
+    }
+}

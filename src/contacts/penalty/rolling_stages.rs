@@ -1,0 +1,203 @@
+//! Rolling springs where contacts are stages of a step: their angles are state, they stick and slip at events of their own, and
+//! where the normal force is held and nothing rolls they are held with it ([`super::rows`]).
+
+use bevy_ecs::prelude::*;
+
+use super::apply::{PenaltyContacts, Sink};
+use super::contact::Contact;
+use super::coulomb::{Grip, Slider, SliderLaw};
+use super::law::PairLaw;
+use super::normal::{Approach, Mode, NormalForce};
+use super::rolling::{RollingContacts, twist};
+use super::rows::Rows;
+use super::split::Share;
+use super::staged::Look;
+use super::switching::What;
+use crate::contacts::CandidatePairs;
+use crate::tick::StateBlock;
+use crate::world::Bodies;
+
+/// The angles of all rolling springs that stick.
+pub(super) const BLOCK: StateBlock = StateBlock { length, read, write, rates };
+
+/// A rolling spring with its law.
+pub(super) type Roller<'a> = (&'a mut Slider, SliderLaw);
+
+impl RollingContacts {
+    /// The spring of a contact.
+    pub(super) fn of(&mut self, look: &Look, pair: &PairLaw) -> Roller<'_> {
+        let other = look.case.other_end();
+        let law = self.law(pair, other, &look.case.end);
+        let list = if other.is_some() { &mut self.atoms } else { &mut self.walls };
+        (&mut list[look.case.place as usize], law)
+    }
+
+    fn sliders(&self) -> impl Iterator<Item = &Slider> {
+        self.atoms.iter().chain(&self.walls)
+    }
+}
+
+fn contacts(world: &World) -> impl Iterator<Item = &Contact> {
+    let contacts = world.resource::<PenaltyContacts>();
+    contacts.atoms.iter().chain(&contacts.walls)
+}
+
+fn is_state((contact, slider): &(&Contact, &Slider)) -> bool {
+    contact.mode != Mode::Open && slider.grip == Grip::Stick
+}
+
+fn length(world: &World) -> usize {
+    contacts(world).zip(world.resource::<RollingContacts>().sliders()).filter(is_state).count()
+}
+
+fn read(world: &World, state: &mut [f64]) {
+    let sticking = contacts(world).zip(world.resource::<RollingContacts>().sliders()).filter(is_state);
+    state.iter_mut().zip(sticking).for_each(|(state, (_, slider))| *state = slider.elongation);
+}
+
+fn write(world: &mut World, state: &[f64]) {
+    world.resource_scope(|world, mut rolling: Mut<RollingContacts>| {
+        let RollingContacts { atoms, walls, .. } = &mut *rolling;
+        let sticking = contacts(world).zip(atoms.iter_mut().chain(walls));
+        let sticking = sticking.filter(|(contact, slider)| is_state(&(contact, slider)));
+        state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);
+    });
+}
+
+fn rates(world: &World, rates: &mut [f64]) {
+    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+    let spin = |atom: u32| bodies.spin[bodies.atom_body[atom as usize] as usize];
+    let turning = pairs.atoms.iter().map(|pair| spin(pair.b) - spin(pair.a));
+    let turning = turning.chain(pairs.walls.iter().map(|pair| spin(pair.atom)));
+    let sticking = contacts(world).zip(world.resource::<RollingContacts>().sliders()).zip(turning);
+    let sticking = sticking.filter(|(spring, _)| is_state(spring));
+    rates.iter_mut().zip(sticking).for_each(|(rate, (_, turning))| *rate = turning);
+}
+
+/// Torque per newton of normal force, with its sign, of a spring that slips under a normal force that is held.
+pub(super) fn slope((slider, law): &Roller, contact: &Contact) -> f64 {
+    let slips = contact.mode == Mode::Hold && slider.grip == Grip::Slide;
+    if slips { law.friction_dynamic.copysign(slider.held) } else { 0.0 }
+}
+
+/// Evaluates the spring of a contact that touches.
+pub(super) fn stage(
+    (slider, law): Roller,
+    (contact, pair): (&Contact, &PairLaw),
+    look: &Look,
+    sink: &mut Sink,
+    rows: &mut Rows,
+) {
+    match slider.grip {
+        Grip::Hold => rows.add_rolling(look, Share::of(slider, &law, pair.stiffness * look.overlap), sink.bodies),
+        Grip::Slide if contact.mode == Mode::Hold => {}
+        Grip::Slide => {
+            slip(slider, &law, contact.normal_force);
+            push(slider, &law, look, sink);
+        }
+        Grip::Stick | Grip::Slip => push(slider, &law, look, sink),
+    }
+}
+
+/// While it slips: the torque under a normal force.
+pub(super) fn slip(slider: &mut Slider, law: &SliderLaw, normal_force: f64) {
+    slider.held = (law.friction_dynamic * normal_force).abs().copysign(slider.held);
+    slider.elongation = slider.held / law.stiffness;
+}
+
+/// Lets the spring act, and books what slipping takes.
+pub(super) fn push(slider: &Slider, law: &SliderLaw, look: &Look, sink: &mut Sink) {
+    let torque = slider.force(law);
+    twist(sink.bodies, sink.balance, look.case.other_end(), &look.case.end, torque);
+    if slider.grip == Grip::Slide {
+        sink.balance.friction += torque * look.turning();
+    }
+}
+
+/// What ends the present mode of the spring, and indicators of it.
+pub(super) fn tell<N: NormalForce>(
+    (slider, law): &Roller,
+    (contact, pair): (&Contact, &PairLaw),
+    look: &Look,
+    bodies: &Bodies,
+    mut say: impl FnMut(What, f64),
+) {
+    let turning = look.turning();
+    match slider.grip {
+        Grip::Slide => {
+            let rate = match contact.mode {
+                Mode::Hold => 0.0,
+                mode => N::force_rate(pair, mode, look.approach(bodies), look.change(pair, bodies)),
+            };
+            let slip = turning - law.friction_dynamic.copysign(slider.held) * rate / law.stiffness;
+            say(What::RollingStop, slip * slider.held.signum());
+        }
+        grip => {
+            if grip == Grip::Stick && contact.mode == Mode::Hold {
+                say(What::RollingStop, turning * slider.held.signum());
+            }
+            let (limit, torque) = (law.friction_static * contact.normal_force, slider.force(law));
+            say(What::RollingGive(true), limit - torque);
+            say(What::RollingGive(false), limit + torque);
+        }
+    }
+}
+
+/// The modes of a spring whose contact begins.
+pub(super) fn begin<N: NormalForce>((slider, law): Roller, (contact, pair): (&Contact, &PairLaw), look: &Look) {
+    let turning = look.turning();
+    *slider = Slider { held: 0.0_f64.copysign(turning), ..Slider::default() };
+    // Near the touch both torques grow from zero, as tangential forces do.
+    let rate = N::smooth_force(pair, Mode::Loading, 1.0, Approach { parting: 0.0, mobility: 1.0 });
+    let sticks =
+        look.overlap > 0.0 || law.stiffness * turning.abs() <= law.friction_static * rate * look.parting().abs();
+    slider.grip = match sticks {
+        true if turning == 0.0 && contact.mode == Mode::Hold => Grip::Hold,
+        true => Grip::Stick,
+        false => Grip::Slide,
+    };
+}
+
+/// A mode of the spring or of its contact ends.
+pub(super) fn switch((slider, law): Roller, contact: &Contact, what: What, look: &Look) {
+    match what {
+        What::RollingGive(positive) => {
+            slider.grip = Grip::Slide;
+            slider.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
+            slip(slider, &law, contact.normal_force);
+        }
+        What::RollingStop => slider.grip = if contact.mode == Mode::Hold { Grip::Hold } else { Grip::Stick },
+        _ => {}
+    }
+    come_loose((slider, law), contact, look);
+}
+
+/// Brings the spring into line with the normal mode of its contact.
+pub(super) fn come_loose((slider, law): Roller, contact: &Contact, look: &Look) {
+    if contact.mode == Mode::Open {
+        *slider = Slider::default();
+    }
+    if slider.grip == Grip::Hold && contact.mode != Mode::Hold {
+        slider.let_go(&law);
+    }
+    if slider.grip == Grip::Stick {
+        slider.held = 0.0_f64.copysign(look.turning());
+    }
+}
+
+/// A spring that is held beyond what it can bear slips. Says whether it does.
+pub(super) fn settle((slider, law): Roller, contact: &Contact) -> bool {
+    let gives = slider.grip == Grip::Hold && slider.held.abs() > law.friction_static * contact.normal_force;
+    if gives {
+        slider.grip = Grip::Slide;
+    }
+    gives
+}
+
+impl Share {
+    /// What a rolling spring bears of its own accord, on side B, where the spring of the contact pulls with `pull` newtons.
+    fn of(slider: &Slider, law: &SliderLaw, pull: f64) -> Self {
+        let measure = (law.friction_static * pull).max(f64::MIN_POSITIVE);
+        Self { natural: -law.stiffness * slider.elongation, measure }
+    }
+}

@@ -1,0 +1,122 @@
+//! Trials of a scene, one finer than the other.
+
+use super::Tell;
+use super::trajectory::Trajectory;
+use crate::Simulation;
+use crate::integrate::Pace;
+use crate::report::card::number;
+use crate::scene::SceneErrors;
+use crate::scene::sections::clock::EventTiming;
+use crate::simulation::Plan;
+
+/// What is made finer from trial to trial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ladder {
+    /// The error allowed to a step.
+    Allowed,
+    /// The steps of a tick.
+    Steps,
+    /// The ticks of a tick of the plan: for methods that go by whole ticks.
+    Ticks,
+}
+
+/// The trials of a scene.
+pub(super) struct Trials<'a> {
+    /// The plan they follow.
+    pub plan: Plan,
+    pub ladder: Ladder,
+    /// Order of accuracy of the method.
+    pub order: u32,
+    /// Steps of a tick that suit the fastest contact or spring.
+    pub steps: u32,
+    make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
+    tell: Option<Tell>,
+    /// How many were made.
+    pub count: u32,
+    /// How often forces were evaluated in all of them.
+    pub evaluations: u64,
+    /// How far and how fast bodies go, as the last trial found it.
+    sizes: (f64, f64),
+}
+
+impl<'a> Trials<'a> {
+    pub fn new(
+        (plan, order, steps): (Plan, u32, u32),
+        make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
+        tell: Option<Tell>,
+    ) -> Self {
+        let ladder = if matches!(plan.pace, Pace::Allowed(_)) { Ladder::Allowed } else { Ladder::Steps };
+        Self { plan, ladder, order, steps, make, tell, count: 0, evaluations: 0, sizes: (0.0, 0.0) }
+    }
+
+    /// From here on ticks become finer, by velocity Verlet with events at their ends.
+    pub fn go_by_ticks(&mut self) {
+        self.ladder = Ladder::Ticks;
+        self.plan.method = "VelocityVerlet".to_owned();
+        self.plan.events = EventTiming::PerTick;
+    }
+
+    /// The plan of a trial. `fineness` is the share of error allowed to a step, or one over the number of steps.
+    pub fn planned(&self, fineness: f64) -> Plan {
+        let mut plan = self.plan.clone();
+        let many = (1.0 / fineness).ceil().clamp(1.0, 1e9) as u32;
+        match self.ladder {
+            Ladder::Allowed => {
+                if let Pace::Allowed(allowance) = &mut plan.pace {
+                    allowance.share = fineness;
+                }
+            }
+            Ladder::Steps => plan.pace = Pace::Even(many),
+            Ladder::Ticks => (plan.pace, plan.tick) = (Pace::Even(1), plan.tick / f64::from(many)),
+        }
+        plan
+    }
+
+    /// Runs the scene by a plan; `change` may change its beginning.
+    pub fn run(
+        &mut self,
+        fineness: f64,
+        what: &str,
+        change: impl FnOnce(&mut Simulation),
+    ) -> Result<Trajectory, SceneErrors> {
+        let plan = self.planned(fineness);
+        let per_moment = (self.plan.tick / plan.tick).round() as u64;
+        let mut simulation = (self.make)(&plan)?;
+        self.count += 1;
+        if let Some(tell) = self.tell {
+            tell(self.count, what);
+        }
+        change(&mut simulation);
+        let trajectory = Trajectory::record(&mut simulation, per_moment);
+        self.evaluations += trajectory.evaluations;
+        if trajectory.failure.is_none() {
+            let (distance, speed) = trajectory.sizes();
+            if distance > 0.0 || speed > 0.0 {
+                self.sizes = (distance, speed);
+            }
+        }
+        Ok(trajectory)
+    }
+
+    /// A plan in words.
+    pub fn words(&self, plan: &Plan) -> String {
+        match plan.pace {
+            Pace::Allowed(allowance) => {
+                format!("{} with steps of an estimated error of {:.0e} each", plan.method, allowance.share)
+            }
+            Pace::Even(1) => format!("{} with ticks of {} s", plan.method, number(plan.tick)),
+            Pace::Even(steps) => format!("{} with {steps} steps per tick", plan.method),
+        }
+    }
+
+    /// What the trials cost, in words.
+    pub fn cost(&self) -> String {
+        format!("{} runs before this one, with {} evaluations of all forces, found that", self.count, self.evaluations)
+    }
+
+    /// How far bodies go in m, and how fast in m/s; one, where nothing moves.
+    pub fn sizes(&self) -> (f64, f64) {
+        let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
+        (or_one(self.sizes.0), or_one(self.sizes.1))
+    }
+}

@@ -1,0 +1,185 @@
+//! What two runs of a scene have in common, and how far apart they are.
+
+use glam::DVec2;
+
+use crate::Simulation;
+use crate::integrate::LocatedEvents;
+use crate::tick::{Evaluation, Failure};
+
+/// Moments at which runs are compared, at most.
+const MOST_MOMENTS: u64 = 100;
+/// Numbers kept of one run, at most.
+const MOST_NUMBERS: u64 = 4_000_000;
+
+/// A body at a moment.
+#[derive(Clone, Copy, Debug)]
+struct Pose {
+    position: DVec2,
+    angle: f64,
+    velocity: DVec2,
+    spin: f64,
+}
+
+/// A run as it went.
+pub(super) struct Trajectory {
+    moments: Vec<(f64, Vec<Pose>)>,
+    /// Greatest distance of any point of each body from its centre of mass in m.
+    extents: Vec<f64>,
+    /// Whether it went wrong before its end.
+    pub failure: Option<Failure>,
+    /// How often forces were evaluated.
+    pub evaluations: u64,
+    /// Whether more happened in a tick than is located.
+    pub crowded: bool,
+}
+
+/// A body that goes less far than this share of the farthest is measured as if it went so far.
+const LEAST_SHARE: f64 = 1e-2;
+
+/// How far two runs are apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Apart {
+    /// The greater of both as shares: of how far each body goes, and of how fast it is.
+    pub share: f64,
+    /// Greatest distance between the places of a point of a body, in m.
+    pub distance: f64,
+    /// Root of the mean square over time of the greatest difference of speed, in m/s.
+    pub speed: f64,
+}
+
+impl Trajectory {
+    /// Runs a scene to its end. `per_moment` ticks of it are one of the run that it is to be compared with.
+    pub fn record(simulation: &mut Simulation, per_moment: u64) -> Self {
+        let ticks = simulation.ticks() / per_moment;
+        let bodies = simulation.bodies().len() as u64;
+        let most = MOST_MOMENTS.min(MOST_NUMBERS / (6 * bodies.max(1))).max(8);
+        let stride = ticks.div_ceil(most).max(1) * per_moment;
+        let mut moments = Vec::new();
+        let mut failure = None;
+        let mut tick = 0;
+        loop {
+            moments.push((simulation.clock().time(), poses(simulation)));
+            if tick >= simulation.ticks() || failure.is_some() {
+                break;
+            }
+            tick = (tick + stride).min(simulation.ticks());
+            failure = simulation.run_to_tick(tick).err();
+        }
+        let world = simulation.world();
+        Self {
+            moments,
+            extents: simulation.bodies().extent.clone(),
+            failure,
+            evaluations: world.resource::<Evaluation>().count,
+            crowded: world.get_resource::<LocatedEvents>().is_some_and(|events| events.given_up > 0),
+        }
+    }
+
+    /// How far bodies came from where they began, in m, and how fast they were, in m/s. A turn counts as no more than one
+    /// radian.
+    pub fn sizes(&self) -> (f64, f64) {
+        let Some((_, first)) = self.moments.first() else { return (0.0, 0.0) };
+        let (mut distance, mut speed) = (0.0_f64, 0.0_f64);
+        for (_, poses) in &self.moments {
+            for ((pose, first), extent) in poses.iter().zip(first).zip(&self.extents) {
+                let (far, fast) = size(pose, first, *extent);
+                (distance, speed) = (distance.max(far), speed.max(fast));
+            }
+        }
+        (distance, speed)
+    }
+
+    /// The greatest distance of any body from the origin, in m: rounding of places is a share of it.
+    pub fn farthest(&self) -> f64 {
+        let places = self.moments.iter().flat_map(|(_, poses)| poses).map(|pose| pose.position.length());
+        places.fold(0.0, f64::max)
+    }
+
+    /// How far and how fast each body goes, as in [`Trajectory::sizes`].
+    fn measures(&self) -> Vec<(f64, f64)> {
+        let (farthest, fastest) = self.sizes();
+        let Some((_, first)) = self.moments.first() else { return Vec::new() };
+        let least = |size: f64, most: f64| if most > 0.0 { size.max(LEAST_SHARE * most) } else { 1.0 };
+        let of = |(body, first): (usize, &Pose)| {
+            let extent = self.extents[body];
+            let sizes = self.moments.iter().map(|(_, poses)| size(&poses[body], first, extent));
+            let (distance, speed) = sizes.fold((0.0, 0.0), |(a, b): (f64, f64), (c, d)| (a.max(c), b.max(d)));
+            (least(distance, farthest), least(speed, fastest))
+        };
+        first.iter().enumerate().map(of).collect()
+    }
+
+    /// How far another run is from this one. A run that went wrong is infinitely far from any.
+    pub fn apart(&self, other: &Self) -> Apart {
+        let infinite = Apart { share: f64::INFINITY, distance: f64::INFINITY, speed: f64::INFINITY };
+        if self.failure.is_some() || other.failure.is_some() || self.moments.len() != other.moments.len() {
+            return infinite;
+        }
+        let measures = other.measures();
+        let (mut distance, mut share, mut squares) = (0.0_f64, 0.0_f64, vec![0.0; measures.len()]);
+        for ((_, own), (_, others)) in self.moments.iter().zip(&other.moments) {
+            for (body, (own, other)) in own.iter().zip(others).enumerate() {
+                let (apart, faster) = difference(own, other, self.extents[body]);
+                distance = greater(distance, apart);
+                share = greater(share, apart / measures[body].0);
+                squares[body] += faster * faster;
+            }
+        }
+        let mean = |squares: f64| (squares / self.moments.len() as f64).sqrt();
+        let speed = squares.iter().map(|&squares| mean(squares)).fold(0.0, greater);
+        let shares = squares.iter().zip(&measures).map(|(&squares, (_, speed))| mean(squares) / speed);
+        let apart = Apart { share: shares.fold(share, greater), distance, speed };
+        if apart.share.is_finite() && apart.distance.is_finite() && apart.speed.is_finite() { apart } else { infinite }
+    }
+
+    /// The first moment in s at which another run is farther away than `distance` metres.
+    pub fn parts(&self, other: &Self, distance: f64) -> Option<f64> {
+        self.differences(other).find(|(_, apart)| *apart > distance).map(|(time, _)| time)
+    }
+
+    /// The distance in m of another run at its end.
+    pub fn apart_at_end(&self, other: &Self) -> f64 {
+        self.differences(other).last().map_or(0.0, |(_, distance)| distance)
+    }
+
+    /// The end of the run in s.
+    pub fn end(&self) -> f64 {
+        self.moments.last().map_or(0.0, |(time, _)| *time)
+    }
+
+    /// Time, and greatest difference of places in m, at each moment.
+    fn differences<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.moments.iter().zip(&other.moments).map(|((time, own), (_, others))| {
+            let pairs = own.iter().zip(others).zip(&self.extents);
+            (*time, pairs.map(|((own, other), extent)| difference(own, other, *extent).0).fold(0.0, greater))
+        })
+    }
+}
+
+/// Distance in m from where a body began, and its speed in m/s, of any of its points.
+fn size(pose: &Pose, first: &Pose, extent: f64) -> (f64, f64) {
+    let turn = (pose.angle - first.angle).abs().min(1.0);
+    ((pose.position - first.position).length() + turn * extent, pose.velocity.length() + pose.spin.abs() * extent)
+}
+
+/// Distance in m and difference of velocities in m/s of any point of a body in two runs.
+fn difference(a: &Pose, b: &Pose, extent: f64) -> (f64, f64) {
+    let distance = (a.position - b.position).length() + (a.angle - b.angle).abs() * extent;
+    (distance, (a.velocity - b.velocity).length() + (a.spin - b.spin).abs() * extent)
+}
+
+/// The greater of two numbers; what is no number is greater than all.
+fn greater(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+fn poses(simulation: &Simulation) -> Vec<Pose> {
+    let bodies = simulation.bodies();
+    let pose = |body: usize| Pose {
+        position: bodies.position[body],
+        angle: bodies.angle[body],
+        velocity: bodies.velocity[body],
+        spin: bodies.spin[body],
+    };
+    (0..bodies.len()).map(pose).collect()
+}

@@ -1,0 +1,311 @@
+//! Choices: method, tick and pace of a run, from what the scene and the command line ask for.
+
+use bevy_ecs::prelude::*;
+
+use super::Overrides;
+use crate::contacts::ContactLaw;
+use crate::integrate::{Allowance, Description, Methods, Pace};
+use crate::report::card::{ChosenMethod, ErrorEstimate, ErrorParts, KnownError, Notes};
+use crate::scene::SceneError;
+use crate::scene::sections::clock::EventTiming;
+use crate::scene::sections::{ClockSection, FilmSection};
+use crate::tick::{Census, Clock, Foreseen, Holder, Models, Stability};
+
+/// Ticks per half period of the fastest contact or spring when the engine chooses the tick.
+const TICKS_PER_HALF_PERIOD: f64 = 40.0;
+/// The tick in seconds when nothing in the scene asks for a finer one.
+const COARSEST_TICK: f64 = 1e-3;
+/// More ticks than anybody can wait for, and still counted exactly.
+const MOST_TICKS: f64 = 1e15;
+/// Ticks per frame where frames do not fall on ticks: states between ticks are interpolated.
+const TICKS_PER_ODD_FRAME: f64 = 8.0;
+
+/// What a run is asked for in place of a tick.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// An error no larger than this share of the scene's motion.
+    Tolerance(f64),
+    /// The smallest error there is, and a statement of it.
+    Reference,
+}
+
+/// How a scene is run.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Name of the method.
+    pub method: String,
+    /// Length of a tick in seconds.
+    pub tick: f64,
+    /// Steps of a tick.
+    pub pace: Pace,
+    /// When forces jump.
+    pub events: EventTiming,
+    /// What led to it.
+    pub notes: Vec<String>,
+    /// The error it is known to have.
+    pub error: Option<ErrorEstimate>,
+}
+
+type Wrong = Box<SceneError>;
+
+/// Chooses, and makes the world ready for it; returns the number of ticks of the run.
+pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Wrong> {
+    let clock = world
+        .remove_resource::<ClockSection>()
+        .ok_or_else(|| Box::new(SceneError::new("clock", "`clock` is missing")))?;
+    let mut notes = Vec::new();
+    let duration = match overrides.duration {
+        Some(duration) => {
+            notes.push(format!("duration {duration:?} s from the command line"));
+            positive("--duration", duration)?
+        }
+        None => clock.duration.si(),
+    };
+    let goal = goal(&clock, overrides, &mut notes)?;
+    let plan = match (&overrides.plan, goal) {
+        (Some(plan), _) => plan.clone(),
+        (None, Some(goal)) => plan_for(goal, world, &clock, overrides, duration)?,
+        (None, None) => plain(world, &clock, overrides, duration)?,
+    };
+    notes.extend(plan.notes.iter().cloned());
+    let ticks = count(&plan, duration, &clock, overrides, &mut notes)?;
+    install(world, &plan, &mut notes)?;
+    if let Some(goal) = goal {
+        world.insert_resource(KnownError(plan.error));
+        world.insert_resource(goal);
+        world.insert_resource(plan);
+    }
+    world.resource_mut::<Notes>().0.extend(notes);
+    Ok(ticks)
+}
+
+/// What is asked for in place of a tick. A tick on the command line wins over a tolerance in the scene, and the other way
+/// round.
+fn goal(clock: &ClockSection, overrides: &Overrides, notes: &mut Vec<String>) -> Result<Option<Goal>, Wrong> {
+    let method = overrides.method.as_ref().unwrap_or(&clock.method.0);
+    if let Some(tolerance) = overrides.tolerance {
+        notes.push(format!("tolerance {tolerance:?} from the command line"));
+        return positive("--tolerance", tolerance).map(|tolerance| Some(Goal::Tolerance(tolerance)));
+    }
+    Ok(match clock.tolerance {
+        _ if method == ClockSection::REFERENCE => Some(Goal::Reference),
+        Some(tolerance) if overrides.tick.is_none() => Some(Goal::Tolerance(tolerance.si())),
+        _ => None,
+    })
+}
+
+/// The method that was asked for.
+fn described(world: &World, name: &str) -> Result<Description, Wrong> {
+    let methods = world.resource::<Methods>();
+    methods.named(name).copied().ok_or_else(|| {
+        let known: Vec<&str> = methods.0.iter().map(|method| method.name).collect();
+        let error = SceneError::new("--method", format!("`{name}` is not a method"));
+        Box::new(error.with_help(format!("known methods: Auto, Reference, {}", known.join(", "))))
+    })
+}
+
+/// Order of accuracy of the method of a plan.
+pub(super) fn order(world: &World, plan: &Plan) -> u32 {
+    world.resource::<Methods>().named(&plan.method).map_or(1, |method| method.order)
+}
+
+/// How many steps of a tick suit the fastest contact or spring.
+pub(super) fn steps_per_tick(world: &World, plan: &Plan) -> u32 {
+    let wanted = chosen_tick(world.resource()).map_or(plan.tick, |(tick, _)| tick);
+    (plan.tick / wanted).ceil().clamp(1.0, f64::from(u32::MAX)) as u32
+}
+
+/// A plan with a tick.
+fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f64) -> Result<Plan, Wrong> {
+    let mut notes = Vec::new();
+    let tick = match (overrides.tick, clock.tick) {
+        (Some(tick), _) => {
+            notes.push(format!("tick {tick:?} s from the command line"));
+            positive("--tick", tick)?
+        }
+        (None, Some(tick)) => tick.si(),
+        (None, None) => {
+            let (tick, why) = chosen_tick(world.resource())?;
+            let tick = tick.min(duration);
+            notes.push(format!("tick {tick} s chosen: {why}"));
+            tick
+        }
+    };
+    let mut method = clock.method.0.clone();
+    if let Some(name) = &overrides.method {
+        notes.push(format!("method {name} from the command line"));
+        method.clone_from(name);
+    }
+    if method == ClockSection::AUTO {
+        let (name, why) = chosen_method(world);
+        notes.push(format!("method {name} chosen: {why}"));
+        method = name.to_owned();
+    }
+    Ok(Plan { method, tick, pace: Pace::Even(1), events: clock.events, notes, error: None })
+}
+
+/// The method that suits what the scene holds, and why.
+fn chosen_method(world: &World) -> (&'static str, &'static str) {
+    let census = world.resource::<Census>();
+    if world.contains_resource::<ContactLaw>() {
+        ("VelocityVerlet", "order 2 at one evaluation per tick, and contacts take many ticks")
+    } else if !census.changing_forces {
+        ("VelocityVerlet", "accelerations do not change, so that it is exact")
+    } else if census.velocity_dependent {
+        ("RungeKutta4", "order 4, and some force depends on velocities or time")
+    } else {
+        ("Symplectic4", "order 4 and symplectic, and all forces follow from positions alone")
+    }
+}
+
+/// The first plan for a goal: trials make it better.
+fn plan_for(
+    goal: Goal,
+    world: &World,
+    clock: &ClockSection,
+    overrides: &Overrides,
+    duration: f64,
+) -> Result<Plan, Wrong> {
+    let mut method = overrides.method.clone().unwrap_or_else(|| clock.method.0.clone());
+    let free = method == ClockSection::AUTO || method == ClockSection::REFERENCE;
+    let given = overrides.tick.or(clock.tick.map(|tick| tick.si()).filter(|_| goal == Goal::Reference));
+    let tick = given.map_or_else(|| frame_tick(world, duration), |tick| positive("--tick", tick))?;
+    let varies = world.contains_resource::<ContactLaw>() || world.resource::<Census>().changing_forces;
+    let mut plan =
+        Plan { method: String::new(), tick, pace: Pace::Even(1), events: clock.events, notes: Vec::new(), error: None };
+    if free && !varies && goal != Goal::Reference {
+        let exact = ErrorParts { discretisation: Some(0.0), ..Default::default() };
+        plan.error = Some(ErrorEstimate { position: exact, velocity: exact, ..Default::default() });
+        plan.notes.push("method VelocityVerlet chosen: accelerations do not change, so that it is exact".to_owned());
+        plan.method = "VelocityVerlet".to_owned();
+        return Ok(plan);
+    }
+    if free {
+        method = "Dop853".to_owned();
+        plan.events = if clock.events == EventTiming::Auto { EventTiming::Located } else { clock.events };
+    }
+    let description = described(world, &method)?;
+    plan.method = method;
+    let estimates = description.one_step.is_some_and(|make| make().order_of_error() > 0);
+    plan.pace = if estimates {
+        // Trials say how much a step may err.
+        Pace::Allowed(Allowance { share: 1e-3, longest: duration })
+    } else {
+        Pace::Even(steps_per_tick(world, &plan))
+    };
+    Ok(plan)
+}
+
+/// The time from frame to frame where the run is a whole number of frames long; else a part of it of which the run is a whole
+/// number.
+fn frame_tick(world: &World, duration: f64) -> Result<f64, Wrong> {
+    let film = world.get_resource::<FilmSection>();
+    let frame = film.map_or(1.0 / 30.0, |film| film.speed().abs() / film.frames_per_second());
+    let frames = duration / frame;
+    let whole = frames >= 1.0 && (frames - frames.round()).abs() < 1e-9 * frames;
+    let parts = if whole { frames.round() } else { (TICKS_PER_ODD_FRAME * frames).ceil().max(1.0) };
+    Ok(duration / parts)
+}
+
+/// The number of ticks of a run.
+fn count(
+    plan: &Plan,
+    duration: f64,
+    clock: &ClockSection,
+    overrides: &Overrides,
+    notes: &mut Vec<String>,
+) -> Result<u64, Wrong> {
+    let dt = plan.tick;
+    if dt > duration {
+        let message = format!("the tick of {dt:?} s is longer than the whole run of {duration:?} s");
+        return Err(Box::new(SceneError::new(if overrides.tick.is_some() { "--tick" } else { "--duration" }, message)));
+    }
+    let exact = duration / dt;
+    if exact > MOST_TICKS {
+        // Behind the largest number a quotient is no number to show.
+        let many = if exact.is_finite() { format!("{exact:.1e} ticks") } else { "beyond counting".to_owned() };
+        let path = match (overrides.duration, overrides.tick) {
+            (Some(_), _) => "--duration",
+            (None, Some(_)) => "--tick",
+            (None, None) if clock.tick.is_some() => "clock.tick",
+            (None, None) => "clock.duration",
+        };
+        let error = SceneError::new(path, format!("{duration:?} s in ticks of {dt:?} s are {many}"));
+        return Err(Box::new(
+            error.with_help("a run takes at most 1e15 ticks; choose a longer tick or a shorter duration"),
+        ));
+    }
+    // A quotient that is whole but for rounding is whole.
+    let ticks =
+        if (exact - exact.round()).abs() < 1e-9 * exact.max(1.0) { exact.round() } else { exact.ceil() }.max(1.0);
+    if (ticks * dt - duration).abs() > 1e-9 * duration {
+        notes.push(format!("{duration} s are not a whole number of ticks: the run ends at {} s", ticks * dt));
+    }
+    Ok(ticks as u64)
+}
+
+/// Makes the world ready for a plan.
+fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<(), Wrong> {
+    let method = described(world, &plan.method)?;
+    world.insert_resource(Clock { dt: plan.tick, ticks: 0 });
+    let mut stability = world.resource_mut::<Stability>();
+    (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
+    let Some((made, located)) = method.make(plan.events, plan.pace) else {
+        let message = format!("`{}` goes from tick to tick: it cannot locate events inside one", method.name);
+        return Err(Box::new(
+            SceneError::new("clock.events", message).with_help("write `events: Auto`, or leave it out"),
+        ));
+    };
+    let style = made.0.style();
+    let objections = world.resource::<Models>().objections.clone();
+    if let Some(objection) = objections.iter().find_map(|object| object(world, style)) {
+        let error = SceneError::new(objection.path, objection.message);
+        return Err(Box::new(error.with_help(objection.help)));
+    }
+    if located && world.contains_resource::<ContactLaw>() {
+        notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
+    }
+    world.insert_resource(ChosenMethod { name: method.name, located });
+    crate::tick::set_method(world, made);
+    Ok(())
+}
+
+fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(Box::new(SceneError::new(flag, format!("must be a finite number above zero, got {value:?}"))))
+    }
+}
+
+/// Forty ticks per half period of whatever responds fastest, rounded down to 1, 2 or 5 times a power of ten.
+fn chosen_tick(stability: &Stability) -> Result<(f64, &'static str), Box<SceneError>> {
+    let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
+    let Some(Foreseen { angular_frequency: omega, holder }) = stability.fastest_foreseen() else { return Ok(coarsest) };
+    let wanted = std::f64::consts::PI / (TICKS_PER_HALF_PERIOD * omega);
+    if wanted >= COARSEST_TICK {
+        return Ok(coarsest);
+    }
+    if !wanted.is_normal() {
+        let error = SceneError::new(
+            "clock",
+            format!(
+                "no tick is short enough for the stiffest {}, which vibrates at {omega:?} rad/s",
+                match holder {
+                    Holder::Contacts => "contact",
+                    Holder::Springs => "spring",
+                }
+            ),
+        );
+        return Err(Box::new(error.with_help("give the bodies less `stiffness` or more mass, or give a `tick`")));
+    }
+    let exponent = wanted.log10().floor() as i32;
+    let decade = libm::exp10(f64::from(exponent));
+    let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= wanted).unwrap_or(1.0);
+    // Read back from decimal digits, so that 2e-4 is the same number as in a scene.
+    let why = match holder {
+        Holder::Contacts => "the stiffest contact lasts at least 40 of them",
+        Holder::Springs => "half a swing of the fastest springs lasts at least 40 of them",
+    };
+    Ok((format!("{step}e{exponent}").parse().unwrap_or(step * decade), why))
+}

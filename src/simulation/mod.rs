@@ -1,0 +1,253 @@
+//! A scene, ready to run: the door through which programs use the engine.
+
+mod choice;
+
+pub use choice::{Goal, Plan};
+
+use std::time::{Duration, Instant};
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+use crate::contacts;
+use crate::expect::{Expectations, Outcome, observe_all};
+use crate::record::layers::{self, WantedLayers};
+use crate::report::Card;
+use crate::report::accuracy::{self, Tell};
+use crate::report::card::Notes;
+use crate::scene::sections::FilmSection;
+use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
+use crate::tick::{Clock, Failure, TickAppExt, step};
+use crate::world::{Name, packed};
+
+/// What a caller wants otherwise than the scene says. Each is named on the card.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    /// Length of a tick in seconds.
+    pub tick: Option<f64>,
+    /// Name of the integration method.
+    pub method: Option<String>,
+    /// Error allowed, as a share of the scene's motion, in place of a tick.
+    pub tolerance: Option<f64>,
+    /// Length of the run in seconds.
+    pub duration: Option<f64>,
+    /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]; an empty list: no
+    /// layers at all. They change nothing of the run.
+    pub layers: Option<Vec<String>>,
+    /// How the scene is run, as found for an earlier run of it ([`Simulation::plan`]): nothing is tried again.
+    pub plan: Option<Plan>,
+    /// Told of each trial run that a tolerance or a reference run needs.
+    pub tell: Option<Tell>,
+}
+
+/// Work to be done once when the whole scene stands: plugins add functions that need bodies and contacts.
+#[derive(Resource, Default)]
+pub struct Finishers(pub Vec<fn(&mut World)>);
+
+/// Mistakes of the scene that show only when the whole scene stands: [`Finishers`] write them down, with their paths, and
+/// the scene is refused.
+#[derive(Resource, Default)]
+pub struct LateErrors(pub Vec<SceneError>);
+
+/// A scene, ready to run.
+///
+/// ```
+/// use jostle::{Simulation, scene::Source};
+///
+/// let scene = r#"Scene(
+///     format: 1,
+///     clock: (duration: 1),
+///     gravity: (0, -10),
+///     bodies: [(name: "ball", at: (0, 5), atoms: Disc(radius: 0.1))],
+/// )"#;
+/// let mut simulation = Simulation::load(&Source::new("fall.ron", scene))?;
+/// simulation.run_to_end()?;
+/// let height = simulation.bodies().position[0].y;
+/// assert!((height - 0.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Simulation {
+    app: App,
+    header: SceneHeader,
+    film: FilmSection,
+    ticks: u64,
+    spent: Duration,
+}
+
+impl Simulation {
+    /// Reads a scene with the standard plugins.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, with their places.
+    pub fn load(source: &Source) -> Result<Self, SceneErrors> {
+        Self::load_with(source, &Overrides::default(), |_| {})
+    }
+
+    /// Reads a scene with the standard plugins and whatever `plugins` adds, and with some values overridden.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, with their places; overrides that cannot be.
+    pub fn load_with(source: &Source, overrides: &Overrides, plugins: impl Fn(&mut App)) -> Result<Self, SceneErrors> {
+        Self::load_only(source, overrides, |app| {
+            crate::plugins::standard(app);
+            plugins(app);
+        })
+    }
+
+    /// Reads a scene with nothing but the plugins given: what they do not register, the scene cannot name.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, with their places; overrides that cannot be.
+    pub fn load_only(source: &Source, overrides: &Overrides, plugins: impl Fn(&mut App)) -> Result<Self, SceneErrors> {
+        let first = Self::read(source, overrides, &plugins)?;
+        let world = first.world();
+        let (Some(goal), Some(plan)) = (world.get_resource::<Goal>(), world.get_resource::<Plan>()) else {
+            return Ok(first);
+        };
+        if plan.error.is_some() {
+            return Ok(first);
+        }
+        let begin = (plan.clone(), choice::order(world, plan), choice::steps_per_tick(world, plan));
+        let mut again =
+            |plan: &Plan| Self::read(source, &Overrides { plan: Some(plan.clone()), ..overrides.clone() }, &plugins);
+        let found = accuracy::find(*goal, begin, &mut again, overrides.tell)?;
+        again(&found)
+    }
+
+    /// Reads a scene once, ready to run.
+    fn read(source: &Source, overrides: &Overrides, plugins: &dyn Fn(&mut App)) -> Result<Self, SceneErrors> {
+        let mut app = App::empty();
+        app.insert_resource(WantedLayers(overrides.layers.clone()));
+        let header = read(&mut app, source, plugins)?;
+        app.finish();
+        app.cleanup();
+        let world = app.world_mut();
+        let ticks = begin(world, source, &header, overrides)?;
+        let film = world.remove_resource::<FilmSection>().unwrap_or_default();
+        Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
+    }
+
+    /// How it is run, if trials had to find that: with [`Overrides::plan`] another run of the scene needs none.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.world().get_resource()
+    }
+
+    /// The world, for whoever wants to look at everything.
+    pub fn world(&self) -> &World {
+        self.app.world()
+    }
+
+    /// The world, to change it between ticks. Components count: the packed state follows them.
+    pub fn world_mut(&mut self) -> &mut World {
+        self.app.world_mut()
+    }
+
+    /// The packed bodies in canonical order.
+    pub fn bodies(&self) -> &crate::world::Bodies {
+        self.world().resource()
+    }
+
+    /// What the scene says about itself.
+    pub fn header(&self) -> &SceneHeader {
+        &self.header
+    }
+
+    /// What is to be drawn.
+    pub fn film(&self) -> &FilmSection {
+        &self.film
+    }
+
+    /// The clock.
+    pub fn clock(&self) -> Clock {
+        *self.world().resource()
+    }
+
+    /// Ticks that the whole run takes.
+    pub fn ticks(&self) -> u64 {
+        self.ticks
+    }
+
+    /// Runs until `tick` ticks are done in all; does nothing if they are.
+    ///
+    /// # Errors
+    /// When a number stops being finite, or energy comes out of nowhere.
+    pub fn run_to_tick(&mut self, tick: u64) -> Result<(), Failure> {
+        let missing = tick.saturating_sub(self.clock().ticks);
+        if missing == 0 {
+            return Ok(());
+        }
+        let start = Instant::now();
+        let result = step(self.app.world_mut(), missing);
+        self.spent += start.elapsed();
+        if self.clock().ticks == self.ticks {
+            observe_all(self.app.world_mut());
+        }
+        result
+    }
+
+    /// Runs until the end of the scene's duration.
+    ///
+    /// # Errors
+    /// When a number stops being finite, or energy comes out of nowhere.
+    pub fn run_to_end(&mut self) -> Result<(), Failure> {
+        self.run_to_tick(self.ticks)
+    }
+
+    /// The error card of the present state.
+    pub fn card(&self) -> Card {
+        Card::of(self.world(), self.spent.as_secs_f64())
+    }
+
+    /// Seconds spent computing so far.
+    pub fn seconds_spent(&self) -> f64 {
+        self.spent.as_secs_f64()
+    }
+
+    /// Name of the body at `place`; empty for a body spawned without one.
+    pub fn name(&self, place: usize) -> &str {
+        let entity = self.bodies().entity[place];
+        self.world().get::<Name>(entity).map_or("", |name| &name.0)
+    }
+
+    /// Seconds of physics from frame to frame of the film, by default 1/30.
+    pub fn frame_step(&self) -> f64 {
+        self.film.speed() / self.film.frames_per_second()
+    }
+
+    /// How the scene's expectations went so far.
+    pub fn outcomes(&self) -> Vec<Outcome> {
+        self.world().get_resource::<Expectations>().map_or_else(Vec::new, Expectations::outcomes)
+    }
+}
+
+/// Reads a scene into an app: afterwards everything in it is installed.
+pub(crate) fn read(app: &mut App, source: &Source, plugins: impl Fn(&mut App)) -> Result<SceneHeader, SceneErrors> {
+    app.add_tick();
+    app.init_resource::<Notes>().init_resource::<Finishers>();
+    plugins(app);
+    let header = scene::load(app, source)?;
+    contacts::install_default(&header.outline, app);
+    layers::install_wanted(&header.outline, app);
+    Ok(header)
+}
+
+/// Makes a scene that was read ready for its first tick; returns the number of ticks it is to run.
+pub(crate) fn begin(
+    world: &mut World,
+    source: &Source,
+    header: &SceneHeader,
+    overrides: &Overrides,
+) -> Result<u64, SceneErrors> {
+    world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
+    packed::rebuild(world);
+    for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
+        finish(world);
+    }
+    let late = world.remove_resource::<LateErrors>().unwrap_or_default().0;
+    if !late.is_empty() {
+        return Err(scene::found_later(source, late));
+    }
+    let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(source, vec![*error]))?;
+    observe_all(world);
+    Ok(ticks)
+}

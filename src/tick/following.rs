@@ -1,0 +1,43 @@
+//! From stages of steps to whole steps that follow one another, and back: what an integrator needs that changes between
+//! the two in a run.
+
+use super::{Models, Style, Tick};
+
+impl Tick<'_> {
+    /// From the state just evaluated at `time` seconds on, models with a history follow from state to state.
+    pub fn begin_following(&mut self, time: f64) {
+        self.hand_over(Style::Following);
+        let mut bodies = self.bodies();
+        // An estimate of velocities belongs to the tick in which it was made, what rounding left over to the method before.
+        bodies.estimated_velocity.clear();
+        bodies.estimated_spin.clear();
+        bodies.position_rest.fill(glam::DVec2::ZERO);
+        bodies.angle_rest.fill(0.0);
+        self.part(time, time, |tick| tick.evaluate(0.0));
+    }
+
+    /// From the beginning of the tick on, states are stages of steps again.
+    pub fn begin_stages(&mut self, style: Style) {
+        self.hand_over(style);
+        self.begin_anew();
+        // What the change has cost is booked.
+        self.end_step(&[]);
+    }
+
+    fn hand_over(&mut self, style: Style) {
+        self.style = style;
+        let models = self.world.resource::<Models>().handovers.clone();
+        for handover in models {
+            handover(self.world, style);
+        }
+    }
+
+    /// A part of the tick as if it were a whole one.
+    pub fn part<R>(&mut self, begin: f64, end: f64, step: impl FnOnce(&mut Self) -> R) -> R {
+        let whole = (self.begin, self.end, self.dt);
+        (self.begin, self.end, self.dt) = (begin, end, end - begin);
+        let result = step(self);
+        (self.begin, self.end, self.dt) = whole;
+        result
+    }
+}
