@@ -46,6 +46,16 @@ impl JsonSchema for Partner {
     }
 }
 
+/// Reports a stiffness and a damping that cannot be, or hold nothing.
+pub(super) fn check_holds(stiffness: impl Into<f64>, damping: impl Into<f64>, report: &mut Report) {
+    let (stiffness, damping) = (stiffness.into(), damping.into());
+    report.not_negative("stiffness", stiffness);
+    report.not_negative("damping", damping);
+    if stiffness == 0.0 && damping == 0.0 {
+        report.error("", "this spring holds nothing").help("give `stiffness` or `damping` a value above zero");
+    }
+}
+
 /// Reports ends that are nobody's, or both of one body.
 pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut Report) {
     outline.require(Kind::BODY, a, "a", report);

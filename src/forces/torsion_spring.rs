@@ -67,13 +67,9 @@ impl Entry for TorsionSpring {
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         link::check_ends(&self.a, &self.b, outline, report);
-        report.not_negative("stiffness", self.stiffness);
-        report.not_negative("damping", self.damping);
+        link::check_holds(self.stiffness, self.damping, report);
         if let Some(angle) = self.angle {
             report.finite("angle", angle);
-        }
-        if self.stiffness.si() == 0.0 && self.damping.si() == 0.0 {
-            report.error("", "this spring holds nothing").help("give `stiffness` or `damping` a value above zero");
         }
     }
 

@@ -48,11 +48,13 @@ pub(super) struct Control {
     /// The length to be tried next, in s; nothing after a state that does not follow from the one before.
     next: Option<f64>,
     sizes: Vec<f64>,
+    /// Whether the last step was allowed more than was asked for, because of rounding.
+    bounded: bool,
 }
 
 impl Control {
     pub fn new(allowance: Allowance) -> Self {
-        Self { allowance, distance: 0.0, speed: 0.0, origin: Vec::new(), next: None, sizes: Vec::new() }
+        Self { allowance, distance: 0.0, speed: 0.0, origin: Vec::new(), next: None, sizes: Vec::new(), bounded: false }
     }
 
     /// The motion that comes does not follow from the one before.
@@ -63,6 +65,11 @@ impl Control {
     /// The longest step that is tried.
     pub fn longest(&self) -> f64 {
         self.next.map_or(self.allowance.longest, |next| next.min(self.allowance.longest))
+    }
+
+    /// Whether rounding of places allowed the last step a larger error than was asked for.
+    pub fn is_bounded(&self) -> bool {
+        self.bounded
     }
 
     /// Looks how far and how fast bodies are.
@@ -128,7 +135,9 @@ impl Control {
     pub fn error(&mut self, method: &dyn OneStep, flow: &WorldFlow, made: (Reach, f64)) -> Option<f64> {
         let (reach, length) = made;
         let distance = self.measure(flow, reach, length);
-        let share = self.allowance.share.max(ROUNDING * flow.farthest() / distance);
+        let least = ROUNDING * flow.farthest() / distance;
+        self.bounded = least > self.allowance.share;
+        let share = self.allowance.share.max(least);
         self.sizes.iter_mut().for_each(|size| *size *= share);
         method.error(&self.sizes)
     }

@@ -47,6 +47,16 @@ pub struct StepCount {
     pub rejected: u64,
     /// The longest accepted one, in s.
     pub longest: f64,
+    /// Accepted steps that were allowed a larger error than was asked for: rounding of places leaves no smaller one.
+    pub bounded: u64,
+}
+
+impl StepCount {
+    /// Whether rounding bounds more than a tenth of all steps. The first ones of a run, before anything has moved far, do not
+    /// count for much.
+    pub fn is_bounded(&self) -> bool {
+        10 * self.bounded > self.accepted
+    }
 }
 
 /// How a tick is divided into steps, when nothing happens in it.
@@ -283,6 +293,7 @@ impl Staged {
         let mut count = flow.tick.world.get_resource_or_init::<StepCount>();
         count.accepted += 1;
         count.rejected += rejected;
+        count.bounded += u64::from(self.control.as_ref().is_some_and(Control::is_bounded));
         count.longest = count.longest.max(share * length);
         let cut = share < 1.0 || !fired.is_empty();
         let until = if share == 1.0 { until } else { from + share * length };

@@ -88,8 +88,13 @@ impl ErrorEstimate {
 }
 
 /// The error that a run is known to have.
-#[derive(Resource, Clone, Copy, Debug, Default)]
-pub struct KnownError(pub Option<ErrorEstimate>);
+#[derive(Resource, Clone, Debug, Default)]
+pub struct KnownError {
+    /// The error; nothing, if no runs were compared.
+    pub estimate: Option<ErrorEstimate>,
+    /// Why it is not what was asked for.
+    pub warning: Option<String>,
+}
 
 /// The error card.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -134,6 +139,8 @@ pub struct Card {
     shortest_contact: Option<f64>,
     #[serde(skip)]
     holder: Option<Holder>,
+    #[serde(skip)]
+    missed: Option<String>,
     #[serde(skip)]
     located: bool,
     #[serde(skip)]
@@ -187,9 +194,10 @@ impl Card {
             verdict: String::new(),
             notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
             warnings: Vec::new(),
-            error: world.get_resource::<KnownError>().and_then(|known| known.0),
+            error: world.get_resource::<KnownError>().and_then(|known| known.estimate),
             shortest_contact,
             holder: responses.fastest.map(|fastest| fastest.holder),
+            missed: world.get_resource::<KnownError>().and_then(|known| known.warning.clone()),
             located: ChosenMethod::locates(world),
             steps: world.get_resource().copied().unwrap_or_default(),
             ticks: clock.ticks,
@@ -238,7 +246,10 @@ impl Card {
             return format!("Do not trust it: numbers are no longer finite. Use {finer} or finer.");
         }
         if let Some(known) = &self.error {
-            return known.verdict();
+            return match &self.missed {
+                Some(why) => format!("Do not trust its last digits: {why}."),
+                None => known.verdict(),
+            };
         }
         let contact_ticks = self.shortest_contact.map(|shortest| shortest / self.tick);
         let overlap = &self.largest_overlap;
@@ -310,7 +321,7 @@ impl fmt::Display for Card {
             |critical| format!("critical {} s, used {:.1} %", number(critical), self.tick / critical * 100.0),
         );
         row("method", format!("{}, tick {} s ({critical})", self.method, number(self.tick)))?;
-        let StepCount { accepted, rejected, longest } = self.steps;
+        let StepCount { accepted, rejected, longest, .. } = self.steps;
         if accepted > 0 {
             let again = if rejected > 0 { format!(", {rejected} made again") } else { String::new() };
             let events = self.events_located;

@@ -19,8 +19,9 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
     let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
     let advised = number(advised);
     let mut warnings = Vec::new();
+    warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
     // Where steps are as long as their error allows, ticks are only moments at which the run is looked at.
-    let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.0.is_none());
+    let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
     let responses = if by_ticks { responses } else { Responses::default() };
     let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
     if let Some(fastest) = beyond {

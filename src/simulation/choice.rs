@@ -44,6 +44,8 @@ pub struct Plan {
     pub notes: Vec<String>,
     /// The error it is known to have.
     pub error: Option<ErrorEstimate>,
+    /// Why it does not reach what was asked for.
+    pub warning: Option<String>,
 }
 
 type Wrong = Box<SceneError>;
@@ -71,7 +73,7 @@ pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64,
     let ticks = count(&plan, duration, &clock, overrides, &mut notes)?;
     install(world, &plan, &mut notes)?;
     if let Some(goal) = goal {
-        world.insert_resource(KnownError(plan.error));
+        world.insert_resource(KnownError { estimate: plan.error, warning: plan.warning.clone() });
         world.insert_resource(goal);
         world.insert_resource(plan);
     }
@@ -141,7 +143,7 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
         notes.push(format!("method {name} chosen: {why}"));
         method = name.to_owned();
     }
-    Ok(Plan { method, tick, pace: Pace::Even(1), events: clock.events, notes, error: None })
+    Ok(Plan { method, tick, pace: Pace::Even(1), events: clock.events, notes, error: None, warning: None })
 }
 
 /// The method that suits what the scene holds, and why.
@@ -171,8 +173,15 @@ fn plan_for(
     let given = overrides.tick.or(clock.tick.map(|tick| tick.si()).filter(|_| goal == Goal::Reference));
     let tick = given.map_or_else(|| frame_tick(world, duration), |tick| positive("--tick", tick))?;
     let varies = world.contains_resource::<ContactLaw>() || world.resource::<Census>().changing_forces;
-    let mut plan =
-        Plan { method: String::new(), tick, pace: Pace::Even(1), events: clock.events, notes: Vec::new(), error: None };
+    let mut plan = Plan {
+        method: String::new(),
+        tick,
+        pace: Pace::Even(1),
+        events: clock.events,
+        notes: Vec::new(),
+        error: None,
+        warning: None,
+    };
     if free && !varies && goal != Goal::Reference {
         let exact = ErrorParts { discretisation: Some(0.0), ..Default::default() };
         plan.error = Some(ErrorEstimate { position: exact, velocity: exact, ..Default::default() });

@@ -51,9 +51,13 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
         ),
         None => format!("no chaos: a disturbance of the beginning grows by a factor of {} within the run", number(growth)),
     });
-    if coarse.crowded || fine.crowded {
-        plan.notes
-            .push("warning: more events happened in some ticks than are located: the error is larger there".to_owned());
+    if fine.bounded {
+        plan.warning = Some(format!(
+            "rounding of places {} m from the origin bounds the steps of bodies that go {} m: the two runs are alike, and what \
+             they differ by is no error; move the scene to the origin",
+            number(fine.farthest()),
+            number(distance)
+        ));
     }
     plan.notes.push(trials.cost());
     plan.error = Some(known);

@@ -90,11 +90,11 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
         };
         let wanted = fineness * (SAFETY * tolerance * left / difference).powf(1.0 / climb.power);
         let sure = !climb.wary || before.is_some();
-        if sure && wanted >= (next * climb.trusted).max(climb.finest) {
+        if sure && !fine.bounded && wanted >= (next * climb.trusted).max(climb.finest) {
             let chosen = wanted.min(climb.coarsest);
             return Ok(reached(trials, chosen, tolerance, error_at(chosen)));
         }
-        if next <= climb.finest || trials.count >= MOST_TRIALS {
+        if fine.bounded || next <= climb.finest || trials.count >= MOST_TRIALS {
             return Ok(missed(trials, next, tolerance, (&coarse, &fine), error_at(next)));
         }
         (before, fineness, coarse) = (Some((fineness, difference)), next, fine);
@@ -137,14 +137,19 @@ fn missed(
 ) -> Plan {
     let mut plan = trials.planned(fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
-    let when = lost.map_or_else(|| "in its velocities".to_owned(), |time| format!("from t = {} s on", number(time)));
-    plan.notes.push(format!(
-        "warning: the tolerance of {} was not reached {when}: {} of the {} runs differ by more, which is rounding or chaos",
-        number(tolerance),
-        "the finest two",
-        trials.count,
-    ));
+    let why = match lost {
+        _ if fine.bounded => format!(
+            "rounding of places {} m from the origin leaves no smaller steps for bodies that go {} m; move the scene to the origin",
+            number(fine.farthest()),
+            number(trials.sizes().0)
+        ),
+        Some(time) => format!("the two finest runs part at t = {} s, by rounding or chaos", number(time)),
+        None => "the two finest runs differ in their velocities by more".to_owned(),
+    };
+    plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
     plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
-    plan.error = Some(estimate(error));
+    let mut known = estimate(error);
+    known.position.rounding = Some(f64::EPSILON * fine.farthest());
+    plan.error = Some(known);
     plan
 }

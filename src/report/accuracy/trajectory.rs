@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::Simulation;
-use crate::integrate::LocatedEvents;
+use crate::integrate::{LocatedEvents, StepCount};
 use crate::tick::{Evaluation, Failure};
 
 /// Moments at which runs are compared, at most.
@@ -31,6 +31,8 @@ pub(super) struct Trajectory {
     pub evaluations: u64,
     /// Whether more happened in a tick than is located.
     pub crowded: bool,
+    /// Whether rounding of places bounds its steps: two such runs are alike, whatever they are allowed.
+    pub bounded: bool,
 }
 
 /// A body that goes less far than this share of the farthest is measured as if it went so far.
@@ -72,6 +74,7 @@ impl Trajectory {
             failure,
             evaluations: world.resource::<Evaluation>().count,
             crowded: world.get_resource::<LocatedEvents>().is_some_and(|events| events.given_up > 0),
+            bounded: world.get_resource::<StepCount>().is_some_and(StepCount::is_bounded),
         }
     }
 
