@@ -14,6 +14,9 @@ use crate::world::Bodies;
 /// Margin as a share of the smallest radius. Larger: fewer searches, more candidates.
 const MARGIN_SHARE: f64 = 0.7;
 
+/// A margin so many times as wide as is needed is given up: a long step needed it, and lists are long ever since.
+const WASTEFUL: f64 = 16.0;
+
 /// Axis-aligned bounding boxes of all bodies, each grown by half the margin.
 #[derive(Resource, Debug, Default)]
 pub struct Bounds {
@@ -27,6 +30,8 @@ pub struct Bounds {
     pub high: Vec<DVec2>,
     /// Somebody moved farther than the boxes allow in a stage of a step.
     pub outgrown: bool,
+    /// Stages of steps renew them as states that follow one another do.
+    pub renewed_in_steps: bool,
     /// The boxes are to be made anew at the next evaluation.
     stale: bool,
     generation: u64,
@@ -49,14 +54,13 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, ev
         return;
     }
     // Inside a step lists stay as they are: the step is made again with a wider margin.
-    if known && evaluation.style.is_staged() {
+    if known && evaluation.style.is_staged() && !bounds.renewed_in_steps {
         bounds.outgrown = true;
         return;
     }
     (bounds.stale, bounds.outgrown) = (false, false);
     if bounds.generation != bodies.generation {
-        let smallest = bodies.smallest_radius;
-        bounds.margin = if smallest.is_finite() { MARGIN_SHARE * smallest } else { 0.0 };
+        bounds.margin = least_margin(&bodies);
     }
     bounds.generation = bodies.generation;
     bounds.version += 1;
@@ -77,6 +81,12 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, ev
     }
 }
 
+/// The margin in metres that suits bodies of these sizes.
+fn least_margin(bodies: &Bodies) -> f64 {
+    let smallest = bodies.smallest_radius;
+    if smallest.is_finite() { MARGIN_SHARE * smallest } else { 0.0 }
+}
+
 impl Bounds {
     /// Makes sure that the boxes hold while no point of a body moves farther than `travel` metres from where it stands now.
     /// Says whether they have to be made anew for that.
@@ -86,11 +96,13 @@ impl Bounds {
             self.margin / 2.0 - turned - (bodies.position[body] - self.position[body]).length()
         };
         let enough = (0..bodies.len()).filter(|&body| bodies.moves[body]).all(|body| left(body) >= travel);
-        if !enough {
-            self.margin = self.margin.max(4.0 * travel);
+        let wanted = least_margin(bodies).max(4.0 * travel);
+        let renew = !enough || self.margin > WASTEFUL * wanted;
+        if renew {
+            self.margin = wanted;
             self.stale = true;
         }
-        !enough
+        renew
     }
 
     /// The boxes are to be made anew at the next evaluation.

@@ -6,9 +6,9 @@ use super::Exit;
 use super::load::Request;
 use super::say::{count, print_line, say};
 use crate::expect::Outcome;
-use crate::report::Card;
 use crate::report::card::number;
 use crate::report::reversal::Reversal;
+use crate::report::{Card, Remedy};
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
@@ -110,17 +110,22 @@ fn returned(back: &Reversal) -> String {
 
 /// The likely cause of a run that went wrong, and what to try.
 pub(super) fn remedy(card: &Card) -> String {
+    let advice = card.remedy().map_or_else(String::new, |remedy| format!(": try `{remedy}`"));
     match card.critical_tick.zip(card.holder()) {
         Some((critical, holder)) if card.tick > critical => format!(
-            "the tick of {} s is longer than the {holder} can bear, {} s: try `--tick {}`",
+            "the tick of {} s is longer than the {holder} can bear, {} s{advice}",
             number(card.tick),
             number(critical),
-            number(card.advised_tick())
         ),
         _ => format!(
             "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near \
-             zero, for drag that stops a body within a tick, for a plugin that does not book its work, or try `--tick {}`",
-            number(card.tick / 4.0)
+             zero, for drag that stops a body within a tick, for a plugin that does not book its work{}",
+            // Whatever is said of contacts came of that.
+            match card.remedy() {
+                Some(Remedy::Tick(_)) => format!(", or try `{}`", Remedy::Tick(card.tick / 4.0)),
+                Some(remedy) => format!(", or try `{remedy}`"),
+                None => String::new(),
+            }
         ),
     }
 }

@@ -29,6 +29,8 @@ pub struct Touching {
 pub struct Touches {
     /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
     pairs: Vec<(bool, u32, u32)>,
+    /// Those that began to touch at located events since the last tick, once for each time.
+    begun: Vec<(bool, u32, u32)>,
     /// Whether a law has ever begun a list.
     told: bool,
 }
@@ -49,14 +51,25 @@ impl Touches {
     pub fn wall(&mut self, body: usize, wall: u32) {
         self.pairs.push((true, body as u32, wall));
     }
+
+    /// Two bodies began to touch at an event inside a tick, given by their places.
+    pub fn bodies_begin(&mut self, a: usize, b: usize) {
+        self.begun.push((false, a.min(b) as u32, a.max(b) as u32));
+    }
+
+    /// A body and a wall did, given by their places.
+    pub fn wall_begins(&mut self, body: usize, wall: u32) {
+        self.begun.push((true, body as u32, wall));
+    }
 }
 
 /// What the last tick changed: an observer reads it in [`crate::tick::Stage::Observe`] after [`FindContactEvents`], or between ticks.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct ContactEvents {
-    /// Pairs that touch and did not before, in canonical order. In the first tick these are all that touch.
+    /// Pairs that began to touch, in canonical order. In the first tick these are all that touch. Where events are located a
+    /// pair stands here as often as it began to touch in the tick, else once if it touches and did not before.
     pub begun: Vec<Touching>,
-    /// Pairs that touched and no longer do, in canonical order.
+    /// Pairs that ceased to touch, as often as they did, in canonical order.
     pub ended: Vec<Touching>,
     /// All pairs that touch, in canonical order.
     pub present: Vec<Touching>,
@@ -130,4 +143,20 @@ fn find_contact_events(
     let now: BTreeSet<Touching> = present.iter().copied().collect();
     begun.extend(present.iter().filter(|pair| !known.contains(pair)));
     ended.extend(before.iter().filter(|pair| !now.contains(pair)));
+    if touches.begun.is_empty() {
+        return;
+    }
+    // What was located is known exactly, and replaces what two states show.
+    let located: Vec<Touching> = touches.begun.drain(..).map(|pair| entities(&pair)).collect();
+    let seen: BTreeSet<Touching> = located.iter().copied().collect();
+    begun.retain(|pair| !seen.contains(pair));
+    ended.retain(|pair| !seen.contains(pair));
+    for pair in &seen {
+        let times = located.iter().filter(|other| *other == pair).count();
+        let left = usize::from(known.contains(pair)) + times - usize::from(now.contains(pair));
+        begun.extend(std::iter::repeat_n(*pair, times));
+        ended.extend(std::iter::repeat_n(*pair, left));
+    }
+    begun.sort_unstable();
+    ended.sort_unstable();
 }

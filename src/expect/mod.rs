@@ -33,13 +33,22 @@ pub trait Watch: Send + Sync + 'static {
         1
     }
 
+    /// Whether it claims something of all times, which it knows only at those at which it looks.
+    fn samples(&self) -> bool {
+        true
+    }
+
     /// Whether it held, and what was measured. `None` for the first: the run ended before it could be judged.
     fn verdict(&self) -> (Option<bool>, String);
 }
 
 /// The expectations of the scene, in the order of the file within each kind.
 #[derive(Resource, Default)]
-pub struct Expectations(Vec<(String, Box<dyn Watch>)>);
+pub struct Expectations {
+    watches: Vec<(String, Box<dyn Watch>)>,
+    /// Whether no tick is left out.
+    all_ticks: bool,
+}
 
 /// How an expectation went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -62,7 +71,17 @@ impl Expectations {
             app.init_resource::<Self>();
             app.add_packed_systems(SimTick, 1, observe_tick.in_set(Stage::Observe));
         }
-        app.world_mut().resource_mut::<Self>().0.push((text, Box::new(watch)));
+        app.world_mut().resource_mut::<Self>().watches.push((text, Box::new(watch)));
+    }
+
+    /// Whether any claims something of all times.
+    pub fn sample(&self) -> bool {
+        self.watches.iter().any(|(_, watch)| watch.samples())
+    }
+
+    /// From now on none leaves a tick out, as where ticks are frames.
+    pub fn look_at_all_ticks(&mut self) {
+        self.all_ticks = true;
     }
 
     /// How each expectation went so far.
@@ -74,28 +93,29 @@ impl Expectations {
             }
             Outcome { text: text.clone(), holds: holds == Some(true), measured, judged: holds.is_some() }
         };
-        self.0.iter().map(outcome).collect()
+        self.watches.iter().map(outcome).collect()
     }
 }
 
 fn observe_tick(world: &mut World) {
-    let ticks = world.resource::<Clock>().ticks;
-    look(world, |watch| ticks.is_multiple_of(watch.every()));
+    look(world, false);
 }
 
 /// All expectations look at the present state: before the first tick, and after the last.
 pub fn observe_all(world: &mut World) {
-    look(world, |_| true);
+    look(world, true);
 }
 
-fn look(world: &mut World, wanted: impl Fn(&dyn Watch) -> bool) {
+fn look(world: &mut World, all: bool) {
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
-    let mut watches = std::mem::take(&mut expectations.0);
-    let sight = Sight { world, bodies: world.resource::<Bodies>(), time: world.resource::<Clock>().time() };
-    for (_, watch) in watches.iter_mut().filter(|(_, watch)| wanted(watch.as_ref())) {
+    let all = all || expectations.all_ticks;
+    let mut watches = std::mem::take(&mut expectations.watches);
+    let clock = *world.resource::<Clock>();
+    let sight = Sight { world, bodies: world.resource::<Bodies>(), time: clock.time() };
+    for (_, watch) in watches.iter_mut().filter(|(_, watch)| all || clock.ticks.is_multiple_of(watch.every())) {
         watch.observe(&sight);
     }
-    world.resource_mut::<Expectations>().0 = watches;
+    world.resource_mut::<Expectations>().watches = watches;
 }
 
 /// Registers the expectations of this folder.
@@ -108,7 +128,9 @@ pub fn plugin(app: &mut App) {
     app.describe_section(
         "expect",
         "What has to be true of the run: the scene is its own test. Checked by `run`, `render` and `check --run`; an \
-         expectation that is broken is told, and the exit code is 1.",
+         expectation that is broken is told, and the exit code is 1. Under a `tolerance` or `method: Reference` ticks are the \
+         frames of the film: what has to hold at every tick is looked at there and not between, and the card says how far \
+         apart they are.",
     );
     at_rest::plugin(app);
     channel::plugin(app);

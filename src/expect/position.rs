@@ -77,6 +77,10 @@ impl Watch for Watching {
         self.before = Some(now);
     }
 
+    fn samples(&self) -> bool {
+        false
+    }
+
     fn verdict(&self) -> (Option<bool>, String) {
         let Some(found) = self.found else { return (None, format!("t = {} s was not reached", self.at)) };
         let distance = found.distance(self.is);

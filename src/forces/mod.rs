@@ -4,6 +4,7 @@
 pub mod aim;
 pub mod attraction;
 pub mod ballistics;
+mod between_ticks;
 pub mod drag;
 pub mod drive;
 pub mod gravity;

@@ -1,7 +1,8 @@
 //! Thrust: a force at a point of a body, constant in the body's frame or in the world's, between two times.
 //!
-//! It acts in a whole tick or not at all: in those whose middle lies between the two times. So a schedule on the grid
-//! of ticks gives force times time to the last digit, and rounding of the times decides nothing.
+//! Where a run goes from tick to tick it acts in a whole tick or not at all: in those whose middle lies between the two
+//! times. So a schedule on the grid of ticks gives force times time to the last digit, and rounding of the times decides
+//! nothing; one beside the grid is warned of. Methods with steps inside ticks end one at each of the two times.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -9,15 +10,18 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
+use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
 use super::{Targets, check_targets};
+use crate::report::card::number;
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Dependence, EvaluateStage, Models, Modes, Span, TickAppExt};
+use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Models, Modes, Span, Style, TickAppExt};
 use crate::world::Bodies;
 
-/// A force at a point of a body, between two times. It acts in whole ticks: in those whose middle lies between the two
-/// times.
+/// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located events
+/// it acts in whole ticks, in those whose middle lies between the two times; the card warns where that is not what was asked
+/// for.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Thrust {
@@ -65,7 +69,8 @@ impl Entry for Thrust {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let thrust = |Written { value, .. }: Written<Self>| ThrustForce {
+        let thrust = |(Written { value, .. }, path): (Written<Self>, String)| ThrustForce {
+            path,
             of: Targets::named(Some(&value.of), outline),
             at: value.at.si(),
             force: value.force.si(),
@@ -74,13 +79,15 @@ impl Entry for Thrust {
             to: value.to.map_or(f64::INFINITY, Time::si),
             acts: false,
         };
-        install(entries.into_iter().map(thrust).collect(), app);
+        install(entries.into_iter().zip(paths(Self::NAME, outline)).map(thrust).collect(), app);
     }
 }
 
 /// One entry, ready to be applied.
 #[derive(Clone, Debug)]
 pub struct ThrustForce {
+    /// Where it stands in the scene, such as `forces[0]`.
+    pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
     /// Where it acts, in the body's frame from its centre of mass, in metres.
@@ -106,7 +113,9 @@ pub fn install(thrusts: Vec<ThrustForce>, app: &mut App) {
     // The force does not depend on velocities, its power does.
     app.add_packed_force(Dependence::Velocity, apply_thrust);
     app.add_systems(Modes, switch_thrust.in_set(EvaluateStage::Forces));
-    app.world_mut().get_resource_or_init::<Models>().edges.push(next_edge);
+    let mut models = app.world_mut().get_resource_or_init::<Models>();
+    models.edges.push(next_edge);
+    models.departures.push(departures);
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -142,7 +151,42 @@ fn next_edge(world: &World, time: f64) -> f64 {
     edges.filter(|edge| *edge > time).fold(f64::INFINITY, f64::min)
 }
 
+/// What came of times between two ticks.
+fn departures(world: &World, style: Style) -> Vec<String> {
+    let Some(clock) = clock_of_whole_ticks(world, style) else { return Vec::new() };
+    world.resource::<Thrusts>().0.iter().filter_map(|thrust| thrust.departure(&clock)).collect()
+}
+
 impl ThrustForce {
+    /// What came of it so far, if it begins or ends between two ticks.
+    fn departure(&self, clock: &Clock) -> Option<String> {
+        let between = |time: f64| time > 0.0 && time < clock.time() && is_between(clock, time);
+        if !between(self.from) && !between(self.to) {
+            return None;
+        }
+        // The first tick whose middle is not before a time.
+        let first = |time: f64| (time / clock.dt - 0.5).ceil().clamp(0.0, clock.ticks as f64) as u64;
+        let (begin, end) = (clock.time_of(first(self.from)), clock.time_of(first(self.to)));
+        let asked = self.to.min(clock.time()) - self.from.max(0.0);
+        let share = (end - begin) / asked - 1.0;
+        let times = match self.to {
+            f64::INFINITY => format!("from {} s on", number(self.from)),
+            to => format!("from {} s to {} s", number(self.from), number(to)),
+        };
+        let came = match share {
+            -1.0 => "does not act at all: its whole impulse is lost".to_owned(),
+            _ => {
+                let impulse = match share {
+                    share if share <= -5e-4 => format!("{} of its impulse is lost", percent(-share)),
+                    share if share >= 5e-4 => format!("its impulse is {} too large", percent(share)),
+                    _ => "its impulse is right, but not its time".to_owned(),
+                };
+                format!("acts from {} s to {} s: {impulse}", number(begin), number(end))
+            }
+        };
+        Some(format!("`{}` is to act {times}, but acts in whole ticks and {came}; {REMEDY}", self.path))
+    }
+
     fn push(&mut self, bodies: &mut Bodies, balance: &mut Balance, times: f64) {
         for body in self.of.places(bodies) {
             let (sin, cos) = libm::sincos(bodies.angle[body]);
@@ -152,6 +196,62 @@ impl ThrustForce {
             bodies.push(body, arm, force);
             balance.outside(bodies.position[body], force, arm.perp_dot(force));
             balance.work += force.dot(bodies.velocity_at(body, arm));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Simulation;
+    use crate::scene::Source;
+
+    /// A disc of 1 kg pushed with 1000 N in ticks of 1 ms: its speed after 1 s, and what the card warns of.
+    fn pushed(times: &str, clock: &str) -> (f64, Vec<String>) {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 1, tick: \"1 ms\", {clock}),
+            bodies: [(name: \"b\", at: (0, 0), mass: 1, atoms: Disc(radius: 0.1))],
+            forces: [Drag(linear: 0, quadratic: 1e-300), Thrust(of: \"b\", force: (1000, 0), {times})])"
+        );
+        let mut simulation = Simulation::load(&Source::new("thrust.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
+        simulation.run_to_end().unwrap();
+        let warnings =
+            simulation.card().warnings.into_iter().filter(|warning| warning.contains("whole ticks")).collect();
+        (simulation.bodies().velocity[0].x, warnings)
+    }
+
+    /// `v = F t/m` with the time of the ticks whose middles lie in the schedule. Tolerance: rounding of a thousand kicks.
+    #[test]
+    fn the_card_says_what_comes_of_times_between_ticks() {
+        let close = |speed: f64, exact: f64| (speed - exact).abs() < 1000.0 * f64::EPSILON * exact.max(1.0);
+        let cases = [
+            ("from: 0.5001, to: 0.5004", 0.0, "its whole impulse is lost"),
+            ("from: 0.5001, to: 0.5016", 2.0, "acts from 0.5 s to 0.502 s: its impulse is 33.3 % too large"),
+            ("from: 0.5, to: 0.5014", 1.0, "acts from 0.5 s to 0.501 s: 28.6 % of its impulse is lost"),
+            ("from: 0.5004, to: 0.6004", 100.0, "acts from 0.5 s to 0.6 s: its impulse is right, but not its time"),
+            ("from: 0.5004", 500.0, "is to act from 0.5004 s on, but acts in whole ticks and acts from 0.5 s to 1 s"),
+        ];
+        for (times, exact, says) in cases {
+            for method in ["VelocityVerlet", "SemiImplicitEuler"] {
+                let (speed, warnings) = pushed(times, &format!("method: {method}"));
+                assert!(close(speed, exact), "{times}: {speed}");
+                assert_eq!(warnings.len(), 1, "{times}: {warnings:?}");
+                assert!(warnings[0].starts_with("`forces[1]` ") && warnings[0].contains(says), "{}", warnings[0]);
+            }
+            for clock in ["events: Located, method: VelocityVerlet", "method: RungeKutta4"] {
+                assert_eq!(pushed(times, clock).1, Vec::<String>::new(), "{clock}");
+            }
+        }
+        let (speed, _) = pushed(cases[0].0, "method: RungeKutta4");
+        assert!(close(speed, 0.3), "{speed}");
+    }
+
+    /// Times on ticks, as far as decimal fractions can be, and times that the run does not come to.
+    #[test]
+    fn times_on_ticks_are_not_warned_of() {
+        for times in
+            ["from: 0.3, to: 0.7", "from: 0.001, to: 0.999", "to: 0.123", "from: 0.5, to: 3.0004", "from: 2.00035"]
+        {
+            assert_eq!(pushed(times, "method: VelocityVerlet").1, Vec::<String>::new(), "{times}");
         }
     }
 }

@@ -1,8 +1,10 @@
 //! How long steps are: as long as their estimated error allows (Hairer, Norsett, Wanner, *Solving Ordinary Differential
 //! Equations I*, 1993, II.4).
 //!
-//! Errors of positions are measured by how far bodies went so far, or may go in the step, those of velocities by how fast they
-//! were: so a run does not depend on what is known of it beforehand, and runs that allow different errors are alike.
+//! Errors of velocities are measured by how fast bodies were so far, those of positions by how far they went, but by no more than
+//! they may go in the step: in a stiff contact, of an overlap that is small beside the way, a wrong place becomes a wrong
+//! velocity within the step. So a run does not depend on what is known of it beforehand, and runs that allow different errors
+//! are alike.
 
 use glam::DVec2;
 
@@ -22,10 +24,15 @@ const BEND: f64 = 6.0;
 /// No first step is longer than a swing over this angle takes: a third of a contact.
 const MOST_BEND: f64 = 1.0;
 
+/// How often the first step is guessed, each time by the sizes that bodies may reach in the step guessed before.
+const PASSES: usize = 2;
+
 /// Places are rounded by a share of their distance from the origin; in a step the estimate of the error sees about this much of
-/// it. Less than what that is of the motion cannot be asked:
-/// stiff contacts turn it into forces, and steps would shrink for nothing.
+/// it, in velocities as much over the length of the step. Less cannot be asked: stiff contacts turn it into forces, and steps
+/// would shrink for nothing.
 const ROUNDING: f64 = f64::EPSILON / 64.0;
+/// Motion over less than this share of the distance from the origin is itself little more than rounding.
+const STILL: f64 = 1024.0 * f64::EPSILON;
 
 /// What error a step may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,14 +54,23 @@ pub(super) struct Control {
     origin: Vec<(DVec2, f64)>,
     /// The length to be tried next, in s; nothing after a state that does not follow from the one before.
     next: Option<f64>,
-    sizes: Vec<f64>,
+    /// What errors of each number of the state are measured by.
+    measures: Vec<f64>,
     /// Whether the last step was allowed more than was asked for, because of rounding.
     bounded: bool,
 }
 
 impl Control {
     pub fn new(allowance: Allowance) -> Self {
-        Self { allowance, distance: 0.0, speed: 0.0, origin: Vec::new(), next: None, sizes: Vec::new(), bounded: false }
+        Self {
+            allowance,
+            distance: 0.0,
+            speed: 0.0,
+            origin: Vec::new(),
+            next: None,
+            measures: Vec::new(),
+            bounded: false,
+        }
     }
 
     /// The motion that comes does not follow from the one before.
@@ -107,39 +123,58 @@ impl Control {
         longest: f64,
     ) -> f64 {
         let reach = flow.reach();
-        self.measure(flow, reach, longest);
-        let times = rates.iter().zip(&self.sizes).map(|(rate, size)| rate.abs() / size);
+        let (distance, speed) = self.sizes(reach, longest);
+        flow.measures(distance, speed, &mut self.measures);
+        let times = rates.iter().zip(&self.measures).map(|(rate, size)| rate.abs() / size);
         let quickest = times.fold(0.0, f64::max);
         let probe = PROBE * if quickest * longest > 1.0 { 1.0 / quickest } else { longest };
         let probed: Vec<f64> = state.iter().zip(rates).map(|(state, rate)| state + probe * rate).collect();
         let mut after = vec![0.0; state.len()];
         flow.rates(time + probe, &probed, &mut after);
-        let bends = rates.iter().zip(&after).zip(&self.sizes);
-        let bend = bends.map(|((before, after), size)| (after - before).abs() / (probe * size)).fold(0.0, f64::max);
+        // What acts on bodies at rest may only begin.
+        let later = flow.reach();
+        let reach =
+            Reach { speed: reach.speed.max(later.speed), acceleration: reach.acceleration.max(later.acceleration) };
         let allowed = libm::pow(self.allowance.share, 1.0 / f64::from(order));
-        let length = (BEND * allowed).min(MOST_BEND) / bend.sqrt();
-        if length.is_finite() && length < longest { length } else { longest }
+        let mut length = longest;
+        for _ in 0..PASSES {
+            let (distance, speed) = self.sizes(reach, length);
+            flow.measures(distance, speed, &mut self.measures);
+            let bends = rates.iter().zip(&after).zip(&self.measures);
+            let bend = bends.map(|((before, after), size)| (after - before).abs() / (probe * size)).fold(0.0, f64::max);
+            let guess = (BEND * allowed).min(MOST_BEND) / bend.sqrt();
+            length = if guess.is_finite() && guess < length { guess } else { length };
+        }
+        length
     }
 
-    /// The sizes that errors of a step of `length` seconds are measured by. Returns that of places, in m.
-    fn measure(&mut self, flow: &WorldFlow, reach: Reach, length: f64) -> f64 {
+    /// How far and how fast bodies went so far, or may go in a step of `length` seconds, in m and m/s.
+    fn sizes(&self, reach: Reach, length: f64) -> (f64, f64) {
         let distance = self.distance.max(length * (reach.speed + 0.5 * length * reach.acceleration));
         let speed = self.speed.max(reach.speed + length * reach.acceleration);
-        let distance = distance.max(f64::MIN_POSITIVE);
-        flow.measures(distance, speed.max(f64::MIN_POSITIVE), &mut self.sizes);
-        distance
+        (distance.min(length * speed).max(f64::MIN_POSITIVE), speed.max(f64::MIN_POSITIVE))
     }
 
     /// The estimated error of the step that was just made, over what is allowed; nothing if the method knows no estimate.
-    /// `made`: the reach at its beginning and its length in seconds.
-    pub fn error(&mut self, method: &dyn OneStep, flow: &WorldFlow, made: (Reach, f64)) -> Option<f64> {
-        let (reach, length) = made;
-        let distance = self.measure(flow, reach, length);
-        let least = ROUNDING * flow.farthest() / distance;
-        self.bounded = least > self.allowance.share;
-        let share = self.allowance.share.max(least);
-        self.sizes.iter_mut().for_each(|size| *size *= share);
-        method.error(&self.sizes)
+    /// `made`: the reach at its beginning, its length in seconds, and the change it made of the state.
+    pub fn error(&mut self, method: &dyn OneStep, flow: &WorldFlow, made: (Reach, f64, &[f64])) -> Option<f64> {
+        let (reach, length, change) = made;
+        let (distance, speed) = self.sizes(reach, length);
+        // Bodies on which nothing acted at the beginning go as far as the step took them.
+        let (far, fast) = flow.sizes_of(change);
+        let (distance, speed) = (distance.max(far), speed.max(fast));
+        let share = self.allowance.share;
+        let rounding = ROUNDING * flow.farthest();
+        let least = rounding.max(share * f64::MIN_POSITIVE);
+        self.bounded = distance > STILL * flow.farthest() && (rounding > share * distance);
+        flow.measures((share * distance).max(least), (share * speed).max(least / length), &mut self.measures);
+        method.error(&self.measures)
+    }
+
+    /// The same with what rounding makes of each number allowed beside it, for what was asked about last.
+    pub fn error_beside(&mut self, method: &dyn OneStep, rounding: &[f64]) -> Option<f64> {
+        self.measures.iter_mut().zip(rounding).for_each(|(size, rounding)| *size += rounding);
+        method.error(&self.measures)
     }
 
     /// After a step of `length` seconds with this error over what is allowed: how long the next one is tried.

@@ -1,9 +1,11 @@
 //! Events inside a step of which its ends show nothing: two bodies that meet and have passed each other at the end, a spring
 //! force that dips below zero.
 //!
-//! Between two moments at which an indicator is positive, falling at the first and rising at the second, it has a minimum.
-//! As long as it bends upwards it lies above its tangents, so where these meet above zero nothing happens. Where they meet
-//! below, the step is looked at there. The gap of two discs on straight ways bends upwards everywhere.
+//! Between two moments at which an indicator is positive it may have a minimum. As long as it bends downwards by no more than
+//! `c` it lies above the two parabolas `g + g' t - c t^2/2` that begin at both moments, so where these meet above zero nothing
+//! happens. Where they meet below, the step is looked at there. The gap of two discs bends downwards only by their relative
+//! acceleration: on straight ways it bends upwards everywhere. What `c` is between two moments is guessed from both: the
+//! greater, and as much again as they differ by.
 
 use super::locate::Moment;
 use crate::tick::Indicator;
@@ -32,7 +34,13 @@ impl Inside {
             return None;
         }
         self.looks += 1;
-        self.moments.windows(2).find_map(|pair| suspect(&pair[0], &pair[1], self.length))
+        Some(self.suspected()?.1)
+    }
+
+    /// The first pair of moments between which something may happen, and where.
+    fn suspected(&self) -> Option<(usize, f64)> {
+        let pairs = self.moments.windows(2).enumerate();
+        pairs.filter_map(|(place, pair)| Some((place, suspect(&pair[0], &pair[1], self.length)?))).next()
     }
 
     /// Takes what was seen there. What comes after an indicator below zero is not looked at any more.
@@ -49,24 +57,31 @@ impl Inside {
         self.moments.insert(place, moment);
     }
 
-    /// The last two moments: in between is the first event, if there is one.
+    /// The last two moments: in between is the first event, if there is one. After too many looks the step ends where it is
+    /// still open whether something happens.
     pub fn last_two(mut self) -> (Moment, Moment) {
+        if self.looks >= MOST_LOOKS
+            && let Some((place, _)) = self.suspected()
+        {
+            self.moments.truncate(place + 2);
+        }
         let high = self.moments.pop().expect("there are two at least");
         let low = self.moments.pop().expect("there are two at least");
         (low, high)
     }
 }
 
-/// The share at which tangents of an indicator meet below zero: the earliest of all indicators.
+/// The share at which the bounds of an indicator from both sides meet below zero: the earliest of all indicators.
 fn suspect(from: &Moment, to: &Moment, length: f64) -> Option<f64> {
     let way = to.share - from.share;
     let meet = |(a, b): (&Indicator, &Indicator)| {
-        if !(a.value > 0.0 && b.value >= 0.0 && a.slope < 0.0 && b.slope > 0.0) {
+        if !(a.value >= 0.0 && b.value >= 0.0 && a.value + b.value > 0.0) {
             return None;
         }
         let (first, second) = (a.slope * length, b.slope * length);
-        let after = (b.value - a.value - second * way) / (first - second);
-        let inside = after > 0.0 && after < way && a.value + first * after < 0.0;
+        let bend = (a.bend.max(b.bend) + (a.bend - b.bend).abs()) * length * length;
+        let after = (b.value - a.value - second * way - 0.5 * bend * way * way) / (first - second - bend * way);
+        let inside = after > 0.0 && after < way && a.value + (first - 0.5 * bend * after) * after < 0.0;
         inside.then_some(from.share + after).filter(|share| *share > from.share && *share < to.share)
     };
     from.indicators.iter().zip(&to.indicators).filter_map(meet).reduce(f64::min)
@@ -77,11 +92,15 @@ mod tests {
     use super::*;
 
     fn look(indicators: impl Fn(f64) -> Vec<Indicator>) -> (Moment, Moment, usize) {
-        let mut inside = Inside::of(&indicators(0.0), &indicators(1.0), 1.0);
+        look_within(1.0, indicators)
+    }
+
+    fn look_within(length: f64, indicators: impl Fn(f64) -> Vec<Indicator>) -> (Moment, Moment, usize) {
+        let mut inside = Inside::of(&indicators(0.0), &indicators(length), length);
         let mut looks = 0;
         while let Some(share) = inside.next() {
             looks += 1;
-            inside.see(Moment { share, indicators: indicators(share) });
+            inside.see(Moment { share, indicators: indicators(share * length) });
         }
         let (low, high) = inside.last_two();
         (low, high, looks)
@@ -91,7 +110,38 @@ mod tests {
     fn gap(t: f64, r: f64, d: f64) -> Indicator {
         let (x, speed) = (10.0 * (t - 0.3), 10.0);
         let distance = x.hypot(d);
-        Indicator { value: distance - 2.0 * r, slope: x * speed / distance }
+        Indicator { value: distance - 2.0 * r, slope: x * speed / distance, bend: 0.0 }
+    }
+
+    /// The gap to a peg on a circle of radius 1, at an angle of 2 rad, of a disc that goes round it once in 6.3 seconds from
+    /// the angle `begin` on: it bends downwards everywhere but at the peg.
+    fn gap_on_a_circle(t: f64, begin: f64) -> Indicator {
+        let half = 0.5 * (t + begin - 2.0);
+        Indicator { value: 2.0 * libm::sin(half).abs() - 0.02, slope: libm::cos(half) * half.signum(), bend: 1.0 }
+    }
+
+    #[test]
+    fn a_peg_on_a_curved_way_is_seen() {
+        for (begin, length) in [(0.0, 5.0), (1.5, 3.0), (-1.2, 5.5), (1.99 - std::f64::consts::PI, 5.0)] {
+            let (_, high, looks) = look_within(length, |t| vec![gap_on_a_circle(t, begin)]);
+            let angle = begin + length * high.share;
+            assert!((angle - 2.0).abs() < 0.02 && high.indicators[0].value < 0.0, "{begin}: {angle} {looks}");
+        }
+    }
+
+    /// A parabola over the ground is its own bound.
+    #[test]
+    fn a_throw_that_does_not_come_down_is_not_looked_at() {
+        let height = |t: f64| Indicator { value: 0.1 + 3.0 * t - 2.0 * t * t, slope: 3.0 - 4.0 * t, bend: 4.0 };
+        let (_, high, looks) = look(|t| vec![height(t)]);
+        assert!(high.share == 1.0 && looks == 0, "{looks}");
+    }
+
+    /// A way along a surface, nearer than can be told from touching it in two dozen looks.
+    #[test]
+    fn a_step_ends_where_it_stays_open_whether_bodies_meet() {
+        let (_, high, looks) = look(|_| vec![Indicator { value: 1e-6, slope: 0.0, bend: 1.0 }]);
+        assert!(high.share > 0.0 && high.share < 1.0 && looks == MOST_LOOKS, "{high:?} {looks}");
     }
 
     #[test]
@@ -114,7 +164,7 @@ mod tests {
 
     #[test]
     fn what_only_rises_or_falls_is_not_looked_at() {
-        let (_, _, looks) = look(|t| vec![Indicator { value: 1.0 - 0.5 * t, slope: -0.5 }]);
+        let (_, _, looks) = look(|t| vec![Indicator { value: 1.0 - 0.5 * t, slope: -0.5, bend: 0.0 }]);
         assert_eq!(looks, 0);
     }
 }

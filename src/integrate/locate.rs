@@ -197,11 +197,11 @@ mod tests {
     }
 
     fn known(value: f64, slope: f64) -> Indicator {
-        Indicator { value, slope }
+        Indicator { value, slope, bend: 0.0 }
     }
 
     fn unknown(value: f64) -> Indicator {
-        Indicator { value, slope: f64::NAN }
+        Indicator { value, slope: f64::NAN, bend: 0.0 }
     }
 
     #[test]

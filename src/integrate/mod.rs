@@ -11,6 +11,7 @@ mod semi_implicit_euler;
 mod staged;
 pub mod steps;
 mod velocity_verlet;
+mod whole;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -70,8 +71,14 @@ impl Description {
     ///
     /// A pace other than one step per tick is for methods that make steps inside ticks.
     pub fn make(&self, events: EventTiming, pace: Pace) -> Option<(Method, bool)> {
-        let staged =
-            |located: bool| self.one_step.map(|make| (Method(Box::new(Staged::new(make(), located, pace))), located));
+        let staged = |located: bool| {
+            let staged = Staged::new(self.one_step?(), located, pace);
+            let staged = match self.whole_ticks {
+                Some(make) => staged.with_whole_ticks(make().0),
+                None => staged,
+            };
+            Some((Method(Box::new(staged)), located))
+        };
         let whole = self.whole_ticks.filter(|_| pace == Pace::Even(1)).map(|make| (make(), false));
         match events {
             EventTiming::Auto => whole.or_else(|| staged(true)),

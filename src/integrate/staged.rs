@@ -15,7 +15,9 @@ use super::crowd::Crowd;
 use super::inside::Inside;
 use super::locate::{Bracket, Moment};
 use super::steps::{Flow, OneStep, Start};
-use crate::tick::{Evaluation, Indicator, Models, Style, Tick, WorldFlow};
+use super::whole::Whole;
+use crate::bounds::Bounds;
+use crate::tick::{Evaluation, Indicator, Style, Tick, WorldFlow};
 use crate::world::Bodies;
 
 /// Steps as long as their error allows make ticks of frames, in which so many times as much may happen as in others.
@@ -24,6 +26,11 @@ const EVENTS_PER_FRAME: u32 = 16;
 /// How often a step is made again with lists that reach farther, each time four times as far. What outgrows them all moves
 /// beyond all numbers, and the run ends with that.
 const MOST_RENEWALS: u32 = 16;
+
+/// In scenes of more atoms than this steps take no body farther than so many of the smallest radii: each stage looks at all
+/// pairs that a step may bring together, and an event ends it soon.
+const MANY_ATOMS: usize = 64;
+const MOST_RADII: f64 = 8.0;
 
 /// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
 /// it.
@@ -49,13 +56,20 @@ pub struct StepCount {
     pub longest: f64,
     /// Accepted steps that were allowed a larger error than was asked for: rounding of places leaves no smaller one.
     pub bounded: u64,
+    /// The tick from which on each is one step, not counted yet.
+    pub whole_from: Option<u64>,
 }
 
 impl StepCount {
-    /// Whether rounding bounds more than a tenth of all steps. The first ones of a run, before anything has moved far, do not
-    /// count for much.
+    /// Steps accepted until that tick.
+    pub fn until(&self, tick: u64) -> u64 {
+        self.accepted + self.whole_from.map_or(0, |from| tick - from)
+    }
+
+    /// Whether rounding bounds more than a tenth of all steps, and more than one: the first of a run, before anything has moved
+    /// far, and what rounding leaves of a run at its end, do not count.
     pub fn is_bounded(&self) -> bool {
-        10 * self.bounded > self.accepted
+        self.bounded > 1 && 10 * self.bounded > self.accepted
     }
 }
 
@@ -83,6 +97,7 @@ pub struct Staged {
     under_way: Option<Made>,
     work: Work,
     crowd: Crowd,
+    whole: Option<Whole>,
 }
 
 /// A step that was made: its change of the state is in the working memory.
@@ -139,7 +154,13 @@ impl Staged {
         };
         let (state, rest, work) = (Vec::new(), Vec::new(), Work::default());
         let crowd = Crowd::patient(if control.is_some() { EVENTS_PER_FRAME } else { 1 });
-        Self { method, located, parts, control, state, rest, under_way: None, work, crowd }
+        Self { method, located, parts, control, state, rest, under_way: None, work, crowd, whole: None }
+    }
+
+    /// The same with ticks in which nothing is watched made by another form of the method, which goes from tick to tick.
+    pub fn with_whole_ticks(mut self, method: Box<dyn Integrator>) -> Self {
+        self.whole = (self.located && self.parts == 1 && self.control.is_none()).then(|| Whole::new(method));
+        self
     }
 
     /// Adds the change of a step to the state, with compensation.
@@ -174,7 +195,8 @@ impl Staged {
         if let Some(control) = &mut self.control {
             control.look(flow);
             let start = (from, self.state.as_slice(), self.work.rates.as_slice());
-            let length = control.length(flow, self.method.order_of_error(), start, until - from);
+            let near = longest_among_many(flow);
+            let length = control.length(flow, self.method.order_of_error(), start, near.min(until - from));
             until = if length < until - from { from + length } else { until };
             flow.write(&self.state);
         }
@@ -225,13 +247,18 @@ impl Staged {
             for _ in 0..MOST_REJECTIONS {
                 let length = until - from;
                 method.step(flow, start, length, change);
-                let error = control.error(&**method, flow, (reach, length)).unwrap_or_default();
+                let mut error = control.error(&**method, flow, (reach, length, change.as_slice())).unwrap_or_default();
+                if error > 1.0 && flow.tick.changes_with_time() {
+                    error = control.error_beside(&**method, &rounding_of_time(flow, start, length)).unwrap_or_default();
+                }
                 let next = control.adapt(length, error, order);
                 if error <= 1.0 || from + next <= from {
                     break;
                 }
                 rejected += 1;
                 until = from + next;
+                // However far the stages of a step too long went astray, lists need not reach there.
+                flow.tick.recall_bounds();
             }
         }
         let length = until - from;
@@ -307,10 +334,10 @@ impl Staged {
         }
     }
 
-    /// How far the next step may go from `now` towards the end of the tick, in a whole part of which it is `part`.
-    fn target(&self, tick: &Tick, now: f64, part: u32) -> f64 {
-        let edges = tick.world.resource::<Models>().edges.clone();
-        let edge = edges.iter().map(|edge| edge(tick.world, now)).fold(f64::INFINITY, f64::min);
+    /// How far the next step may go from `now` towards the end of the tick, in a whole part of which it is `part`; whether an
+    /// edge ends it before.
+    fn target(&self, tick: &Tick, now: f64, part: u32) -> (f64, bool) {
+        let edge = tick.next_edge(now);
         let end = match &self.control {
             // A prescribed motion is told from tick to tick.
             Some(control) if tick.world.resource::<Bodies>().prescribed.motions.is_empty() => now + control.longest(),
@@ -318,7 +345,7 @@ impl Staged {
             None if part + 1 >= self.parts => tick.end,
             None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
         };
-        if edge < end { edge } else { end }
+        if edge < end { (edge, true) } else { (end, false) }
     }
 
     /// Goes to the end of the step that was made.
@@ -381,6 +408,32 @@ impl Staged {
     }
 }
 
+/// The longest step in s that is worth trying where there are many to be hit.
+fn longest_among_many(flow: &WorldFlow) -> f64 {
+    let bodies = flow.tick.world.resource::<Bodies>();
+    if bodies.atom_count() <= MANY_ATOMS || !flow.tick.world.contains_resource::<Bounds>() {
+        return f64::INFINITY;
+    }
+    let (reach, way) = (flow.reach(), MOST_RADII * bodies.smallest_radius);
+    // The smaller root of `v t + a t^2/2 = way`, written so that nothing cancels.
+    2.0 * way / (reach.speed + (reach.speed * reach.speed + 2.0 * reach.acceleration * way).sqrt())
+}
+
+/// What rounding of times makes of each number of the state in a step of `length` seconds: a force that changes as fast as that
+/// of a short pulse differs between two neighbouring times.
+fn rounding_of_time(flow: &mut WorldFlow, start: Start, length: f64) -> Vec<f64> {
+    let until = start.time + length;
+    let (mut rounding, mut before) = (vec![0.0; flow.dimension()], vec![0.0; flow.dimension()]);
+    flow.rates(until, start.state, &mut rounding);
+    flow.rates(until - 4.0 * f64::EPSILON * until.abs(), start.state, &mut before);
+    rounding.iter_mut().zip(&before).for_each(|(rate, before)| *rate = length * (*rate - before).abs());
+    let coordinates = flow.coordinates();
+    for place in 0..coordinates {
+        rounding[place] += length * rounding[coordinates + place];
+    }
+    rounding
+}
+
 /// `state + (change + rest)`.
 fn add(state: &[f64], rest: &[f64], change: &[f64], sum: &mut Vec<f64>) {
     sum.clear();
@@ -397,6 +450,9 @@ impl Integrator for Staged {
     }
 
     fn advance(&mut self, tick: &mut Tick) {
+        if !self.crowd.follows() && self.whole.as_mut().is_some_and(|whole| whole.advance(tick)) {
+            return self.crowd.stays_away(0);
+        }
         let bodies = tick.world.resource::<Bodies>();
         self.work.from.clear();
         self.work.from.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
@@ -415,7 +471,7 @@ impl Integrator for Staged {
                         self.crowd.begin(tick, now);
                         break;
                     }
-                    let until = self.target(tick, now, part);
+                    let (until, at_edge) = self.target(tick, now, part);
                     tick.choose_modes(now, until);
                     let mut flow = WorldFlow::new(tick);
                     self.take_up(&flow);
@@ -425,7 +481,7 @@ impl Integrator for Staged {
                     };
                     // A step cut short counts, whatever it was for: so a tick comes to its end.
                     events += u32::from(made.cut);
-                    part += u32::from(made.until == until);
+                    part += u32::from(made.until == until && !at_edge);
                     if made.until > end && !made.dense {
                         let start = Start { time: made.from, state: &self.state, rates: &self.work.rates };
                         self.method.make_dense(&mut flow, start, made.length);

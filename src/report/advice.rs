@@ -1,4 +1,36 @@
-//! The tick that a run is advised to try next: one number for all warnings of a run.
+//! What a run is advised to try next: one number for all warnings of a run.
+
+use std::fmt;
+
+use super::card::number;
+
+/// What to try next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Remedy {
+    /// A tick in seconds.
+    Tick(f64),
+    /// A tolerance, where that chooses the steps.
+    Tolerance(f64),
+    /// A method that has a stable tick.
+    Method,
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tick(tick) => write!(formatter, "--tick {}", number(*tick)),
+            Self::Tolerance(tolerance) => write!(formatter, "--tolerance {}", number(*tolerance)),
+            Self::Method => formatter.write_str("--method VelocityVerlet"),
+        }
+    }
+}
+
+impl Remedy {
+    /// The same, where less of it would do as well.
+    pub fn or_finer(&self) -> String {
+        if *self == Self::Method { self.to_string() } else { format!("{self} or finer") }
+    }
+}
 
 /// What is known of a run's tick, in seconds.
 #[derive(Clone, Copy, Debug, Default)]

@@ -6,13 +6,13 @@ use std::fmt;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
-use super::advice::Known;
+use super::advice::{Known, Remedy};
 use super::energy::EnergyLedger;
 use super::warnings::{FEWEST_TICKS, warnings};
 use crate::contacts::DeepestOverlap;
 use crate::integrate::{LocatedEvents, StepCount};
 use crate::tick::balance::Totals;
-use crate::tick::{Clock, Holder, Ledger, Responses, Stability, largest_travel};
+use crate::tick::{Clock, Holder, Ledger, Responses, Stability, Style, largest_travel};
 use crate::world::hash::state_hash;
 use crate::world::{Bodies, Name};
 
@@ -27,6 +27,8 @@ pub struct ChosenMethod {
     pub name: &'static str,
     /// Whether events are located inside ticks.
     pub located: bool,
+    /// How it evaluates models with a history.
+    pub style: Style,
 }
 
 impl ChosenMethod {
@@ -74,11 +76,13 @@ pub struct ErrorEstimate {
 }
 
 impl ErrorEstimate {
-    fn verdict(&self) -> String {
+    /// Whether to trust a run of `end` seconds.
+    fn verdict(&self, end: f64) -> String {
         let Some((position, velocity)) = self.position.discretisation.zip(self.velocity.discretisation) else {
             return "Do not trust its places: runs of it differ by more than can be told.".to_owned();
         };
-        let until = self.horizon.map_or_else(String::new, |horizon| format!(" until about t = {} s", number(horizon)));
+        let horizon = self.horizon.filter(|horizon| *horizon < end);
+        let until = horizon.map_or_else(String::new, |horizon| format!(" until about t = {} s", number(horizon)));
         format!(
             "Trust it{until}: places to about {} m, velocities to about {} m/s, as several runs of it tell.",
             rough(position),
@@ -94,6 +98,8 @@ pub struct KnownError {
     pub estimate: Option<ErrorEstimate>,
     /// Why it is not what was asked for.
     pub warning: Option<String>,
+    /// The tolerance that was asked for; nothing, if it was the smallest error there is.
+    pub tolerance: Option<f64>,
 }
 
 /// The error card.
@@ -153,6 +159,9 @@ pub struct Card {
     seconds_spent: f64,
     #[serde(skip)]
     energy_scale: f64,
+    /// Whether its steps were chosen for an error, and which that was.
+    #[serde(skip)]
+    asked: Option<Option<f64>>,
 }
 
 /// Share of the energy that went round.
@@ -204,8 +213,9 @@ impl Card {
             time: clock.time(),
             seconds_spent,
             energy_scale: energy.turned_over(world),
+            asked: world.get_resource::<KnownError>().map(|known| known.tolerance),
         };
-        card.warnings = warnings(world, card.advised_tick());
+        card.warnings = warnings(world, card.remedy());
         card.warnings.extend(card.unaccounted());
         card.notes.extend(card.warnings.iter().map(|warning| format!("warning: {warning}")));
         card.verdict = card.judge();
@@ -222,9 +232,18 @@ impl Card {
         self.holder
     }
 
-    /// The tick in seconds that this run is advised to try next.
-    pub fn advised_tick(&self) -> f64 {
-        self.known().advised_tick()
+    /// What this run is advised to try next; nothing where nothing finer can be asked for.
+    pub fn remedy(&self) -> Option<Remedy> {
+        match self.asked {
+            Some(tolerance) => tolerance.map(|tolerance| Remedy::Tolerance(tolerance / 10.0)),
+            None if self.critical_tick == Some(0.0) => Some(Remedy::Method),
+            None => Some(Remedy::Tick(self.known().advised_tick())),
+        }
+    }
+
+    /// What is advised, between words that go with it.
+    fn advice(&self, before: &str, after: &str) -> String {
+        self.remedy().map_or_else(String::new, |remedy| format!("{before}{remedy}{after}"))
     }
 
     fn known(&self) -> Known {
@@ -235,59 +254,65 @@ impl Card {
     /// The largest part of energy that may be unaccounted for without a warning is [`UNACCOUNTED`].
     fn unaccounted(&self) -> Option<String> {
         let percent = self.energy_error() * 100.0;
-        let advised = number(self.advised_tick());
-        (self.energy_error() > UNACCOUNTED)
-            .then(|| format!("{percent:.1} % of the energy is unaccounted for; use --tick {advised}"))
+        let advice = self.advice("; use ", "");
+        (self.energy_error() > UNACCOUNTED).then(|| format!("{percent:.1} % of the energy is unaccounted for{advice}"))
     }
 
     fn judge(&self) -> String {
-        let finer = format!("--tick {}", number(self.advised_tick()));
+        let finer = self.remedy().map_or_else(String::new, |remedy| format!(" Use {}.", remedy.or_finer()));
         if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
-            return format!("Do not trust it: numbers are no longer finite. Use {finer} or finer.");
-        }
-        if let Some(known) = &self.error {
-            return match &self.missed {
-                Some(why) => format!("Do not trust its last digits: {why}."),
-                None => known.verdict(),
-            };
+            return format!("Do not trust it: numbers are no longer finite.{finer}");
         }
         let contact_ticks = self.shortest_contact.map(|shortest| shortest / self.tick);
         let overlap = &self.largest_overlap;
         if self.error.is_none() && self.critical_tick.is_some_and(|critical| critical < self.tick) {
             let holder = self.holder.unwrap_or(Holder::Contacts);
-            return format!("Do not trust it: the tick is longer than the {holder} can bear. Use {finer} or finer.");
+            return format!("Do not trust it: the tick is longer than the {holder} can bear.{finer}");
         }
         if let Some(unaccounted) = self.unaccounted() {
             return format!("Do not trust it: {unaccounted}.");
         }
+        if let Some(why) = &self.missed {
+            return format!("Do not trust its last digits: {why}.");
+        }
         if overlap.share_of_radius > 1.0 {
+            let (far, error) = (overlap.share_of_radius * 100.0, percent(self.energy_error()));
+            let (numbers, with) = match &self.error {
+                Some(_) => ("Trust the numbers".to_owned(), String::new()),
+                None => (format!("Trust the numbers to about {error} of energy"), self.advice(" with ", "")),
+            };
             return format!(
-                "Trust the numbers to about {} of energy, not the model: bodies overlap by {:.0} % of a radius. A \
-                 higher `stiffness` with {finer} would make contacts harder.",
-                percent(self.energy_error()),
-                overlap.share_of_radius * 100.0,
+                "{numbers}, not the model: bodies overlap by {far:.0} % of a radius. A higher `stiffness`{with} would make \
+                 contacts harder."
             );
+        }
+        if let Some(known) = &self.error {
+            return known.verdict(self.time);
         }
         if contact_ticks.is_some_and(|ticks| ticks < FEWEST_TICKS) {
             let ticks = contact_ticks.unwrap_or_default();
-            return format!("Trust it roughly: the stiffest contact lasts only {ticks:.1} ticks. Use {finer}.");
+            let advice = self.advice(" Use ", ".");
+            return format!("Trust it roughly: the stiffest contact lasts only {ticks:.1} ticks.{advice}");
         }
         if self.largest_travel_share > 1.0 && !self.located {
             return format!(
-                "Trust it roughly: something travelled {:.1} radii in one tick and may have missed a contact. Use {finer}.",
+                "Trust it roughly: something travelled {:.1} radii in one tick and may have missed a contact.{}",
                 self.largest_travel_share,
+                self.advice(" Use ", "."),
             );
         }
         let error = percent(self.energy_error());
         if self.energy_error() > 1e-3 {
-            return format!("Trust it to about {error} of energy; {finer} would improve it.");
+            let advice = self.advice("; ", " would improve it");
+            return format!("Trust it to about {error} of energy{advice}.");
         }
         let accounted = if self.energy_error() == 0.0 {
             "all energy is accounted for".to_owned()
         } else {
             format!("energy is accounted for to {error}")
         };
-        format!("Trust it: {accounted}; {finer} would show whether anything changes.")
+        let advice = self.advice("; ", " would show whether anything changes");
+        format!("Trust it: {accounted}{advice}.")
     }
 }
 
@@ -318,10 +343,14 @@ impl fmt::Display for Card {
         let mut row = |label: &str, text: String| writeln!(f, "  {label:<18}{text}");
         let critical = self.critical_tick.map_or_else(
             || "no contacts".to_owned(),
-            |critical| format!("critical {} s, used {:.1} %", number(critical), self.tick / critical * 100.0),
+            |critical| match critical {
+                0.0 => "none is stable".to_owned(),
+                _ => format!("critical {} s, used {:.1} %", number(critical), self.tick / critical * 100.0),
+            },
         );
         row("method", format!("{}, tick {} s ({critical})", self.method, number(self.tick)))?;
-        let StepCount { accepted, rejected, longest, .. } = self.steps;
+        let StepCount { rejected, longest, .. } = self.steps;
+        let accepted = self.steps.until(self.ticks);
         if accepted > 0 {
             let again = if rejected > 0 { format!(", {rejected} made again") } else { String::new() };
             let events = self.events_located;

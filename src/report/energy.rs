@@ -3,8 +3,8 @@
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
-use crate::tick::Ledger;
 use crate::tick::balance::Totals;
+use crate::tick::{Ledger, energy_seen};
 
 /// Energies in J. `kinetic + potential + elastic + friction + inelasticity + drag - work` was constant but for
 /// `residual`: the error of the integration.
@@ -49,11 +49,13 @@ impl EnergyLedger {
     }
 
     /// The energy that went round in the run, in J: what the residual is to be compared with. The zero of potential
-    /// energy is a matter of taste, so only its change counts.
+    /// energy is a matter of taste, so only its change counts; work counts whichever way it went.
     pub fn turned_over(&self, world: &World) -> f64 {
-        let start = world.resource::<Ledger>().start.unwrap_or_default();
+        let ledger = world.resource::<Ledger>();
+        let start = ledger.start.unwrap_or_default();
         let fallen = (self.potential - start.potential).abs();
         let lost = self.friction.abs() + self.inelasticity.abs() + self.drag.abs();
-        start.kinetic.max(self.kinetic) + fallen + lost + self.elastic + self.work.abs()
+        let present = start.kinetic.max(self.kinetic) + fallen + self.elastic;
+        present.max(energy_seen(world)) + lost + ledger.gross_work
     }
 }

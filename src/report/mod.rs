@@ -7,4 +7,5 @@ pub mod energy;
 pub mod reversal;
 mod warnings;
 
+pub use advice::Remedy;
 pub use card::Card;

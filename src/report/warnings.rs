@@ -2,10 +2,11 @@
 
 use bevy_ecs::prelude::*;
 
+use super::advice::Remedy;
 use super::card::{ChosenMethod, KnownError, number};
 use crate::contacts::ContactLaw;
 use crate::integrate::LocatedEvents;
-use crate::tick::{Clock, Responses, far_travel};
+use crate::tick::{Clock, Models, Responses, Style, far_travel};
 use crate::world::{Bodies, Name};
 
 /// Contacts that last fewer ticks are not resolved.
@@ -13,11 +14,11 @@ pub(super) const FEWEST_TICKS: f64 = 10.0;
 
 /// The warnings of a run, one sentence each with body, time, likely cause and remedy.
 ///
-/// `advised` is the tick in seconds that mends them all.
-pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
+/// `remedy` is what mends them all.
+pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let name = |entity| world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone());
     let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
-    let advised = number(advised);
+    let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
     let mut warnings = Vec::new();
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
     // Where steps are as long as their error allows, ticks are only moments at which the run is looked at.
@@ -26,16 +27,16 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
     let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
     if let Some(fastest) = beyond {
         let critical = fastest.critical_tick(world);
-        warnings.push(format!(
-            "the tick of {} s is above the critical one of {} s that the {} of `{}` had at t = {} s: they can gain \
-             energy at each tick; use --tick {}",
-            number(clock.dt),
-            number(critical),
-            fastest.holder,
-            name(fastest.body),
-            number(fastest.time),
-            advised,
-        ));
+        let (holder, body, time) = (fastest.holder, name(fastest.body), number(fastest.time));
+        let what = match critical {
+            0.0 => format!("no tick is stable under this method with the {holder} of `{body}`, as at t = {time} s"),
+            _ => format!(
+                "the tick of {} s is above the critical one of {} s that the {holder} of `{body}` had at t = {time} s",
+                number(clock.dt),
+                number(critical),
+            ),
+        };
+        warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
     }
     // Where the tick is above the critical one this goes without saying.
     let brief = responses.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
@@ -43,11 +44,10 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
         let ticks = brief.duration() / clock.dt;
         warnings.push(format!(
             "the contact of `{}` and `{}` at t = {} s lasts {ticks:.1} ticks: below {FEWEST_TICKS} its impact is not \
-             resolved; use --tick {}",
+             resolved{advice}",
             name(brief.between.0),
             name(brief.between.1),
             number(brief.time),
-            advised,
         ));
     }
     let unseen = world.contains_resource::<ContactLaw>() && !ChosenMethod::locates(world);
@@ -56,12 +56,13 @@ pub(super) fn warnings(world: &World, advised: f64) -> Vec<String> {
         let radii = far.travel / world.resource::<Bodies>().smallest_radius;
         warnings.push(format!(
             "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s and may have passed through \
-             others unseen; use --tick {}",
+             others unseen{advice}",
             name(far.body),
             number(far.time),
-            advised,
         ));
     }
+    let style = world.get_resource::<ChosenMethod>().map_or_else(Style::default, |method| method.style);
+    warnings.extend(world.resource::<Models>().departures.iter().flat_map(|departures| departures(world, style)));
     let located = world.get_resource::<LocatedEvents>().copied().unwrap_or_default();
     if located.given_up > 0 {
         warnings.push(format!(

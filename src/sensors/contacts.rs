@@ -19,7 +19,8 @@ use crate::world::{Body, Wall};
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 
 /// How many bodies and walls touch a body or wall now, `ball.contacts`, and how often one began to since the start,
-/// `ball.contacts.begun`. A body that settles parts and touches again many times.
+/// `ball.contacts.begun`. A body that settles parts and touches again many times. Where events are located each of them counts,
+/// however short; else those that are seen at the end of a tick.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Contacts {

@@ -73,7 +73,11 @@ pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64,
     let ticks = count(&plan, duration, &clock, overrides, &mut notes)?;
     install(world, &plan, &mut notes)?;
     if let Some(goal) = goal {
-        world.insert_resource(KnownError { estimate: plan.error, warning: plan.warning.clone() });
+        let tolerance = match goal {
+            Goal::Tolerance(tolerance) => Some(tolerance),
+            Goal::Reference => None,
+        };
+        world.insert_resource(KnownError { estimate: plan.error, warning: plan.warning.clone(), tolerance });
         world.insert_resource(goal);
         world.insert_resource(plan);
     }
@@ -84,16 +88,29 @@ pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64,
 /// What is asked for in place of a tick. A tick on the command line wins over a tolerance in the scene, and the other way
 /// round.
 fn goal(clock: &ClockSection, overrides: &Overrides, notes: &mut Vec<String>) -> Result<Option<Goal>, Wrong> {
-    let method = overrides.method.as_ref().unwrap_or(&clock.method.0);
+    let reference = overrides.method.as_ref().unwrap_or(&clock.method.0) == ClockSection::REFERENCE;
     if let Some(tolerance) = overrides.tolerance {
-        notes.push(format!("tolerance {tolerance:?} from the command line"));
-        return positive("--tolerance", tolerance).map(|tolerance| Some(Goal::Tolerance(tolerance)));
+        let tolerance = positive("--tolerance", tolerance)?;
+        if reference {
+            let error = SceneError::new("--tolerance", ClockSection::REFERENCE_HAS_NONE);
+            return Err(Box::new(error.with_help("leave out the tolerance, or give `--method Auto`")));
+        }
+        let instead = clock.tick.map_or("", |_| ", in place of the tick of the scene");
+        notes.push(format!("tolerance {tolerance:?} from the command line{instead}"));
+        if overrides.method.is_none() && clock.tolerance.is_none() && clock.method.0 != ClockSection::AUTO {
+            notes.push(format!("the scene's method {} belongs to its tick; --method keeps it", clock.method.0));
+        }
+        return Ok(Some(Goal::Tolerance(tolerance)));
     }
-    Ok(match clock.tolerance {
-        _ if method == ClockSection::REFERENCE => Some(Goal::Reference),
-        Some(tolerance) if overrides.tick.is_none() => Some(Goal::Tolerance(tolerance.si())),
-        _ => None,
-    })
+    let left_out = match (reference, overrides.tick) {
+        (true, _) => ClockSection::REFERENCE_HAS_NONE,
+        (false, Some(_)) => "a tick was given in its place",
+        (false, None) => return Ok(clock.tolerance.map(|tolerance| Goal::Tolerance(tolerance.si()))),
+    };
+    if let Some(tolerance) = clock.tolerance {
+        notes.push(format!("the tolerance {:?} of the scene is left out: {left_out}", tolerance.si()));
+    }
+    Ok(reference.then_some(Goal::Reference))
 }
 
 /// The method that was asked for.
@@ -168,7 +185,10 @@ fn plan_for(
     overrides: &Overrides,
     duration: f64,
 ) -> Result<Plan, Wrong> {
-    let mut method = overrides.method.clone().unwrap_or_else(|| clock.method.0.clone());
+    // A method that a scene names beside a tick was chosen for that tick.
+    let by_tick = matches!(goal, Goal::Tolerance(_)) && clock.tolerance.is_none();
+    let named = if by_tick { ClockSection::AUTO } else { &clock.method.0 };
+    let mut method = overrides.method.clone().unwrap_or_else(|| named.to_owned());
     let free = method == ClockSection::AUTO || method == ClockSection::REFERENCE;
     let given = overrides.tick.or(clock.tick.map(|tick| tick.si()).filter(|_| goal == Goal::Reference));
     let tick = given.map_or_else(|| frame_tick(world, duration), |tick| positive("--tick", tick))?;
@@ -274,7 +294,7 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
     if located && world.contains_resource::<ContactLaw>() {
         notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
     }
-    world.insert_resource(ChosenMethod { name: method.name, located });
+    world.insert_resource(ChosenMethod { name: method.name, located, style });
     crate::tick::set_method(world, made);
     Ok(())
 }

@@ -14,7 +14,7 @@ use crate::expect::{Expectations, Outcome, observe_all};
 use crate::record::layers::{self, WantedLayers};
 use crate::report::Card;
 use crate::report::accuracy::{self, Tell};
-use crate::report::card::Notes;
+use crate::report::card::{Notes, number};
 use crate::scene::sections::FilmSection;
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::tick::{Clock, Failure, TickAppExt, step};
@@ -248,6 +248,21 @@ pub(crate) fn begin(
         return Err(scene::found_later(source, late));
     }
     let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(source, vec![*error]))?;
+    if world.contains_resource::<Goal>() {
+        look_at_frames(world);
+    }
     observe_all(world);
     Ok(ticks)
+}
+
+/// Ticks are the frames of the film: expectations look at each, and the card says what that leaves out.
+fn look_at_frames(world: &mut World) {
+    let spacing = number(world.resource::<Clock>().dt);
+    let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
+    expectations.look_at_all_ticks();
+    if expectations.sample() {
+        let note =
+            format!("expectations look every {spacing} s, at each frame: what happens between is not seen by them");
+        world.resource_mut::<Notes>().0.push(note);
+    }
 }

@@ -72,6 +72,9 @@ pub struct Ledger {
     pub drag: Sum,
     /// Work done by drives in J.
     pub work: Sum,
+    /// The same with what they took counted as what they put in: a drive that swings to and fro works, though the sum of it
+    /// may be nothing. Added up without compensation.
+    pub gross_work: f64,
     /// Impulse from outside in N s, per axis.
     pub impulse: [Sum; 2],
     /// Angular impulse from outside about the origin in N m s.
@@ -87,7 +90,19 @@ impl Ledger {
         self.impulse[1].add(balance.force.y * dt);
         self.angular_impulse.add(balance.torque * dt);
         self.drag.add(balance.drag * dt);
-        self.work.add(balance.work * dt);
+        self.book_work(balance.work * dt);
+    }
+
+    /// Books work of drives.
+    #[inline]
+    pub fn book_work(&mut self, work: f64) {
+        self.work.add(work);
+        self.gross_work += work.abs();
+    }
+
+    /// What drives put in, without what they took, in J.
+    pub fn put_in(&self) -> f64 {
+        0.5 * (self.gross_work + self.work.value())
     }
 
     /// Books what others changed between two ticks (bodies spawned, velocities set ...) as work and impulse. The first
@@ -99,7 +114,7 @@ impl Ledger {
             ledger.start = Some(after);
             return;
         }
-        ledger.work.add(after.energy() - before.energy());
+        ledger.book_work(after.energy() - before.energy());
         ledger.impulse[0].add(after.momentum.x - before.momentum.x);
         ledger.impulse[1].add(after.momentum.y - before.momentum.y);
         ledger.angular_impulse.add(after.angular_momentum - before.angular_momentum);

@@ -9,11 +9,11 @@ use super::failure::{Failure, Wrong};
 use super::guard::EnergyGuard;
 use super::{
     Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Indicator, Ledger, Models, Modes, SimTick, Span,
-    Stage, Style,
+    Stage, Style, Watch,
 };
 use crate::bounds::Bounds;
 use crate::integrate::Method;
-use crate::world::{Bodies, Force, Name, Slot, Torque, finite, packed};
+use crate::world::{Bodies, Force, Name, Slot, Torque, finite, lend, packed};
 
 /// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
 /// where choices contradict each other.
@@ -282,6 +282,12 @@ pub fn largest_travel(world: &World) -> f64 {
     world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)
 }
 
+/// The greatest energy that was seen to go round so far, in J, looked for every few hundred ticks: of motion and springs, and
+/// what fields released.
+pub fn energy_seen(world: &World) -> f64 {
+    world.get_resource::<Drive>().map_or(0.0, |drive| drive.energy.seen())
+}
+
 /// The first body that travelled farther in one tick than the smallest radius.
 pub fn far_travel(world: &World) -> Option<FarTravel> {
     world.get_resource::<Drive>().and_then(|drive| drive.far)
@@ -314,6 +320,24 @@ impl Tick<'_> {
         self.world.resource::<Census>().velocity_dependent
     }
 
+    /// Whether some force other than those of contacts depends on velocities.
+    pub fn has_velocity_forces(&self) -> bool {
+        self.world.resource::<Census>().velocity_forces
+    }
+
+    /// The first time after `now` at which forces or their rates are known to jump, in seconds; infinite if there is none.
+    pub fn next_edge(&self, now: f64) -> f64 {
+        let edges = &self.world.resource::<Models>().edges;
+        let paths = self.world.resource::<Bodies>().prescribed.next_point(now);
+        edges.iter().map(|edge| edge(self.world, now)).fold(paths, f64::min)
+    }
+
+    /// Whether forces may change with time in a state that does not.
+    pub fn changes_with_time(&self) -> bool {
+        !self.world.resource::<Models>().edges.is_empty()
+            || !self.world.resource::<Bodies>().prescribed.motions.is_empty()
+    }
+
     /// The packed state.
     pub fn bodies(&mut self) -> Mut<'_, Bodies> {
         self.world.resource_mut::<Bodies>()
@@ -342,7 +366,7 @@ impl Tick<'_> {
             drive.travelled += sum;
         }
         *self.world.resource_mut::<Balance>() = Balance::default();
-        self.announce(time, elapsed, Style::Following);
+        self.announce(time, elapsed, self.style);
         self.evaluate.run(self.world);
         self.world.resource_mut::<Bodies>().swap_estimate();
     }
@@ -393,46 +417,51 @@ impl Tick<'_> {
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
     pub(super) fn begin_anew(&mut self) {
         self.evaluate_stage(self.begin);
-        let models = self.world.resource::<Models>().clone();
-        for watch in &models.watches {
-            (watch.take_stock)(self.world);
-        }
+        self.each_watch(|world, watch| (watch.take_stock)(world));
         self.evaluate_stage(self.begin);
         self.settle();
     }
 
     /// Adds all indicators of the state just evaluated to a list.
     pub fn tell(&mut self, told: &mut Vec<Indicator>) {
-        for place in 0..self.world.resource::<Models>().watches.len() {
-            let watch = self.world.resource::<Models>().watches[place];
+        let mut place = 0;
+        self.each_watch(|world, watch| {
             let first = told.len();
-            (watch.tell)(self.world, told);
-            self.world.resource_mut::<Models>().watches[place].told = told.len() - first;
+            (watch.tell)(world, told);
+            if told.len() - first != watch.told {
+                world.resource_mut::<Models>().watches[place].told = told.len() - first;
+            }
+            place += 1;
+        });
+    }
+
+    fn each_watch(&mut self, mut see: impl FnMut(&mut World, Watch)) {
+        let mut place = 0;
+        while let Some(&watch) = self.world.resource::<Models>().watches.get(place) {
+            see(self.world, watch);
+            place += 1;
         }
     }
 
     /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
     /// ready for the next step.
     pub fn end_step(&mut self, fired: &[usize]) {
-        let watches = self.world.resource::<Models>().watches.clone();
         let time = self.world.resource::<Evaluation>().time;
-        let mut first = 0;
-        for watch in &watches {
-            let own = |place: &&usize| (first..first + watch.told).contains(*place);
-            let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
-            if !own.is_empty() {
-                (watch.switch)(self.world, &own);
-            }
-            first += watch.told;
-        }
         if !fired.is_empty() {
+            let mut first = 0;
+            self.each_watch(|world, watch| {
+                let own = |place: &&usize| (first..first + watch.told).contains(*place);
+                let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
+                if !own.is_empty() {
+                    (watch.switch)(world, &own);
+                }
+                first += watch.told;
+            });
             self.evaluate_stage(time);
             self.settle();
         }
         let mut changed = false;
-        for watch in &watches {
-            changed |= (watch.tidy)(self.world);
-        }
+        self.each_watch(|world, watch| changed |= (watch.tidy)(world));
         if changed {
             self.evaluate_stage(time);
         }
@@ -441,18 +470,21 @@ impl Tick<'_> {
     /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
     /// it, `times` as far as their present velocities and accelerations say. Says whether the state was evaluated for that.
     pub fn reserve(&mut self, length: f64, times: f64) -> bool {
-        let Some(mut bounds) = self.world.remove_resource::<Bounds>() else { return false };
-        let bodies = self.world.resource::<Bodies>();
-        let travel = |body: usize| {
-            let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
-            let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
-            let way = velocity + 0.5 * length * force * bodies.inverse_mass[body];
-            let turn = spin + 0.5 * length * torque * bodies.inverse_inertia[body];
-            (way + turn * bodies.extent[body]) * length
-        };
-        let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
-        let renew = bounds.reserve(bodies, times * farthest);
-        self.world.insert_resource(bounds);
+        if !self.world.contains_resource::<Bounds>() {
+            return false;
+        }
+        let renew = lend(self.world, |world, bounds: &mut Bounds| {
+            let bodies = world.resource::<Bodies>();
+            let travel = |body: usize| {
+                let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
+                let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
+                let way = velocity + 0.5 * length * force * bodies.inverse_mass[body];
+                let turn = spin + 0.5 * length * torque * bodies.inverse_inertia[body];
+                (way + turn * bodies.extent[body]) * length
+            };
+            let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
+            bounds.reserve(bodies, times * farthest)
+        });
         if renew {
             let time = self.world.resource::<Evaluation>().time;
             self.evaluate_stage(time);
@@ -484,15 +516,19 @@ impl Tick<'_> {
         self.world.get_resource::<Bounds>().is_some_and(|bounds| bounds.outgrown)
     }
 
+    /// The step in which somebody moved farther than candidate lists reach is not taken.
+    pub fn recall_bounds(&mut self) {
+        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
+            bounds.outgrown = false;
+        }
+    }
+
     /// Lets models correct the modes of a state just evaluated, until none wants to.
     fn settle(&mut self) {
-        let models = self.world.resource::<Models>().clone();
         let time = self.world.resource::<Evaluation>().time;
         for _ in 0..MOST_CORRECTIONS {
             let mut corrected = false;
-            for watch in &models.watches {
-                corrected |= (watch.settle)(self.world);
-            }
+            self.each_watch(|world, watch| corrected |= (watch.settle)(world));
             if !corrected {
                 break;
             }

@@ -125,6 +125,18 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         (self.dynamic.iter().zip(places).map(far).fold(0.0, f64::max), self.reach().speed)
     }
 
+    /// How far a change of the state takes any point of a dynamic body, in m, and how much faster it makes it, in m/s.
+    pub fn sizes_of(&self, change: &[f64]) -> (f64, f64) {
+        let bodies = self.tick.world.resource::<Bodies>();
+        let size = |changes: &[f64]| {
+            let each = self.dynamic.iter().zip(changes.chunks_exact(3));
+            let size = each.map(|(&body, by)| DVec2::new(by[0], by[1]).length() + by[2].abs() * bodies.extent[body]);
+            size.fold(0.0, f64::max)
+        };
+        let coordinates = 3 * self.dynamic.len();
+        (size(&change[..coordinates]), size(&change[coordinates..2 * coordinates]))
+    }
+
     /// The greatest distance of a dynamic body from the origin along an axis, in m.
     pub fn farthest(&self) -> f64 {
         let bodies = self.tick.world.resource::<Bodies>();
@@ -162,7 +174,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         ledger.impulse[1].add(y);
         ledger.angular_impulse.add(angular);
         ledger.drag.add(drag);
-        ledger.work.add(work);
+        ledger.book_work(work);
         ledger.friction.add(friction);
         ledger.inelasticity.add(inelasticity);
     }

@@ -2,14 +2,15 @@
 //!
 //! What a run creates is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. What was
 //! put into it is its kinetic and elastic energy at the beginning, what its fields released since, and the work of
-//! drives. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`, fifty times at 99 %
+//! drives wherever it was positive. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`, fifty times at 99 %
 //! of it, so a factor that no stable run reaches must be far above: a run is stopped when it has created [`BEYOND`]
 //! times what was put in and its tick is above the critical one, or [`ENORMOUS`] times whatever the tick is. Rounding of
 //! large energies counts as put in.
 //!
 //! It looks every [`EVERY`] ticks, when something travels farther in a tick than the smallest radius and whenever that
 //! has doubled, and at each tick since contacts were seen to respond nearly as fast as a method can bear: from the first
-//! touch on, before which nothing can be created.
+//! touch on, before which nothing can be created. The first tick is not judged: a drive that begins as a sine does has worked
+//! nothing in it, to the order of the method, but bodies move.
 
 use bevy_ecs::prelude::*;
 
@@ -31,7 +32,8 @@ pub(super) struct EnergyGuard {
     next: u64,
     travel: f64,
     released: f64,
-    worked: f64,
+    /// The greatest kinetic and elastic energy together that was seen, in J.
+    greatest: f64,
 }
 
 /// More energy than there can be.
@@ -44,6 +46,11 @@ pub struct Created {
 }
 
 impl EnergyGuard {
+    /// The greatest energy that was seen to go round, in J: of motion and springs, and what fields released.
+    pub fn seen(&self) -> f64 {
+        self.greatest + self.released
+    }
+
     /// Whether it is time to look, after `ticks` ticks in which nothing travelled farther than `travel` metres per tick.
     #[inline]
     pub fn is_due(&self, ticks: u64, travel: f64) -> bool {
@@ -54,6 +61,7 @@ impl EnergyGuard {
     pub fn look(&mut self, world: &World, travel: f64) -> Option<(usize, Created)> {
         let (bodies, ledger) = (world.resource::<Bodies>(), world.resource::<Ledger>());
         let clock = world.resource::<Clock>();
+        let first = self.next == 0;
         self.next = (clock.ticks / EVERY + 1) * EVERY;
         // From the smallest radius on it looks each time the travel has doubled.
         self.travel = if travel > bodies.smallest_radius { 2.0 * travel } else { bodies.smallest_radius };
@@ -61,14 +69,14 @@ impl EnergyGuard {
         let lost = ledger.friction.value() + ledger.inelasticity.value() + ledger.drag.value();
         let work = ledger.work.value();
         self.released = self.released.max(start.potential - now.potential);
-        self.worked = self.worked.max(work);
+        self.greatest = self.greatest.max(now.kinetic + now.elastic);
         let rounding = ROUNDING * (start.potential.abs() + now.potential.abs() + work.abs());
-        let put_in = start.kinetic + start.elastic + self.released + self.worked + rounding;
+        let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding;
         let energy = now.energy() + lost - work - start.energy();
         let unstable = Responses::of(world).fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(world));
         let too_much = if unstable { BEYOND } else { ENORMOUS } * put_in;
         // Written so that energies that are no numbers are too much; without anything put in there is no measure.
-        if put_in == 0.0 || energy <= too_much && put_in.is_finite() {
+        if first && energy.is_finite() || put_in == 0.0 || energy <= too_much && put_in.is_finite() {
             return None;
         }
         let most =

@@ -34,6 +34,7 @@ pub mod response;
 pub mod stability;
 pub mod steady;
 pub mod stopwatch;
+mod undo;
 
 use bevy_app::App;
 use bevy_ecs::intern::Interned;
@@ -42,12 +43,13 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
-pub use drive::{FarTravel, Tick, far_travel, largest_travel, set_method, step};
+pub use drive::{FarTravel, Tick, energy_seen, far_travel, largest_travel, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use models::{Indicator, Models, Objection, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
+pub use undo::Undo;
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -110,6 +112,8 @@ pub(crate) struct Census {
     pub ordinary_forces: usize,
     pub force_slots: u32,
     pub velocity_dependent: bool,
+    /// Some force other than those of contacts depends on velocities.
+    pub velocity_forces: bool,
     /// Some force is not the same always.
     pub changing_forces: bool,
 }
@@ -224,6 +228,7 @@ pub fn add_packed_observer<M>(
 fn next_force_slot(app: &mut App, dependence: Dependence) -> ForceSlot {
     let mut census = app.world_mut().resource_mut::<Census>();
     census.velocity_dependent |= dependence == Dependence::Velocity;
+    census.velocity_forces |= dependence == Dependence::Velocity;
     census.changing_forces |= dependence != Dependence::Nothing;
     let slot = ForceSlot(census.force_slots);
     census.force_slots += 1;

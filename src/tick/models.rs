@@ -11,7 +11,7 @@ pub struct Models {
     pub blocks: Vec<StateBlock>,
     /// What is watched for events, in the order of registration.
     pub watches: Vec<Watch>,
-    /// Times at which forces are known to jump: each gives the first one after a time in seconds, or infinity.
+    /// Times at which forces or their rates are known to jump: each gives the first one after a time in seconds, or infinity.
     pub edges: Vec<fn(&World, f64) -> f64>,
     /// What changes in a model when states become stages of steps, or follow one another from then on.
     pub handovers: Vec<fn(&mut World, Style)>,
@@ -20,6 +20,8 @@ pub struct Models {
     /// Models that cannot be evaluated in every style: each says why not, as the path of what is in the way, what is wrong
     /// and what would help.
     pub objections: Vec<fn(&World, Style) -> Option<Objection>>,
+    /// What models did otherwise in a style than the scene asks: sentences for the card, each with the entry and a remedy.
+    pub departures: Vec<fn(&World, Style) -> Vec<String>>,
 }
 
 /// Why a model cannot be evaluated in a style.
@@ -54,6 +56,8 @@ pub struct Indicator {
     pub value: f64,
     /// Its rate per second there; not a number if the model does not know.
     pub slope: f64,
+    /// How strongly it may bend downwards there: its second derivative, per second squared, is not below minus this.
+    pub bend: f64,
 }
 
 /// A model whose forces jump, or whose modes end.

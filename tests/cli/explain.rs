@@ -42,6 +42,12 @@ fn names_and_words_are_explained() {
         ("velocityverlet", "order 2"),
         ("critical tick", "the longest tick that the method bears"),
         ("energy.residual", "is a channel"),
+        ("tolerance", "`clock.tolerance` is a field of the section `clock`"),
+        ("duration", "Length of the run"),
+        ("events", "When jumps of the forces take place"),
+        ("horizon", "up to which a run can be told at all"),
+        ("Reference", "the smallest error there is"),
+        ("events located", "how often a step ended where forces jump"),
     ] {
         let ended = folder.jostle(&format!("explain {name}")).code(0);
         assert!(ended.out.contains(text), "{name}: {ended:?}");

@@ -64,6 +64,30 @@ fn overrides_are_named_on_the_card() {
         .says("0.1 s in 50 ticks");
 }
 
+/// A scene with both is refused; so is one with the other from the command line.
+#[test]
+fn a_reference_run_takes_no_tolerance() {
+    let referred = FALL.replace("VelocityVerlet", "Reference");
+    let folder = Folder::new("reference").with("fall.ron", FALL).with("referred.ron", referred);
+    let wrong = "`Reference` makes the smallest error there is: it takes no tolerance";
+    for scene in ["fall.ron --method Reference", "referred.ron"] {
+        folder.jostle(&format!("run {scene} --tolerance 1e-3")).code(1).says(wrong).says("--method Auto");
+    }
+    folder.jostle("run referred.ron --tolerance 1e-3 --method Auto").code(0);
+}
+
+/// What the command line puts in place of something of the scene stands on the card.
+#[test]
+fn what_is_left_out_of_the_clock_is_named_on_the_card() {
+    let fall = "Scene(format: 1, clock: (duration: 1, tolerance: 1e-5), gravity: (0, -10),
+        bodies: [(name: \"ball\", at: (0, 5), atoms: Disc(radius: 0.1))])";
+    let folder = Folder::new("left_out").with("free.ron", fall).with("ticks.ron", fall.replace("tolerance", "tick"));
+    let left_out = "the tolerance 1e-5 of the scene is left out: ";
+    folder.jostle("run free.ron --tick 1ms").code(0).says(&format!("{left_out}a tick was given in its place"));
+    folder.jostle("run free.ron --method Reference").code(0).says(&format!("{left_out}`Reference` makes the smallest"));
+    folder.jostle("run ticks.ron --tolerance 1e-3").code(0).says("in place of the tick of the scene");
+}
+
 #[test]
 fn moments_beyond_the_run_are_refused() {
     let folder = Folder::new("beyond").with("fall.ron", FALL).with("late.ron", FALL.replace("fps: 10", "from: 30"));

@@ -265,6 +265,30 @@ fn events_follow_what_goes_and_may_be_asked_for_late() {
     assert_eq!((events.begun.len(), events.count(lower), events.count(upper)), (0, 1, 0));
 }
 
+/// A ball that falls by 1 m is back after `2 sqrt(2 h/g)`, and so on without loss: impacts at `t1 (2 n + 1)` with `t1 = 0.447 s`,
+/// four in 3.5 s, each `pi sqrt(m/k)`, 3 ms, long, a tenth of a frame. Both its atoms touch at once, and it is one touch. No
+/// tolerance: they are counted. Not tested: crowds, whose events are not located.
+#[test]
+fn touches_between_two_frames_are_counted_where_they_are_located() {
+    for clock in ["tolerance: 1e-6", "method: Reference", "tick: 0.001, method: RungeKutta4"] {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 3.5, {clock}), gravity: (0, -10),
+            materials: {{ \"m\": (stiffness: 5e5) }},
+            walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"m\")],
+            bodies: [(name: \"ball\", at: (0.5, 1.1), material: \"m\", mass: 1,
+                      atoms: List([(at: (-0.2, 0), radius: 0.1), (at: (0.2, 0), radius: 0.1)]))],
+            sensors: [Contacts(of: \"ball\")])"
+        );
+        let mut simulation = load(&scene, listener);
+        let ticks = simulation.ticks();
+        run(&mut simulation, ticks);
+        assert_eq!(channel(&mut simulation, "ball.contacts.begun"), 4.0, "{clock}");
+        for begun in [true, false] {
+            assert_eq!(diary(&simulation).iter().filter(|heard| heard.1 == begun).count(), 4, "{clock}");
+        }
+    }
+}
+
 #[test]
 fn where_nobody_asks_nothing_is_watched() {
     let mut simulation = load(&scene("sensors: [Pose(of: \"*\"), ContactForce(on: \"floor\")],", PEG), |_| {});

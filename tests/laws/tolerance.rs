@@ -2,34 +2,38 @@
 //!
 //! The allowed error is a share of how far bodies go and how fast they are; the norms of the problems are such shares too,
 //! of sizes of their own, so that three times the tolerance is asked of them (the sizes differ by less). What remains below
-//! the rounding of a problem cannot be asked.
+//! the rounding of a problem cannot be asked; the run then has to say so.
 //!
 //! Cost is counted in evaluations of all forces. The run that is chosen is compared with the cheapest of the runs with equal
-//! ticks, of four methods and of numbers of ticks that double up to a thousand: those that the tolerance allows. An evaluation for each frame
-//! at which the run is looked at is left out, and so are trials, which come on top; the card says how many.
+//! ticks, of four methods and of numbers of ticks that double up to four thousand: those that the tolerance allows. Moments at
+//! which the run is looked at are left out, and so are trials, which come on top; the card says how many.
 
 use jostle::Simulation;
-use jostle::problems::{ALL, EventTiming, Problem, Setting};
+use jostle::integrate::LocatedEvents;
+use jostle::problems::{ALL, EventTiming, Problem, Setting, rotating_ring, settling_bounce};
 use jostle::scene::Source;
-use jostle::simulation::Overrides;
+use jostle::simulation::{Overrides, Plan};
 use jostle::tick::Evaluation;
 
 /// Evaluations that are too few to count: a dozen steps. They are made to look at the beginning.
 const FEW: u64 = 150;
 
-fn load(problem: &Problem, text: &str, tolerance: Option<f64>) -> Simulation {
-    let overrides = Overrides { tolerance, ..Overrides::default() };
+/// Tolerances from 1e-3 to 1e-10.
+const DECADES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+
+fn load_by(problem: &Problem, text: &str, tolerance: Option<f64>, plan: Option<Plan>) -> Simulation {
+    let overrides = Overrides { tolerance, plan, ..Overrides::default() };
     let source = Source::new(format!("{}.ron", problem.name), text);
     Simulation::load_with(&source, &overrides, |_| {}).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
 }
 
-/// Problems left out: bodies that move by micrometres or nanometres at a metre from the origin, where rounding of places is 1e-9 and 1e-7
-/// of the motion; and a ball that bounces for ever smaller, whose error does not fall evenly (found: 60 times the tolerance of 1e-5).
-const UNEVEN: [&str; 3] = ["tangential_impact", "frictional_collision", "settling_bounce"];
+fn load(problem: &Problem, text: &str, tolerance: Option<f64>) -> Simulation {
+    load_by(problem, text, tolerance, None)
+}
 
-/// All other problems, those that turn or swing for long cut short.
+/// All problems, those that turn or swing for long cut short.
 fn problems() -> impl Iterator<Item = Problem> {
-    ALL.iter().filter(|problem| !UNEVEN.contains(&problem.name)).map(|problem| problem.within_ticks(20_000.0))
+    ALL.iter().map(|problem| problem.within_ticks(20_000.0))
 }
 
 /// Error at the end, and evaluations.
@@ -48,21 +52,85 @@ fn without_tick(problem: &Problem) -> String {
     scene(problem, "Auto", tick, EventTiming::Auto).replace(&format!("tick: {tick:?}, "), "")
 }
 
+/// Whether a run says that it does not reach its tolerance.
+fn warns(simulation: &Simulation) -> bool {
+    simulation.card().warnings.iter().any(|warning| warning.contains("is not reached"))
+}
+
+/// A run that warns of rounding is let off, where the bound of the problem's rounding is above a tenth of the tolerance, which is
+/// what the finer of two trials asks for: bodies that move by micrometres or nanometres at a metre from the origin.
 #[test]
 fn the_error_of_a_run_is_no_more_than_what_is_allowed() {
     let mut wrong = Vec::new();
     for problem in &problems().collect::<Vec<_>>() {
-        for tolerance in [1e-3, 1e-6, 1e-9] {
+        for tolerance in DECADES {
             let mut simulation = load(problem, &without_tick(problem), Some(tolerance));
             let (error, _) = run(problem, &mut simulation);
-            let rounding = (problem.rounding)(problem.tick);
-            let allowed = 3.0 * tolerance + rounding;
-            if error.is_nan() || error > allowed {
-                wrong.push(format!("{} with {tolerance:e}: {error:e} > {allowed:e}", problem.name));
+            let let_off = warns(&simulation) && (problem.rounding)(problem.tick) > 0.1 * tolerance;
+            if !let_off && (warns(&simulation) || error.is_nan() || error > 3.0 * tolerance) {
+                wrong.push(format!("{} with {tolerance:e}: {error:e}", problem.name));
             }
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// A ball that bounces ever smaller, a dozen times, until it rests: which bounce a run ends in changes how its error falls with
+/// its steps, and errors of located events scatter. Its place is known in closed form at all times.
+#[test]
+fn errors_that_fall_unevenly_are_no_larger() {
+    let mut wrong = Vec::new();
+    for samples in [&[0.9], &[1.1], &[1.7], &[2.0], &[2.3], &[2.6], &[2.9], &[3.5]] {
+        let problem = Problem { samples, ..settling_bounce::PROBLEM };
+        for tolerance in DECADES {
+            let mut simulation = load(&problem, &without_tick(&problem), Some(tolerance));
+            let (error, _) = run(&problem, &mut simulation);
+            if error.is_nan() || error > 3.0 * tolerance {
+                wrong.push(format!("{} s with {tolerance:e}: {error:e}", problem.duration()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Two or three tries of twelve evaluations, four more to look inside and some guesses: about fifty for each event. Lists of
+/// candidates are not made anew for where the stages of a step that was refused went astray: that took 250.
+#[test]
+fn an_event_costs_a_few_steps() {
+    let problem = settling_bounce::PROBLEM;
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        let mut simulation = at_once(&problem, &load(&problem, &without_tick(&problem), Some(tolerance)), tolerance);
+        let (_, cost) = run(&problem, &mut simulation);
+        let events = simulation.world().resource::<LocatedEvents>().count;
+        assert!(events >= 6 && cost <= 60 * events, "{tolerance:e}: {cost} for {events}");
+    }
+}
+
+/// The same run again, looked at only at its end: its steps do not end at ticks, or it is exact with any.
+fn at_once(problem: &Problem, found: &Simulation, tolerance: f64) -> Simulation {
+    let plan = found.plan().expect("a tolerance has a plan");
+    let free = plan.method == "Dop853" || plan.notes.iter().any(|note| note.ends_with("so that it is exact"));
+    assert!(free, "{plan:?}");
+    let plan = Plan { tick: problem.duration(), ..plan.clone() };
+    load_by(problem, &without_tick(problem), Some(tolerance), Some(plan))
+}
+
+/// The problem as its cost is compared: at an end that shows what went wrong on the way. The sled comes to rest at the right place
+/// even if all its swings were late, so it is looked at while it moves.
+fn telling(problem: Problem) -> Problem {
+    let samples = if problem.name == "coulomb_oscillator" { &problem.samples[..3] } else { problem.samples };
+    Problem { samples, ..problem }
+}
+
+/// The error, and for the ring also how late its first mass is: after a whole turn it is back where it began, while the norm of the
+/// problem sees its distance from the middle only.
+fn error_with_phase(problem: &Problem, simulation: &Simulation) -> f64 {
+    let error = (problem.error)(simulation, problem.duration(), 0.0);
+    if problem.name != "rotating_ring" {
+        return error;
+    }
+    let radius = rotating_ring::radius();
+    error.max((simulation.bodies().position[0] - glam::DVec2::new(radius, 0.0)).length() / radius)
 }
 
 #[test]
@@ -74,31 +142,32 @@ fn a_run_costs_at_most_three_times_the_cheapest_with_equal_ticks() {
         ("Symplectic4", EventTiming::Located),
         ("Dop853", EventTiming::Located),
     ];
-    // The ring's norm does not see along which way its bodies are late; the sled has its error from the rounding of its stops.
-    let unlike = ["rotating_ring", "coulomb_oscillator"];
     let mut wrong = Vec::new();
-    for problem in &problems().filter(|problem| !unlike.contains(&problem.name)).collect::<Vec<_>>() {
+    for problem in &problems().map(telling).collect::<Vec<_>>() {
         let mut known = Vec::new();
         for (method, events) in ways {
             let mut ticks = 1.0_f64;
-            while ticks < 1500.0 {
+            while ticks < 5000.0 {
                 let text = scene(problem, method, problem.duration() / ticks.round(), events);
                 let mut simulation = load(problem, &text, None);
                 if simulation.run_to_end().is_ok() {
-                    let error = (problem.error)(&simulation, problem.duration(), 0.0);
+                    let error = error_with_phase(problem, &simulation);
                     known.push((error, simulation.world().resource::<Evaluation>().count));
+                    // Nothing that is finer is cheaper.
+                    if error < 1e-11 {
+                        break;
+                    }
                 }
                 ticks *= 2.0;
             }
         }
-        for tolerance in [1e-4, 1e-8] {
+        for tolerance in DECADES {
             let Some(cheapest) = known.iter().filter(|(error, _)| *error <= tolerance).map(|(_, cost)| *cost).min()
             else {
                 continue;
             };
-            let mut simulation = load(problem, &without_tick(problem), Some(tolerance));
-            let (_, cost) = run(problem, &mut simulation);
-            let cost = cost.saturating_sub(simulation.ticks());
+            let found = load(problem, &without_tick(problem), Some(tolerance));
+            let (_, cost) = run(problem, &mut at_once(problem, &found, tolerance));
             if cost > 3 * cheapest + FEW {
                 wrong.push(format!("{} with {tolerance:e}: {cost} > 3 x {cheapest}", problem.name));
             }
@@ -143,7 +212,9 @@ fn a_reference_run_states_an_error_that_it_has() {
         let velocity = known.velocity.discretisation.expect("the run went well");
         // Norms are shares of sizes of 1 mm and more.
         let allowed = 1e3 * (stated + velocity) + (problem.rounding)(problem.tick);
-        assert!(error <= allowed, "{}: {error:e} > {allowed:e}", problem.name);
+        // Where rounding bounds the steps it knows no error, and says so.
+        let let_off = simulation.card().warnings.iter().any(|warning| warning.contains("bounds the steps"));
+        assert!(error <= allowed || let_off, "{}: {error:e} > {allowed:e}", problem.name);
     }
 }
 

@@ -47,6 +47,13 @@ pub(super) fn explain(what: &str) -> Exit {
             ));
         }
     }
+    let clock = told("clock", None);
+    for line in clock.lines().filter_map(|line| line.strip_prefix("  ")) {
+        let name = line.split(':').next().unwrap_or_default();
+        if same(name) {
+            found.push(format!("`clock.{name}` is a field of the section `clock`.\n{line}"));
+        }
+    }
     if let Some((section, field)) = what.split_once('.') {
         let beginning = format!("  {field}: ");
         let fields = told(section, None);
@@ -75,6 +82,7 @@ pub(super) fn explain(what: &str) -> Exit {
             ));
         }
     }
+    names.extend(clock.lines().filter_map(|line| line.strip_prefix("  ")?.split(':').next()));
     for Word { word, meaning } in WORDS {
         names.push(word);
         if same(word) {

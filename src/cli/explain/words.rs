@@ -29,6 +29,48 @@ pub(super) const WORDS: &[Word] = &[
          well below it (some per cent) contacts are resolved. Softer or heavier bodies have a longer one.",
     ),
     word(
+        "steps",
+        "how many steps were made inside ticks or beyond them, how long the longest was, and how many were made again because \
+         their error was too large. Methods that go from tick to tick make one a tick, and the card says nothing of it.",
+    ),
+    word(
+        "events located",
+        "how often a step ended where forces jump (touch, part, stick, slip) and the next one began there. `clock.events` and \
+         the method decide whether events are located.",
+    ),
+    word(
+        "tolerance",
+        "the error that a run may have, as a share of how far and how fast bodies go, `clock.tolerance` or `--tolerance`. The \
+         engine runs the scene a few times in coarser steps, whose differences show which steps reach it; the card says what \
+         it expects, and warns if no steps do.",
+    ),
+    word(
+        "Reference",
+        "a run with the smallest error there is, `method: Reference` or `--method Reference`. It is compared with a coarser \
+         one, which shows its error, and with one that begins a hair beside it, which shows its horizon.",
+    ),
+    word(
+        "horizon",
+        "the time in seconds up to which a run can be told at all: in chaotic motion each disturbance grows exponentially, and \
+         from then on even rounding has become as large as a thousandth of the motion. `Reference` runs find it; `null` in \
+         `--json` where there is no chaos.",
+    ),
+    word(
+        "chaos",
+        "motion in which a disturbance of the beginning grows exponentially, so that no engine can tell places beyond the \
+         horizon; see `jostle explain horizon`.",
+    ),
+    word(
+        "error",
+        "how wrong places and velocities are, as several runs tell (`--json`): `discretisation` from the finite steps, \
+         `rounding` from finite digits. Runs under a `tolerance` and `Reference` know it, others do not.",
+    ),
+    word(
+        "what went round",
+        "the energy in J that the residual is compared with: motion and springs at their greatest as far as they were looked \
+         at, what fields released, what was lost, and the work of drives whichever way it went.",
+    ),
+    word(
         "real time",
         "seconds of physics for each second of computing. It is measured on your computer and is no part of the result.",
     ),

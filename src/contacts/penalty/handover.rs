@@ -41,7 +41,7 @@ pub(super) fn crowded(world: &World) -> bool {
 /// The way in which contacts are evaluated changes.
 pub(super) fn hand_over<N: NormalForce>(world: &mut World, style: Style) {
     let dt = world.resource::<Clock>().dt;
-    view(world, |_, view| {
+    view(world, |view| {
         view.contacts.rest.clear();
         if style == Style::Following {
             view.contacts.rows.clear();

@@ -19,7 +19,7 @@ use crate::tick::{Balance, Evaluation, Ledger};
 use crate::world::Bodies;
 
 /// Rolling springs of all candidate pairs, beside the lists of [`CandidatePairs`]. Present in scenes that ask for it.
-#[derive(Resource, Debug)]
+#[derive(Resource, Debug, Default)]
 pub struct RollingContacts {
     /// `mu_r`: torque over normal force and rolling radius, at which the spring gives way.
     pub friction: f64,
@@ -35,7 +35,7 @@ pub struct RollingContacts {
 impl RollingContacts {
     /// No contacts yet.
     pub fn new(friction: f64, ratio: f64) -> Self {
-        Self { friction, ratio, version: 0, atoms: Vec::new(), walls: Vec::new() }
+        Self { friction, ratio, ..Self::default() }
     }
 
     /// The law of a pair: torques in N m over angles in radians.

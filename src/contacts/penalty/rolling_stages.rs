@@ -15,7 +15,7 @@ use super::staged::Look;
 use super::switching::What;
 use crate::contacts::CandidatePairs;
 use crate::tick::StateBlock;
-use crate::world::Bodies;
+use crate::world::{Bodies, lend};
 
 /// The angles of all rolling springs that stick.
 pub(super) const BLOCK: StateBlock = StateBlock { length, read, write, rates };
@@ -56,8 +56,8 @@ fn read(world: &World, state: &mut [f64]) {
 }
 
 fn write(world: &mut World, state: &[f64]) {
-    world.resource_scope(|world, mut rolling: Mut<RollingContacts>| {
-        let RollingContacts { atoms, walls, .. } = &mut *rolling;
+    lend(world, |world, rolling: &mut RollingContacts| {
+        let RollingContacts { atoms, walls, .. } = rolling;
         let sticking = contacts(world).zip(atoms.iter_mut().chain(walls));
         let sticking = sticking.filter(|(contact, slider)| is_state(&(contact, slider)));
         state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);

@@ -180,10 +180,13 @@ impl Rows {
 
     /// Finds the forces, given all others.
     pub fn solve(&mut self, bodies: &Bodies) {
+        self.answer.clear();
+        if self.is_empty() {
+            return;
+        }
         let rows = &self.rows;
         self.matrix.clear();
         self.matrix.extend(rows.iter().flat_map(|row| rows.iter().map(|other| row.response(other, bodies))));
-        self.answer.clear();
         self.answer.extend(rows.iter().map(|row| -row.acceleration(bodies)));
         split::solve(&self.matrix, &mut self.answer, rows.iter().map(|row| row.share), &mut self.work);
     }

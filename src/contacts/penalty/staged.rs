@@ -139,6 +139,19 @@ impl Look {
         (acceleration(&self.case.end) - other).dot(self.case.normal) + self.inertial(law, bodies).0
     }
 
+    /// The greatest acceleration in m/s2 that one side may have seen from the other: the distance of two centres bends no more
+    /// than that, as all else lets it bend outwards.
+    pub fn bend(&self, bodies: &Bodies) -> f64 {
+        let acceleration = |end: &End| {
+            let body = end.body;
+            let (led, turned) = bodies.prescribed.acceleration(body);
+            let turning = bodies.torque[body] * bodies.inverse_inertia[body] + turned;
+            bodies.force[body] * bodies.inverse_mass[body] + led + end.arm.perp() * turning
+                - end.arm * (bodies.spin[body] * bodies.spin[body])
+        };
+        (acceleration(&self.case.end) - self.case.other_end().map_or(DVec2::ZERO, acceleration)).length()
+    }
+
     pub fn approach(&self, bodies: &Bodies) -> Approach {
         approach(bodies, self.case.other_end(), &self.case.end, self.case.normal)
     }

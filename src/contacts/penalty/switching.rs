@@ -16,6 +16,7 @@
 use bevy_ecs::prelude::*;
 
 use super::apply::PenaltyContacts;
+use super::case::Other;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
 use super::handover;
@@ -25,9 +26,11 @@ use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use super::staged::Look;
 use super::{Penalty, RollingLaw, TangentialLaw};
+use crate::contacts::events::Touches;
 use crate::contacts::{CandidatePairs, DeepestOverlap};
+use crate::tick::balance::{angular_momentum, momentum};
 use crate::tick::{Clock, Evaluation, Indicator, Ledger, Models, Objection, StateBlock, Style, Watch};
-use crate::world::Bodies;
+use crate::world::{Bodies, lend};
 
 /// What an indicator of a contact stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +67,6 @@ pub(super) fn install<N: NormalForce>(world: &mut World) {
         tidy,
         told: 0,
     });
-    models.edges.push(|world, now| world.resource::<Bodies>().prescribed.next_point(now));
     models.objections.push(object);
     models.handovers.push(handover::hand_over::<N>);
     models.crowds.push(handover::crowded);
@@ -134,19 +136,16 @@ impl View<'_> {
     }
 }
 
-pub(super) fn view<R>(world: &mut World, see: impl FnOnce(&mut World, &mut View) -> R) -> R {
-    world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
-        world.resource_scope(|world, bodies: Mut<Bodies>| {
-            world.resource_scope(|world, pairs: Mut<CandidatePairs>| {
-                let rolling = world.remove_resource::<RollingContacts>();
-                let mut view = View { bodies: &bodies, pairs: &pairs, contacts: &mut contacts, rolling };
-                let seen = see(world, &mut view);
-                if let Some(rolling) = view.rolling {
-                    world.insert_resource(rolling);
-                }
-                seen
-            })
-        })
+pub(super) fn view<R>(world: &mut World, see: impl FnOnce(&mut View) -> R) -> R {
+    lend(world, |world, contacts: &mut PenaltyContacts| {
+        let rolling = world.get_resource_mut::<RollingContacts>().map(|mut rolling| std::mem::take(&mut *rolling));
+        let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+        let mut view = View { bodies, pairs, contacts, rolling };
+        let seen = see(&mut view);
+        if let Some(rolling) = view.rolling {
+            *world.resource_mut::<RollingContacts>() = rolling;
+        }
+        seen
     })
 }
 
@@ -215,21 +214,22 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
         world.resource_mut::<PenaltyContacts>().told.clear();
         return;
     }
-    view(world, |_, view| {
+    view(world, |view| {
         let mut what = std::mem::take(&mut view.contacts.told);
         what.clear();
         for place in 0..view.len() {
             let look = view.look(place);
             let bodies = view.bodies;
             let (contact, law, roller) = view.whole(place, &look);
-            let mut say = |event: What, value: f64, slope: f64| {
-                what.push((place as u32, event));
-                told.push(Indicator { value, slope });
-            };
             if contact.mode == Mode::Open {
-                say(What::Touch, -look.overlap, look.parting());
+                what.push((place as u32, What::Touch));
+                told.push(Indicator { value: -look.overlap, slope: look.parting(), bend: look.bend(bodies) });
                 continue;
             }
+            let mut say = |event: What, value: f64, slope: f64| {
+                what.push((place as u32, event));
+                told.push(Indicator { value, slope, bend: 0.0 });
+            };
             let unknown = f64::NAN;
             if contact.mode == Mode::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
@@ -274,8 +274,11 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
 }
 
 fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
-    view(world, |world, view| {
-        view.close_slides(&mut world.resource_mut::<Ledger>());
+    if world.contains_resource::<Touches>() {
+        note_begun(world, fired);
+    }
+    let slid = view(world, |view| {
+        let slid = view.close_slides();
         // What springs hold before and no longer after is lost; it is booked when all modes have settled.
         view.contacts.held_before = Some(view.stored(|_| true));
         for &place in fired {
@@ -290,7 +293,43 @@ fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
                 (None, _) => {}
             }
         }
+        slid
     });
+    world.resource_mut::<Ledger>().friction.add(slid);
+}
+
+/// Notes which bodies begin to touch, for who asks: those of open contacts that are touched now, if no other contact between
+/// the two holds.
+fn note_begun(world: &mut World, fired: &[usize]) {
+    let begun = view(world, |view| {
+        let between = |view: &View, place: usize| {
+            let case = view.look(place).case;
+            match case.other {
+                Other::Atom(other) => (false, other.body, case.end.body),
+                Other::Wall(wall) => (true, case.end.body, wall as usize),
+            }
+        };
+        let touched: Vec<usize> = fired
+            .iter()
+            .map(|&place| view.contacts.told[place])
+            .filter(|told| matches!(told.1, What::Touch))
+            .map(|told| told.0 as usize)
+            .collect();
+        let mut begun: Vec<_> = touched.into_iter().map(|place| between(view, place)).collect();
+        begun.sort_unstable();
+        begun.dedup();
+        for place in 0..if begun.is_empty() { 0 } else { view.len() } {
+            if view.contact(place).0.mode != Mode::Open {
+                let pair = between(view, place);
+                begun.retain(|other| *other != pair);
+            }
+        }
+        begun
+    });
+    let mut touches = world.resource_mut::<Touches>();
+    for (is_wall, a, b) in begun {
+        if is_wall { touches.wall_begins(a, b as u32) } else { touches.bodies_begin(a, b) }
+    }
 }
 
 impl View<'_> {
@@ -317,11 +356,10 @@ impl View<'_> {
         sum
     }
 
-    /// What the springs that slip have taken up since the step began is not lost.
-    fn close_slides(&mut self, ledger: &mut Ledger) {
+    /// What the springs that slip have given since the step began, in J: it is lost beside what slipping took.
+    fn close_slides(&mut self) -> f64 {
         let now = self.sliding_energy();
-        ledger.friction.add(self.contacts.slid - now);
-        self.contacts.slid = now;
+        std::mem::replace(&mut self.contacts.slid, now) - now
     }
 
     fn sliding_energy(&mut self) -> f64 {
@@ -331,7 +369,7 @@ impl View<'_> {
 
 fn settle<N: NormalForce>(world: &mut World) -> bool {
     let mut corrected = false;
-    view(world, |_, view| {
+    view(world, |view| {
         for place in 0..view.len() {
             let look = view.look(place);
             let (contact, law, mut roller) = view.whole(place, &look);
@@ -365,7 +403,7 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
 }
 
 fn take_stock<N: NormalForce>(world: &mut World) {
-    view(world, |_, view| {
+    view(world, |view| {
         for place in 0..view.len() {
             let look = view.look(place);
             let (contact, law, roller) = view.whole(place, &look);
@@ -394,46 +432,57 @@ fn tidy(world: &mut World) -> bool {
         return false;
     }
     let (time, dt) = (world.resource::<Evaluation>().time, world.resource::<Clock>().dt);
-    let mut moved = false;
-    view(world, |world, view| {
-        let mut ledger = world.resource_mut::<Ledger>();
-        view.close_slides(&mut ledger);
-        if let Some(before) = view.contacts.held_before.take() {
-            let now = view.stored(|_| true);
-            ledger.friction.add(before - now);
+    let (slid, lost, rows) = view(world, |view| {
+        let slid = view.close_slides();
+        let lost = view.contacts.held_before.take().map(|before| {
+            let lost = before - view.stored(|_| true);
             view.contacts.slid = view.sliding_energy();
-        }
-    });
-    world.resource_scope(|world, mut contacts: Mut<PenaltyContacts>| {
-        world.resource_scope(|world, mut bodies: Mut<Bodies>| {
-            if !contacts.rows.is_empty() {
-                let before = (crate::tick::balance::momentum(&bodies), crate::tick::balance::angular_momentum(&bodies));
-                let mut ledger = world.resource_mut::<Ledger>();
-                moved = contacts.rows.stop(&mut bodies, dt, &mut ledger);
-                let by = crate::tick::balance::momentum(&bodies) - before.0;
-                ledger.impulse[0].add(by.x);
-                ledger.impulse[1].add(by.y);
-                ledger.angular_impulse.add(crate::tick::balance::angular_momentum(&bodies) - before.1);
-            }
+            lost
         });
+        (slid, lost, !view.contacts.rows.is_empty())
     });
-    view(world, |world, view| {
-        for place in 0..view.len() {
-            if view.contact(place).0.mode == Mode::Open {
+    let mut ledger = world.resource_mut::<Ledger>();
+    ledger.friction.add(slid);
+    if let Some(lost) = lost {
+        ledger.friction.add(lost);
+    }
+    let moved = rows && stop_rows(world, dt);
+    lend(world, |world, deepest: &mut DeepestOverlap| view(world, |view| view.note_overlaps(time, deepest)));
+    moved
+}
+
+/// Takes out of velocities what rounding has left along held rows, and books it. Says whether there was anything.
+fn stop_rows(world: &mut World, dt: f64) -> bool {
+    lend(world, |world, contacts: &mut PenaltyContacts| {
+        lend(world, |world, bodies: &mut Bodies| {
+            let mut ledger = world.resource_mut::<Ledger>();
+            let before = (momentum(bodies), angular_momentum(bodies));
+            let moved = contacts.rows.stop(bodies, dt, &mut ledger);
+            let by = momentum(bodies) - before.0;
+            ledger.impulse[0].add(by.x);
+            ledger.impulse[1].add(by.y);
+            ledger.angular_impulse.add(angular_momentum(bodies) - before.1);
+            moved
+        })
+    })
+}
+
+impl View<'_> {
+    fn note_overlaps(&mut self, time: f64, deepest: &mut DeepestOverlap) {
+        for place in 0..self.len() {
+            if self.contact(place).0.mode == Mode::Open {
                 continue;
             }
-            let look = view.look(place);
-            let entity = |body: usize| view.bodies.entity[body];
+            let look = self.look(place);
+            let entity = |body: usize| self.bodies.entity[body];
             let (b, radius) = (look.case.end.body, look.case.end.radius);
             let other = match look.case.other {
-                super::case::Other::Atom(a) => (entity(a.body), a.radius),
-                super::case::Other::Wall(wall) => (view.bodies.walls[wall as usize].entity, f64::INFINITY),
+                Other::Atom(a) => (entity(a.body), a.radius),
+                Other::Wall(wall) => (self.bodies.walls[wall as usize].entity, f64::INFINITY),
             };
-            let pair = (other.0, entity(b));
-            world.resource_mut::<DeepestOverlap>().note(look.overlap, radius.min(other.1), time, || pair);
+            deepest.note(look.overlap, radius.min(other.1), time, || (other.0, entity(b)));
         }
-    });
-    moved
+    }
 }
 
 impl Contact {

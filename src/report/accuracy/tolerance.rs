@@ -1,8 +1,9 @@
 //! `tolerance`: the coarsest steps with which the error of a whole run stays below what is allowed.
 //!
-//! Two coarse runs differ by the error of the coarser one. With the power by which the error falls, that says how fine the
-//! steps have to be; where they would have to be much finer than those tried, a trial nearer to them comes between. Errors
-//! are those of the whole run, not of a step: what a scene makes of the error of a step is measured, not guessed.
+//! Two runs differ by the error of the coarser one, unless they are wrong alike. So a fineness is taken only after it was tried: where
+//! a finer trial differs by no more than is allowed. Otherwise the power by which errors fall says how fine the steps have to
+//! be; it is believed only where a third trial differs by what it foretold. Errors are those of the whole run, not of a
+//! step: what a scene makes of the error of a step is measured, not guessed.
 
 use super::fineness::{Ladder, Trials};
 use super::trajectory::{Apart, Trajectory};
@@ -10,10 +11,16 @@ use crate::report::card::{ErrorEstimate, ErrorParts, number, rough};
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
 
-/// The estimated error aims at this share of the tolerance.
-const SAFETY: f64 = 0.3;
-/// The first run allows steps this many times the tolerance: errors of steps add up, so that the final one needs less.
-const COARSER: f64 = 3.0;
+/// A trial is good where a finer one differs from it by this share of the tolerance; and the finer one is where they differ by so
+/// many tolerances: it is wrong by more only if both are wrong by as much, and alike.
+const MEASURED: f64 = 0.7;
+const BETWEEN: f64 = 2.5;
+/// An error that is foretold aims at this share of the tolerance.
+const FORETOLD: f64 = 0.3;
+/// What was foretold is confirmed by no more than so many times as much: errors of located events scatter.
+const SCATTER: f64 = 3.0;
+/// The first run allows its steps this share of the tolerance: errors of steps add up.
+const FIRST: f64 = 0.1;
 /// Trials at the most, where the error does not fall as it should.
 const MOST_TRIALS: u32 = 9;
 
@@ -23,15 +30,15 @@ const MOST_POWER: f64 = 9.0;
 
 /// How a ladder is climbed.
 struct Climb {
-    /// The fineness of the first trial, and by how much the second one is finer.
+    /// The fineness of the first trial, and by how much the next one is finer at least, and at most.
     first: f64,
     finer: f64,
+    finest_step: f64,
     /// The power of the fineness by which the error falls, until it is seen.
     power: f64,
-    /// Whether the power has to be seen before it is relied on.
+    /// Whether the power has to be seen before it says how fine the next trial is.
     wary: bool,
-    /// The coarsest and the finest that are chosen.
-    coarsest: f64,
+    /// The finest that is tried.
     finest: f64,
     /// How much finer than the last trial the final run may be.
     trusted: f64,
@@ -43,17 +50,22 @@ impl Climb {
         let even = Self {
             first: steps,
             finer: 0.5,
+            finest_step: 1.0 / 16.0,
             power: 1.0,
             wary: true,
-            coarsest: steps,
             finest: steps / 4096.0,
             trusted: 0.25,
         };
         match trials.ladder {
-            Ladder::Allowed => {
-                let first = (COARSER * tolerance).clamp(1e-6, 1e-3);
-                Self { first, finer: 0.03, power: 1.0, wary: false, coarsest: tolerance, finest: 1e-14, trusted: 0.1 }
-            }
+            Ladder::Allowed => Self {
+                first: (FIRST * tolerance).clamp(1e-13, 1e-3),
+                finer: 0.1,
+                finest_step: 1e-3,
+                power: 1.0,
+                wary: false,
+                finest: 1e-14,
+                trusted: 1.0,
+            },
             Ladder::Steps => Self { power: f64::from(trials.order), wary: false, ..even },
             Ladder::Ticks => even,
         }
@@ -69,37 +81,48 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
         climb = Climb::of(trials, tolerance);
         coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
     }
+    if coarse.bounded {
+        // Two runs that rounding bounds are alike, and what they differ by is no error.
+        climb.first /= climb.finer;
+        coarse = trials.run(climb.first, "a coarser run", |_| {})?;
+    }
     let mut fineness = climb.first;
     let mut next = (fineness * climb.finer).max(climb.finest);
-    let mut before: Option<(f64, f64)> = None;
+    // Fineness and difference of the last pair of trials, and the error that it foretold.
+    let mut before: Option<(f64, f64, f64)> = None;
     loop {
         let fine = trials.run(next, "a finer run", |_| {})?;
         let apart = coarse.apart(&fine);
         let difference = apart.share;
+        let confirmed = before.is_some_and(|(.., error)| error.is_finite() && difference <= SCATTER * error);
         if trials.ladder != Ladder::Allowed
-            && let Some((coarser, larger)) = before
+            && let Some((coarser, larger, _)) = before
         {
             let seen = (larger / difference).ln() / (coarser / fineness).ln();
             climb.power = if seen.is_finite() { seen.clamp(LEAST_POWER, MOST_POWER) } else { climb.power };
         }
         // The finer run's own error is in the difference too.
         let left = 1.0 - (next / fineness).powf(climb.power);
-        let error_at = |then: f64| {
-            let share = (then / fineness).powf(climb.power) / left;
-            Apart { share: apart.share * share, distance: apart.distance * share, speed: apart.speed * share }
+        let share_at = |then: f64| (then / fineness).powf(climb.power) / left;
+        let wanted = fineness * (FORETOLD * tolerance * left / difference).powf(1.0 / climb.power);
+        let alike = coarse.bounded && fine.bounded;
+        let chosen = match difference {
+            _ if alike => None,
+            _ if difference <= MEASURED * tolerance => Some(fineness),
+            _ if difference <= BETWEEN * tolerance => Some(next),
+            _ if confirmed && wanted >= (next * climb.trusted).max(climb.finest) => Some(wanted.min(next)),
+            _ => None,
         };
-        let wanted = fineness * (SAFETY * tolerance * left / difference).powf(1.0 / climb.power);
-        let sure = !climb.wary || before.is_some();
-        if sure && !fine.bounded && wanted >= (next * climb.trusted).max(climb.finest) {
-            let chosen = wanted.min(climb.coarsest);
-            return Ok(reached(trials, chosen, tolerance, error_at(chosen)));
+        if let Some(chosen) = chosen {
+            return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
         }
-        if fine.bounded || next <= climb.finest || trials.count >= MOST_TRIALS {
-            return Ok(missed(trials, next, tolerance, (&coarse, &fine), error_at(next)));
+        if alike || next <= climb.finest || trials.count >= MOST_TRIALS {
+            return Ok(missed(trials, next, tolerance, (&coarse, &fine), apart.times(share_at(next))));
         }
-        (before, fineness, coarse) = (Some((fineness, difference)), next, fine);
-        let middle = if wanted > 0.0 { (next * wanted).sqrt() } else { 0.0 };
-        next = middle.clamp(next * climb.finer * climb.finer, next * climb.finer).max(climb.finest);
+        let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
+        before = Some((fineness, difference, difference * share_at(next)));
+        (fineness, coarse) = (next, fine);
+        next = wanted.clamp(next * least, next * climb.finer).max(climb.finest);
     }
 }
 
@@ -138,7 +161,7 @@ fn missed(
     let mut plan = trials.planned(fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
     let why = match lost {
-        _ if fine.bounded => format!(
+        _ if coarse.bounded && fine.bounded => format!(
             "rounding of places {} m from the origin leaves no smaller steps for bodies that go {} m; move the scene to the origin",
             number(fine.farthest()),
             number(trials.sizes().0)

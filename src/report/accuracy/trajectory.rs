@@ -1,10 +1,12 @@
 //! What two runs of a scene have in common, and how far apart they are.
 
+use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::Simulation;
 use crate::integrate::{LocatedEvents, StepCount};
-use crate::tick::{Evaluation, Failure};
+use crate::tick::{Clock, Evaluation, Failure, add_packed_observer};
+use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
 const MOST_MOMENTS: u64 = 100;
@@ -49,6 +51,27 @@ pub(super) struct Apart {
     pub speed: f64,
 }
 
+impl Apart {
+    /// So many times as far.
+    pub fn times(self, factor: f64) -> Self {
+        Self { share: self.share * factor, distance: self.distance * factor, speed: self.speed * factor }
+    }
+}
+
+/// Where a run looks at its bodies, and what it saw: without ending a batch of ticks, after which forces are evaluated for
+/// whoever else may look.
+#[derive(Resource)]
+struct Lookout {
+    stride: u64,
+    moments: Vec<(f64, Vec<Pose>)>,
+}
+
+fn look(bodies: Res<Bodies>, clock: Res<Clock>, mut lookout: ResMut<Lookout>) {
+    if clock.ticks.is_multiple_of(lookout.stride) {
+        lookout.moments.push((clock.time(), poses(&bodies)));
+    }
+}
+
 impl Trajectory {
     /// Runs a scene to its end. `per_moment` ticks of it are one of the run that it is to be compared with.
     pub fn record(simulation: &mut Simulation, per_moment: u64) -> Self {
@@ -56,16 +79,14 @@ impl Trajectory {
         let bodies = simulation.bodies().len() as u64;
         let most = MOST_MOMENTS.min(MOST_NUMBERS / (6 * bodies.max(1))).max(8);
         let stride = ticks.div_ceil(most).max(1) * per_moment;
-        let mut moments = Vec::new();
-        let mut failure = None;
-        let mut tick = 0;
-        loop {
-            moments.push((simulation.clock().time(), poses(simulation)));
-            if tick >= simulation.ticks() || failure.is_some() {
-                break;
-            }
-            tick = (tick + stride).min(simulation.ticks());
-            failure = simulation.run_to_tick(tick).err();
+        let begin = (simulation.clock().time(), poses(simulation.bodies()));
+        simulation.world_mut().insert_resource(Lookout { stride, moments: vec![begin] });
+        add_packed_observer(simulation.world_mut(), look);
+        let failure = simulation.run_to_end().err();
+        let lookout = simulation.world_mut().remove_resource::<Lookout>();
+        let mut moments = lookout.map_or_else(Vec::new, |lookout| lookout.moments);
+        if !simulation.clock().ticks.is_multiple_of(stride) {
+            moments.push((simulation.clock().time(), poses(simulation.bodies())));
         }
         let world = simulation.world();
         Self {
@@ -140,18 +161,8 @@ impl Trajectory {
         self.differences(other).find(|(_, apart)| *apart > distance).map(|(time, _)| time)
     }
 
-    /// The distance in m of another run at its end.
-    pub fn apart_at_end(&self, other: &Self) -> f64 {
-        self.differences(other).last().map_or(0.0, |(_, distance)| distance)
-    }
-
-    /// The end of the run in s.
-    pub fn end(&self) -> f64 {
-        self.moments.last().map_or(0.0, |(time, _)| *time)
-    }
-
     /// Time, and greatest difference of places in m, at each moment.
-    fn differences<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64)> + 'a {
+    pub fn differences<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64)> + 'a {
         self.moments.iter().zip(&other.moments).map(|((time, own), (_, others))| {
             let pairs = own.iter().zip(others).zip(&self.extents);
             (*time, pairs.map(|((own, other), extent)| difference(own, other, *extent).0).fold(0.0, greater))
@@ -176,8 +187,7 @@ fn greater(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
 
-fn poses(simulation: &Simulation) -> Vec<Pose> {
-    let bodies = simulation.bodies();
+fn poses(bodies: &Bodies) -> Vec<Pose> {
     let pose = |body: usize| Pose {
         position: bodies.position[body],
         angle: bodies.angle[body],

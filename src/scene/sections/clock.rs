@@ -57,6 +57,9 @@ impl ClockSection {
     pub const AUTO: &'static str = "Auto";
     /// The method that makes the smallest error there is, and says how large it is; it must be registered too.
     pub const REFERENCE: &'static str = "Reference";
+    /// Why a tolerance does not go with it.
+    pub(crate) const REFERENCE_HAS_NONE: &'static str =
+        "`Reference` makes the smallest error there is: it takes no tolerance";
 }
 
 impl Section for ClockSection {
@@ -94,7 +97,7 @@ impl Section for ClockSection {
                 .help("leave out one of the two");
         } else if self.method.0 == Self::REFERENCE {
             report
-                .error("tolerance", "`Reference` makes the smallest error there is: it takes no tolerance")
+                .error("tolerance", Self::REFERENCE_HAS_NONE)
                 .help("leave out the tolerance, or write `method: Auto`");
         } else if tolerance.si() >= 1.0 {
             report

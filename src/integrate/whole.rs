@@ -1,0 +1,115 @@
+//! Ticks in which nothing is watched, made as whole ones.
+//!
+//! As long as no pair of bodies is near, no thrust begins or ends and nothing else is watched, a tick of a method that goes from
+//! tick to tick is the same step as one that looks for events, but costs no looking. Bodies that come near in such a tick are
+//! seen when candidate lists are renewed; then it is taken back, and made again as a step that may end at an event.
+
+use super::Integrator;
+use super::staged::StepCount;
+use crate::bounds::Bounds;
+use crate::tick::{Clock, Indicator, Tick, Undo};
+use crate::world::Bodies;
+
+/// A method that goes from tick to tick, beside one that locates events.
+pub(super) struct Whole {
+    method: Box<dyn Integrator>,
+    undo: Undo,
+    /// The last tick was made as a whole.
+    lasts: bool,
+    /// When forces jump next, in s.
+    edge: f64,
+    /// Which candidate lists saw nothing, if there are any.
+    lists: Option<u64>,
+    told: Vec<Indicator>,
+}
+
+impl Whole {
+    pub fn new(method: Box<dyn Integrator>) -> Self {
+        Self { method, undo: Undo::default(), lasts: false, edge: 0.0, lists: None, told: Vec::new() }
+    }
+
+    /// Makes the tick, if nothing in it is watched. Says whether it did; if not, the state is that of its beginning.
+    pub fn advance(&mut self, tick: &mut Tick) -> bool {
+        if tick.is_fresh() {
+            self.end(tick);
+        }
+        if !self.lasts || self.edge < tick.end {
+            self.edge = tick.next_edge(tick.begin);
+            if self.edge < tick.end || !self.begin(tick) {
+                self.end(tick);
+                return false;
+            }
+        }
+        tick.choose_modes(tick.begin, tick.end);
+        if self.lists.is_some() {
+            tick.remember(&mut self.undo);
+        }
+        self.method.advance(tick);
+        let lists = self.lists.and_then(|_| version_of_lists(tick));
+        if lists != self.lists {
+            if may_have_passed(tick) || self.sees_something(tick) {
+                tick.take_back(&self.undo);
+                self.end(tick);
+                return false;
+            }
+            self.lists = lists;
+        }
+        true
+    }
+
+    fn sees_something(&mut self, tick: &mut Tick) -> bool {
+        self.told.clear();
+        tick.tell(&mut self.told);
+        !self.told.is_empty()
+    }
+
+    /// Begins a stretch of such ticks, if nothing is watched.
+    fn begin(&mut self, tick: &mut Tick) -> bool {
+        // Steps that look for events find velocities that forces depend on to rounding; whole ones estimate them.
+        let unlike = tick.has_velocity_forces() || !tick.world.resource::<Bodies>().prescribed.motions.is_empty();
+        if unlike || self.sees_something(tick) {
+            return false;
+        }
+        if !self.lasts {
+            let mut bodies = tick.bodies();
+            bodies.position_rest.fill(glam::DVec2::ZERO);
+            bodies.angle_rest.fill(0.0);
+            self.allow_renewal(tick, true);
+            let (ticks, dt) = (tick.world.resource::<Clock>().ticks, tick.dt);
+            let mut count = tick.world.get_resource_or_init::<StepCount>();
+            count.whole_from = Some(ticks);
+            count.longest = count.longest.max(dt);
+            self.lists = version_of_lists(tick);
+        }
+        true
+    }
+
+    fn end(&mut self, tick: &mut Tick) {
+        if self.lasts {
+            self.allow_renewal(tick, false);
+            let ticks = tick.world.resource::<Clock>().ticks;
+            let mut count = tick.world.resource_mut::<StepCount>();
+            (count.accepted, count.whole_from) = (count.until(ticks), None);
+            // Forces were those of estimated velocities.
+            tick.evaluate_stage(tick.begin);
+        }
+    }
+
+    fn allow_renewal(&mut self, tick: &mut Tick, allowed: bool) {
+        self.lasts = allowed;
+        if let Some(mut bounds) = tick.world.get_resource_mut::<Bounds>() {
+            bounds.renewed_in_steps = allowed;
+        }
+    }
+}
+
+fn version_of_lists(tick: &Tick) -> Option<u64> {
+    tick.world.get_resource::<Bounds>().map(|bounds| bounds.version)
+}
+
+/// Whether a body went so far in the tick that it may have passed another: lists made at its end do not show whom.
+fn may_have_passed(tick: &Tick) -> bool {
+    let (bodies, bounds) = (tick.world.resource::<Bodies>(), tick.world.resource::<Bounds>());
+    let travel = |body: usize| bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
+    (0..bodies.len()).any(|body| bodies.moves[body] && travel(body) > bounds.margin / 2.0)
+}

@@ -1,0 +1,40 @@
+//! Taking back a tick. What it travelled still counts among the travels of ticks, as that of a trial.
+
+use glam::DVec2;
+
+use super::{Ledger, Tick};
+use crate::world::Bodies;
+
+/// What a tick began with. Candidate lists stay as they are, and models may have no history of it.
+#[derive(Default)]
+pub struct Undo {
+    position: Vec<DVec2>,
+    angle: Vec<f64>,
+    velocity: Vec<DVec2>,
+    spin: Vec<f64>,
+    ledger: Ledger,
+}
+
+impl Tick<'_> {
+    /// Remembers the present state.
+    pub fn remember(&self, undo: &mut Undo) {
+        let bodies = self.world.resource::<Bodies>();
+        undo.position.clone_from(&bodies.position);
+        undo.angle.clone_from(&bodies.angle);
+        undo.velocity.clone_from(&bodies.velocity);
+        undo.spin.clone_from(&bodies.spin);
+        undo.ledger = *self.world.resource::<Ledger>();
+    }
+
+    /// Goes back to the state that was remembered. It is to be evaluated.
+    pub fn take_back(&mut self, undo: &Undo) {
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        bodies.position.clone_from(&undo.position);
+        bodies.angle.clone_from(&undo.angle);
+        bodies.velocity.clone_from(&undo.velocity);
+        bodies.spin.clone_from(&undo.spin);
+        bodies.estimated_velocity.clear();
+        bodies.estimated_spin.clear();
+        *self.world.resource_mut::<Ledger>() = undo.ledger;
+    }
+}
