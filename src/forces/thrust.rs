@@ -16,7 +16,7 @@ use crate::report::card::number;
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Models, Modes, Span, Style, TickAppExt};
+use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Evaluation, Models, Modes, Span, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located events
@@ -134,12 +134,14 @@ fn switch_thrust(
     mut bodies: ResMut<Bodies>,
     mut balance: ResMut<Balance>,
     span: Res<Span>,
+    mut evaluation: ResMut<Evaluation>,
 ) {
     let middle = span.middle();
     for thrust in &mut thrusts.0 {
         let acts = (thrust.from..thrust.to).contains(&middle);
         if acts != thrust.acts {
             thrust.acts = acts;
+            evaluation.stale = true;
             thrust.push(&mut bodies, &mut balance, if acts { 1.0 } else { -1.0 });
         }
     }

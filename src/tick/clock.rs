@@ -41,7 +41,7 @@ pub struct Evaluation {
     pub style: Style,
     /// How often forces were evaluated so far: the cost of a method.
     pub count: u64,
-    /// Bodies have moved on since: forces are those of an earlier state.
+    /// Bodies have moved on since, or a force was switched: forces are those of an earlier state.
     pub stale: bool,
 }
 

@@ -398,6 +398,11 @@ impl Tick<'_> {
             let length = if whole { self.dt } else { end - begin };
             *self.world.resource_mut::<Span>() = Span { begin, end, length };
             self.modes.run(self.world);
+            // What is held by contacts depends on all other forces.
+            if self.style.is_staged() && self.world.resource::<Evaluation>().stale {
+                self.evaluate_stage(begin);
+                self.settle();
+            }
         }
     }
 

@@ -60,7 +60,8 @@ pub struct SimTick;
 pub struct Evaluate;
 
 /// The schedule in which forces and contacts choose the modes (on or off, loading or unloading) that stay frozen during
-/// the step. It has the stages [`EvaluateStage::Forces`] and [`EvaluateStage::Contacts`].
+/// the step. It has the stages [`EvaluateStage::Forces`] and [`EvaluateStage::Contacts`]. A force that is switched there corrects
+/// the sums of forces, and sets [`Evaluation::stale`].
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Modes;
 

@@ -9,7 +9,7 @@
 
 use jostle::problems::{EventTiming, Setting, Truth, coulomb_oscillator, settling_bounce};
 
-use super::support::{assert_near, assert_rest};
+use super::support::{assert_near, assert_rest, load, run_to};
 
 const METHODS: [&str; 4] = ["VelocityVerlet", "RungeKutta4", "Symplectic4", "Dop853"];
 
@@ -77,5 +77,36 @@ fn the_closed_form_of_the_sled_is_that_of_the_truth_file() {
     let truth = Truth::read(coulomb_oscillator::TRUTH);
     for (time, place) in truth.times("x(t)").into_iter().zip(truth.numbers("x(t)")) {
         assert_near("place", coulomb_oscillator::state(time).0, place, 1e-14);
+    }
+}
+
+/// A block at rest on a rough floor that a thrust begins to push, within its cone (5 N) or beyond: it stands, or goes
+/// `x = a t^2/2` from the moment on at which the thrust begins, be that the start of the run. All is constant in between, so
+/// methods of order 2 and more err by rounding only, of sums of a hundred ticks.
+#[test]
+fn a_thrust_moves_a_block_from_the_moment_on_at_which_it_is_beyond_its_cone() {
+    for method in ["VelocityVerlet", "RungeKutta4", "Dop853", "Symplectic4", "ImplicitMidpoint", "SemiImplicitEuler"] {
+        for from in [0.0, 0.5, 0.5033] {
+            for push in [4.0, 6.0] {
+                let mut simulation = load(&format!(
+                    "Scene(format: 1, clock: (duration: 1, tick: 0.01, method: {method}, events: Located),
+                        gravity: (0, -10), contacts: Penalty(tangential: Exact),
+                        materials: {{\"m\": (stiffness: 1e6, friction: 0.5, restitution: 0)}},
+                        walls: [(name: \"floor\", left: (50, 0), right: (-50, 0), material: \"m\")],
+                        bodies: [(name: \"b\", at: (0, 0.099995), material: \"m\", atoms: List([
+                            (at: (-0.5, 0), radius: 0.1, mass: 0.5), (at: (0.5, 0), radius: 0.1, mass: 0.5),
+                        ]))],
+                        forces: [Thrust(of: \"b\", force: ({push}, 0), from: {from})])"
+                ));
+                run_to(&mut simulation, 1.0);
+                let acceleration = (push - 5.0_f64).max(0.0);
+                let (time, x) = (1.0 - from, simulation.bodies().position[0].x);
+                let exact = 0.5 * acceleration * time * time;
+                // The order of semi-implicit Euler is 1: it is ahead by `a dt t/2`.
+                let order_1 = if method == "SemiImplicitEuler" { 0.5 * acceleration * 0.01 * time } else { 0.0 };
+                let allowed = 1.01 * order_1 + 100.0 * f64::EPSILON;
+                assert!((x - exact).abs() <= allowed, "{method}, {push} N from {from} s: {x:e} instead of {exact:e}");
+            }
+        }
     }
 }
