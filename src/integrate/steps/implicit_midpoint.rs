@@ -146,7 +146,7 @@ fn disturbance(middle: &[f64], coordinate: usize, coordinates: usize, length: f6
 #[cfg(test)]
 mod tests {
     use super::super::problems::{ELONGATION, KEPLER, Motion, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
+    use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
     /// Law: order 2 on smooth motion (section II.1 of the source). Tolerance: a quarter of an order.
@@ -159,6 +159,12 @@ mod tests {
     #[test]
     fn energy_stays() {
         demand_bounded_energy(&mut ImplicitMidpoint::default(), KEPLER, 200.3);
+    }
+
+    /// Law: the same on sharp ellipses, with steps that resolve the passage: the rate there times the step is a third.
+    #[test]
+    fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
+        demand_no_trend(&mut ImplicitMidpoint::default(), 600);
     }
 
     /// Law: a symmetric method runs back to where it began (section V.1 of the source). Tolerance: rounding.

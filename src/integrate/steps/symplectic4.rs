@@ -55,7 +55,7 @@ fn half(number: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
+    use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
     /// Law: conditions of order 4 of a palindrome of kicks and drifts (Hairer, Lubich, Wanner, III.3): with `a` the kicks, `b`
@@ -91,6 +91,12 @@ mod tests {
         for (motion, steps) in [(OSCILLATOR, 5.3), (ELONGATION, 5.3), (KEPLER, 60.3)] {
             demand_bounded_energy(&mut Symplectic4::default(), motion, steps);
         }
+    }
+
+    /// Law: the same on sharp ellipses, with steps that resolve the passage: the rate there times the step is a third.
+    #[test]
+    fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
+        demand_no_trend(&mut Symplectic4::default(), 600);
     }
 
     /// Law: a symmetric method runs back to where it began (Hairer, Lubich, Wanner, V.1). Tolerance: rounding.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::problems::{Counted, MOTIONS, Motion};
+use super::problems::{Counted, KEPLER, MOTIONS, Motion};
 use super::{OneStep, Start};
 
 /// A run with equal steps. Changes are added with compensation (Kahan 1965), so that rounding does not grow with their
@@ -125,6 +125,36 @@ pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: Motion, st
         }
     }
     assert!(first > 0.0 && last <= 1.1 * first, "{}: energy is off by {first:e}, later {last:e}", motion.name);
+}
+
+/// Demands that energy on an ellipse of eccentricity 0.9 (truth file P07) has no trend in 10 000 orbits: averaged over a hundred of
+/// them at a time, the gain of its regression line over the whole is within four times the statistical error that the scatter
+/// about the line gives it, or below a thousandth of the swing in an orbit.
+pub(super) fn demand_no_trend(method: &mut dyn OneStep, steps_per_orbit: u32) {
+    let length = TAU / f64::from(steps_per_orbit);
+    let mut run = Run::from(KEPLER, 0.0, vec![0.1, 0.0, 0.0, 19.0_f64.sqrt()]);
+    let (mut lowest, mut highest, mut means) = (f64::INFINITY, f64::NEG_INFINITY, Vec::new());
+    for block in 0..100 {
+        let mut sum = 0.0;
+        for _ in 0..100 * steps_per_orbit {
+            run.step(method, length);
+            let energy = (KEPLER.energy)(&run.state);
+            (lowest, highest) = (lowest.min(energy), highest.max(energy));
+            sum += energy;
+        }
+        means.push((f64::from(block), sum / f64::from(100 * steps_per_orbit)));
+    }
+    let count = means.len() as f64;
+    let (rise, mean) = (slope(&means), means.iter().map(|(_, mean)| mean).sum::<f64>() / count);
+    let middle = 0.5 * (count - 1.0);
+    let spread: f64 = means.iter().map(|(block, _)| (block - middle).powi(2)).sum();
+    let scatter: f64 = means.iter().map(|(block, value)| (value - mean - rise * (block - middle)).powi(2)).sum();
+    let uncertainty = (scatter / (count - 2.0) / spread).sqrt() * count;
+    let (gain, swing) = (rise * count, highest - lowest);
+    assert!(
+        gain.abs() <= (4.0 * uncertainty).max(1e-3 * swing),
+        "energy gains {gain:e} +- {uncertainty:e} of {swing:e}"
+    );
 }
 
 /// Demands that as many steps backwards return to the start, to eight roundings for each step times the condition number

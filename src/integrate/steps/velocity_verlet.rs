@@ -31,7 +31,7 @@ impl OneStep for VelocityVerlet {
 #[cfg(test)]
 mod tests {
     use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_order, demand_reversible};
+    use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
     /// Law: order 2 on smooth motion, with velocities in the accelerations and states of models too (theorem II.3.2 of the
@@ -47,6 +47,12 @@ mod tests {
         for (motion, steps) in [(OSCILLATOR, 20.3), (ELONGATION, 20.3), (KEPLER, 200.3)] {
             demand_bounded_energy(&mut VelocityVerlet::default(), motion, steps);
         }
+    }
+
+    /// Law: the same on sharp ellipses, with steps that resolve the passage: the rate there times the step is a third.
+    #[test]
+    fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
+        demand_no_trend(&mut VelocityVerlet::default(), 600);
     }
 
     /// Law: a symmetric method runs back to where it began (section V.1 of the source). Tolerance: rounding.
