@@ -11,8 +11,20 @@ use glam::DVec2;
 use crate::tick::{Evaluate, EvaluateStage, Evaluation, TickAppExt};
 use crate::world::Bodies;
 
-/// Margin as a share of the smallest radius. Larger: fewer searches, more candidates.
+/// Margin as a share of the smallest radius: what steps that locate events begin with.
 const MARGIN_SHARE: f64 = 0.7;
+/// The same for states that follow one another: at first, at least and at most. Larger: fewer searches, more candidates.
+const FIRST_SHARE: f64 = 0.3;
+const LEAST_SHARE: f64 = 0.05;
+const MOST_SHARE: f64 = 6.0;
+/// What a search costs for each atom and for each pair that it finds, against what a pair costs in each evaluation.
+const SEARCH_PER_ATOM: f64 = 12.0;
+const SEARCH_PER_PAIR: f64 = 3.0;
+/// Searches may cost this share of what pairs do; the margin shrinks where they cost less than a sixteenth of that.
+const SEARCH_SHARE: f64 = 1.0;
+const FEW_SEARCHES: f64 = 16.0;
+/// By how much the margin changes at once.
+const CHANGE: f64 = 1.5;
 
 /// A margin so many times as wide as is needed is given up: a long step needed it, and lists are long ever since.
 const WASTEFUL: f64 = 16.0;
@@ -37,6 +49,12 @@ pub struct Bounds {
     generation: u64,
     position: Vec<DVec2>,
     angle: Vec<f64>,
+    /// [`Bodies::path`] up to which nobody can have left half the margin; not a number: not known.
+    path: f64,
+    /// How many candidate pairs were found with the boxes.
+    pub candidates: usize,
+    /// Evaluations since the boxes were made.
+    age: u64,
 }
 
 /// Registers the system of [`EvaluateStage::Bounds`]. Adding it twice does nothing.
@@ -50,18 +68,34 @@ pub fn plugin(app: &mut App) {
 /// Makes the boxes anew when a body has moved by half the margin since they were made.
 pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, evaluation: Res<Evaluation>) {
     let known = bounds.generation == bodies.generation && !bounds.stale;
-    if known && !bounds.left_behind(&bodies) {
+    let follows = !evaluation.style.is_staged();
+    bounds.age += 1;
+    // Between two looks nobody can have gone farther than all ways together.
+    let moved_by_step = follows && evaluation.elapsed > 0.0;
+    if known && moved_by_step && bodies.path < bounds.path && !bounds.age.is_power_of_two() {
+        return;
+    }
+    bounds.path = f64::NAN;
+    if known && !bounds.left_behind(&bodies) && !(follows && bounds.could_shrink(&bodies)) {
+        // Whoever is nearer than a quarter has as much left.
+        if follows && bodies.stayed_near(bounds.margin / 4.0, &bounds.position, &bounds.angle) {
+            bounds.path = bodies.path + bounds.margin / 4.0;
+        }
         return;
     }
     // Inside a step lists stay as they are: the step is made again with a wider margin.
-    if known && evaluation.style.is_staged() && !bounds.renewed_in_steps {
+    if known && !follows && !bounds.renewed_in_steps {
         bounds.outgrown = true;
         return;
     }
     (bounds.stale, bounds.outgrown) = (false, false);
     if bounds.generation != bodies.generation {
-        bounds.margin = least_margin(&bodies);
+        bounds.margin = if follows { FIRST_SHARE / MARGIN_SHARE } else { 1.0 } * least_margin(&bodies);
+    } else if follows {
+        bounds.adapt(&bodies);
     }
+    bounds.age = 0;
+    bounds.path = bodies.path + bounds.margin / 2.0;
     bounds.generation = bodies.generation;
     bounds.version += 1;
     let bounds = &mut *bounds;
@@ -105,19 +139,36 @@ impl Bounds {
         renew
     }
 
+    /// Evaluations that lists should last.
+    fn should_last(&self, bodies: &Bodies) -> f64 {
+        let pairs = self.candidates.max(1) as f64;
+        (SEARCH_PER_ATOM * bodies.atom_count() as f64 / pairs + SEARCH_PER_PAIR) / SEARCH_SHARE
+    }
+
+    /// The margin that suits how long the last boxes held.
+    fn adapt(&mut self, bodies: &Bodies) {
+        let share = self.margin * MARGIN_SHARE / least_margin(bodies);
+        let age = self.age as f64 / self.should_last(bodies);
+        if age < 1.0 && share < MOST_SHARE {
+            self.margin *= CHANGE;
+        } else if age > FEW_SEARCHES && share > LEAST_SHARE {
+            self.margin /= CHANGE;
+        }
+    }
+
+    /// Whether boxes that have held for long would still hold with a smaller margin: looked at now and then.
+    fn could_shrink(&self, bodies: &Bodies) -> bool {
+        let (least, small) = (least_margin(bodies) * LEAST_SHARE / MARGIN_SHARE, self.margin / 8.0);
+        let due = self.age.is_power_of_two() && self.age as f64 > FEW_SEARCHES * self.should_last(bodies);
+        due && self.margin > least && bodies.stayed_near(small, &self.position, &self.angle)
+    }
+
     /// The boxes are to be made anew at the next evaluation.
     pub fn outdate(&mut self) {
         self.stale = true;
     }
 
     fn left_behind(&self, bodies: &Bodies) -> bool {
-        let allowed = self.margin / 2.0;
-        // Written so that a position that is not finite counts as moved.
-        let stayed = |body: usize| {
-            let turned = (bodies.angle[body] - self.angle[body]).abs() * bodies.extent[body];
-            let left = allowed - turned;
-            left >= 0.0 && (bodies.position[body] - self.position[body]).length_squared() <= left * left
-        };
-        (0..bodies.len()).any(|body| bodies.moves[body] && !stayed(body))
+        !bodies.stayed_near(self.margin / 2.0, &self.position, &self.angle)
     }
 }

@@ -41,6 +41,8 @@ pub mod scene;
 pub mod shapes;
 pub mod world;
 
+pub mod simd;
+
 pub mod tick;
 
 pub mod forces;

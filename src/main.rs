@@ -5,6 +5,9 @@ use std::process::ExitCode;
 use clap::Parser;
 use jostle::cli::CommandLine;
 
+#[global_allocator]
+static LINES: jostle::simd::Lines = jostle::simd::Lines;
+
 fn main() -> ExitCode {
     CommandLine::parse().execute().into()
 }

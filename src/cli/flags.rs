@@ -10,6 +10,7 @@ use crate::integrate::Methods;
 use crate::record::layers::WORDS;
 use crate::scene::sections::{ClockSection, film};
 use crate::scene::units::Time;
+use crate::simd::Level;
 use crate::simulation::Overrides;
 use crate::tick::TickAppExt;
 
@@ -34,6 +35,10 @@ pub(super) struct OverrideFlags {
     /// Error allowed, instead of a tick: a share such as 1e-6 of how far and how fast bodies go
     #[arg(long, value_name = "X", value_parser = share, allow_negative_numbers = true, conflicts_with = "tick")]
     pub tolerance: Option<f64>,
+    /// Vector instructions to use: scalar, baseline, avx2 or avx512; the results are the same to the bit [default: the best
+    /// the processor has]
+    #[arg(long, value_name = "LEVEL")]
+    pub simd: Option<Level>,
     /// Give a parameter of the scene (`params`) another value: a number or an expression; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     pub settings: Vec<(String, String)>,
@@ -47,6 +52,7 @@ impl OverrideFlags {
             method: self.method.clone(),
             tolerance: self.tolerance,
             duration: self.duration,
+            level: self.simd,
             tell: Some(tell_trial),
             ..Overrides::default()
         }

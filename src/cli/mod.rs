@@ -1,6 +1,7 @@
 //! The command line: one file per command.
 
 mod aim;
+mod bench;
 mod check;
 mod colors;
 mod examples;
@@ -105,6 +106,8 @@ enum Command {
     Test(test::Test),
     /// Run a scene with many values of its parameters, several at once: a table, a contact sheet, films
     Sweep(sweep::Sweep),
+    /// Measure what ticks of scenes cost, beside a plain loop that does the same work
+    Bench(bench::Bench),
     /// Give scenes their standard layout; comments and line breaks stay
     Fmt(fmt::Fmt),
     /// Show what a scene does in a tick and what that costs; or what a name or a word on the error card means
@@ -127,6 +130,7 @@ impl CommandLine {
             Command::Check(check) => check.execute(),
             Command::Test(test) => test.execute(),
             Command::Sweep(sweep) => sweep.execute(),
+            Command::Bench(bench) => bench.execute(),
             Command::Fmt(fmt) => fmt.execute(),
             Command::Explain(explain) => explain.execute(),
             Command::List(list) => list.execute(),

@@ -108,6 +108,10 @@ pub fn watch(world: &mut World) {
     }
     world.init_resource::<ContactEvents>();
     world.init_resource::<Touches>();
+    // Who touches already is found by an evaluation, also where all bodies are asleep.
+    if let Some(mut bodies) = world.get_resource_mut::<Bodies>() {
+        bodies.touched = true;
+    }
     add_packed_observer(world, find_contact_events.in_set(FindContactEvents));
 }
 

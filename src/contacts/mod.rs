@@ -49,11 +49,18 @@ pub struct ContactForces {
     pub on_body: Vec<DVec2>,
     /// Force on each wall in newtons, in canonical order.
     pub on_wall: Vec<DVec2>,
+    /// What contacts give that are not evaluated because their bodies are asleep: on bodies, and on walls. Sums begin with it.
+    pub asleep: Option<(Vec<DVec2>, Vec<DVec2>)>,
 }
 
 impl ContactForces {
     /// Begins a new sum for each body and wall.
     pub fn clear(&mut self, bodies: &Bodies) {
+        if let Some((on_body, on_wall)) = self.asleep.as_ref().filter(|_| !bodies.asleep.is_empty()) {
+            self.on_body.clone_from(on_body);
+            self.on_wall.clone_from(on_wall);
+            return;
+        }
         self.on_body.clear();
         self.on_body.resize(bodies.len(), DVec2::ZERO);
         self.on_wall.clear();

@@ -22,8 +22,7 @@ pub(super) const DESCRIPTION: Description = Description {
 impl Integrator for SemiImplicitEuler {
     fn advance(&mut self, tick: &mut Tick) {
         let dt = tick.dt;
-        tick.kick(dt);
-        tick.drift(dt);
+        tick.advance(dt, dt, None);
         tick.evaluate(dt);
     }
 }

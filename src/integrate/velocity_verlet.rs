@@ -26,11 +26,8 @@ pub(super) const DESCRIPTION: Description = Description {
 impl Integrator for VelocityVerlet {
     fn advance(&mut self, tick: &mut Tick) {
         let dt = tick.dt;
-        tick.kick(dt / 2.0);
-        tick.drift(dt);
-        if tick.velocity_dependent() {
-            tick.estimate_velocities(dt / 2.0);
-        }
+        let ahead = tick.velocity_dependent().then_some(dt / 2.0);
+        tick.advance(dt / 2.0, dt, ahead);
         tick.evaluate(dt);
         tick.kick(dt / 2.0);
     }

@@ -12,7 +12,7 @@ use super::warnings::{FEWEST_TICKS, warnings};
 use crate::contacts::DeepestOverlap;
 use crate::integrate::{LocatedEvents, StepCount};
 use crate::tick::balance::Totals;
-use crate::tick::{Clock, Holder, Ledger, Responses, Stability, Style, largest_travel};
+use crate::tick::{Clock, Holder, Ledger, Models, Responses, Stability, Style, largest_travel};
 use crate::world::hash::state_hash;
 use crate::world::{Bodies, Name};
 
@@ -215,6 +215,7 @@ impl Card {
             energy_scale: energy.turned_over(world),
             asked: world.get_resource::<KnownError>().map(|known| known.tolerance),
         };
+        card.notes.extend(world.resource::<Models>().remarks.iter().filter_map(|remark| remark(world)));
         card.warnings = warnings(world, card.remedy());
         card.warnings.extend(card.unaccounted());
         card.notes.extend(card.warnings.iter().map(|warning| format!("warning: {warning}")));

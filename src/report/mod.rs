@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod advice;
+pub mod bench;
 pub mod card;
 pub mod energy;
 pub mod reversal;

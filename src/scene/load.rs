@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bevy_app::App;
 
 use super::error::{SceneError, SceneErrors};
-use super::expand;
+use super::expand::{self, Tables};
 use super::explain::{self, Walked};
 use super::outline::{Kind, Mention, Outline};
 use super::registry::{Arity, ReadEntries, ReadSection, Reader, SceneRegistry, entry_scope};
@@ -55,15 +55,16 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
         return Err(SceneErrors::new(source.clone(), vec![fault], Vec::new()));
     }
     if !expand::is_wanted(source, &found.tree) {
-        return load_text(app, &registry, &source.text, &found.tree, found.errors)
+        return load_text(app, &registry, &source.text, &found.tree, found.errors, Tables::new())
             .map_err(|(errors, notes)| SceneErrors::new(source.clone(), errors, notes));
     }
-    let expanded = expand::expand(source, found)?;
+    let mut expanded = expand::expand(source, found)?;
+    let tables = std::mem::take(&mut expanded.tables);
     let mut found = scan(&expanded.text);
     if let Some(fault) = found.fault.take() {
         return Err(expanded.told(&found.tree, vec![fault], Vec::new()));
     }
-    let mut header = load_text(app, &registry, &expanded.text, &found.tree, found.errors)
+    let mut header = load_text(app, &registry, &expanded.text, &found.tree, found.errors, tables)
         .map_err(|(errors, notes)| expanded.told(&found.tree, errors, notes))?;
     header.remarks.splice(0..0, expanded.notes.iter().cloned());
     Ok(header)
@@ -76,12 +77,13 @@ fn load_text(
     text: &str,
     tree: &Tree,
     errors: Vec<SceneError>,
+    tables: Tables,
 ) -> Result<SceneHeader, (Vec<SceneError>, Vec<String>)> {
     let mut loading = Loading {
         walked: Walked { text, tree },
         registry,
         errors,
-        header: SceneHeader { outline: Outline::with_words(registry.words.clone()), ..SceneHeader::default() },
+        header: SceneHeader { outline: Outline::with(registry.words.clone(), tables), ..SceneHeader::default() },
         sections: Vec::new(),
         entries: BTreeMap::new(),
         order: Vec::new(),
@@ -95,6 +97,7 @@ fn load_text(
     }
     header.remarks = report.notes().to_vec();
     install(app, &header.outline, sections, entries);
+    header.outline.forget_places();
     Ok(header)
 }
 

@@ -2,10 +2,13 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::expand::Tables;
 use super::report::Report;
+use super::sections::packing::PackingTable;
 use super::suggest;
 
 /// What a name stands for. Plugins may make kinds of their own.
@@ -16,7 +19,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// Bodies, those of `fill` included.
+    /// Bodies, those of `fill` and `packings` included.
     pub const BODY: Self = Self::new("body");
     /// Walls.
     pub const WALL: Self = Self::new("wall");
@@ -99,6 +102,7 @@ pub struct Outline {
     entries: BTreeMap<String, Vec<Mention>>,
     words: Words,
     obstacles: Vec<Obstacle>,
+    tables: Tables,
     /// Where relative paths begin.
     pub(crate) scope: String,
     /// Whether every section could be read. If not, names may be missing, so unknown ones are not reported.
@@ -266,8 +270,18 @@ impl Outline {
         self.words.get(list).into_iter().flatten().map(|(word, here)| (*word, *here))
     }
 
-    pub(crate) fn with_words(words: Words) -> Self {
-        Self { words, ..Self::default() }
+    pub(super) fn with(words: Words, tables: Tables) -> Self {
+        Self { words, tables, ..Self::default() }
+    }
+
+    /// A table of bodies that was read with the scene.
+    pub(super) fn table(&self, key: u64) -> Option<Arc<PackingTable>> {
+        self.tables.get(&key).map(Arc::clone)
+    }
+
+    /// Lets go what only the building of the scene needs.
+    pub(super) fn forget_places(&mut self) {
+        (self.obstacles, self.tables) = Default::default();
     }
 
     pub(crate) fn add_section(&mut self, name: &str, none: bool) {

@@ -17,8 +17,9 @@ use crate::report::accuracy::{self, Tell};
 use crate::report::card::{Notes, number};
 use crate::scene::sections::FilmSection;
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
+use crate::simd::Level;
 use crate::tick::{Clock, Failure, TickAppExt, step};
-use crate::world::{Name, packed};
+use crate::world::{Bodies, Name, packed};
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +35,9 @@ pub struct Overrides {
     /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]; an empty list: no
     /// layers at all. They change nothing of the run.
     pub layers: Option<Vec<String>>,
+    /// Vector instructions to use, which the processor must have. Default: the best it has. All give the same results to the
+    /// bit.
+    pub level: Option<Level>,
     /// How the scene is run, as found for an earlier run of it ([`Simulation::plan`]): nothing is tried again.
     pub plan: Option<Plan>,
     /// Told of each trial run that a tolerance or a reference run needs.
@@ -123,6 +127,7 @@ impl Simulation {
         app.cleanup();
         let world = app.world_mut();
         let ticks = begin(world, source, &header, overrides)?;
+        world.resource_mut::<Bodies>().level = overrides.level.unwrap_or_default();
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
     }

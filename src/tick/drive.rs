@@ -174,6 +174,9 @@ pub(super) fn integrate(world: &mut World) {
         end: clock.time_of(clock.ticks + 1),
         alert: false,
     };
+    if tick.fresh {
+        tick.bodies().wake_all();
+    }
     if tick.fresh && style.is_staged() {
         tick.begin_anew();
     } else if tick.fresh {
@@ -182,10 +185,13 @@ pub(super) fn integrate(world: &mut World) {
     if let Some(before) = before {
         Ledger::book_exchange(tick.world, before);
     }
-    if !style.is_staged() {
-        tick.choose_modes(tick.begin, tick.end);
+    // Where all bodies are asleep the end of the tick is its beginning.
+    if !tick.bodies().all_asleep() {
+        if !style.is_staged() {
+            tick.choose_modes(tick.begin, tick.end);
+        }
+        method.0.advance(&mut tick);
     }
-    method.0.advance(&mut tick);
     let alert = tick.alert;
     world.resource_mut::<Clock>().ticks += 1;
     let mut drive = world.resource_mut::<Drive>();
@@ -343,12 +349,6 @@ impl Tick<'_> {
         self.world.resource_mut::<Bodies>()
     }
 
-    /// Estimates the velocities `dt` seconds ahead from the present forces: the following evaluations see them in place
-    /// of the velocities, which stay as they are.
-    pub fn estimate_velocities(&mut self, dt: f64) {
-        self.world.resource_mut::<Bodies>().estimate_velocities(dt);
-    }
-
     /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
     pub fn evaluate(&mut self, elapsed: f64) {
         let mut bodies = self.world.resource_mut::<Bodies>();
@@ -358,17 +358,28 @@ impl Tick<'_> {
         // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
         let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
-        bodies.pose();
         bodies.swap_estimate();
-        if let Some((greatest, sum)) = driven {
+        if let Some(driven) = driven {
             let mut drive = self.world.resource_mut::<Drive>();
-            drive.travel = drive.travel.max(greatest);
-            drive.travelled += sum;
+            drive.travel = drive.travel.max(driven.greatest);
+            drive.travelled += driven.sum;
         }
+        self.run_evaluation(time, elapsed);
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        if std::mem::take(&mut bodies.disturbed) {
+            bodies.wake_all();
+            // No time has passed since: histories stay as they are.
+            self.run_evaluation(time, 0.0);
+            bodies = self.world.resource_mut::<Bodies>();
+        }
+        bodies.swap_estimate();
+    }
+
+    fn run_evaluation(&mut self, time: f64, elapsed: f64) {
+        self.world.resource_mut::<Bodies>().pose();
         *self.world.resource_mut::<Balance>() = Balance::default();
         self.announce(time, elapsed, self.style);
         self.evaluate.run(self.world);
-        self.world.resource_mut::<Bodies>().swap_estimate();
     }
 
     fn announce(&mut self, time: f64, elapsed: f64, style: Style) {
@@ -410,13 +421,11 @@ impl Tick<'_> {
     /// it but the rates.
     pub fn evaluate_stage(&mut self, time: f64) {
         let mut bodies = self.world.resource_mut::<Bodies>();
+        bodies.wake_all();
         if !bodies.prescribed.motions.is_empty() {
             bodies.prescribe(self.begin, time);
         }
-        bodies.pose();
-        *self.world.resource_mut::<Balance>() = Balance::default();
-        self.announce(time, 0.0, self.style);
-        self.evaluate.run(self.world);
+        self.run_evaluation(time, 0.0);
     }
 
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
@@ -560,18 +569,25 @@ impl Tick<'_> {
 
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
     pub fn kick(&mut self, dt: f64) {
-        let balance = *self.world.resource::<Balance>();
-        self.alert |= balance.alert;
-        self.world.resource_mut::<Ledger>().book(&balance, dt);
+        self.book(dt);
         self.world.resource_mut::<Bodies>().kick(dt);
     }
 
-    /// Positions change by the present velocities over `dt` seconds. One drift per tick: it is remembered as the
-    /// displacement since the last accepted state.
-    pub fn drift(&mut self, dt: f64) {
-        let travelled = self.world.resource_mut::<Bodies>().drift(dt);
+    /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
+    /// over `drift` seconds. One drift per tick: it is remembered as the displacement since the last accepted state. With
+    /// `ahead` the velocities so many seconds later are estimated from the same forces: the following evaluations see them in
+    /// place of the velocities, which stay as they are.
+    pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
+        self.book(kick);
+        let travelled = self.world.resource_mut::<Bodies>().advance(kick, drift, ahead);
         let mut drive = self.world.resource_mut::<Drive>();
-        drive.travel = drive.travel.max(travelled.0);
-        drive.travelled = travelled.1;
+        drive.travel = drive.travel.max(travelled.greatest);
+        drive.travelled = travelled.sum;
+    }
+
+    fn book(&mut self, dt: f64) {
+        let balance = *self.world.resource::<Balance>();
+        self.alert |= balance.alert;
+        self.world.resource_mut::<Ledger>().book(&balance, dt);
     }
 }

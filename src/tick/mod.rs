@@ -93,7 +93,8 @@ pub enum EvaluateStage {
 /// those who need them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependence {
-    /// Nothing: the force is the same always.
+    /// Nothing: the force is the same always. Bodies that are asleep ([`Bodies::asleep`](crate::world::Bodies::asleep)) are
+    /// to be left out, and so is what they would bring to [`Balance`].
     Nothing,
     /// Time and positions only.
     Position,

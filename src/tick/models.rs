@@ -22,6 +22,8 @@ pub struct Models {
     pub objections: Vec<fn(&World, Style) -> Option<Objection>>,
     /// What models did otherwise in a style than the scene asks: sentences for the card, each with the entry and a remedy.
     pub departures: Vec<fn(&World, Style) -> Vec<String>>,
+    /// What models have to say of a run at its end: a sentence each for the notes of the card.
+    pub remarks: Vec<fn(&World) -> Option<String>>,
 }
 
 /// Why a model cannot be evaluated in a style.

@@ -7,6 +7,7 @@ pub mod hash;
 pub mod kinematic;
 mod lend;
 pub mod material;
+pub mod motion;
 pub mod packed;
 pub mod sections;
 pub mod spawn;

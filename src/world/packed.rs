@@ -11,7 +11,9 @@ use super::atom::{Atom, Atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 use super::kinematic::{Kinematic, Prescribed};
 use super::material::MaterialIndex;
+use super::motion::Travel;
 use super::wall::Wall;
+use crate::simd::{BLOCK, Level};
 
 /// Place of a body in the packed state, kept on its entity.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,6 +42,8 @@ pub struct Bodies {
     /// Set by a plugin that changed something forces depend on other than the components of bodies (a setting of its
     /// own force, say): forces are then evaluated anew before the next tick instead of at its end.
     pub touched: bool,
+    /// Instructions for work on many bodies at once. Default: the best there are.
+    pub level: Level,
     /// Counts the rebuilds: whoever keeps indices compares it.
     pub generation: u64,
 
@@ -109,8 +113,25 @@ pub struct Bodies {
     /// Body of each atom.
     pub atom_body: Vec<u32>,
 
+    /// Whether each body is one disc about its centre of mass: atoms have the numbers of their bodies then.
+    pub lone_discs: bool,
+    /// Whether all bodies move by forces.
+    pub all_dynamic: bool,
+
     /// Radius of the smallest atom in metres; infinite without atoms.
     pub smallest_radius: f64,
+
+    /// Which bodies need no work because they are at rest and nothing can change that: a bit each, a byte for eight bodies;
+    /// empty if there are none.
+    pub asleep: Vec<u8>,
+    /// Blocks of eight bodies that need work, in order; only where some need none.
+    pub awake: Vec<u32>,
+
+    /// Something pushed a body that was asleep: forces are evaluated anew, with all bodies awake.
+    pub disturbed: bool,
+    /// How far any point of a body can have gone since the beginning, in metres: the sum of the greatest ways of all ticks. Not a
+    /// number to go by where others than [`Bodies::advance`] and [`Bodies::prescribe`] moved bodies.
+    pub path: f64,
 
     /// The walls in canonical order.
     pub walls: Vec<PackedWall>,
@@ -127,6 +148,36 @@ impl Bodies {
     /// Whether there are no bodies.
     pub fn is_empty(&self) -> bool {
         self.entity.is_empty()
+    }
+
+    /// Whether a body needs no work because it is at rest.
+    #[inline]
+    pub fn is_asleep(&self, body: usize) -> bool {
+        self.asleep.get(body / BLOCK).is_some_and(|bits| bits >> (body % BLOCK) & 1 != 0)
+    }
+
+    /// Whether no body needs any work.
+    pub fn all_asleep(&self) -> bool {
+        self.awake.is_empty() && !self.asleep.is_empty()
+    }
+
+    /// All bodies need work from now on.
+    pub fn wake_all(&mut self) {
+        self.asleep.clear();
+        self.awake.clear();
+    }
+
+    /// Blocks of eight bodies that need work: how many there are, to be asked for with [`Bodies::awake_block`].
+    #[inline(always)]
+    pub fn awake_blocks(&self) -> usize {
+        if self.asleep.is_empty() { self.len().div_ceil(BLOCK) } else { self.awake.len() }
+    }
+
+    /// The bodies of one of the blocks that need work.
+    #[inline(always)]
+    pub fn awake_block(&self, number: usize) -> std::ops::Range<usize> {
+        let block = if self.asleep.is_empty() { number } else { self.awake[number] as usize };
+        BLOCK * block..self.len().min(BLOCK * block + BLOCK)
     }
 
     /// Number of atoms.
@@ -161,11 +212,18 @@ impl Bodies {
     /// Clears forces and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
     /// body cannot grow or shrink however long it spins.
     pub fn pose(&mut self) {
-        for body in 0..self.len() {
-            self.force[body] = DVec2::ZERO;
-            self.torque[body] = 0.0;
-            if self.moves[body] {
-                self.pose_atoms(body);
+        for number in 0..self.awake_blocks() {
+            let bodies = self.awake_block(number);
+            self.force[bodies.clone()].fill(DVec2::ZERO);
+            self.torque[bodies.clone()].fill(0.0);
+            if self.lone_discs {
+                self.atom_position[bodies.clone()].copy_from_slice(&self.position[bodies]);
+                continue;
+            }
+            for body in bodies {
+                if self.moves[body] {
+                    self.pose_atoms(body);
+                }
             }
         }
     }
@@ -176,16 +234,6 @@ impl Bodies {
         self.turn.fill(0.0);
     }
 
-    /// Estimates the velocities `dt` seconds ahead from the present forces.
-    pub fn estimate_velocities(&mut self, dt: f64) {
-        self.estimated_velocity.clone_from(&self.velocity);
-        self.estimated_spin.clone_from(&self.spin);
-        for body in 0..self.len() {
-            self.estimated_velocity[body] += self.force[body] * (self.inverse_mass[body] * dt);
-            self.estimated_spin[body] += self.torque[body] * (self.inverse_inertia[body] * dt);
-        }
-    }
-
     /// Before an evaluation the estimate, if there is one, takes the place of the velocities; afterwards it goes back.
     pub fn swap_estimate(&mut self) {
         if !self.estimated_velocity.is_empty() {
@@ -194,47 +242,11 @@ impl Bodies {
         }
     }
 
-    /// Velocities change by the present forces over `dt` seconds.
-    pub fn kick(&mut self, dt: f64) {
-        for body in 0..self.len() {
-            self.velocity[body] += self.force[body] * (self.inverse_mass[body] * dt);
-            self.spin[body] += self.torque[body] * (self.inverse_inertia[body] * dt);
-        }
-    }
-
-    /// Positions and angles of dynamic bodies change by the present velocities over `dt` seconds (compensated
-    /// summation: what rounding drops is added the next time). Returns the greatest travel of any point of a body, and
-    /// the sum over all bodies, in metres.
-    pub fn drift(&mut self, dt: f64) -> (f64, f64) {
-        let (mut greatest, mut sum) = (0.0_f64, 0.0);
-        for body in 0..self.len() {
-            if !self.dynamic[body] {
-                continue;
-            }
-            let drift = self.velocity[body] * dt;
-            let turn = self.spin[body] * dt;
-            self.drift[body] = drift;
-            self.turn[body] = turn;
-            let (before, step) = (self.position[body], drift + self.position_rest[body]);
-            let after = before + step;
-            self.position_rest[body] = step - (after - before);
-            self.position[body] = after;
-            let (before, step) = (self.angle[body], turn + self.angle_rest[body]);
-            let after = before + step;
-            self.angle_rest[body] = step - (after - before);
-            self.angle[body] = after;
-            let travel = drift.length() + turn.abs() * self.extent[body];
-            greatest = greatest.max(travel);
-            sum += travel;
-        }
-        (greatest, sum)
-    }
-
     /// Puts the bodies that move as prescribed where they are at `time` seconds, in a tick that began at `begin`.
-    /// Returns the greatest travel of any of their points in the tick, and the sum over all, in metres.
-    pub fn prescribe(&mut self, begin: f64, time: f64) -> (f64, f64) {
+    /// Returns how far they went in the tick.
+    pub fn prescribe(&mut self, begin: f64, time: f64) -> Travel {
         let prescribed = std::mem::take(&mut self.prescribed);
-        let (mut greatest, mut sum) = (0.0_f64, 0.0);
+        let mut travelled = Travel::default();
         for (body, motion) in &prescribed.motions {
             let (body, from, now) = (*body, motion.state(begin), motion.state(time));
             (self.position[body], self.angle[body]) = (now.position, now.angle);
@@ -244,11 +256,12 @@ impl Bodies {
             }
             (self.drift[body], self.turn[body]) = (now.position - from.position, now.angle - from.angle);
             let travel = self.drift[body].length() + self.turn[body].abs() * self.extent[body];
-            greatest = greatest.max(travel);
-            sum += travel;
+            travelled.greatest = travelled.greatest.max(travel);
+            travelled.sum += travel;
         }
         self.prescribed = Prescribed { time, ..prescribed };
-        (greatest, sum)
+        self.path += travelled.greatest;
+        travelled
     }
 
     fn pose_atoms(&mut self, body: usize) {
@@ -336,7 +349,7 @@ pub fn rebuild(world: &mut World) {
     let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
     found.sort_unstable();
     let previous = world.remove_resource::<Bodies>().unwrap_or_default();
-    let mut bodies = Bodies { generation: previous.generation + 1, ..Default::default() };
+    let mut bodies = Bodies { generation: previous.generation + 1, level: previous.level, ..Default::default() };
     bodies.first_atom.push(0);
     for (place, &(key, entity)) in found.iter().enumerate() {
         world.entity_mut(entity).insert(Slot(place as u32));
@@ -394,6 +407,9 @@ pub fn rebuild(world: &mut World) {
         bodies.first_atom.push(bodies.atom_offset.len() as u32);
         bodies.pose_atoms(place);
     }
+    let lone = |body: usize| bodies.atoms_of(body).len() == 1 && bodies.atom_offset[body] == DVec2::ZERO;
+    bodies.lone_discs = (0..bodies.len()).all(lone);
+    bodies.all_dynamic = bodies.dynamic.iter().all(|dynamic| *dynamic);
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
     bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);
     walls.sort_unstable_by_key(|(_, wall)| wall.key);

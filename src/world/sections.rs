@@ -1,4 +1,4 @@
-//! From the scene's `materials`, `pairs`, `walls`, `bodies` and `fill` to entities.
+//! From the scene's `materials`, `pairs`, `walls`, `bodies`, `packings` and `fill` to entities.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -6,10 +6,10 @@ use bevy_ecs::prelude::*;
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::NextKey;
 use super::{Atom, Motion, Name, NewBody, Wall};
-use crate::scene::sections::{BodiesSection, FillSection, WallsSection};
+use crate::scene::sections::{BodiesSection, FillSection, PackingsSection, WallsSection};
 use crate::scene::{Kind, Outline, SceneAppExt};
+use crate::shapes::AtomSpec;
 use crate::shapes::mass_properties::{self, MassProperties};
-use crate::shapes::{AtomSpec, Atoms};
 
 /// Registers the sections. Materials come first: the others name them.
 pub fn plugin(app: &mut App) {
@@ -18,6 +18,7 @@ pub fn plugin(app: &mut App) {
     app.register_section::<PairsSection>();
     app.register_section::<WallsSection>();
     app.register_section::<BodiesSection>();
+    app.register_section::<PackingsSection>();
     app.register_section::<FillSection>();
 }
 
@@ -37,8 +38,8 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
 /// Spawns the bodies of a scene.
 pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World) {
     for entry in section.0 {
-        let template = Template::of(world, &entry.atoms, entry.material.as_deref());
-        let properties = entry.mass_properties(template.density);
+        let made_of = MadeOf::named(world, entry.material.as_deref());
+        let properties = entry.mass_properties(made_of.density);
         let kinematic = entry.prescribed(&properties);
         let start = kinematic.as_ref().map(|motion| motion.state(0.0));
         let body = NewBody {
@@ -50,24 +51,44 @@ pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World
             spin: start.map_or(entry.spin.si(), |start| start.spin),
             kinematic,
             name: entry.name,
-            ..template.body(&properties)
+            ..made_of.body(&properties)
         };
         spawn(body, outline, world);
+    }
+}
+
+/// Spawns the bodies of the packings of a scene.
+pub fn spawn_packings(section: PackingsSection, outline: &Outline, world: &mut World) {
+    for entry in section.0 {
+        let Some(table) = entry.read(outline) else { continue };
+        let made_of = MadeOf::named(world, entry.material.as_deref());
+        for number in 0..table.body_count() {
+            let start = table.body(number, made_of.density);
+            let body = NewBody {
+                name: entry.body_name(number as u64),
+                position: start.position,
+                angle: start.angle,
+                velocity: start.velocity,
+                spin: start.spin,
+                ..made_of.body(&start.properties)
+            };
+            spawn(body, outline, world);
+        }
     }
 }
 
 /// Spawns the bodies of the fills of a scene.
 pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
     for (entry, placed) in section.0.iter().zip(section.place(outline)) {
-        let template = Template::of(world, &entry.atoms, entry.material.as_deref());
-        let properties = mass_properties::of(&template.specs, None, entry.atoms.own_rule(), template.density);
+        let made_of = MadeOf::named(world, entry.material.as_deref());
+        let properties = mass_properties::of(&entry.atoms.specs(), None, entry.atoms.own_rule(), made_of.density);
         for (number, place) in placed.into_iter().enumerate() {
             let body = NewBody {
                 name: entry.body_name(number as u64),
                 position: place.position,
                 angle: place.angle,
                 velocity: place.velocity,
-                ..template.body(&properties)
+                ..made_of.body(&properties)
             };
             spawn(body, outline, world);
         }
@@ -86,19 +107,18 @@ fn spawn(body: NewBody, outline: &Outline, world: &mut World) {
     };
 }
 
-/// What bodies of one shape and material share.
-struct Template {
-    specs: Vec<AtomSpec>,
+/// What bodies of one material share.
+struct MadeOf {
     material: MaterialIndex,
     density: f64,
     stiffness: f64,
 }
 
-impl Template {
-    fn of(world: &World, atoms: &Atoms, name: Option<&str>) -> Self {
+impl MadeOf {
+    fn named(world: &World, name: Option<&str>) -> Self {
         let material = material(world, name);
         let made_of = &world.resource::<Materials>().by_index[material.place()];
-        Self { specs: atoms.specs(), material, density: made_of.density, stiffness: made_of.stiffness }
+        Self { material, density: made_of.density, stiffness: made_of.stiffness }
     }
 
     /// A body at rest in the origin. Atoms without a stiffness of their own have the material's.

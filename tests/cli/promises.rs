@@ -73,7 +73,7 @@ fn every_word_of_a_scene_is_explained() {
 #[test]
 fn help_is_wrapped_once() {
     let folder = Folder::new("help_paragraphs");
-    for command in ["test", "fmt", "sweep", "run"] {
+    for command in ["test", "fmt", "sweep", "run", "bench"] {
         let help = folder.jostle(&format!("{command} --help")).code(0).out;
         let (_, end) = help.split_once("Examples:").unwrap();
         let lines: Vec<&str> = end.lines().collect();

@@ -7,6 +7,7 @@
 //! Not tested: other machines.
 
 mod changes;
+mod levels;
 mod pinned;
 mod plots;
 mod same_bits;

@@ -37,6 +37,7 @@ mod rolling;
 mod rolling_resistance;
 mod rotation;
 mod scales;
+mod sleep;
 mod slope;
 mod springs;
 mod stability;

@@ -13,6 +13,7 @@ use crate::contacts::search::CandidatePairs;
 use crate::report::Card;
 use crate::scene::{Known, SceneRegistry};
 use crate::simulation::{Overrides, Simulation};
+use crate::tick::Evaluation;
 use crate::tick::stopwatch::{self, Part, Stopwatch};
 
 /// How long a scene is run, twice.
@@ -27,6 +28,8 @@ pub(super) struct Anatomy {
     ticks: u64,
     atoms: usize,
     pairs: (usize, usize),
+    /// How pairs were searched, and for how many evaluations their lists held in the mean.
+    search: Option<(&'static str, f64)>,
     /// Seconds per tick of a run that nobody watches.
     per_tick: f64,
     /// How much longer a tick takes when it is watched, as a share.
@@ -78,6 +81,10 @@ impl Anatomy {
             ticks,
             atoms: plain.bodies().atom_count(),
             pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.walls.len())),
+            search: pairs.map(|pairs| {
+                let evaluations = plain.world().resource::<Evaluation>().count;
+                (pairs.search.told(), evaluations as f64 / pairs.version.max(1) as f64)
+            }),
             per_tick: plain.seconds_spent() / ticks.max(1) as f64,
             slower: watched.seconds_spent() / plain.seconds_spent().max(1e-9) - 1.0,
             parts,
@@ -123,6 +130,9 @@ impl Anatomy {
             self.per_tick * 1e9 / self.atoms.max(1) as f64,
             count(self.ticks as usize, "tick", "ticks"),
         );
+        if let Some((search, lasted)) = self.search {
+            let _ = writeln!(text, "  Pairs are found by {search}; a list lasted {lasted:.0} evaluations in the mean.");
+        }
         let _ = writeln!(text, "  {:<20}{:>7}{:>12}   systems, in order", "stage", "share", "us");
         for Stage { name, share, systems } in &self.parts {
             let spent = number(rounded(share * self.per_tick * 1e6));
@@ -161,6 +171,7 @@ impl Anatomy {
             "ticks": self.ticks,
             "pairs_of_atoms": self.pairs.0,
             "atoms_near_walls": self.pairs.1,
+            "search": self.search.map(|(search, lasted)| json!({ "how": search, "evaluations_per_list": lasted })),
             "seconds_per_tick": self.per_tick,
             "ns_per_atom_tick": self.per_tick * 1e9 / self.atoms.max(1) as f64,
             "slower_when_watched": self.slower,

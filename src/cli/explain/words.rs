@@ -1,4 +1,4 @@
-//! The words of the error card.
+//! The words of the error card, and of what `jostle bench` measures.
 
 /// A word and what it means.
 pub(super) struct Word {
@@ -121,6 +121,27 @@ pub(super) const WORDS: &[Word] = &[
         "note",
         "a choice the engine made, a limit it applied, or something the scene should be warned of. Nothing is chosen, \
          clamped or left out without one.",
+    ),
+    word(
+        "near",
+        "pairs of atoms of different bodies, and of atoms and walls, whose distance is less than the margin of the search \
+         (`jostle bench`): candidate pairs, each of which is looked at in every tick. `touching` counts those that overlap.",
+    ),
+    word(
+        "scatter",
+        "how much longer the slowest round took than the fastest, as a share of the median (`jostle bench`): what the computer \
+         did beside, and what changed in the scene while it ran.",
+    ),
+    word(
+        "plain loop",
+        "what `jostle bench` runs beside the engine from the same state: arrays, a grid of cells, springs with dashpots and \
+         friction, velocity Verlet, without accounts, rest and vector instructions. `x plain` is the time of the engine over \
+         that of this loop, `plain` its nanoseconds per atom and tick.",
+    ),
+    word(
+        "bytes per atom",
+        "memory that a process needs to read a scene and run it, over the number of its atoms (`jostle bench`). The program \
+         itself counts in scenes of few atoms.",
     ),
     word(
         "expectation",

@@ -179,7 +179,7 @@ impl Sweep {
 
     /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
     fn fingerprint(&self, source: &Source) -> String {
-        let OverrideFlags { duration, tick, method, tolerance, settings } = &self.overrides;
+        let OverrideFlags { duration, tick, method, tolerance, settings, simd: _ } = &self.overrides;
         let flags = format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
         let texts = [&source.text, &source.made(), &flags, env!("CARGO_PKG_VERSION")];
         // No text has a byte 255 in it.

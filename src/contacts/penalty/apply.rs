@@ -1,39 +1,49 @@
 //! Penalty contacts applied: every candidate pair is followed, forces go to the bodies, losses to the ledger.
 
+use std::marker::PhantomData;
+
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::Penalty;
-use super::contact::{Contact, Losses, Touch};
+use super::contact::Losses;
 use super::critical::Watch;
+use super::follow::Touch;
+use super::kernel::{FollowPairs, Records};
 use super::law::{LawTable, PairLaw, Side};
+use super::list::ContactList;
 use super::normal::{Approach, Mode, NormalForce};
-use super::rest::Rest;
+use super::patience::Patience;
+use super::rest::{Rest, Sleep};
 use super::rolling::RollingContacts;
 use super::rows::Rows;
 use super::staged;
 use super::switching::Told;
 use crate::contacts::events::Touches;
 use crate::contacts::points::{ContactPoint, Other};
-use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
+use crate::simd;
 use crate::tick::{Balance, Evaluation, Ledger};
-use crate::world::{Bodies, Materials, PackedWall};
+use crate::world::{Bodies, Materials};
 
 /// History of all candidate pairs, beside the lists of [`CandidatePairs`].
-#[derive(Resource, Debug, Default)]
+#[derive(Resource, Debug)]
 pub struct PenaltyContacts {
     version: u64,
     pub(super) settings: Penalty,
     pub(super) materials: Materials,
     pub(super) laws: LawTable,
     /// One for each pair of atoms.
-    pub atoms: Vec<Contact>,
+    pub atoms: ContactList,
     /// One for each atom near a wall.
-    pub walls: Vec<Contact>,
-    pub(super) touching_atoms: Vec<Touching>,
-    pub(super) touching_walls: Vec<Touching>,
+    pub walls: ContactList,
+    pub(super) records: Records,
     pub(super) rest: Rest,
+    pub(super) patience: Patience,
+    pub(super) sleep: Sleep,
+    /// Whether bodies at rest are left out of the work as long as nothing touches them; without, each evaluation looks at
+    /// them. It changes nothing of the motion.
+    pub may_sleep: bool,
     pub(super) watch: Watch,
     pub(super) rows: Rows,
     pub(super) told: Told,
@@ -43,13 +53,27 @@ pub struct PenaltyContacts {
     pub(super) slid: f64,
 }
 
-/// A pair that touches in the present state.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Touching {
-    /// Place in the list of candidate pairs.
-    pub place: u32,
-    /// Unit normal from A to B.
-    pub normal: DVec2,
+impl Default for PenaltyContacts {
+    fn default() -> Self {
+        Self {
+            version: 0,
+            settings: Penalty::default(),
+            materials: Materials::default(),
+            laws: LawTable::default(),
+            atoms: ContactList::default(),
+            walls: ContactList::default(),
+            records: Records::default(),
+            rest: Rest::default(),
+            patience: Patience::default(),
+            sleep: Sleep::Never,
+            may_sleep: true,
+            watch: Watch::default(),
+            rows: Rows::default(),
+            told: Told::default(),
+            held_before: None,
+            slid: 0.0,
+        }
+    }
 }
 
 /// Gives every pair of a new list its slot, with its history if it had one.
@@ -59,31 +83,16 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
         stiffness: bodies.atom_stiffness[atom as usize],
         material: bodies.atom_material[atom as usize],
     };
-    let radius = |atom: u32| bodies.atom_radius[atom as usize];
     let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
-    *atoms = carried(&pairs.atoms, &pairs.atoms_before, atoms, laws, |pair, laws| {
-        let law = laws.place::<N>(side(pair.a), side(pair.b), materials, settings);
-        Contact { reach: radius(pair.a) + radius(pair.b), law, ..Default::default() }
+    atoms.carry(&pairs.atoms_before, |place| {
+        let pair = pairs.atoms[place];
+        laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
     });
-    *walls = carried(&pairs.walls, &pairs.walls_before, walls, laws, |pair, laws| {
+    walls.carry(&pairs.walls_before, |place| {
+        let pair = pairs.walls[place];
         let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
-        let law = laws.place::<N>(wall, side(pair.atom), materials, settings);
-        Contact { reach: radius(pair.atom), law, ..Default::default() }
+        laws.place::<N>(wall, side(pair.atom), materials, settings)
     });
-}
-
-fn carried<P>(
-    pairs: &[P],
-    before: &[u32],
-    old: &[Contact],
-    laws: &mut LawTable,
-    fresh: impl Fn(&P, &mut LawTable) -> Contact,
-) -> Vec<Contact> {
-    let slot = |(pair, &place): (&P, &u32)| {
-        let fresh = fresh(pair, laws);
-        if place == NEW { fresh } else { Contact { reach: fresh.reach, law: fresh.law, ..old[place as usize] } }
-    };
-    pairs.iter().zip(before).map(slot).collect()
 }
 
 /// One side of a contact.
@@ -114,7 +123,7 @@ impl End {
     /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
     /// the turn of its body.
     #[inline]
-    fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
+    pub fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
         let turn = bodies.turn[self.body];
         (bodies.drift[self.body] + self.arm.perp() * turn + self.arm * (0.5 * turn * turn), turn)
     }
@@ -132,11 +141,6 @@ pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2)
     Approach { parting: (b.velocity(bodies) - velocity).dot(normal), mobility: mobility + b.mobility(bodies, normal) }
 }
 
-#[inline]
-fn approach_if_needed<N: NormalForce>(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2) -> Approach {
-    if N::DEPENDS_ON_VELOCITY { approach(bodies, a, b, normal) } else { Approach::default() }
-}
-
 /// Where the forces of contacts go.
 pub(super) struct Sink<'a> {
     pub bodies: &'a mut Bodies,
@@ -152,21 +156,23 @@ pub(super) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, law: &Pair
 }
 
 impl Sink<'_> {
-    /// `force` acts on the body of `end`, `arm` metres from its centre of mass.
-    #[inline]
-    fn on_body(&mut self, end: &End, arm: DVec2, force: DVec2) {
-        self.bodies.push(end.body, arm, force);
-        if let Some(forces) = &mut self.forces {
-            forces.on_body[end.body] += force;
-        }
-    }
-
     /// `force` acts on side B, the opposite on side A, at the point where they touch.
     #[inline]
     pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
         let (arm_a, arm_b) = arms((a, b), normal, overlap, law);
-        self.on_body(a, arm_a, -force);
-        self.on_body(b, arm_b, force);
+        self.bodies.push(a.body, arm_a, -force);
+        self.bodies.push(b.body, arm_b, force);
+        self.account((a, b), normal, overlap, law, force);
+    }
+
+    /// Accounts of a force on side B that has gone to the bodies: for who asks for it, and for what does not move by forces.
+    #[inline]
+    pub fn account(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
+        if let Some(forces) = &mut self.forces {
+            forces.on_body[a.body] -= force;
+            forces.on_body[b.body] += force;
+        }
+        let (arm_a, arm_b) = arms((a, b), normal, overlap, law);
         // What a fixed body gives comes from outside.
         if !self.bodies.dynamic[a.body] {
             self.balance.outside(self.bodies.position[b.body] + arm_b, force, 0.0);
@@ -190,45 +196,16 @@ impl Sink<'_> {
     #[inline]
     pub fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
         let arm = end.arm - normal * height;
-        self.on_body(end, arm, force);
+        self.bodies.push(end.body, arm, force);
         self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
         if let Some(&belt) = self.bodies.belts.get(wall as usize) {
             self.balance.work += force.dot(belt);
         }
         if let Some(forces) = &mut self.forces {
+            forces.on_body[end.body] += force;
             forces.on_wall[wall as usize] -= force;
         }
     }
-}
-
-#[inline]
-fn touch_atoms<N: NormalForce>(
-    bodies: &Bodies,
-    (a, b): (&End, &End),
-    normal: DVec2,
-    distance: f64,
-    reach: f64,
-) -> Touch {
-    let ((moved_a, turn_a), (moved_b, turn_b)) = (a.displacement(bodies), b.displacement(bodies));
-    let displacement = moved_b - moved_a;
-    let swing = if distance > 0.0 { displacement.dot(normal.perp()) / distance } else { 0.0 };
-    let (rolled_a, rolled_b) = ((a.radius, turn_a), (b.radius, turn_b));
-    let approach = approach_if_needed::<N>(bodies, Some(a), b, normal);
-    Touch { normal, overlap: reach - distance, approach, displacement, swing, rolled_a, rolled_b }
-}
-
-#[inline]
-fn touch_wall<N: NormalForce>(bodies: &Bodies, end: &End, normal: DVec2, height: f64) -> Touch {
-    let (displacement, turn) = end.displacement(bodies);
-    let rolled_b = (end.radius, turn);
-    let approach = approach_if_needed::<N>(bodies, None, end, normal);
-    let overlap = end.radius - height;
-    Touch { normal, overlap, approach, displacement, swing: 0.0, rolled_a: (0.0, 0.0), rolled_b }
-}
-
-#[inline]
-fn height_over(wall: &PackedWall, position: DVec2) -> f64 {
-    (position - wall.point).dot(wall.normal)
 }
 
 /// The system of [`crate::tick::EvaluateStage::Contacts`].
@@ -246,6 +223,12 @@ pub(super) fn apply_penalty<N: NormalForce>(
 ) {
     if contacts.version != pairs.version {
         carry_history::<N>(&mut contacts, &bodies, &pairs);
+        contacts.records.prepare(&bodies, &pairs.atoms);
+        contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
+    }
+    if bodies.asleep.is_empty() {
+        contacts.atoms.wake_all();
+        contacts.walls.wake_all();
     }
     if let Some(forces) = &mut forces {
         forces.clear(&bodies);
@@ -262,50 +245,34 @@ pub(super) fn apply_penalty<N: NormalForce>(
         }
         return;
     }
-    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, .. } = &mut *contacts;
-    touching_atoms.clear();
-    for (place, (&AtomPair { a, b }, contact)) in pairs.atoms.iter().zip(atoms).enumerate() {
-        let between = sink.bodies.atom_position[b as usize] - sink.bodies.atom_position[a as usize];
-        let squared = between.length_squared();
-        if squared >= contact.reach * contact.reach && contact.mode == Mode::Open {
-            continue;
-        }
-        let distance = squared.sqrt();
-        // Centres in one place have no direction: up is as good as any.
-        let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
-        let law = laws.get(contact.law);
-        let ends = (&End::of(sink.bodies, a), &End::of(sink.bodies, b));
-        let touch = touch_atoms::<N>(sink.bodies, ends, normal, distance, contact.reach);
-        contact.follow::<N>(law, &touch, evaluation.elapsed, &mut losses);
-        if contact.mode == Mode::Open {
-            continue;
-        }
-        touching_atoms.push(Touching { place: place as u32, normal });
-        deepest.note(contact.overlap, ends.0.radius.min(ends.1.radius), evaluation.time, || {
-            (sink.bodies.entity[ends.0.body], sink.bodies.entity[ends.1.body])
-        });
-        sink.between(ends, normal, contact.overlap, law, contact.force(law, normal));
+    let PenaltyContacts { laws, atoms, walls, records, .. } = &mut *contacts;
+    let (time, elapsed) = (evaluation.time, evaluation.elapsed);
+    if !pairs.atoms.is_empty() {
+        let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
+        records.update(sink.bodies, &pairs.atoms, atoms, path);
+        let plain = sink.bodies.lone_discs && sink.bodies.all_dynamic && sink.forces.is_none();
+        losses = simd::run(
+            sink.bodies.level,
+            FollowPairs::<N> {
+                records: &records.list,
+                pairs: &pairs.atoms,
+                list: atoms,
+                laws,
+                sink: &mut sink,
+                deepest: &mut deepest,
+                plain,
+                path,
+                time,
+                elapsed,
+                law: PhantomData,
+            },
+        );
     }
-    touching_walls.clear();
-    for (place, (&WallPair { wall, atom }, contact)) in pairs.walls.iter().zip(walls).enumerate() {
-        let packed = sink.bodies.walls[wall as usize];
-        let height = height_over(&packed, sink.bodies.atom_position[atom as usize]);
-        if height >= contact.reach && contact.mode == Mode::Open {
+    for (place, &pair) in pairs.walls.iter().enumerate() {
+        if sink.bodies.is_asleep(sink.bodies.atom_body[pair.atom as usize] as usize) {
             continue;
         }
-        let law = laws.get(contact.law);
-        let end = End::of(sink.bodies, atom);
-        let mut touch = touch_wall::<N>(sink.bodies, &end, packed.normal, height);
-        if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
-            touch.displacement -= belt * evaluation.elapsed;
-        }
-        contact.follow::<N>(law, &touch, evaluation.elapsed, &mut losses);
-        if contact.mode == Mode::Open {
-            continue;
-        }
-        touching_walls.push(Touching { place: place as u32, normal: packed.normal });
-        deepest.note(contact.overlap, end.radius, evaluation.time, || (sink.bodies.entity[end.body], packed.entity));
-        sink.wall_pushes(&end, wall, packed.normal, height, contact.force(law, packed.normal));
+        follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), &mut deepest, (time, elapsed));
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
@@ -314,15 +281,58 @@ pub(super) fn apply_penalty<N: NormalForce>(
     }
 }
 
+/// An atom near a wall follows its motion.
+#[inline]
+fn follow_wall<N: NormalForce>(
+    (list, place): (&mut ContactList, usize),
+    WallPair { wall, atom }: WallPair,
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    (time, elapsed): (f64, f64),
+) {
+    let packed = sink.bodies.walls[wall as usize];
+    let end = End::of(sink.bodies, atom);
+    let height = (sink.bodies.atom_position[atom as usize] - packed.point).dot(packed.normal);
+    if height >= end.radius && !list.is_touching(place) {
+        return;
+    }
+    let mut contact = list.get(place);
+    let law = laws.get(contact.law);
+    let normal = packed.normal;
+    let (mut displacement, turn) = end.displacement(sink.bodies);
+    if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
+        displacement -= belt * elapsed;
+    }
+    let approach = if N::DEPENDS_ON_VELOCITY { approach(sink.bodies, None, &end, normal) } else { Approach::default() };
+    let touch = Touch {
+        normal: (normal.x, normal.y),
+        overlap: end.radius - height,
+        approach,
+        displacement: (displacement.x, displacement.y),
+        swing: 0.0,
+        rolled_a: (0.0, 0.0),
+        rolled_b: (end.radius, turn),
+    };
+    let lost = contact.follow::<N>(law, &touch, elapsed);
+    losses.friction += lost.friction;
+    losses.inelasticity += lost.inelasticity;
+    list.set(place, &contact);
+    if contact.mode != Mode::Open {
+        deepest.note(contact.overlap, end.radius, time, || (sink.bodies.entity[end.body], packed.entity));
+        sink.wall_pushes(&end, wall, normal, height, contact.force(law, normal));
+    }
+}
+
 fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs, touches: &mut Touches) {
     let body = |atom: u32| bodies.atom_body[atom as usize] as usize;
     touches.clear();
-    for touching in &contacts.touching_atoms {
-        let AtomPair { a, b } = pairs.atoms[touching.place as usize];
+    for place in contacts.atoms.touching() {
+        let AtomPair { a, b } = pairs.atoms[place];
         touches.bodies(body(a), body(b));
     }
-    for touching in &contacts.touching_walls {
-        let WallPair { wall, atom } = pairs.walls[touching.place as usize];
+    for place in contacts.walls.touching() {
+        let WallPair { wall, atom } = pairs.walls[place];
         touches.wall(body(atom), wall);
     }
 }
@@ -331,29 +341,52 @@ fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePa
 pub(super) fn contact_points(world: &World) -> Vec<ContactPoint> {
     let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
     let contacts = world.resource::<PenaltyContacts>();
-    let at = |end: &End, arm: DVec2| bodies.position[end.body] + arm;
-    let between = |touching: &Touching| {
-        let (pair, contact) = (pairs.atoms[touching.place as usize], &contacts.atoms[touching.place as usize]);
-        let (law, ends) = (contacts.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
-        let (_, arm) = arms(ends, touching.normal, contact.overlap, law);
-        let force = contact.force(law, touching.normal);
-        ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point: at(ends.1, arm), force }
-    };
-    let on_wall = |touching: &Touching| {
-        let (pair, contact) = (pairs.walls[touching.place as usize], &contacts.walls[touching.place as usize]);
-        let (law, end) = (contacts.laws.get(contact.law), End::of(bodies, pair.atom));
-        let arm = end.arm - touching.normal * (end.radius - contact.overlap);
-        let force = contact.force(law, touching.normal);
-        ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point: at(&end, arm), force }
-    };
-    let bodies_touch = contacts.touching_atoms.iter().map(between);
-    bodies_touch.chain(contacts.touching_walls.iter().map(on_wall)).collect()
+    let atoms = contacts.atom_points(bodies, pairs);
+    atoms.chain(contacts.wall_points(bodies, pairs)).map(|(_, point)| point).collect()
+}
+
+impl PenaltyContacts {
+    /// Contacts between atoms, with their places.
+    pub(super) fn atom_points(
+        &self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+    ) -> impl Iterator<Item = (usize, ContactPoint)> {
+        self.atoms.touching().map(|place| {
+            let (pair, contact) = (pairs.atoms[place], self.atoms.get(place));
+            let (law, ends) = (self.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
+            let normal = pair.normal(bodies);
+            let (_, arm) = arms(ends, normal, contact.overlap, law);
+            let force = contact.force(law, normal);
+            let point = bodies.position[ends.1.body] + arm;
+            (place, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force })
+        })
+    }
+
+    /// Contacts with walls, with their places.
+    pub(super) fn wall_points(
+        &self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+    ) -> impl Iterator<Item = (usize, ContactPoint)> {
+        self.walls.touching().map(|place| {
+            let (pair, contact) = (pairs.walls[place], self.walls.get(place));
+            let (law, end) = (self.laws.get(contact.law), End::of(bodies, pair.atom));
+            let normal = bodies.walls[pair.wall as usize].normal;
+            let arm = end.arm - normal * (end.radius - contact.overlap);
+            let force = contact.force(law, normal);
+            let point = bodies.position[end.body] + arm;
+            (place, ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point, force })
+        })
+    }
 }
 
 impl PenaltyContacts {
     /// Elastic energy of all contacts in J.
     pub fn energy(&self) -> f64 {
-        let all = self.atoms.iter().chain(&self.walls).filter(|contact| contact.mode != Mode::Open);
-        all.map(|contact| contact.energy(self.laws.get(contact.law))).fold(0.0, |sum, energy| sum + energy)
+        let of = |list: &ContactList, place: usize| list.get(place).energy(self.laws.get(list.law[place]));
+        let atoms = self.atoms.touching().map(|place| of(&self.atoms, place));
+        let walls = self.walls.touching().map(|place| of(&self.walls, place));
+        atoms.chain(walls).fold(0.0, |sum, energy| sum + energy)
     }
 }

@@ -54,7 +54,7 @@ impl PenaltyContacts {
         balance: &mut Balance,
         steady: Option<&SteadySprings>,
     ) {
-        let touching = self.touching_atoms.len() + self.touching_walls.len();
+        let touching = self.atoms.touching_count() + self.walls.touching_count();
         if touching == 0 {
             // Whoever touches next is new.
             self.watch.pairs = 0;
@@ -86,7 +86,7 @@ impl PenaltyContacts {
             springs.gather(self.springs::<N>(bodies, pairs, weight), others, bodies);
         };
         gather(&mut watch.springs, weight(stability.limit / clock.dt));
-        watch.pairs = self.touching_atoms.len() + self.touching_walls.len();
+        watch.pairs = self.atoms.touching_count() + self.walls.touching_count();
         watch.earliest = clock.ticks + watch.pairs as u64;
         watch.next = clock.ticks + PATIENCE;
         let found = &mut watch.found;
@@ -98,8 +98,9 @@ impl PenaltyContacts {
             let entity = |body: usize| bodies.entity[body];
             let (a, b) = watch.springs.pair(bound.pair);
             let wall = || {
-                let touching = self.touching_walls[bound.pair - self.touching_atoms.len()];
-                bodies.walls[pairs.walls[touching.place as usize].wall as usize].entity
+                let number = bound.pair - self.atoms.touching_count();
+                let place = self.walls.touching().nth(number).expect("the pair is one of those that were gathered");
+                bodies.walls[pairs.walls[place].wall as usize].entity
             };
             let between = (a.map_or_else(wall, entity), entity(b));
             found.briefest = Some(Briefest { angular_frequency: bound.pair_squared.sqrt(), between, time });
@@ -139,29 +140,31 @@ impl PenaltyContacts {
             let (stiffness, damping) = N::response(law, mobility);
             (stiffness, law.held_across(), damping * weight)
         };
-        let atoms = self.touching_atoms.iter().map(move |touching| {
-            let AtomPair { a, b } = pairs.atoms[touching.place as usize];
+        let atoms = self.atoms.touching().map(move |place| {
+            let AtomPair { a, b } = pairs.atoms[place];
+            let normal = pairs.atoms[place].normal(bodies);
             let (a, b) = (End::of(bodies, a), End::of(bodies, b));
-            let contact = &self.atoms[touching.place as usize];
+            let contact = self.atoms.get(place);
             let law = self.laws.get(contact.law);
-            let (arm_a, arm_b) = arms((&a, &b), touching.normal, contact.overlap, law);
-            let mobility = a.mobility(bodies, touching.normal) + b.mobility(bodies, touching.normal);
+            let (arm_a, arm_b) = arms((&a, &b), normal, contact.overlap, law);
+            let mobility = a.mobility(bodies, normal) + b.mobility(bodies, normal);
             let (stiffness, across, damped) = stiffness(law, mobility);
             let radius = rolling::rolling_radius(Some(&a), &b);
             let (a, b) = (Some((a.body, arm_a)), (b.body, arm_b));
             let turning = rolling::stiffness(ratio, law.stiffness, radius);
-            Spring { a, b, normal: touching.normal, stiffness: (stiffness, across), damped, turning }
+            Spring { a, b, normal, stiffness: (stiffness, across), damped, turning }
         });
-        let walls = self.touching_walls.iter().map(move |touching| {
-            let WallPair { atom, .. } = pairs.walls[touching.place as usize];
+        let walls = self.walls.touching().map(move |place| {
+            let WallPair { atom, wall } = pairs.walls[place];
+            let normal = bodies.walls[wall as usize].normal;
             let end = End::of(bodies, atom);
-            let contact = &self.walls[touching.place as usize];
-            let arm = end.arm - touching.normal * (end.radius - contact.overlap);
+            let contact = self.walls.get(place);
+            let arm = end.arm - normal * (end.radius - contact.overlap);
             let law = self.laws.get(contact.law);
-            let (stiffness, across, damped) = stiffness(law, end.mobility(bodies, touching.normal));
+            let (stiffness, across, damped) = stiffness(law, end.mobility(bodies, normal));
             let turning = rolling::stiffness(ratio, law.stiffness, rolling::rolling_radius(None, &end));
             let b = (end.body, arm);
-            Spring { a: None, b, normal: touching.normal, stiffness: (stiffness, across), damped, turning }
+            Spring { a: None, b, normal, stiffness: (stiffness, across), damped, turning }
         });
         atoms.chain(walls)
     }

@@ -16,6 +16,7 @@
 use super::Penalty;
 use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, lost_work};
+use crate::simd::Lanes;
 use crate::world::material::restitution_of;
 
 /// The least restitution that is converted; zero would need infinite damping.
@@ -23,17 +24,46 @@ pub const LEAST_RESTITUTION: f64 = 0.01;
 
 /// Damping of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Damping {
+pub enum Damping<V = f64> {
     /// Share of the critical damping of the contact.
-    Ratio(f64),
+    Ratio(V),
     /// In N s/m.
-    Coefficient(f64),
+    Coefficient(V),
+    /// Over the effective mass, in 1/s.
+    Rate(V),
 }
 
-impl Default for Damping {
+impl<V: Default> Default for Damping<V> {
     /// None.
     fn default() -> Self {
-        Self::Ratio(0.0)
+        Self::Ratio(V::default())
+    }
+}
+
+impl Damping {
+    /// The number, whatever it is of.
+    pub(super) fn number(self) -> f64 {
+        match self {
+            Self::Ratio(number) | Self::Coefficient(number) | Self::Rate(number) => number,
+        }
+    }
+
+    /// The same kind of damping with other numbers.
+    #[inline(always)]
+    pub(super) fn kind<V>(self, numbers: V) -> Damping<V> {
+        match self {
+            Self::Ratio(_) => Damping::Ratio(numbers),
+            Self::Coefficient(_) => Damping::Coefficient(numbers),
+            Self::Rate(_) => Damping::Rate(numbers),
+        }
+    }
+}
+
+impl<V> Damping<V> {
+    /// Whether it depends on the mobility of the contact.
+    #[inline(always)]
+    pub(super) fn depends_on_mobility(&self) -> bool {
+        !matches!(self, Self::Coefficient(_))
     }
 }
 
@@ -45,9 +75,10 @@ impl NormalForce for Dashpot {
     const SET_VALUED: bool = false;
 
     fn set_up(law: &mut PairLaw, inelasticity: f64, settings: &Penalty) {
-        law.damping = match settings.damping {
-            Some(damping) => Damping::Coefficient(damping.si()),
-            None => Damping::Ratio(ratio_of(restitution_of(inelasticity).max(LEAST_RESTITUTION))),
+        law.damping = match (settings.damping, settings.damping_rate) {
+            (Some(damping), _) => Damping::Coefficient(damping.si()),
+            (None, Some(rate)) => Damping::Rate(rate.si()),
+            (None, None) => Damping::Ratio(ratio_of(restitution_of(inelasticity).max(LEAST_RESTITUTION))),
         };
     }
 
@@ -56,9 +87,9 @@ impl NormalForce for Dashpot {
         Mode::Loading
     }
 
-    #[inline]
-    fn force(law: &PairLaw, _: Mode, overlap: f64, approach: Approach) -> f64 {
-        (law.stiffness * overlap - damping(law, approach.mobility) * approach.parting).max(0.0)
+    #[inline(always)]
+    fn force<V: Lanes>(law: &PairLaw<V>, _: V, overlap: V, approach: Approach<V>) -> V {
+        (law.stiffness * overlap - damping(law, approach.mobility) * approach.parting).at_least_zero()
     }
 
     /// A contact whose force has vanished before its overlap is slack: unloading, without a force.
@@ -69,7 +100,7 @@ impl NormalForce for Dashpot {
         }
     }
 
-    /// The damping of a ratio is in proportion to `1/sqrt(mobility)`.
+    /// The damping of a ratio is in proportion to `1/sqrt(mobility)`, that of a rate to `1/mobility`.
     fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64 {
         if mode == Mode::Unloading {
             return 0.0;
@@ -78,6 +109,7 @@ impl NormalForce for Dashpot {
         let thinning = match law.damping {
             Damping::Ratio(_) => 0.5 * change.mobility / approach.mobility,
             Damping::Coefficient(_) => 0.0,
+            Damping::Rate(_) => change.mobility / approach.mobility,
         };
         -law.stiffness * approach.parting - damping * (change.parting - thinning * approach.parting)
     }
@@ -103,8 +135,8 @@ impl NormalForce for Dashpot {
         (present, present)
     }
 
-    #[inline]
-    fn loss(law: &PairLaw, _: Mode, before: (f64, f64), after: (f64, f64)) -> f64 {
+    #[inline(always)]
+    fn loss<V: Lanes>(law: &PairLaw<V>, _: V, before: (V, V), after: (V, V)) -> V {
         lost_work(law, before, after)
     }
 
@@ -113,18 +145,17 @@ impl NormalForce for Dashpot {
     }
 
     fn dissipates(law: &PairLaw) -> bool {
-        match law.damping {
-            Damping::Ratio(damping) | Damping::Coefficient(damping) => damping > 0.0,
-        }
+        law.damping.number() > 0.0
     }
 }
 
 /// In N s/m, for a contact with this mobility in 1/kg.
-#[inline]
-fn damping(law: &PairLaw, mobility: f64) -> f64 {
+#[inline(always)]
+fn damping<V: Lanes>(law: &PairLaw<V>, mobility: V) -> V {
     match law.damping {
-        Damping::Ratio(ratio) => 2.0 * ratio * (law.stiffness / mobility).sqrt(),
+        Damping::Ratio(ratio) => V::splat(2.0) * ratio * (law.stiffness / mobility).sqrt(),
         Damping::Coefficient(damping) => damping,
+        Damping::Rate(rate) => rate / mobility,
     }
 }
 

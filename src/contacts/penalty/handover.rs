@@ -27,11 +27,10 @@ const ROUNDING: f64 = 1e-9;
 /// Whether more contacts are held than rows can be solved for.
 pub(super) fn crowded(world: &World) -> bool {
     let contacts = world.resource::<PenaltyContacts>();
-    let rows = |contact: &Contact| {
-        usize::from(contact.mode == Mode::Hold) + usize::from(contact.tangential.grip == Grip::Hold)
-    };
-    let atoms = contacts.touching_atoms.iter().map(|touching| &contacts.atoms[touching.place as usize]);
-    let walls = contacts.touching_walls.iter().map(|touching| &contacts.walls[touching.place as usize]);
+    let rows =
+        |contact: Contact| usize::from(contact.mode == Mode::Hold) + usize::from(contact.tangential.grip == Grip::Hold);
+    let atoms = contacts.atoms.touching().map(|place| contacts.atoms.get(place));
+    let walls = contacts.walls.touching().map(|place| contacts.walls.get(place));
     let rolling = world.get_resource::<RollingContacts>();
     let rolling = rolling.into_iter().flat_map(|rolling| rolling.atoms.iter().chain(&rolling.walls));
     let rolling = rolling.filter(|slider| slider.grip == Grip::Hold).count();
@@ -45,19 +44,22 @@ pub(super) fn hand_over<N: NormalForce>(world: &mut World, style: Style) {
         view.contacts.rest.clear();
         if style == Style::Following {
             view.contacts.rows.clear();
-            let PenaltyContacts { atoms, walls, .. } = &mut *view.contacts;
-            let tangential = atoms.iter_mut().chain(walls).map(|contact| &mut contact.tangential);
-            let rolling =
-                view.rolling.iter_mut().flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.walls));
-            for slider in tangential.chain(rolling).filter(|slider| slider.grip == Grip::Slide) {
-                slider.grip = Grip::Slip;
+            let slip = |slider: &mut Slider| {
+                if slider.grip == Grip::Slide {
+                    slider.grip = Grip::Slip;
+                }
+            };
+            for place in 0..view.len() {
+                slip(&mut view.contact(place).0.tangential);
             }
+            let rolling = view.rolling.iter_mut();
+            rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.walls)).for_each(slip);
             return;
         }
         view.contacts.held_before = Some(view.stored(|_| true));
         for place in 0..view.len() {
             let (look, bodies) = (view.look(place), view.bodies);
-            let (contact, law, roller) = view.whole(place, &look);
+            let (mut contact, law, roller) = view.whole(place, &look);
             if contact.mode == Mode::Open {
                 continue;
             }

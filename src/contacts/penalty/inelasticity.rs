@@ -12,6 +12,7 @@
 use super::Penalty;
 use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, elastic_energy};
+use crate::simd::Lanes;
 
 /// The law.
 pub struct Inelasticity;
@@ -38,17 +39,17 @@ impl NormalForce for Inelasticity {
         }
     }
 
-    #[inline]
-    fn force(law: &PairLaw, mode: Mode, overlap: f64, _: Approach) -> f64 {
-        law.stiffness * overlap * (1.0 + sign(mode) * law.inelasticity)
+    #[inline(always)]
+    fn force<V: Lanes>(law: &PairLaw<V>, sign: V, overlap: V, _: Approach<V>) -> V {
+        law.stiffness * overlap * (V::splat(1.0) + sign * law.inelasticity)
     }
 
     fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, _: Change) -> f64 {
-        -Self::force(law, mode, approach.parting, approach)
+        -Self::force(law, mode.sign(), approach.parting, approach)
     }
 
     fn stays(law: &PairLaw, mode: Mode, (parting, rate): (f64, f64), _: f64) -> Option<(f64, f64)> {
-        let sign = -sign(mode);
+        let sign = -mode.sign();
         (law.inelasticity > 0.0).then_some((sign * parting, sign * rate))
     }
 
@@ -58,13 +59,13 @@ impl NormalForce for Inelasticity {
 
     #[inline]
     fn band(law: &PairLaw, overlap: f64, _: f64) -> (f64, f64) {
-        let force = |mode| Self::force(law, mode, overlap, Approach::default());
+        let force = |mode: Mode| Self::force(law, mode.sign(), overlap, Approach::default());
         (force(Mode::Unloading), force(Mode::Loading))
     }
 
-    #[inline]
-    fn loss(law: &PairLaw, mode: Mode, (before, _): (f64, f64), (after, _): (f64, f64)) -> f64 {
-        let share = sign(mode) * law.inelasticity;
+    #[inline(always)]
+    fn loss<V: Lanes>(law: &PairLaw<V>, sign: V, (before, _): (V, V), (after, _): (V, V)) -> V {
+        let share = sign * law.inelasticity;
         share * elastic_energy(law, after) - share * elastic_energy(law, before)
     }
 
@@ -74,13 +75,5 @@ impl NormalForce for Inelasticity {
 
     fn dissipates(law: &PairLaw) -> bool {
         law.inelasticity > 0.0
-    }
-}
-
-fn sign(mode: Mode) -> f64 {
-    match mode {
-        Mode::Open | Mode::Hold => 0.0,
-        Mode::Loading => 1.0,
-        Mode::Unloading => -1.0,
     }
 }

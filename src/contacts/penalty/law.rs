@@ -6,29 +6,32 @@ use super::coulomb::SliderLaw;
 use super::dashpot::Damping;
 use super::normal::NormalForce;
 use super::{Penalty, TangentialLaw};
+use crate::simd::{Lanes, Record};
 use crate::world::{MaterialIndex, Materials};
 
-/// Coefficients of one kind of pair.
+/// Coefficients of one kind of pair, or of several side by side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PairLaw {
+pub struct PairLaw<V = f64> {
     /// Stiffness of both sides in series, `1/(1/ka + 1/kb)`, in N/m.
-    pub stiffness: f64,
+    pub stiffness: V,
     /// `mu_e`, between 0 (elastic) and 1. Zero if the normal law is another one.
-    pub inelasticity: f64,
+    pub inelasticity: V,
     /// Damping. None if the normal law has none.
-    pub damping: Damping,
+    pub damping: Damping<V>,
     /// Coulomb coefficient of a sticking contact.
-    pub friction_static: f64,
+    pub friction_static: V,
     /// Coulomb coefficient of a slipping contact.
-    pub friction_dynamic: f64,
+    pub friction_dynamic: V,
     /// Stiffness of the tangential spring in N/m.
-    pub tangential_stiffness: f64,
+    pub tangential_stiffness: V,
+    /// Elongation in metres over the normal force in newtons of a tangential spring that slips; zero without friction.
+    pub slip: V,
     /// Whether friction sticks without a spring.
     pub exact: bool,
     /// Share of the overlap that side A gives way: the softer side gives way more.
-    pub share_a: f64,
+    pub share_a: V,
     /// Share of the overlap that side B gives way.
-    pub share_b: f64,
+    pub share_b: V,
 }
 
 impl PairLaw {
@@ -40,6 +43,20 @@ impl PairLaw {
             friction_static: self.friction_static,
             friction_dynamic: self.friction_dynamic,
         }
+    }
+
+    fn row(&self) -> Record {
+        Record([
+            self.stiffness,
+            // A law has either of them.
+            self.inelasticity + self.damping.number(),
+            self.friction_static,
+            self.friction_dynamic,
+            self.tangential_stiffness,
+            self.slip,
+            self.share_a,
+            self.share_b,
+        ])
     }
 }
 
@@ -64,7 +81,11 @@ type Key = ((u64, MaterialIndex), (u64, MaterialIndex));
 #[derive(Debug, Default)]
 pub struct LawTable {
     laws: Vec<PairLaw>,
+    /// The same as records.
+    rows: Vec<Record>,
     places: BTreeMap<Key, u32>,
+    /// The pair asked for last: neighbours are often of one kind.
+    last: Option<(Key, u32)>,
 }
 
 impl LawTable {
@@ -74,12 +95,48 @@ impl LawTable {
         &self.laws[place as usize]
     }
 
+    /// The laws at the first places of a list, side by side.
+    #[inline(always)]
+    pub fn lanes<V: Lanes>(&self, places: &[u32]) -> PairLaw<V> {
+        let [stiffness, loss, friction_static, friction_dynamic, tangential_stiffness, slip, share_a, share_b] =
+            V::records(&self.rows, places);
+        // All pairs of a scene have damping of one kind.
+        let (damping, exact) = (self.laws[0].damping.kind(loss), self.laws[0].exact);
+        PairLaw {
+            stiffness,
+            inelasticity: loss,
+            damping,
+            friction_static,
+            friction_dynamic,
+            tangential_stiffness,
+            slip,
+            exact,
+            share_a,
+            share_b,
+        }
+    }
+
+    /// Whether all pairs so far are of one kind.
+    pub fn is_uniform(&self) -> bool {
+        self.laws.len() == 1
+    }
+
     /// Place of the law between two sides.
     pub fn place<N: NormalForce>(&mut self, a: Side, b: Side, materials: &Materials, settings: &Penalty) -> u32 {
-        *self.places.entry((a.key(), b.key())).or_insert_with(|| {
-            self.laws.push(pair_law::<N>(a, b, materials, settings));
+        let key = (a.key(), b.key());
+        if let Some((last, place)) = self.last
+            && last == key
+        {
+            return place;
+        }
+        let place = *self.places.entry(key).or_insert_with(|| {
+            let law = pair_law::<N>(a, b, materials, settings);
+            self.laws.push(law);
+            self.rows.push(law.row());
             self.laws.len() as u32 - 1
-        })
+        });
+        self.last = Some((key, place));
+        place
     }
 }
 
@@ -88,11 +145,13 @@ fn pair_law<N: NormalForce>(a: Side, b: Side, materials: &Materials, settings: &
     let pair = materials.pair(a.material.place(), b.material.place());
     let (ratio, exact) = (settings.tangential.ratio(), settings.tangential == TangentialLaw::Exact);
     let friction = |coefficient: f64| if ratio.is_some() { coefficient } else { 0.0 };
+    let tangential_stiffness = if exact { stiffness } else { ratio.unwrap_or(0.0) * stiffness };
     let mut law = PairLaw {
         stiffness,
         friction_static: friction(pair.friction_static),
         friction_dynamic: friction(pair.friction_dynamic),
-        tangential_stiffness: if exact { stiffness } else { ratio.unwrap_or(0.0) * stiffness },
+        tangential_stiffness,
+        slip: if friction(pair.friction_dynamic) > 0.0 { pair.friction_dynamic / tangential_stiffness } else { 0.0 },
         exact,
         share_a: stiffness / a.stiffness,
         share_b: stiffness / b.stiffness,

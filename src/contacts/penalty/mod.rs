@@ -6,14 +6,18 @@ pub mod contact;
 pub mod coulomb;
 mod critical;
 pub mod dashpot;
+mod follow;
 mod frame;
 mod handover;
 pub mod hold;
 pub mod inelasticity;
 mod islands;
+mod kernel;
 pub mod law;
+pub mod list;
 mod modes;
 pub mod normal;
+mod patience;
 mod rest;
 pub mod rolling;
 mod rolling_stages;
@@ -39,11 +43,11 @@ use super::points::TellContacts;
 use super::search::{self, FindPairs};
 use super::{ContactLaw, DeepestOverlap};
 use crate::report::card::Notes;
-use crate::scene::units::Damping;
+use crate::scene::units::{Damping, Rate};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
-use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Modes, Stability, TickAppExt};
+use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Models, Modes, Stability, TickAppExt};
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
 
@@ -57,6 +61,9 @@ pub struct Penalty {
     pub normal: NormalLaw,
     /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: what gives the restitution of the pair.
     pub damping: Option<Damping>,
+    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`: all contacts
+    /// lose their speed alike. The `gamma_n` of LAMMPS. Default: none, `damping` or the restitution counts.
+    pub damping_rate: Option<Rate>,
     /// What acts along the surface, friction. Default: `Spring(ratio: 0.8)`.
     pub tangential: TangentialLaw,
     /// What acts against rolling. Default: `None`.
@@ -204,12 +211,16 @@ impl Entry for Penalty {
             report.positive("rolling.friction", friction);
             report.positive("rolling.ratio", ratio);
         }
-        if let Some(damping) = self.damping
-            && report.not_negative("damping", damping)
-            && self.normal != NormalLaw::Dashpot
-        {
-            let help = "write `normal: Dashpot` beside it, or remove `damping`";
-            report.error("damping", "`damping` belongs to the normal law `Dashpot`").help(help);
+        let given = [("damping", self.damping.map(|d| d.si())), ("damping_rate", self.damping_rate.map(|d| d.si()))];
+        for (field, number) in given.iter().filter_map(|(field, number)| Some((*field, (*number)?))) {
+            if report.not_negative(field, number) && self.normal != NormalLaw::Dashpot {
+                let help = format!("write `normal: Dashpot` beside it, or remove `{field}`");
+                report.error(field, format!("`{field}` belongs to the normal law `Dashpot`")).help(help);
+            }
+        }
+        if self.damping.is_some() && self.damping_rate.is_some() {
+            let help = "remove one of them; `damping_rate` is `damping` over the effective mass of a contact";
+            report.error("damping_rate", "there is `damping` already").help(help);
         }
     }
 
@@ -230,6 +241,7 @@ fn prepare<N: NormalForce>(world: &mut World) {
     let mut contacts = world.resource_mut::<PenaltyContacts>();
     (contacts.materials, contacts.settings) = (materials, settings);
     note_limits(world);
+    world.resource_mut::<Models>().remarks.push(patience::remark);
     switching::install::<N>(world);
     let angular_frequency = stiffest_contact::<N>(world.resource(), world.resource(), world.resource());
     let foreseen = Foreseen { angular_frequency, holder: Holder::Contacts };
@@ -261,7 +273,7 @@ fn note_limits(world: &mut World) {
     if clumps {
         notes.push("contacts: under Dashpot the restitution is that of one atom; a body that lands on n at once rebounds less, its damping ratio is up to sqrt(n) times as large".to_owned());
     }
-    if settings.damping.is_none() && least < dashpot::LEAST_RESTITUTION {
+    if settings.damping.is_none() && settings.damping_rate.is_none() && least < dashpot::LEAST_RESTITUTION {
         let limit = dashpot::LEAST_RESTITUTION;
         notes.push(format!("contacts: Dashpot cannot give the restitution {least}; {limit} is used"));
     }

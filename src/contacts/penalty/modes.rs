@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts, Sink, Touching, approach};
+use super::apply::{End, PenaltyContacts, Sink, approach};
 use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
@@ -11,7 +11,9 @@ use super::frame::Frame;
 use super::hold::{self, Mover, Seen, Verdict};
 use super::islands::{islands, members};
 use super::law::PairLaw;
-use super::normal::{Mode, NormalForce};
+use super::list::Edited;
+use super::normal::{Approach, Mode, NormalForce};
+use super::patience::{Found, MANY};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
@@ -22,6 +24,7 @@ use crate::world::Bodies;
 /// Working memory of the search for rest.
 #[derive(Default)]
 pub(super) struct Scratch {
+    touching: Vec<u32>,
     cases: Vec<Case>,
     /// Bodies with a contact that does not stop.
     moved: Vec<usize>,
@@ -49,33 +52,47 @@ pub(super) fn choose_modes<N: NormalForce>(
     }
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
-    let mut choice = Choice { sink, contacts, rolling, dt: span.length, losses: Losses::default() };
+    let Scratch { touching, cases, moved } = &mut *scratch;
+    let (ticks, losses) = (clock.ticks, Losses::default());
+    let mut choice = Choice { sink, contacts, rolling, dt: span.length, losses };
     choice.wake_touched(&pairs);
-    let Scratch { cases, moved } = &mut *scratch;
+    // A law whose normal force may have several values at rest needs the search to know which: without it contacts load and
+    // unload in turns.
+    let restless = if N::SET_VALUED { 0 } else { choice.restless(&pairs) };
+    if !choice.contacts.patience.searches(restless, ticks) {
+        choice.let_go::<N>(&pairs, touching);
+        choice.book(&mut ledger);
+        return;
+    }
     cases.clear();
     moved.clear();
-    for place in 0..choice.contacts.touching_atoms.len() {
-        let Touching { place, normal } = choice.contacts.touching_atoms[place];
-        let AtomPair { a, b } = pairs.atoms[place as usize];
-        let (a, b) = (End::of(choice.sink.bodies, a), End::of(choice.sink.bodies, b));
+    touching.clear();
+    touching.extend(choice.contacts.atoms.awake_touching().map(|place| place as u32));
+    for &place in &*touching {
+        let pair = pairs.atoms[place as usize];
+        let (a, b) = (End::of(choice.sink.bodies, pair.a), End::of(choice.sink.bodies, pair.b));
         if !(choice.stands(a.body) && choice.stands(b.body)) {
+            let normal = pair.normal(choice.sink.bodies);
             choice.first_look::<N>(Case { place, normal, other: Other::Atom(a), end: b }, cases, moved);
         }
     }
-    for place in 0..choice.contacts.touching_walls.len() {
-        let Touching { place, normal } = choice.contacts.touching_walls[place];
+    touching.clear();
+    touching.extend(choice.contacts.walls.awake_touching().map(|place| place as u32));
+    for &place in &*touching {
         let WallPair { wall, atom } = pairs.walls[place as usize];
         let end = End::of(choice.sink.bodies, atom);
         if !choice.stands(end.body) {
+            let normal = choice.sink.bodies.walls[wall as usize].normal;
             choice.first_look::<N>(Case { place, normal, other: Other::Wall(wall), end }, cases, moved);
         }
     }
     moved.sort_unstable();
+    let mut found = Found::default();
     for island in islands(cases, choice.sink.bodies) {
-        choice.stop::<N>(&island, moved, &mut ledger);
+        choice.stop::<N>(&island, moved, &mut ledger, &mut found);
     }
-    ledger.friction.add(choice.losses.friction);
-    ledger.inelasticity.add(choice.losses.inelasticity);
+    choice.contacts.patience.note(found, restless, ticks);
+    choice.book(&mut ledger);
 }
 
 /// The choice of modes under way.
@@ -96,28 +113,43 @@ impl Choice<'_> {
     /// Bodies at rest that touch one that moves wake, and so do their neighbours.
     fn wake_touched(&mut self, pairs: &CandidatePairs) {
         let bodies = &*self.sink.bodies;
-        let PenaltyContacts { touching_atoms, rest, .. } = &mut *self.contacts;
-        let mut woke = !rest.is_empty();
+        let PenaltyContacts { atoms, rest, .. } = &mut *self.contacts;
+        let ends = |place: usize| {
+            let AtomPair { a, b } = pairs.atoms[place];
+            (bodies.atom_body[a as usize] as usize, bodies.atom_body[b as usize] as usize)
+        };
+        let moves = |body: usize, rest: &Rest| {
+            let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
+            !still || bodies.dynamic[body] && !rest.has(body)
+        };
+        // Whoever was pushed has woken by that.
+        let mut woke = !rest.is_empty() && std::mem::take(&mut rest.woke);
+        if !woke {
+            return;
+        }
         while woke {
             woke = false;
-            for &Touching { place, .. } in &*touching_atoms {
-                let AtomPair { a, b } = pairs.atoms[place as usize];
-                let (a, b) = (bodies.atom_body[a as usize] as usize, bodies.atom_body[b as usize] as usize);
-                let moves = |body: usize, rest: &Rest| {
-                    let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
-                    !still || bodies.dynamic[body] && !rest.has(body)
-                };
+            for place in atoms.touching() {
+                let (a, b) = ends(place);
                 woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
             }
         }
+        self.contacts.rest.forget_woken();
+        self.contacts.lay_asleep(self.sink.bodies, pairs, self.sink.forces.as_deref_mut());
     }
 
-    fn contact(&mut self, case: &Case) -> (&mut Contact, &PairLaw) {
+    /// A contact as it is, and its law.
+    fn known(&self, case: &Case) -> (Contact, PairLaw) {
+        let PenaltyContacts { laws, atoms, walls, .. } = &*self.contacts;
+        let list = if case.other_end().is_some() { atoms } else { walls };
+        let contact = list.get(case.place as usize);
+        (contact, *laws.get(contact.law))
+    }
+
+    fn contact(&mut self, case: &Case) -> (Edited<'_>, &PairLaw) {
         let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
-        let contact = match case.other {
-            Other::Atom(_) => &mut atoms[case.place as usize],
-            Other::Wall(_) => &mut walls[case.place as usize],
-        };
+        let list = if case.other_end().is_some() { atoms } else { walls };
+        let contact = list.edit(case.place as usize);
         let law = laws.get(contact.law);
         (contact, law)
     }
@@ -133,15 +165,61 @@ impl Choice<'_> {
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
     fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Vec<usize>) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
-        let (contact, law) = self.contact(&case);
-        let (seen, law) = (*contact, *law);
+        let (seen, law) = self.known(&case);
         if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
         moved.push(case.end.body);
         moved.extend(case.other_body());
-        self.change(&case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
+        self.choose_by_velocity::<N>(&case, approach);
+    }
+
+    fn choose_by_velocity<N: NormalForce>(&mut self, case: &Case, approach: Approach) {
+        self.change(case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
+    }
+
+    /// How many contacts touch of bodies that are not at rest.
+    fn restless(&self, pairs: &CandidatePairs) -> usize {
+        let PenaltyContacts { atoms, walls, rest, .. } = &*self.contacts;
+        if rest.is_empty() {
+            return atoms.awake_touching_count() + walls.awake_touching_count();
+        }
+        let bodies = &*self.sink.bodies;
+        let moves = |atom: u32| !self.stands(bodies.atom_body[atom as usize] as usize);
+        let of_atoms =
+            atoms.awake_touching().filter(|&place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
+        of_atoms.count() + walls.awake_touching().filter(|&place| moves(pairs.walls[place].atom)).count()
+    }
+
+    /// What is held follows its law again, but for what holds bodies at rest.
+    fn let_go<N: NormalForce>(&mut self, pairs: &CandidatePairs, held: &mut Vec<u32>) {
+        held.clear();
+        held.extend(self.contacts.atoms.awake_held().map(|place| place as u32));
+        for &place in &*held {
+            let pair = pairs.atoms[place as usize];
+            let (a, b) = (End::of(self.sink.bodies, pair.a), End::of(self.sink.bodies, pair.b));
+            if !(self.stands(a.body) && self.stands(b.body)) {
+                let normal = pair.normal(self.sink.bodies);
+                let approach = approach(self.sink.bodies, Some(&a), &b, normal);
+                self.choose_by_velocity::<N>(&Case { place, normal, other: Other::Atom(a), end: b }, approach);
+            }
+        }
+        held.clear();
+        held.extend(self.contacts.walls.awake_held().map(|place| place as u32));
+        for &place in &*held {
+            let WallPair { wall, atom } = pairs.walls[place as usize];
+            let (end, normal) = (End::of(self.sink.bodies, atom), self.sink.bodies.walls[wall as usize].normal);
+            if !self.stands(end.body) {
+                let approach = approach(self.sink.bodies, None, &end, normal);
+                self.choose_by_velocity::<N>(&Case { place, normal, other: Other::Wall(wall), end }, approach);
+            }
+        }
+    }
+
+    fn book(&self, ledger: &mut Ledger) {
+        ledger.friction.add(self.losses.friction);
+        ledger.inelasticity.add(self.losses.inelasticity);
     }
 
     /// Changes a contact and corrects the sums of forces by the difference. `rolling` is the torque with which its rolling
@@ -153,10 +231,11 @@ impl Choice<'_> {
         change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>,
     ) {
         let mut losses = self.losses;
-        let (contact, law) = self.contact(case);
+        let (mut contact, law) = self.contact(case);
         let law = *law;
-        let before = change(contact, &law, &mut losses);
+        let before = change(&mut contact, &law, &mut losses);
         let after = *contact;
+        drop(contact);
         if let Some(before) = before {
             let difference = after.force(&law, case.normal) - before.force(&law, case.normal);
             case.push(&mut self.sink, &law, after.overlap, difference);
@@ -178,8 +257,7 @@ impl Choice<'_> {
 
     /// A contact as the search for rest sees it.
     fn seen<N: NormalForce>(&mut self, case: &Case, ends: (usize, usize)) -> Seen {
-        let (contact, law) = self.contact(case);
-        let (contact, law) = (*contact, *law);
+        let (contact, law) = self.known(case);
         let rolling = self.roller(case, &law).map(|(slider, law)| (law.friction_static, slider.force(&law)));
         let place = self.sink.bodies.position[case.end.body] + case.end.arm;
         Seen {
@@ -196,7 +274,7 @@ impl Choice<'_> {
     }
 
     /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves.
-    fn stop<N: NormalForce>(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger) {
+    fn stop<N: NormalForce>(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger, found: &mut Found) {
         let members = members(island);
         let place = |body: usize| members.binary_search(&body).map_or(0, |place| place + 1);
         let bodies = &*self.sink.bodies;
@@ -265,6 +343,9 @@ impl Choice<'_> {
         };
         if members.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
             self.lay_to_rest(&members, &loads[1..], ledger);
+            found.rest = true;
+        } else {
+            found.stops |= island.len() > MANY / 8;
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::Penalty;
 use super::law::PairLaw;
+use crate::simd::Lanes;
 
 /// Phase of a contact; frozen during a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,13 +18,25 @@ pub enum Mode {
     Hold,
 }
 
+impl Mode {
+    /// 1 while loading, -1 while unloading, else zero.
+    #[inline]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Open | Self::Hold => 0.0,
+            Self::Loading => 1.0,
+            Self::Unloading => -1.0,
+        }
+    }
+}
+
 /// How two sides approach each other.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Approach {
+pub struct Approach<V = f64> {
     /// Velocity with which they part in m/s; negative: they approach.
-    pub parting: f64,
+    pub parting: V,
     /// Relative velocity along the normal that an impulse of one newton second makes, in 1/kg.
-    pub mobility: f64,
+    pub mobility: V,
 }
 
 /// How an [`Approach`] changes.
@@ -49,12 +62,12 @@ pub trait NormalForce: Send + Sync + 'static {
     /// The mode for a contact that is not open and parts with `parting` m/s.
     fn chosen(present: Mode, parting: f64) -> Mode;
 
-    /// Normal force in newtons, never below zero.
-    fn force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64;
+    /// Normal force in newtons, never below zero. `sign` is that of the mode, [`Mode::sign`].
+    fn force<V: Lanes>(law: &PairLaw<V>, sign: V, overlap: V, approach: Approach<V>) -> V;
 
     /// Its smooth continuation beyond where the mode ends, below zero too. Default: the force itself.
     fn smooth_force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64 {
-        Self::force(law, mode, overlap, approach)
+        Self::force(law, mode.sign(), overlap, approach)
     }
 
     /// The rate of [`NormalForce::smooth_force`] in N/s, where the contact moves and is accelerated like this.
@@ -77,7 +90,7 @@ pub trait NormalForce: Send + Sync + 'static {
     fn band(law: &PairLaw, overlap: f64, present: f64) -> (f64, f64);
 
     /// Energy in J that is lost between two states of one mode, each an overlap in metres and a force in newtons.
-    fn loss(law: &PairLaw, mode: Mode, before: (f64, f64), after: (f64, f64)) -> f64;
+    fn loss<V: Lanes>(law: &PairLaw<V>, sign: V, before: (V, V), after: (V, V)) -> V;
 
     /// The greatest stiffness in N/m and the damping in N s/m of a contact with this mobility in 1/kg.
     fn response(law: &PairLaw, mobility: f64) -> (f64, f64);
@@ -87,15 +100,15 @@ pub trait NormalForce: Send + Sync + 'static {
 }
 
 /// Elastic energy in J at `overlap` metres.
-#[inline]
-pub fn elastic_energy(law: &PairLaw, overlap: f64) -> f64 {
-    0.5 * law.stiffness * overlap * overlap
+#[inline(always)]
+pub fn elastic_energy<V: Lanes>(law: &PairLaw<V>, overlap: V) -> V {
+    V::splat(0.5) * law.stiffness * overlap * overlap
 }
 
 /// What the force took from the bodies and the spring does not hold, in J: mean force times the change of overlap, less
 /// the change of elastic energy. Exact for a constant force, else to second order in the step.
-#[inline]
-pub fn lost_work(law: &PairLaw, before: (f64, f64), after: (f64, f64)) -> f64 {
-    let work = 0.5 * (before.1 + after.1) * (after.0 - before.0);
+#[inline(always)]
+pub fn lost_work<V: Lanes>(law: &PairLaw<V>, before: (V, V), after: (V, V)) -> V {
+    let work = V::splat(0.5) * (before.1 + after.1) * (after.0 - before.0);
     work - (elastic_energy(law, after.0) - elastic_energy(law, before.0))
 }

@@ -8,7 +8,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::apply::PenaltyContacts;
-use crate::tick::Balance;
+use crate::contacts::points::Other;
+use crate::contacts::{CandidatePairs, ContactForces};
+use crate::simd::BLOCK;
+use crate::tick::{Balance, Census, Evaluation};
 use crate::world::Bodies;
 
 /// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
@@ -33,6 +36,10 @@ pub(super) struct Rest {
     resting: Vec<Resting>,
     /// For each body whether it is at rest.
     still: Vec<bool>,
+    /// Bodies have been laid to rest or have woken since contacts were told.
+    changed: bool,
+    /// Some woke since their neighbours were looked at.
+    pub woke: bool,
 }
 
 impl Rest {
@@ -60,12 +67,16 @@ impl Rest {
         }
         bodies.force[body] = DVec2::ZERO;
         bodies.torque[body] = 0.0;
+        bodies.drift[body] = DVec2::ZERO;
+        bodies.turn[body] = 0.0;
+        self.changed = true;
         let (position, angle) = (bodies.position[body], bodies.angle[body]);
         self.resting.push(Resting { body, position, angle, load, left_over: None });
     }
 
     /// Wakes all.
     pub fn clear(&mut self) {
+        self.changed |= !self.resting.is_empty();
         self.resting.clear();
         self.still.clear();
     }
@@ -75,13 +86,19 @@ impl Rest {
         let was = self.has(body);
         if was {
             self.still[body] = false;
-            self.resting.retain(|resting| resting.body != body);
+            (self.changed, self.woke) = (true, true);
         }
         was
     }
 
+    /// Forgets those that woke.
+    pub fn forget_woken(&mut self) {
+        let still = &self.still;
+        self.resting.retain(|resting| still[resting.body]);
+    }
+
     /// After an evaluation: bodies on which nothing changed stay at rest, what rounding left of their balance is given
-    /// by what carries them. The others wake.
+    /// by what carries them. The others wake. Those that are asleep were given no force but that of what touches them anew.
     pub fn settle(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
         if self.resting.is_empty() {
             return;
@@ -91,10 +108,21 @@ impl Rest {
             self.clear();
             return;
         }
+        if !bodies.asleep.is_empty() && !self.changed {
+            self.settle_asleep(bodies);
+            return;
+        }
         let still = &mut self.still;
+        let (changed, woke) = (&mut self.changed, &mut self.woke);
+        let mut disturbed = false;
         self.resting.retain_mut(|resting| {
-            let stays = resting.unchanged(bodies);
             let body = resting.body;
+            if bodies.is_asleep(body) {
+                let pushed = bodies.force[body] != DVec2::ZERO || bodies.torque[body] != 0.0;
+                disturbed |= pushed && still[body];
+                return still[body];
+            }
+            let stays = resting.unchanged(bodies);
             if stays {
                 let (force, torque) = (bodies.force[body], bodies.torque[body]);
                 balance.outside(bodies.position[body], -force, -torque);
@@ -102,12 +130,103 @@ impl Rest {
                 bodies.torque[body] = 0.0;
             } else {
                 still[body] = false;
+                (*changed, *woke) = (true, true);
             }
             stays
         });
-        if self.resting.len() == (0..bodies.len()).filter(|&body| bodies.dynamic[body]).count() {
+        bodies.disturbed = disturbed;
+        if self.resting.len() == bodies.dynamic.iter().filter(|dynamic| **dynamic).count() {
             // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
             (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
+        }
+    }
+
+    /// The same where all that rest were asleep: if one was pushed, the evaluation is made anew with all of them.
+    fn settle_asleep(&mut self, bodies: &mut Bodies) {
+        let pushed = |body: usize| bodies.force[body] != DVec2::ZERO || bodies.torque[body] != 0.0;
+        let mut awake = (0..bodies.awake_blocks()).flat_map(|number| bodies.awake_block(number));
+        bodies.disturbed = awake.any(|body| bodies.is_asleep(body) && pushed(body));
+    }
+}
+
+/// Whether bodies at rest need no work: forces are known not to change as long as nothing touches them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sleep {
+    Allowed,
+    Never,
+}
+
+impl PenaltyContacts {
+    /// Tells bodies and contacts who is asleep: whoever is at rest under forces that were found not to change, with
+    /// what touches nothing else.
+    pub(super) fn lay_asleep(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &CandidatePairs,
+        forces: Option<&mut ContactForces>,
+    ) {
+        let Self { rest, atoms, walls, sleep, .. } = self;
+        rest.changed = false;
+        bodies.wake_all();
+        let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
+        let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
+        let mut asleep = vec![0_u8; bodies.len().div_ceil(BLOCK)];
+        let mut any = false;
+        for resting in sleepers.filter(|_| known) {
+            asleep[resting.body / BLOCK] |= 1 << (resting.body % BLOCK);
+            any = true;
+        }
+        if !any {
+            atoms.wake_all();
+            walls.wake_all();
+            return;
+        }
+        bodies.asleep = asleep;
+        let stands = |atom: u32| {
+            let body = bodies.atom_body[atom as usize] as usize;
+            !bodies.moves[body] || bodies.is_asleep(body)
+        };
+        atoms.lay_asleep(|place| stands(pairs.atoms[place].a) && stands(pairs.atoms[place].b));
+        walls.lay_asleep(|place| stands(pairs.walls[place].atom));
+        let mut awake = vec![false; bodies.asleep.len()];
+        let whole = |block: usize| {
+            let there = bodies.len() - BLOCK * block;
+            if there < BLOCK { (1_u8 << there) - 1 } else { u8::MAX }
+        };
+        for (block, awake) in awake.iter_mut().enumerate() {
+            let fixed = (BLOCK * block..bodies.len().min(BLOCK * block + BLOCK)).rev();
+            let fixed = fixed.fold(0, |bits, body| bits << 1 | u8::from(!bodies.moves[body]));
+            *awake = (bodies.asleep[block] | fixed) & whole(block) != whole(block);
+        }
+        // Whoever may be touched by what is awake is looked at.
+        for number in 0..atoms.awake_blocks() {
+            let first = BLOCK * atoms.awake_block(number);
+            for pair in &pairs.atoms[first..pairs.atoms.len().min(first + BLOCK)] {
+                for atom in [pair.a, pair.b] {
+                    awake[bodies.atom_body[atom as usize] as usize / BLOCK] = true;
+                }
+            }
+        }
+        bodies.awake = (0..awake.len()).filter(|&block| awake[block]).map(|block| block as u32).collect();
+        if let Some(forces) = forces {
+            let mut asleep = (vec![DVec2::ZERO; bodies.len()], vec![DVec2::ZERO; bodies.walls.len()]);
+            for (place, point) in self.atom_points(bodies, pairs) {
+                if let Other::Body(other) = point.other
+                    && self.atoms.is_asleep(place)
+                {
+                    asleep.0[other] -= point.force;
+                    asleep.0[point.body] += point.force;
+                }
+            }
+            for (place, point) in self.wall_points(bodies, pairs) {
+                if let Other::Wall(wall) = point.other
+                    && self.walls.is_asleep(place)
+                {
+                    asleep.0[point.body] += point.force;
+                    asleep.1[wall] -= point.force;
+                }
+            }
+            forces.asleep = Some(asleep);
         }
     }
 }
@@ -117,8 +236,23 @@ pub(super) fn settle_rest(
     mut contacts: ResMut<PenaltyContacts>,
     mut bodies: ResMut<Bodies>,
     mut balance: ResMut<Balance>,
+    pairs: Res<CandidatePairs>,
+    (census, evaluation): (Res<Census>, Res<Evaluation>),
+    mut forces: Option<ResMut<ContactForces>>,
 ) {
+    if contacts.rest.is_empty() && !contacts.rest.changed {
+        return;
+    }
+    let woken_by_others = bodies.asleep.is_empty() && contacts.sleep == Sleep::Allowed;
+    let new = contacts.rest.changed || woken_by_others;
     contacts.rest.settle(&mut bodies, &mut balance);
+    if !bodies.disturbed && (new || contacts.rest.changed) {
+        let changing = census.changing_forces || census.ordinary_forces > 0;
+        let carried = !bodies.prescribed.motions.is_empty() || !bodies.belts.is_empty();
+        let sleeps = !(changing || carried || evaluation.style.is_staged());
+        contacts.sleep = if sleeps && contacts.may_sleep { Sleep::Allowed } else { Sleep::Never };
+        contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
+    }
 }
 
 impl Resting {

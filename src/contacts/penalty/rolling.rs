@@ -62,12 +62,14 @@ impl RollingContacts {
     /// Elastic energy in J.
     pub fn energy(&self, bodies: &Bodies, pairs: &CandidatePairs, contacts: &PenaltyContacts) -> f64 {
         let mut energy = 0.0;
-        for (&AtomPair { a, b }, (slider, contact)) in pairs.atoms.iter().zip(self.atoms.iter().zip(&contacts.atoms)) {
+        for (&AtomPair { a, b }, (slider, contact)) in
+            pairs.atoms.iter().zip(self.atoms.iter().zip(contacts.atoms.iter()))
+        {
             let (a, b) = (End::of(bodies, a), End::of(bodies, b));
             energy += slider.energy(&self.law(contacts.laws.get(contact.law), Some(&a), &b));
         }
         for (&WallPair { atom, .. }, (slider, contact)) in
-            pairs.walls.iter().zip(self.walls.iter().zip(&contacts.walls))
+            pairs.walls.iter().zip(self.walls.iter().zip(contacts.walls.iter()))
         {
             let end = End::of(bodies, atom);
             energy += slider.energy(&self.law(contacts.laws.get(contact.law), None, &end));
@@ -151,20 +153,26 @@ pub(super) fn apply_rolling(
     let mut follow =
         Follow { bodies: &mut bodies, balance: &mut balance, elapsed: evaluation.elapsed, losses: Losses::default() };
     for (place, slider) in atoms.iter_mut().enumerate() {
-        let contact = &contacts.atoms[place];
+        let contact = contacts.atoms.get(place);
+        if contacts.atoms.is_asleep(place) {
+            continue;
+        }
         if contact.mode != Mode::Open || *slider != Slider::default() {
             let AtomPair { a, b } = pairs.atoms[place];
             let (a, b) = (End::of(follow.bodies, a), End::of(follow.bodies, b));
             let law = rolling.law(contacts.laws.get(contact.law), Some(&a), &b);
-            follow.pair(slider, &law, contact, Some(&a), &b);
+            follow.pair(slider, &law, &contact, Some(&a), &b);
         }
     }
     for (place, slider) in walls.iter_mut().enumerate() {
-        let contact = &contacts.walls[place];
+        let contact = contacts.walls.get(place);
+        if contacts.walls.is_asleep(place) {
+            continue;
+        }
         if contact.mode != Mode::Open || *slider != Slider::default() {
             let end = End::of(follow.bodies, pairs.walls[place].atom);
             let law = rolling.law(contacts.laws.get(contact.law), None, &end);
-            follow.pair(slider, &law, contact, None, &end);
+            follow.pair(slider, &law, &contact, None, &end);
         }
     }
     ledger.friction.add(follow.losses.friction);

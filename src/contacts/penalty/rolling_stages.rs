@@ -37,12 +37,12 @@ impl RollingContacts {
     }
 }
 
-fn contacts(world: &World) -> impl Iterator<Item = &Contact> {
+fn contacts(world: &World) -> impl Iterator<Item = Contact> {
     let contacts = world.resource::<PenaltyContacts>();
-    contacts.atoms.iter().chain(&contacts.walls)
+    contacts.atoms.iter().chain(contacts.walls.iter())
 }
 
-fn is_state((contact, slider): &(&Contact, &Slider)) -> bool {
+fn is_state((contact, slider): &(Contact, &Slider)) -> bool {
     contact.mode != Mode::Open && slider.grip == Grip::Stick
 }
 
@@ -59,7 +59,7 @@ fn write(world: &mut World, state: &[f64]) {
     lend(world, |world, rolling: &mut RollingContacts| {
         let RollingContacts { atoms, walls, .. } = rolling;
         let sticking = contacts(world).zip(atoms.iter_mut().chain(walls));
-        let sticking = sticking.filter(|(contact, slider)| is_state(&(contact, slider)));
+        let sticking = sticking.filter(|(contact, slider)| is_state(&(*contact, &**slider)));
         state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);
     });
 }

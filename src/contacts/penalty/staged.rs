@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts, Sink, Touching, approach, arms};
+use super::apply::{End, PenaltyContacts, Sink, approach, arms};
 use super::case::{Case, Other};
 use super::contact::Contact;
 use super::coulomb::Grip;
@@ -34,7 +34,8 @@ pub(super) struct Look {
 }
 
 impl Look {
-    pub fn atoms(bodies: &Bodies, place: usize, AtomPair { a, b }: AtomPair, reach: f64) -> Self {
+    pub fn atoms(bodies: &Bodies, place: usize, pair: AtomPair) -> Self {
+        let (AtomPair { a, b }, reach) = (pair, pair.reach(bodies));
         let between = bodies.atom_position[b as usize] - bodies.atom_position[a as usize];
         let distance = between.length();
         let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
@@ -165,35 +166,30 @@ pub(super) fn evaluate<N: NormalForce>(
     style: Style,
     sink: &mut Sink,
 ) {
-    let PenaltyContacts { laws, atoms, walls, touching_atoms, touching_walls, rows, .. } = contacts;
+    let PenaltyContacts { laws, atoms, walls, rows, .. } = contacts;
     rows.clear();
-    touching_atoms.clear();
-    touching_walls.clear();
-    let looked = |contact: &Contact| style == Style::Instant || contact.mode != Mode::Open;
-    for (place, (&pair, contact)) in pairs.atoms.iter().zip(&mut *atoms).enumerate() {
-        if looked(contact) {
-            let look = Look::atoms(sink.bodies, place, pair, contact.reach);
+    for (place, &pair) in pairs.atoms.iter().enumerate() {
+        if style == Style::Instant || atoms.is_touching(place) {
+            let look = Look::atoms(sink.bodies, place, pair);
+            let mut contact = atoms.edit(place);
             let law = laws.get(contact.law);
             let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
-            if stage::<N>((contact, law, roller), &look, style, sink, rows) {
-                touching_atoms.push(Touching { place: place as u32, normal: look.case.normal });
-            }
+            stage::<N>((&mut contact, law, roller), &look, style, sink, rows);
         }
     }
-    for (place, (&pair, contact)) in pairs.walls.iter().zip(&mut *walls).enumerate() {
-        if looked(contact) {
+    for (place, &pair) in pairs.walls.iter().enumerate() {
+        if style == Style::Instant || walls.is_touching(place) {
             let look = Look::wall(sink.bodies, place, pair);
+            let mut contact = walls.edit(place);
             let law = laws.get(contact.law);
             let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
-            if stage::<N>((contact, law, roller), &look, style, sink, rows) {
-                touching_walls.push(Touching { place: place as u32, normal: look.case.normal });
-            }
+            stage::<N>((&mut contact, law, roller), &look, style, sink, rows);
         }
     }
     rows.solve(sink.bodies);
     for (look, kind, force) in rows.answers() {
         let list = if look.case.other_end().is_some() { &mut *atoms } else { &mut *walls };
-        let contact = &mut list[look.case.place as usize];
+        let mut contact = list.edit(look.case.place as usize);
         let law = laws.get(contact.law);
         let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
         let (normal, tangent_force) = match (kind, roller) {
@@ -225,24 +221,24 @@ pub(super) fn evaluate<N: NormalForce>(
         };
         let push = look.case.normal * normal.unwrap_or(0.0) - look.case.normal.perp() * tangent_force;
         look.case.push(sink, law, look.overlap, push);
-        book(contact, law, &look, sink, normal, tangent_force);
+        book(&contact, law, &look, sink, normal, tangent_force);
     }
     rows.cancel(sink.bodies, sink.balance);
 }
 
-/// Evaluates one contact; says whether it touches.
+/// Evaluates one contact.
 fn stage<N: NormalForce>(
     (contact, law, roller): (&mut Contact, &PairLaw, Option<Roller>),
     look: &Look,
     style: Style,
     sink: &mut Sink,
     rows: &mut Rows,
-) -> bool {
+) {
     let approach = look.approach(sink.bodies);
     if style == Style::Instant {
         contact.adapt::<N>(law, look, approach);
         if contact.mode == Mode::Open {
-            return false;
+            return;
         }
     }
     contact.overlap = look.overlap;
@@ -278,7 +274,6 @@ fn stage<N: NormalForce>(
     if let Some(roller) = roller {
         rolling_stages::stage(roller, (contact, law), look, sink, rows);
     }
-    true
 }
 
 /// Books the powers of a contact force, in two parts if need be: what the force takes from the bodies and the springs do not

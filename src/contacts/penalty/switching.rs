@@ -21,6 +21,7 @@ use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
 use super::handover;
 use super::law::{LawTable, PairLaw};
+use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
@@ -113,24 +114,24 @@ impl View<'_> {
     pub fn look(&self, place: usize) -> Look {
         let atoms = self.contacts.atoms.len();
         match place.checked_sub(atoms) {
-            None => Look::atoms(self.bodies, place, self.pairs.atoms[place], self.contacts.atoms[place].reach),
+            None => Look::atoms(self.bodies, place, self.pairs.atoms[place]),
             Some(place) => Look::wall(self.bodies, place, self.pairs.walls[place]),
         }
     }
 
     /// A contact with its law, and its rolling spring in scenes that have them.
-    pub fn whole(&mut self, place: usize, look: &Look) -> (&mut Contact, &PairLaw, Option<Roller<'_>>) {
+    pub fn whole(&mut self, place: usize, look: &Look) -> (Edited<'_>, &PairLaw, Option<Roller<'_>>) {
         let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
         let count = atoms.len();
-        let contact = if place < count { &mut atoms[place] } else { &mut walls[place - count] };
+        let contact = if place < count { atoms.edit(place) } else { walls.edit(place - count) };
         let law = laws.get(contact.law);
         (contact, law, self.rolling.as_mut().map(|rolling| rolling.of(look, law)))
     }
 
-    pub fn contact(&mut self, place: usize) -> (&mut Contact, &PairLaw) {
+    pub fn contact(&mut self, place: usize) -> (Edited<'_>, &PairLaw) {
         let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
         let count = atoms.len();
-        let contact = if place < count { &mut atoms[place] } else { &mut walls[place - count] };
+        let contact = if place < count { atoms.edit(place) } else { walls.edit(place - count) };
         let law = laws.get(contact.law);
         (contact, law)
     }
@@ -150,8 +151,8 @@ pub(super) fn view<R>(world: &mut World, see: impl FnOnce(&mut View) -> R) -> R 
 }
 
 /// Contacts whose tangential spring holds: its elongation is state.
-fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = &Contact> {
-    contacts.atoms.iter().chain(&contacts.walls).filter(|contact| is_spring(contact, &contacts.laws))
+fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = Contact> {
+    contacts.atoms.iter().chain(contacts.walls.iter()).filter(|contact| is_spring(contact, &contacts.laws))
 }
 
 fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
@@ -172,9 +173,15 @@ fn read(world: &World, state: &mut [f64]) {
 fn write(world: &mut World, state: &[f64]) {
     let mut contacts = world.resource_mut::<PenaltyContacts>();
     let PenaltyContacts { atoms, walls, laws, .. } = &mut *contacts;
-    let all = atoms.iter_mut().chain(walls).filter(|contact| is_spring(contact, laws));
-    for (state, contact) in state.iter().zip(all) {
-        contact.tangential.elongation = *state;
+    let mut states = state.iter();
+    for list in [atoms, walls] {
+        for place in 0..list.len() {
+            if is_spring(&list.get(place), laws)
+                && let Some(&state) = states.next()
+            {
+                list.edit(place).tangential.elongation = state;
+            }
+        }
     }
 }
 
@@ -182,10 +189,9 @@ fn rates(world: &World, rates: &mut [f64]) {
     let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
     let contacts = world.resource::<PenaltyContacts>();
     let of_atoms = contacts.atoms.iter().zip(&pairs.atoms).enumerate();
-    let of_atoms =
-        of_atoms.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
-            Look::atoms(bodies, place, *pair, contact.reach).sliding(contacts.laws.get(contact.law))
-        });
+    let of_atoms = of_atoms
+        .filter(|(_, (contact, _))| is_spring(contact, &contacts.laws))
+        .map(|(place, (contact, pair))| Look::atoms(bodies, place, *pair).sliding(contacts.laws.get(contact.law)));
     let of_walls = contacts.walls.iter().zip(&pairs.walls).enumerate();
     let of_walls = of_walls
         .filter(|(_, (contact, _))| is_spring(contact, &contacts.laws))
@@ -248,7 +254,7 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
                 let force = contact.tangential_force(law);
                 match contact.tangential.grip {
                     Grip::Slide => {
-                        let slip = look.sliding(law) - following::<N>(contact, law, &look, bodies);
+                        let slip = look.sliding(law) - following::<N>(&contact, law, &look, bodies);
                         say(What::Stop, slip.copysign(slip * contact.tangential.held.signum()), unknown);
                     }
                     grip => {
@@ -264,7 +270,7 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
                 }
             }
             if let Some(roller) = roller {
-                rolling_stages::tell::<N>(&roller, (contact, law), &look, bodies, |what, value| {
+                rolling_stages::tell::<N>(&roller, (&contact, law), &look, bodies, |what, value| {
                     say(what, value, unknown);
                 });
             }
@@ -284,12 +290,12 @@ fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
         for &place in fired {
             let (pair, what) = view.contacts.told[place];
             let look = view.look(pair as usize);
-            let (contact, law, roller) = view.whole(pair as usize, &look);
+            let (mut contact, law, roller) = view.whole(pair as usize, &look);
             contact.switch::<N>(law, what, &look);
             contact.come_loose(law, &look);
             match (roller, what) {
-                (Some(roller), What::Touch) => rolling_stages::begin::<N>(roller, (contact, law), &look),
-                (Some(roller), _) => rolling_stages::switch(roller, contact, what, &look),
+                (Some(roller), What::Touch) => rolling_stages::begin::<N>(roller, (&contact, law), &look),
+                (Some(roller), _) => rolling_stages::switch(roller, &contact, what, &look),
                 (None, _) => {}
             }
         }
@@ -344,6 +350,7 @@ impl View<'_> {
             if which(contact.tangential.grip) {
                 sum += contact.tangential.energy(&law.tangential());
             }
+            drop(contact);
             if self.rolling.is_some() {
                 let look = self.look(place);
                 if let (_, _, Some((slider, law))) = self.whole(place, &look)
@@ -372,20 +379,20 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
     view(world, |view| {
         for place in 0..view.len() {
             let look = view.look(place);
-            let (contact, law, mut roller) = view.whole(place, &look);
+            let (mut contact, law, mut roller) = view.whole(place, &look);
             if contact.mode == Mode::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
                 if contact.normal_force < least || contact.normal_force > greatest {
                     contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
                     contact.come_loose(law, &look);
                     if let Some((slider, law)) = &mut roller {
-                        rolling_stages::come_loose((slider, *law), contact, &look);
+                        rolling_stages::come_loose((slider, *law), &contact, &look);
                     }
                     corrected = true;
                 }
             }
             if let Some(roller) = roller.filter(|_| contact.mode != Mode::Open) {
-                corrected |= rolling_stages::settle(roller, contact);
+                corrected |= rolling_stages::settle(roller, &contact);
             }
             if contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold {
                 let force = contact.tangential.held;
@@ -406,12 +413,12 @@ fn take_stock<N: NormalForce>(world: &mut World) {
     view(world, |view| {
         for place in 0..view.len() {
             let look = view.look(place);
-            let (contact, law, roller) = view.whole(place, &look);
+            let (mut contact, law, roller) = view.whole(place, &look);
             if contact.mode == Mode::Open && look.overlap > 0.0 {
                 contact.overlap = look.overlap;
                 contact.begin::<N>(law, &look);
                 if let Some(roller) = roller {
-                    rolling_stages::begin::<N>(roller, (contact, law), &look);
+                    rolling_stages::begin::<N>(roller, (&contact, law), &look);
                 }
             }
             if contact.mode != Mode::Open && contact.mode != Mode::Hold {
@@ -517,7 +524,7 @@ impl Contact {
             What::Part => {
                 self.mode = N::after(self.mode, true);
                 if self.mode == Mode::Open {
-                    *self = Self { reach: self.reach, law: self.law, ..Self::default() };
+                    *self = Self::open(self.law);
                 }
             }
             What::Turn => self.mode = N::after(self.mode, false),
@@ -558,7 +565,7 @@ impl Contact {
     /// Modes that follow from the state itself.
     pub(super) fn adapt<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, approach: Approach) {
         if look.overlap <= 0.0 {
-            *self = Self { reach: self.reach, law: self.law, ..Self::default() };
+            *self = Self::open(self.law);
             return;
         }
         self.mode = N::chosen(Mode::Loading, approach.parting);

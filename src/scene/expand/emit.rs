@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::scope::{Failed, Filled, Value, is_quantity};
 use super::write::Buffer;
-use super::{Expander, File, Outcome, picture, table};
+use super::{Expander, File, Outcome, packing, picture, table};
 use crate::scene::outline::fits;
 use crate::scene::scan::skip_blank;
 use crate::scene::tree::{Form, Id, Tree};
@@ -128,12 +128,12 @@ pub(super) fn quoted(text: &str) -> String {
 
 impl Expander {
     /// Copies an entry of a section, whose `name` names a thing.
-    pub(super) fn entry(&mut self, context: &Context, out: &mut Buffer, id: Id) -> Outcome<()> {
+    pub(super) fn entry(&mut self, context: &Context, out: &mut Buffer, id: Id, section: &str) -> Outcome<()> {
         let patches = match self.name_of(context, id)? {
             Some(name) => patches_of(context, &name),
             None => Vec::new(),
         };
-        self.value(context, out, id, "", &patches, true)
+        self.value(context, out, id, section, &patches, true)
     }
 
     /// The name that an entry brings, without the prefix. A name with a dot is that of a channel, which the entry only
@@ -216,6 +216,8 @@ impl Expander {
                 self.added(context, out, id, patches)?;
                 if key == "atoms" && tree.name(id, text) == picture::NAME {
                     self.picture(context, out, id, start)?;
+                } else if is_entry && key == packing::SECTION {
+                    self.packing(context, out, id, start)?;
                 }
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())

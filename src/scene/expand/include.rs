@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::emit::{Context, Place};
 use super::scope::Scope;
 use super::write::Merged;
-use super::{Cause, Expander, File, MOST_FILES, Outcome, SECTIONS};
+use super::{Cause, Expander, File, MOST_FILES, Outcome, SECTIONS, packing};
 use crate::scene::error::SceneError;
 use crate::scene::scan::scan;
 use crate::scene::source::Source;
@@ -367,7 +367,7 @@ impl Expander {
                         if !out.text.is_empty() {
                             out.text.push_str(", ");
                         }
-                        expander.entry(context, &mut out, item)
+                        expander.entry(context, &mut out, item, name)
                     });
                     if holder == Holder::Template && made.is_err() {
                         done = made;
@@ -404,7 +404,7 @@ impl Expander {
                     let _ = self.each(context, tree.children(section), &mut |expander, context, item| {
                         expander.spend(context, item, 0, 64)?;
                         if let Some(name) = expander.name_of(context, item)? {
-                            if key == "fill" {
+                            if ["fill", packing::SECTION].contains(&key) {
                                 numbered.insert(name)
                             } else {
                                 names.insert(name)

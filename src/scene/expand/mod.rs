@@ -1,16 +1,19 @@
 //! Scenes that are made rather than written out: `params`, `templates`, `instances`, `include` and `Repeat` become a
 //! text in which none of them stands, before any section is read; pictures (`Png`) become discs, tables (`Csv`) points.
+//! Tables of `packings` are read too, and handed on beside the text.
 //!
 //! So every section, also one of a plugin, gets all of this without knowing of it. Each piece of the made text knows
 //! which piece of which file it comes from, and through which instances and repetitions: mistakes are told where the
 //! author has to mend them. A scene that uses nothing of it is not touched.
 
+mod door;
 mod emit;
 mod expression;
 mod include;
 mod instance;
 mod locate;
 mod number;
+mod packing;
 mod picture;
 mod repeat;
 mod scope;
@@ -20,9 +23,11 @@ mod write;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::error::{Mark, SceneError, SceneErrors};
 use super::scan::{Scan, scan};
+use super::sections::packing::PackingTable;
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
@@ -33,8 +38,9 @@ use write::{Buffer, Merged};
 
 /// The sections that are replaced by what they make.
 pub(super) const SECTIONS: [&str; 4] = ["include", "params", "templates", "instances"];
-/// How many things repetitions and instances may make in all: as many as the bodies of `fill`.
-const MOST_MADE: u64 = super::sections::fill::LARGEST_COUNT;
+/// How many things repetitions and instances may make in all. Each is a text that is read: more of them come from `fill` or
+/// `packings`.
+const MOST_MADE: u64 = 200_000;
 /// How much work the making may be, about in bytes that are copied: some seconds, and some 100 MiB.
 const MOST_WORK: usize = 8 * LARGEST_SCENE;
 /// Templates in templates, files in files: this deep.
@@ -44,6 +50,8 @@ const MOST_FILES: usize = 1000;
 /// More mistakes than this are not looked for.
 const MOST_ERRORS: usize = 50;
 
+/// Tables of bodies, by key.
+pub(super) type Tables = BTreeMap<u64, Arc<PackingTable>>;
 type Outcome<T> = Result<T, Box<SceneError>>;
 
 /// A file with its tree.
@@ -78,6 +86,8 @@ struct Step {
 pub(super) struct Expanded {
     pub(super) text: String,
     pub(super) notes: Vec<String>,
+    /// The tables of `packings`, by the keys that stand in the text.
+    pub(super) tables: Tables,
     files: Vec<Rc<File>>,
     steps: Vec<Step>,
     pieces: Vec<write::Piece>,
@@ -92,7 +102,7 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
     }
     let mut sections = tree.children(0).iter().map(|&id| &source.text[tree.key(id)]);
     !source.settings.is_empty()
-        || sections.any(|name| SECTIONS.contains(&name))
+        || sections.any(|name| SECTIONS.contains(&name) || name == packing::SECTION)
         || source.text.contains("Repeat")
         || source.text.contains("repeat(")
         || source.text.contains(picture::NAME)
@@ -145,6 +155,8 @@ struct Expander {
     /// The files that are being opened, each included by the one before.
     open_files: Vec<PathBuf>,
     silhouettes: Vec<picture::Known>,
+    packings: Vec<packing::Known>,
+    tables: Tables,
     made: u64,
     work: usize,
     /// How many values stand in each other by name.
@@ -200,7 +212,7 @@ impl Expander {
         }
         let Buffer { text, pieces } = out;
         let (files, steps) = (self.files, self.steps);
-        Ok(Expanded { text, notes: self.notes, files, steps, pieces, reasons: self.reasons })
+        Ok(Expanded { text, notes: self.notes, tables: self.tables, files, steps, pieces, reasons: self.reasons })
     }
 
     /// A mistake at a place of a file, with the way there.

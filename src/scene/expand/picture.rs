@@ -1,8 +1,9 @@
 //! `atoms: Png(..)`: the picture is read, and the discs that cover its silhouette are added to what is written.
 
 use std::fmt::Write;
-use std::io::Read;
+use std::path::Path;
 
+use super::door::Wanted;
 use super::emit::{Context, WORK};
 use super::write::Buffer;
 use super::{Expander, Outcome};
@@ -21,8 +22,8 @@ const FIELDS: [&str; 5] = ["file", "height", "count", "radius", "stiffness"];
 const SHIPPED: &str = "example:";
 /// Name and contents of each picture in `assets/silhouettes/`.
 const PICTURES: &[(&str, &[u8])] = &[("cow.png", include_bytes!("../../../assets/silhouettes/cow.png"))];
-/// The largest picture, in bytes.
-const LARGEST_FILE: u64 = 16 << 20;
+const PICTURE: Wanted =
+    Wanted { most: 16 << 20, noun: "a PNG picture", smaller: "make it smaller: 400 pixels a side are enough" };
 /// So many different silhouettes are worked out, each in up to half a second.
 const MOST_DIFFERENT: usize = 50;
 
@@ -99,7 +100,7 @@ impl Expander {
                 let help = "save it as a file, or use a picture that comes with the program: `example:cow.png`";
                 return Err((message.into(), help.into(), "file"));
             }
-            None => read_picture(&file, name)?,
+            None => PICTURE.read(Path::new(&file), name).map_err(|(message, help)| (message, help, "file"))?,
         };
         let mask = Mask::read(&bytes).map_err(|(why, help)| (format!("`{name}` {why}"), help.to_owned(), "file"))?;
         let covering = cover(&mask, fineness, png)?;
@@ -115,28 +116,6 @@ fn shipped_picture(name: &str) -> Result<&'static [u8], Wrong> {
         let names = PICTURES.iter().map(|(name, _)| *name);
         (format!("no picture `{name}` comes with the program"), suggest::among(name, names, "pictures", '`'), "file")
     })
-}
-
-fn read_picture(path: &str, name: &str) -> Result<Vec<u8>, Wrong> {
-    let wrong = |message: String, help: &str| (message, help.to_owned(), "file");
-    let here = "the path begins at the folder of the file in which this stands";
-    match std::fs::metadata(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return Err(wrong(format!("there is no file `{name}`"), here));
-        }
-        Ok(about) if about.is_dir() => return Err(wrong(format!("`{name}` is a folder"), "name a PNG picture in it")),
-        _ => {}
-    }
-    let mut bytes = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
-    match read {
-        Err(error) => Err(wrong(format!("cannot read `{name}`: {error}"), "check the path and its permissions")),
-        Ok(_) if bytes.len() as u64 > LARGEST_FILE => {
-            let message = format!("`{name}` is larger than {} MiB", LARGEST_FILE >> 20);
-            Err(wrong(message, "make it smaller: 400 pixels a side are enough"))
-        }
-        Ok(_) => Ok(bytes),
-    }
 }
 
 fn cover(mask: &Mask, fineness: Fineness, png: &Png) -> Result<Covering, Wrong> {

@@ -1,8 +1,8 @@
 //! `course: Csv("drive.csv")`: the file is read, and `Piecewise([..])` with its points takes its place.
 
 use std::fmt::Write;
-use std::io::Read;
 
+use super::door::{Wanted, Wrong};
 use super::emit::{Context, WORK};
 use super::write::Buffer;
 use super::{Expander, Outcome};
@@ -12,8 +12,11 @@ use crate::scene::tree::{Form, Id};
 pub(super) const NAME: &str = "Csv";
 pub(super) const FIELD: &str = "course";
 const EXAMPLE: &str = "for example: course: Csv(\"drive.csv\")";
-/// The largest file, in bytes.
-const LARGEST_FILE: u64 = 16 << 20;
+const TABLE: Wanted = Wanted {
+    most: 16 << 20,
+    noun: "a table of numbers, one line each",
+    smaller: "keep fewer points: between them the course is linear",
+};
 
 impl Expander {
     /// Writes the points of the file that a `Csv(..)` names.
@@ -48,28 +51,15 @@ impl Expander {
     }
 }
 
-/// What is wrong with a file, and what to do.
-type Wrong = (String, String);
-
 fn read_points(context: &Context, name: &str) -> Result<Vec<(f64, f64)>, Wrong> {
     let Some(folder) = &context.file.source.folder else {
         let message = "this scene is in no file, so no table can be found from it".to_owned();
         return Err((message, "save it as a file, or write the points out: `Piecewise([(0, 1), (2, 0)])`".into()));
     };
-    let here = "the path begins at the folder of the file in which this stands";
-    let mut text = String::new();
-    let path = folder.join(name);
-    let opened = std::fs::File::open(&path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => (format!("there is no file `{name}`"), here.to_owned()),
-        _ => (format!("cannot read `{name}`: {error}"), "check the path and its permissions".to_owned()),
-    })?;
-    opened.take(LARGEST_FILE + 1).read_to_string(&mut text).map_err(|error| {
+    let bytes = TABLE.read(&folder.join(name), name)?;
+    let text = String::from_utf8(bytes).map_err(|error| {
         (format!("cannot read `{name}` as text: {error}"), "it has to be a table of numbers, one line each".to_owned())
     })?;
-    if text.len() as u64 > LARGEST_FILE {
-        let message = format!("`{name}` is larger than {} MiB", LARGEST_FILE >> 20);
-        return Err((message, "keep fewer points: between them the course is linear".into()));
-    }
     points_of(&text).map_err(|(line, why)| {
         let help = "each line holds a time in seconds and a value, such as `0.5, 2`; the first may hold names instead";
         (format!("line {line} of `{name}` {why}"), help.to_owned())

@@ -16,7 +16,7 @@ const ORDER: &[&[&str]] = &[
     &["gravity"],
     &["materials"],
     &["pairs"],
-    &["walls", "bodies", "templates", "instances", "fill", "joints"],
+    &["walls", "bodies", "templates", "instances", "packings", "fill", "joints"],
     &["forces"],
     &["contacts"],
     &["sensors"],

@@ -15,9 +15,9 @@ use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
 use crate::world::{material, sections};
 
-/// The largest number of bodies of all entries together. A body takes some 1.3 kB, and a film reads its scene twice: this
-/// many stay well below 1 GiB.
-pub const LARGEST_COUNT: u64 = 200_000;
+/// The largest number of bodies of all entries together. A body takes some 1.3 kB while a scene is read, and a film reads its
+/// scene twice.
+pub const LARGEST_COUNT: u64 = 1_000_000;
 /// How often a place is tried for one body before the region counts as full.
 const TRIES: usize = 20_000;
 /// Cells of the search grid along one side, at most.
@@ -35,7 +35,7 @@ pub struct FillEntry {
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
-    /// How many, from 1 to 200 000 in all.
+    /// How many, from 1 to 1 000 000 in all.
     pub count: WholeNumber,
     /// Two opposite corners of a box, or the corners of a polygon in order, in m.
     pub within: Region,

@@ -46,8 +46,9 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
         for entry in std::fs::read_dir(path)? {
             let entry = entry?.path();
             let hidden = entry.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-            // Build results are no scenes.
-            if !hidden && entry.file_name().is_none_or(|name| name != "target") {
+            // Build results are no scenes, and benchmarks are large on purpose.
+            let other = entry.file_name().is_some_and(|name| name == "target" || name == "benchmarks");
+            if !hidden && !other {
                 collect(&entry, files)?;
             }
         }

@@ -1,9 +1,12 @@
-//! The broad phase: who may touch whom. Bounding boxes are swept along the axis along which they spread farther (sort
-//! and sweep: Cohen, Lin, Manocha, Ponamgi 1995), atoms of overlapping boxes are compared one by one.
+//! The broad phase: who may touch whom. Few atoms are found by their bodies' boxes (`sweep.rs`), many by cells (`cells.rs`);
+//! both find the same pairs.
 //!
 //! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. When the
 //! list is made anew every pair that was in the old one is told its old place, so that whoever keeps history beside
 //! the list can carry it over.
+
+mod cells;
+mod sweep;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -23,6 +26,22 @@ pub struct AtomPair {
     pub a: u32,
     /// Place of the second atom.
     pub b: u32,
+}
+
+impl AtomPair {
+    /// Unit vector from the centre of the first atom to that of the second; up if they are in one place.
+    #[inline]
+    pub fn normal(self, bodies: &Bodies) -> DVec2 {
+        let between = bodies.atom_position[self.b as usize] - bodies.atom_position[self.a as usize];
+        let distance = between.length();
+        if distance > 0.0 { between * (1.0 / distance) } else { DVec2::Y }
+    }
+
+    /// Distance of the centres in metres below which the two touch.
+    #[inline]
+    pub fn reach(self, bodies: &Bodies) -> f64 {
+        bodies.atom_radius[self.a as usize] + bodies.atom_radius[self.b as usize]
+    }
 }
 
 /// An atom that is nearer to a wall than the margin.
@@ -47,6 +66,8 @@ pub struct CandidatePairs {
     pub atoms_before: Vec<u32>,
     /// For each item of `walls` its place in the list before, or [`NEW`].
     pub walls_before: Vec<u32>,
+    /// How the pairs of atoms were found.
+    pub search: Search,
     bounds_version: u64,
     generation: u64,
     /// Body key and number within the body of each atom: what stays the same when places change.
@@ -69,7 +90,7 @@ pub fn plugin(app: &mut App) {
 }
 
 /// Makes the lists anew when the bounding boxes were.
-pub fn find_pairs(bodies: Res<Bodies>, bounds: Res<Bounds>, mut pairs: ResMut<CandidatePairs>) {
+pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: ResMut<CandidatePairs>) {
     if pairs.bounds_version == bounds.version {
         return;
     }
@@ -77,8 +98,10 @@ pub fn find_pairs(bodies: Res<Bodies>, bounds: Res<Bounds>, mut pairs: ResMut<Ca
     pairs.version += 1;
     let old_atoms = std::mem::take(&mut pairs.atoms);
     let old_walls = std::mem::take(&mut pairs.walls);
-    pairs.atoms = atom_pairs(&bodies, &bounds);
+    pairs.search = Search::suiting(&bodies);
+    pairs.atoms = pairs.search.pairs(&bodies, &bounds);
     pairs.walls = wall_pairs(&bodies, &bounds);
+    bounds.candidates = pairs.atoms.len() + pairs.walls.len();
     let same = pairs.generation == bodies.generation;
     let places = if same { None } else { Some(new_places(&pairs.identity, &bodies)) };
     let place = |old: u32| {
@@ -123,53 +146,37 @@ fn carry<P: Ord + Copy>(new: &[P], old: &[P], renamed: impl Fn(P) -> Option<P>) 
         .collect()
 }
 
-fn atom_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {
-    let touching = |&body: &usize| bodies.collides[body] && !bodies.atoms_of(body).is_empty();
-    let mut order: Vec<usize> = (0..bodies.len()).filter(touching).collect();
-    let axis = wider_axis(bounds, &order);
-    let across = 1 - axis;
-    order.sort_by(|&a, &b| bounds.low[a][axis].total_cmp(&bounds.low[b][axis]));
-    let mut pairs = Vec::new();
-    for (rank, &first) in order.iter().enumerate() {
-        for &second in &order[rank + 1..] {
-            if bounds.low[second][axis] > bounds.high[first][axis] {
-                break;
-            }
-            let apart = bounds.low[second][across] > bounds.high[first][across]
-                || bounds.low[first][across] > bounds.high[second][across];
-            if !apart && (bodies.dynamic[first] || bodies.dynamic[second]) {
-                compare_atoms(bodies, bounds, first.min(second), first.max(second), &mut pairs);
-            }
+/// How pairs of atoms are searched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Search {
+    /// Boxes of bodies along an axis: for few atoms.
+    #[default]
+    Sweep,
+    /// Square cells: for many.
+    Cells,
+}
+
+/// Atoms from which on cells are faster.
+const MANY: usize = 192;
+
+impl Search {
+    /// The one that suits so many atoms.
+    fn suiting(bodies: &Bodies) -> Self {
+        if bodies.atom_count() < MANY { Self::Sweep } else { Self::Cells }
+    }
+
+    fn pairs(self, bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {
+        match self {
+            Self::Sweep => sweep::pairs(bodies, bounds),
+            Self::Cells => cells::pairs(bodies, bounds.margin),
         }
     }
-    pairs.sort_unstable();
-    pairs
-}
 
-/// The axis along which boxes spread farther: 0 for x, 1 for y. A tall pile swept along x would be compared each with
-/// each. The list of pairs is sorted afterwards and does not depend on it.
-fn wider_axis(bounds: &Bounds, bodies: &[usize]) -> usize {
-    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (low, high) =
-        bodies.iter().fold(none, |(low, high), &body| (low.min(bounds.low[body]), high.max(bounds.low[body])));
-    usize::from((high - low).y > (high - low).x)
-}
-
-fn compare_atoms(bodies: &Bodies, bounds: &Bounds, first: usize, second: usize, pairs: &mut Vec<AtomPair>) {
-    for a in bodies.atoms_of(first) {
-        let (position, radius) = (bodies.atom_position[a], bodies.atom_radius[a] + bounds.margin / 2.0);
-        let outside = position.x + radius < bounds.low[second].x
-            || position.x - radius > bounds.high[second].x
-            || position.y + radius < bounds.low[second].y
-            || position.y - radius > bounds.high[second].y;
-        if outside {
-            continue;
-        }
-        for b in bodies.atoms_of(second) {
-            let reach = bodies.atom_radius[a] + bodies.atom_radius[b] + bounds.margin;
-            if bodies.atom_position[b].distance_squared(position) < reach * reach {
-                pairs.push(AtomPair { a: a as u32, b: b as u32 });
-            }
+    /// In words.
+    pub fn told(self) -> &'static str {
+        match self {
+            Self::Sweep => "boxes swept along an axis",
+            Self::Cells => "cells with a skin",
         }
     }
 }

@@ -1,0 +1,49 @@
+//! How much memory a scene takes: looked at in a process of its own, which has read nothing else before.
+
+use std::process::{Command, Stdio};
+
+use super::Bench;
+use crate::cli::Exit;
+use crate::cli::say::print_line;
+use crate::report::bench::resident;
+use crate::simulation::Simulation;
+
+/// Bytes that another process needs to read a scene and run a round of it; nothing where the system does not tell.
+pub(super) fn of_other_process(bench: &Bench, scene: &str, ticks: u64) -> Option<u64> {
+    resident()?;
+    let mut command = Command::new(std::env::current_exe().ok()?);
+    command.args(["bench", scene, "--memory", "--ticks", &ticks.to_string()]);
+    let flags = &bench.overrides;
+    let number = |value: Option<f64>| value.map(|value| value.to_string());
+    for (flag, value) in [
+        ("--duration", number(flags.duration)),
+        ("--tick", number(flags.tick)),
+        ("--tolerance", number(flags.tolerance)),
+        ("--method", flags.method.clone()),
+    ] {
+        command.args(value.iter().flat_map(|value| [flag, value]));
+    }
+    for (name, value) in &flags.settings {
+        command.arg("--set").arg(format!("{name}={value}"));
+    }
+    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
+    std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
+}
+
+impl Bench {
+    /// Reads and runs a scene, and prints by how many bytes this process has grown.
+    pub(super) fn print_memory(&self, scene: &str) -> Exit {
+        let before = resident();
+        let simulation =
+            self.source(scene).and_then(|source| Simulation::load_with(&source, &self.overrides.overrides(), |_| {}));
+        let Ok(mut simulation) = simulation else { return Exit::SceneWrong };
+        let ticks = self.order().ticks_of(&simulation);
+        if simulation.run_to_tick(ticks).is_err() {
+            return Exit::RunWrong;
+        }
+        match before.zip(resident()) {
+            Some((before, after)) => print_line(&after.saturating_sub(before).to_string()),
+            None => Exit::Usage,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! `jostle bench`: what ticks of scenes cost, beside a plain loop that does the same work.
+
+mod memory;
+mod told;
+
+use clap::Args;
+
+use super::Exit;
+use super::flags::{self, OverrideFlags};
+use super::load::{self, Request};
+use super::progress::Progress;
+use super::say::{print_line, say};
+use crate::report::bench::{self, Measured, Order, Stopped};
+use crate::scene::{SceneErrors, Source};
+use crate::simulation::{Overrides, Simulation};
+
+/// What is measured if no scene is named: an example, and a scene of this command.
+const DEFAULT: [&str; 2] = ["example:tetris", GAS];
+/// The scene of this command.
+const GAS: &str = "bench:gas";
+const GAS_TEXT: &str = include_str!("gas.ron");
+
+/// The command `bench`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Bench {
+    /// Scene files, or example:NAME for scenes that come with the program. Without any: example:tetris and bench:gas, two
+    /// thousand discs
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// Ticks of a round. Default: what takes about a fifth of a second, within the duration of the scene
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    ticks: Option<u64>,
+    /// Rounds that are timed. Default: 7, with --quick 3
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    rounds: Option<u32>,
+    /// Short rounds: a first look
+    #[arg(long)]
+    quick: bool,
+    /// Seconds of physics that the engine runs before anything is measured, such as 0.5 or 20ms: until a heap has settled, say
+    #[arg(long, value_name = "T", value_parser = flags::moment, default_value = "0", allow_negative_numbers = true)]
+    from: f64,
+    #[command(flatten)]
+    overrides: OverrideFlags,
+    /// Print what was measured of each scene as one line of JSON on standard output
+    #[arg(long)]
+    json: bool,
+    /// Print how many bytes it takes to read and run the one scene, for another process that asks
+    #[arg(long, hide = true)]
+    memory: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  jostle bench                                    a small look at this computer
+  jostle bench scenes/benchmarks/dense_10k.ron    ten thousand discs at rest
+  jostle bench scenes/benchmarks/*.ron --json     all benchmarks, for a program
+  jostle bench my.ron --ticks 100 --rounds 20     where rounds scatter: more of them
+  jostle bench my.ron --tick 0.5ms                with another tick
+  jostle bench my.ron --from 2                    from the state after two seconds on
+
+Of each scene: the median time of a tick over the rounds, and from the fastest round to the slowest as a share of it \
+(`scatter`); pairs of atoms that are near each other, and those of them that touch; bytes of memory for each atom, \
+where the system tells. `x plain` is the time of the engine over that of a plain loop that stands in the same program: \
+arrays, a grid of cells, springs with dashpots and friction, velocity Verlet, no vector instructions. Both begin at \
+the same state and run by turns. A round that is not timed goes ahead of the others, each of which goes on where the \
+one before ended. Times are those of your computer; the state hash is not. It depends on --ticks, --rounds, --quick \
+and --from.";
+
+impl Bench {
+    pub(super) fn execute(self) -> Exit {
+        let scenes: Vec<&str> = match &self.scenes[..] {
+            [] => DEFAULT.to_vec(),
+            named => named.iter().map(String::as_str).collect(),
+        };
+        if let (true, [scene]) = (self.memory, &scenes[..]) {
+            return self.print_memory(scene);
+        }
+        let order = self.order();
+        let progress = Progress::new(order.steps() * scenes.len() as u64, "rounds", self.json);
+        let (mut exit, mut rows) = (Exit::Good, Vec::new());
+        for (number, scene) in scenes.iter().enumerate() {
+            match self.measure(scene, order, &progress) {
+                Ok((measured, bytes)) if self.json => {
+                    exit = exit.worse(print_line(&told::json(scene, &measured, bytes).to_string()));
+                }
+                Ok((measured, bytes)) => rows.push(told::Row::of(scene, measured, bytes)),
+                Err(stopped) => exit = exit.worse(progress.aside(|| self.tell(scene, &stopped))),
+            }
+            progress.at(order.steps() * (number as u64 + 1));
+        }
+        drop(progress);
+        if !rows.is_empty() {
+            exit = exit.worse(print_line(told::table(&rows).trim_end()));
+        }
+        if self.scenes.is_empty() && !self.json {
+            say("note: larger scenes stand in scenes/benchmarks of the source repository");
+        }
+        exit
+    }
+
+    fn order(&self) -> Order {
+        Order {
+            ticks: self.ticks,
+            rounds: self.rounds.unwrap_or(if self.quick { 3 } else { 7 }),
+            quick: self.quick,
+            from: self.from,
+        }
+    }
+
+    /// What is measured of a scene, and the bytes that it takes.
+    fn measure(&self, scene: &str, order: Order, progress: &Progress) -> Result<(Measured, Option<u64>), Stopped> {
+        let source = self.source(scene)?;
+        let load = |plan| {
+            let overrides = Overrides { plan, ..self.overrides.overrides() };
+            Simulation::load_with(&source, &overrides, |_| {})
+        };
+        let measured = bench::measure(load, order, || progress.step())?;
+        let bytes = memory::of_other_process(self, scene, measured.ticks);
+        Ok((measured, bytes))
+    }
+
+    /// Tells why nothing was measured.
+    fn tell(&self, scene: &str, stopped: &Stopped) -> Exit {
+        let request = Request { name: scene, json: self.json };
+        match stopped {
+            Stopped::Scene(errors) => request.refuse_scene(errors),
+            Stopped::Run(failure) => {
+                let help = "a shorter tick, softer contacts or heavier bodies; `jostle run` tells more";
+                request.refuse(Exit::RunWrong, "", &failure.to_string(), help)
+            }
+        }
+    }
+
+    fn source(&self, scene: &str) -> Result<Source, SceneErrors> {
+        let source = if scene == GAS { Source::new(GAS, GAS_TEXT) } else { load::source(scene)? };
+        Ok(source.with_settings(&self.overrides.settings))
+    }
+}

@@ -1,0 +1,155 @@
+//! What was measured, as tables for people and as JSON.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::cli::say::number;
+use crate::report::bench::{Measured, Spread};
+
+/// A stage below this share of a tick is not told.
+const SMALLEST_SHARE: f64 = 0.005;
+
+/// What was measured of a scene.
+pub(super) struct Row {
+    name: String,
+    measured: Measured,
+    bytes: Option<u64>,
+}
+
+impl Row {
+    pub(super) fn of(scene: &str, measured: Measured, bytes: Option<u64>) -> Self {
+        let name = scene.rsplit('/').next().unwrap_or(scene);
+        Self { name: name.strip_suffix(".ron").unwrap_or(name).to_owned(), measured, bytes }
+    }
+
+    fn bytes_per_atom(&self) -> Option<f64> {
+        self.bytes.map(|bytes| bytes as f64 / self.measured.atoms.max(1) as f64)
+    }
+}
+
+/// Three digits are enough of what was measured.
+fn rounded(value: f64) -> String {
+    if value.abs() >= 1000.0 {
+        return format!("{value:.0}");
+    }
+    number(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
+/// A number that may not be there.
+fn or_dash(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), rounded)
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// All that was measured.
+pub(super) fn table(rows: &[Row]) -> String {
+    let mut text = aligned(
+        &[
+            "scene",
+            "bodies",
+            "atoms",
+            "near",
+            "touching",
+            "us/tick",
+            "ns/atom",
+            "scatter",
+            "plain",
+            "x plain",
+            "bytes/atom",
+        ],
+        rows.iter().map(|row| {
+            let Measured { bodies, atoms, near, touching, us_per_tick, ns_per_atom_tick, plain, .. } = &row.measured;
+            let plain = plain.as_ref().ok();
+            vec![
+                row.name.clone(),
+                bodies.to_string(),
+                atoms.to_string(),
+                near.to_string(),
+                touching.to_string(),
+                rounded(us_per_tick.median),
+                rounded(ns_per_atom_tick.median),
+                percent(ns_per_atom_tick.width()),
+                or_dash(plain.map(|plain| plain.ns_per_atom_tick.median)),
+                or_dash(plain.map(|plain| plain.ratio.median)),
+                or_dash(row.bytes_per_atom()),
+            ]
+        }),
+    );
+    text.push_str("\nWhere the time goes:\n");
+    let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
+    for row in rows {
+        let told = row.measured.stages.iter().filter(|(_, share)| *share >= SMALLEST_SHARE);
+        let shares: Vec<String> = told.map(|(name, share)| format!("{name} {}", percent(*share))).collect();
+        let _ = writeln!(text, "{:<width$}  {}", row.name, shares.join(", "));
+    }
+    text.push_str("\nWhat came out:\n");
+    text.push_str(&aligned(
+        &["scene", "ticks", "tick in s", "energy residual in J", "of what went round", "state hash"],
+        rows.iter().map(|row| {
+            let Measured { ticks_in_all, tick, residual, residual_share, hash, .. } = &row.measured;
+            let share = format!("{residual_share:.0e}");
+            vec![row.name.clone(), ticks_in_all.to_string(), number(*tick), rounded(*residual), share, hash.clone()]
+        }),
+    ));
+    for row in rows {
+        if let Err(why) = row.measured.plain {
+            let _ = writeln!(text, "note: {}: no plain loop beside it, for {why}", row.name);
+        }
+    }
+    text
+}
+
+/// Columns side by side: the first begins at the left, numbers end at the right.
+fn aligned(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let head = head.iter().map(|name| (*name).to_owned()).collect();
+    let lines: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
+    let widths: Vec<usize> =
+        (0..lines[0].len()).map(|column| lines.iter().map(|line| line[column].len()).max().unwrap_or(0)).collect();
+    let mut text = String::new();
+    for line in &lines {
+        let _ = write!(text, "{:<width$}", line[0], width = widths[0]);
+        for (value, width) in line.iter().zip(&widths).skip(1) {
+            let _ = write!(text, "  {value:>width$}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// What was measured of a scene, for programs.
+pub(super) fn json(scene: &str, measured: &Measured, bytes: Option<u64>) -> Value {
+    let spread = |spread: &Spread| json!({ "median": spread.median, "min": spread.least, "max": spread.most });
+    let plain = match &measured.plain {
+        Ok(plain) => json!({
+            "ns_per_atom_tick": spread(&plain.ns_per_atom_tick),
+            "ratio": spread(&plain.ratio),
+            "kinetic_energy_ratio": plain.kinetic_energy,
+        }),
+        Err(why) => json!({ "missing": why }),
+    };
+    let stage = |(name, share): &(&str, f64)| json!({ "stage": name, "share": share });
+    json!({
+        "scene": scene,
+        "bodies": measured.bodies,
+        "atoms": measured.atoms,
+        "method": measured.method,
+        "tick": measured.tick,
+        "ticks_per_round": measured.ticks,
+        "ticks": measured.ticks_in_all,
+        "candidate_pairs": measured.near,
+        "touching_pairs": measured.touching,
+        "us_per_tick": spread(&measured.us_per_tick),
+        "ns_per_atom_tick": spread(&measured.ns_per_atom_tick),
+        "plain": plain,
+        "bytes": bytes,
+        "bytes_per_atom": bytes.map(|bytes| bytes as f64 / measured.atoms.max(1) as f64),
+        "stages": measured.stages.iter().map(stage).collect::<Vec<_>>(),
+        "energy_residual": measured.residual,
+        "energy_residual_share": measured.residual_share,
+        "hash": measured.hash,
+    })
+}

@@ -1,0 +1,317 @@
+//! The history of all candidate pairs, one list for each quantity: what the kernel of contacts (`kernel.rs`) reads
+//! and writes several at a time.
+//!
+//! Modes are bits, a byte for eight contacts: they are masks as they stand.
+
+use std::ops::{Deref, DerefMut};
+
+use super::contact::Contact;
+use super::coulomb::{Grip, Slider};
+use super::normal::Mode;
+use crate::contacts::search::NEW;
+use crate::simd::BLOCK;
+
+/// The modes of eight contacts: a bit each in every byte.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Phases {
+    /// Set while loading, and while held.
+    pub loading: u8,
+    /// Set while unloading, and while held.
+    pub unloading: u8,
+    /// Set while slipping, and while held along the tangent.
+    pub slips: u8,
+    /// Set while sliding as a stage of a step, and while held along the tangent.
+    pub slides: u8,
+}
+
+impl Phases {
+    /// Those that touch.
+    #[inline(always)]
+    pub fn touching(self) -> u8 {
+        self.loading | self.unloading
+    }
+
+    pub fn mode(self, lane: usize) -> Mode {
+        match ((self.loading >> lane) & 1, (self.unloading >> lane) & 1) {
+            (0, 0) => Mode::Open,
+            (_, 0) => Mode::Loading,
+            (0, _) => Mode::Unloading,
+            _ => Mode::Hold,
+        }
+    }
+
+    pub fn grip(self, lane: usize) -> Grip {
+        match ((self.slips >> lane) & 1, (self.slides >> lane) & 1) {
+            (0, 0) => Grip::Stick,
+            (_, 0) => Grip::Slip,
+            (0, _) => Grip::Slide,
+            _ => Grip::Hold,
+        }
+    }
+
+    fn set(&mut self, lane: usize, mode: Mode, grip: Grip) {
+        let write = |byte: &mut u8, bit: bool| *byte = *byte & !(1 << lane) | u8::from(bit) << lane;
+        write(&mut self.loading, matches!(mode, Mode::Loading | Mode::Hold));
+        write(&mut self.unloading, matches!(mode, Mode::Unloading | Mode::Hold));
+        write(&mut self.slips, matches!(grip, Grip::Slip | Grip::Hold));
+        write(&mut self.slides, matches!(grip, Grip::Slide | Grip::Hold));
+    }
+}
+
+/// Contacts of candidate pairs, in the order of the pairs. Lists are as long as whole blocks of eight.
+#[derive(Debug, Default)]
+pub struct ContactList {
+    len: usize,
+    pub(super) law: Vec<u32>,
+    pub(super) overlap: Vec<f64>,
+    pub(super) normal_force: Vec<f64>,
+    pub(super) elongation: Vec<f64>,
+    pub(super) held: Vec<f64>,
+    pub(super) phases: Vec<Phases>,
+    /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
+    pub(super) due: Vec<f64>,
+    /// A bit each for contacts of bodies that are asleep; empty: none is.
+    pub(super) asleep: Vec<u8>,
+    /// Blocks in which some contact is not asleep; only where some are.
+    awake: Vec<u32>,
+    /// How many touch of those that are asleep.
+    asleep_touching: usize,
+}
+
+impl ContactList {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The contact at a place.
+    #[inline]
+    pub fn get(&self, place: usize) -> Contact {
+        assert!(place < self.len, "no contact {place} among {}", self.len);
+        let (phases, lane) = (self.phases[place / BLOCK], place % BLOCK);
+        Contact {
+            law: self.law[place],
+            mode: phases.mode(lane),
+            overlap: self.overlap[place],
+            normal_force: self.normal_force[place],
+            tangential: Slider { elongation: self.elongation[place], held: self.held[place], grip: phases.grip(lane) },
+        }
+    }
+
+    /// Replaces the contact at a place.
+    #[inline]
+    pub fn set(&mut self, place: usize, contact: &Contact) {
+        assert!(place < self.len, "no contact {place} among {}", self.len);
+        let Contact { law, mode, overlap, normal_force, tangential: Slider { elongation, held, grip } } = *contact;
+        self.law[place] = law;
+        self.overlap[place] = overlap;
+        self.normal_force[place] = normal_force;
+        self.elongation[place] = elongation;
+        self.held[place] = held;
+        self.phases[place / BLOCK].set(place % BLOCK, mode, grip);
+    }
+
+    /// The contact at a place, to be changed: it goes back when the loan ends.
+    #[inline]
+    pub fn edit(&mut self, place: usize) -> Edited<'_> {
+        Edited { contact: self.get(place), place, list: self }
+    }
+
+    /// All in order.
+    pub fn iter(&self) -> impl Iterator<Item = Contact> + '_ {
+        (0..self.len).map(|place| self.get(place))
+    }
+
+    /// Places of those that touch, in order.
+    pub fn touching(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        let blocks = self.phases.iter().enumerate().filter(|(_, phases)| phases.touching() != 0);
+        blocks.flat_map(|(block, phases)| lanes(phases.touching()).map(move |lane| BLOCK * block + lane))
+    }
+
+    /// Whether the contact at a place touches.
+    #[inline]
+    pub fn is_touching(&self, place: usize) -> bool {
+        self.phases[place / BLOCK].touching() >> (place % BLOCK) & 1 != 0
+    }
+
+    /// How many touch.
+    pub fn touching_count(&self) -> usize {
+        self.asleep_touching + self.awake_touching_count()
+    }
+
+    /// How many touch of those that are not asleep.
+    pub(super) fn awake_touching_count(&self) -> usize {
+        let mut count = 0;
+        for number in 0..self.awake_blocks() {
+            let block = self.awake_block(number);
+            count += (self.phases[block].touching() & !self.asleep_in(block)).count_ones() as usize;
+        }
+        count
+    }
+
+    /// Places of those that touch and are not asleep, in order.
+    pub(super) fn awake_touching(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.awake_blocks()).map(|number| self.awake_block(number)).flat_map(|block| {
+            lanes(self.phases[block].touching() & !self.asleep_in(block)).map(move |lane| BLOCK * block + lane)
+        })
+    }
+
+    /// Blocks in which some contact is not asleep: how many there are.
+    #[inline(always)]
+    pub(super) fn awake_blocks(&self) -> usize {
+        if self.asleep.is_empty() { self.phases.len() } else { self.awake.len() }
+    }
+
+    /// One of them.
+    #[inline(always)]
+    pub(super) fn awake_block(&self, number: usize) -> usize {
+        if self.asleep.is_empty() { number } else { self.awake[number] as usize }
+    }
+
+    /// Whether none of the pairs of a block can have begun to touch.
+    #[inline(always)]
+    pub(super) fn is_early(&self, block: usize, path: f64) -> bool {
+        path < self.due[block]
+    }
+
+    /// Which contacts of a block are asleep.
+    #[inline(always)]
+    pub(super) fn asleep_in(&self, block: usize) -> u8 {
+        self.asleep.get(block).copied().unwrap_or(0)
+    }
+
+    /// Places of those that are held along their normal and are not asleep, in order.
+    pub(super) fn awake_held(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.awake_blocks()).map(|number| self.awake_block(number)).flat_map(|block| {
+            let phases = self.phases[block];
+            let held = phases.loading & phases.unloading & !self.asleep_in(block);
+            lanes(held).map(move |lane| BLOCK * block + lane)
+        })
+    }
+
+    /// Whether the contact at a place is asleep.
+    #[inline]
+    pub(super) fn is_asleep(&self, place: usize) -> bool {
+        self.asleep_in(place / BLOCK) >> (place % BLOCK) & 1 != 0
+    }
+
+    /// Wakes all.
+    pub(super) fn wake_all(&mut self) {
+        self.asleep.clear();
+        self.awake.clear();
+        self.asleep_touching = 0;
+    }
+
+    /// Lays contacts asleep, those at the places that `sleeps` says, and wakes all others.
+    pub(super) fn lay_asleep(&mut self, sleeps: impl Fn(usize) -> bool) {
+        self.wake_all();
+        let bits = |block: usize| {
+            let places = BLOCK * block..self.len.min(BLOCK * block + BLOCK);
+            places.rev().fold(0, |bits, place| bits << 1 | u8::from(sleeps(place)))
+        };
+        self.asleep = (0..self.phases.len()).map(bits).collect();
+        for (block, (asleep, phases)) in self.asleep.iter().zip(&self.phases).enumerate() {
+            self.asleep_touching += (phases.touching() & asleep).count_ones() as usize;
+            let there = self.len - BLOCK * block;
+            let all = if there < BLOCK { (1 << there) - 1 } else { u8::MAX };
+            if asleep & all != all {
+                self.awake.push(block as u32);
+            }
+        }
+    }
+
+    /// Becomes the list of other pairs: each has the history of the old place that it is told, or none ([`NEW`]).
+    pub(super) fn carry(&mut self, before: &[u32], mut law: impl FnMut(usize) -> u32) {
+        let old = std::mem::take(self);
+        self.resize(before.len());
+        for (place, &before) in before.iter().enumerate() {
+            let history = if before == NEW { Contact::default() } else { old.get(before as usize) };
+            self.set(place, &Contact { law: law(place), ..history });
+        }
+    }
+
+    /// Makes it as long as whole blocks, filled with open contacts.
+    pub(super) fn resize(&mut self, len: usize) {
+        let blocks = len.div_ceil(BLOCK);
+        self.len = len;
+        self.law.resize(BLOCK * blocks, 0);
+        for list in [&mut self.overlap, &mut self.normal_force, &mut self.elongation, &mut self.held] {
+            list.resize(BLOCK * blocks, 0.0);
+        }
+        self.phases.resize(blocks, Phases::default());
+        self.due.resize(blocks, f64::NEG_INFINITY);
+    }
+}
+
+/// The places of the bits that are set, the lowest first.
+#[inline(always)]
+pub(super) fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < BLOCK).then_some(lane)
+    })
+}
+
+/// A contact on loan.
+pub struct Edited<'a> {
+    contact: Contact,
+    place: usize,
+    list: &'a mut ContactList,
+}
+
+impl Deref for Edited<'_> {
+    type Target = Contact;
+
+    #[inline]
+    fn deref(&self) -> &Contact {
+        &self.contact
+    }
+}
+
+impl DerefMut for Edited<'_> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut Contact {
+        &mut self.contact
+    }
+}
+
+impl Drop for Edited<'_> {
+    #[inline]
+    fn drop(&mut self) {
+        self.list.set(self.place, &self.contact);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contacts_come_back_as_they_were_put() {
+        let mut list = ContactList::default();
+        list.resize(11);
+        let modes = [Mode::Open, Mode::Loading, Mode::Unloading, Mode::Hold];
+        let grips = [Grip::Stick, Grip::Slip, Grip::Slide, Grip::Hold];
+        let contact = |place: usize| Contact {
+            law: place as u32,
+            mode: modes[place % 4],
+            overlap: 0.5 * place as f64,
+            normal_force: 1.5,
+            tangential: Slider { elongation: -2.0, held: 3.0, grip: grips[(place / 4) % 4] },
+        };
+        for place in 0..11 {
+            list.set(place, &contact(place));
+        }
+        assert!((0..11).all(|place| list.get(place) == contact(place)));
+        assert_eq!(list.touching().collect::<Vec<_>>(), [1, 2, 3, 5, 6, 7, 9, 10]);
+        list.edit(10).mode = Mode::Open;
+        assert_eq!(list.get(10), Contact { mode: Mode::Open, ..contact(10) });
+        assert_eq!(list.get(9), contact(9));
+    }
+}

@@ -1,0 +1,215 @@
+//! Cells: atoms are sorted into squares as wide as most of them reach, and each is compared with those of the nine squares
+//! around it (linked cells: Hockney and Eastwood 1981), in one pass over lists that lie row by row.
+//!
+//! Atoms much larger than most stand beside the cells: each is compared with all cells that it covers. So one large disc
+//! under a thousand grains does not make all cells as large as itself, and costs no more than the cells under it.
+
+use glam::DVec2;
+
+use super::AtomPair;
+use crate::world::Bodies;
+
+/// An atom is large when its radius is so many times that of most.
+const LARGE: f64 = 2.0;
+/// The share of atoms that counts as most.
+const MOST: f64 = 0.75;
+/// Cells along a side, at most: indices stay small, and what is strewn over a plain lies in fewer, wider ones.
+const LONGEST: f64 = 8192.0;
+/// Cells per atom, at most.
+const CELLS_PER_ATOM: f64 = 4.0;
+
+/// An atom as the search sees it.
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    center: DVec2,
+    /// Radius and half the margin.
+    reach: f64,
+    atom: u32,
+    body: u32,
+}
+
+/// All pairs of atoms of different bodies that are nearer than `margin` metres and do not both stand still, in canonical order.
+pub(super) fn pairs(bodies: &Bodies, margin: f64) -> Vec<AtomPair> {
+    let entry = |atom: usize| Entry {
+        center: bodies.atom_position[atom],
+        reach: bodies.atom_radius[atom] + margin / 2.0,
+        atom: atom as u32,
+        body: bodies.atom_body[atom],
+    };
+    let touching =
+        |atom: &usize| bodies.collides[bodies.atom_body[*atom] as usize] && bodies.atom_position[*atom].is_finite();
+    let mut all: Vec<Entry> = (0..bodies.atom_count()).filter(touching).map(entry).collect();
+    let limit = LARGE * usual_reach(&all);
+    let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
+    all.retain(|entry| entry.reach <= limit);
+    let cells = Cells::of(&all);
+    let mut pairs = Vec::with_capacity(4 * all.len());
+    let mut found = Vec::new();
+    let moves = |a: u32, b: u32| bodies.dynamic[a as usize] || bodies.dynamic[b as usize];
+    for entry in &all {
+        found.clear();
+        cells.near(entry, cells.reach, |other| {
+            if other.atom > entry.atom && moves(entry.body, other.body) {
+                found.push(other.atom);
+            }
+        });
+        found.sort_unstable();
+        pairs.extend(found.iter().map(|&other| AtomPair { a: entry.atom, b: other }));
+    }
+    let sorted = pairs.len();
+    for (place, entry) in large.iter().enumerate() {
+        let mut push = |other: &Entry| {
+            if moves(entry.body, other.body) {
+                pairs.push(AtomPair { a: entry.atom.min(other.atom), b: entry.atom.max(other.atom) });
+            }
+        };
+        cells.near(entry, cells.reach, &mut push);
+        large[place + 1..].iter().filter(|other| are_near(entry, other)).for_each(push);
+    }
+    if pairs.len() > sorted {
+        // Two sorted runs and a little more: nearly linear.
+        pairs.sort();
+    }
+    pairs
+}
+
+/// The reach that most atoms do not exceed.
+fn usual_reach(all: &[Entry]) -> f64 {
+    let mut reaches: Vec<f64> = all.iter().map(|entry| entry.reach).collect();
+    if reaches.is_empty() {
+        return 0.0;
+    }
+    let most = ((reaches.len() - 1) as f64 * MOST) as usize;
+    *reaches.select_nth_unstable_by(most, f64::total_cmp).1
+}
+
+#[inline]
+fn are_near(a: &Entry, b: &Entry) -> bool {
+    let reach = a.reach + b.reach;
+    a.body != b.body && a.center.distance_squared(b.center) < reach * reach
+}
+
+struct Cells {
+    low: DVec2,
+    /// Cells per metre.
+    per_meter: f64,
+    columns: usize,
+    rows: usize,
+    /// First entry of each cell, row by row, and the number of entries at the end.
+    first: Vec<u32>,
+    entries: Vec<Entry>,
+    /// The greatest reach of any.
+    reach: f64,
+}
+
+impl Cells {
+    fn of(all: &[Entry]) -> Self {
+        let none = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0.0_f64);
+        let (low, high, reach) = all.iter().fold(none, |(low, high, reach), entry| {
+            (low.min(entry.center), high.max(entry.center), reach.max(entry.reach))
+        });
+        let size = if all.is_empty() { DVec2::ZERO } else { high - low };
+        let enough = (size.x * size.y / (CELLS_PER_ATOM * all.len() as f64)).sqrt();
+        let width = (2.0 * reach).max(size.max_element() / LONGEST).max(enough).max(f64::MIN_POSITIVE);
+        let per_meter = 1.0 / width;
+        let count = |length: f64| (length * per_meter) as usize + 1;
+        let (columns, rows) = (count(size.x), count(size.y));
+        let mut cells =
+            Self { low, per_meter, columns, rows, first: vec![0; columns * rows + 1], entries: Vec::new(), reach };
+        let places: Vec<u32> = all.iter().map(|entry| cells.cell(entry.center) as u32).collect();
+        for &place in &places {
+            cells.first[place as usize + 1] += 1;
+        }
+        for cell in 0..columns * rows {
+            cells.first[cell + 1] += cells.first[cell];
+        }
+        let mut next = cells.first.clone();
+        cells.entries = vec![Entry::default(); all.len()];
+        for (entry, &place) in all.iter().zip(&places) {
+            let slot = &mut next[place as usize];
+            cells.entries[*slot as usize] = *entry;
+            *slot += 1;
+        }
+        cells
+    }
+
+    fn column_and_row(&self, place: DVec2) -> (usize, usize) {
+        let at = (place - self.low) * self.per_meter;
+        // A negative number becomes zero.
+        ((at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1))
+    }
+
+    fn cell(&self, place: DVec2) -> usize {
+        let (column, row) = self.column_and_row(place);
+        row * self.columns + column
+    }
+
+    /// Shows all entries of other bodies near to one; `reach` is the greatest that they have.
+    #[inline]
+    fn near(&self, entry: &Entry, reach: f64, mut see: impl FnMut(&Entry)) {
+        if self.entries.is_empty() {
+            return;
+        }
+        let around = DVec2::splat(entry.reach + reach);
+        let (first_column, first_row) = self.column_and_row(entry.center - around);
+        let (last_column, last_row) = self.column_and_row(entry.center + around);
+        for row in first_row..=last_row {
+            let first = self.first[row * self.columns + first_column] as usize;
+            let last = self.first[row * self.columns + last_column + 1] as usize;
+            self.entries[first..last].iter().filter(|other| are_near(entry, other)).for_each(&mut see);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy_ecs::prelude::Entity;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
+
+    use super::super::{Search, sweep};
+    use super::*;
+    use crate::bounds::Bounds;
+
+    /// Discs strewn over a square; some are a hundred times as large, some do not collide, some stand.
+    fn strewn(seed: u64, count: usize, side: f64) -> (Bodies, Bounds) {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let (mut bodies, mut bounds) = (Bodies::default(), Bounds::default());
+        bounds.margin = 0.05;
+        bodies.first_atom.push(0);
+        for body in 0..count {
+            let atoms = if body % 5 == 0 { 3 } else { 1 };
+            let center = side * DVec2::new(chance(), chance());
+            let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+            for _ in 0..atoms {
+                let radius = if chance() < 0.02 { 0.3 * side * chance() } else { 0.1 + 0.1 * chance() };
+                let place = center + 0.1 * DVec2::new(chance(), chance());
+                bodies.atom_position.push(place);
+                bodies.atom_radius.push(radius);
+                bodies.atom_offset.push(DVec2::ZERO);
+                bodies.atom_body.push(body as u32);
+                let reach = DVec2::splat(radius + bounds.margin / 2.0);
+                (low, high) = (low.min(place - reach), high.max(place + reach));
+            }
+            bodies.first_atom.push(bodies.atom_radius.len() as u32);
+            bodies.entity.push(Entity::PLACEHOLDER);
+            bodies.collides.push(chance() < 0.9);
+            bodies.dynamic.push(chance() < 0.8);
+            bounds.low.push(low);
+            bounds.high.push(high);
+        }
+        (bodies, bounds)
+    }
+
+    #[test]
+    fn cells_find_what_a_sweep_finds() {
+        for (seed, count, side) in [(1, 300, 6.0), (2, 300, 60.0), (3, 2000, 12.0), (4, 7, 1.0), (5, 1, 1.0)] {
+            let (bodies, bounds) = strewn(seed, count, side);
+            let found = pairs(&bodies, bounds.margin);
+            assert_eq!(found, sweep::pairs(&bodies, &bounds), "seed {seed}");
+            assert!(count < 10 || found.len() > 10, "{} pairs", found.len());
+        }
+        assert_eq!(Search::suiting(&Bodies::default()), Search::Sweep);
+    }
+}

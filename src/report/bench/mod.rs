@@ -1,0 +1,224 @@
+//! What ticks of a scene cost: timed in rounds, beside a plain loop that does the same work without an engine.
+//!
+//! Both begin at the same state, the plain loop with springs that hold nothing, and run by turns, round by round, so that what slows the computer for a while slows both. A
+//! round that is not timed goes ahead. Where the time goes is looked at in a run of its own, for looking takes time.
+
+mod cells;
+mod memory;
+mod plain;
+mod spread;
+
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+
+pub use memory::resident;
+pub use plain::Plain;
+pub use spread::Spread;
+
+use crate::contacts::CandidatePairs;
+use crate::scene::SceneErrors;
+use crate::simulation::{Plan, Simulation};
+use crate::tick::Failure;
+use crate::tick::stopwatch::{self, Part, Stopwatch};
+
+/// Ticks times atoms of a round: a fifth of a second, about.
+const WORK: u64 = 2_000_000;
+/// The same where it has to be quick.
+const QUICK_WORK: u64 = 100_000;
+
+/// What is to be measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Order {
+    /// Ticks of a round; none: what takes a fifth of a second, within the duration of the scene.
+    pub ticks: Option<u64>,
+    /// How many rounds are timed.
+    pub rounds: u32,
+    /// Whether rounds are to be short.
+    pub quick: bool,
+    /// Seconds of physics that go ahead of everything.
+    pub from: f64,
+}
+
+impl Order {
+    /// Ticks of a round of a scene. They do not depend on how fast the computer is, so the state in the end does not either.
+    pub fn ticks_of(&self, simulation: &Simulation) -> u64 {
+        let work = if self.quick { QUICK_WORK } else { WORK };
+        let cheap = work / simulation.bodies().atom_count().max(1) as u64;
+        let within = simulation.ticks().saturating_sub(self.first_tick(simulation)) / (u64::from(self.rounds) + 1);
+        self.ticks.unwrap_or(cheap.min(within)).max(1)
+    }
+
+    /// Ticks that go ahead of everything.
+    fn first_tick(&self, simulation: &Simulation) -> u64 {
+        (self.from / simulation.clock().dt).round() as u64
+    }
+
+    /// How many steps of a progress bar one scene takes.
+    pub fn steps(&self) -> u64 {
+        u64::from(self.rounds) + 3
+    }
+}
+
+/// The plain loop beside the engine.
+#[derive(Clone, Copy, Debug)]
+pub struct Beside {
+    /// Nanoseconds of the plain loop per atom and tick.
+    pub ns_per_atom_tick: Spread,
+    /// Time of the engine over that of the plain loop, round by round.
+    pub ratio: Spread,
+    /// Kinetic energy of the plain loop in the end over that of the engine.
+    pub kinetic_energy: f64,
+}
+
+/// What was measured of a scene.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Bodies in the end.
+    pub bodies: usize,
+    /// Atoms in the end.
+    pub atoms: usize,
+    /// Ticks of a round.
+    pub ticks: u64,
+    /// Ticks in all, those ahead included.
+    pub ticks_in_all: u64,
+    /// Seconds of a tick.
+    pub tick: f64,
+    /// The method.
+    pub method: String,
+    /// Pairs of atoms, and of atoms and walls, that are near each other in the end.
+    pub near: usize,
+    /// Those of them that touch.
+    pub touching: usize,
+    /// Microseconds per tick.
+    pub us_per_tick: Spread,
+    /// Nanoseconds per atom and tick.
+    pub ns_per_atom_tick: Spread,
+    /// The plain loop, or why there is none.
+    pub plain: Result<Beside, &'static str>,
+    /// Parts of the tick and their shares of it.
+    pub stages: Vec<(&'static str, f64)>,
+    /// Energy residual in J.
+    pub residual: f64,
+    /// The same as a share of the energy that went round.
+    pub residual_share: f64,
+    /// Hash of the state in the end.
+    pub hash: String,
+}
+
+/// Why nothing was measured.
+#[derive(Debug)]
+pub enum Stopped {
+    /// The scene is wrong.
+    Scene(SceneErrors),
+    /// The run went wrong.
+    Run(Failure),
+}
+
+impl From<SceneErrors> for Stopped {
+    fn from(errors: SceneErrors) -> Self {
+        Self::Scene(errors)
+    }
+}
+
+impl From<Failure> for Stopped {
+    fn from(failure: Failure) -> Self {
+        Self::Run(failure)
+    }
+}
+
+/// Measures a scene. `load` reads it, run as a plan says if there is one; `step` is told each time a step is done.
+///
+/// # Errors
+/// When the scene is wrong, or its run goes wrong.
+pub fn measure(
+    load: impl Fn(Option<Plan>) -> Result<Simulation, SceneErrors>,
+    order: Order,
+    step: impl Fn(),
+) -> Result<Measured, Stopped> {
+    let mut engine = load(None)?;
+    let ticks = order.ticks_of(&engine);
+    let first = order.first_tick(&engine);
+    engine.run_to_tick(first)?;
+    step();
+    let atoms = engine.bodies().atom_count();
+    let mut plain = Plain::of(&engine);
+    let mut round = |plain: &mut Result<Plain, &'static str>| -> Result<(f64, f64), Failure> {
+        let until = engine.clock().ticks + ticks;
+        let spent = timed(|| engine.run_to_tick(until));
+        spent.1?;
+        let beside = plain.as_mut().map_or(Duration::ZERO, |plain| timed(|| plain.run(ticks)).0);
+        step();
+        Ok((spent.0.as_secs_f64(), beside.as_secs_f64()))
+    };
+    round(&mut plain)?;
+    let rounds = (0..order.rounds).map(|_| round(&mut plain)).collect::<Result<Vec<_>, _>>()?;
+    let of = |value: &dyn Fn(&(f64, f64)) -> f64| Spread::of(rounds.iter().map(value).collect());
+    let per_tick = 1.0 / ticks as f64;
+    let per_atom = 1e9 * per_tick / atoms.max(1) as f64;
+    let card = engine.card();
+    let (near, touching) = pairs(&engine);
+    let beside = plain.map(|plain| Beside {
+        ns_per_atom_tick: of(&|(_, plain)| plain * per_atom),
+        ratio: of(&|(engine, plain)| engine / plain.max(1e-9)),
+        kinetic_energy: plain.kinetic_energy() / card.energy.kinetic,
+    });
+    let measured = Measured {
+        bodies: engine.bodies().len(),
+        atoms,
+        ticks,
+        ticks_in_all: engine.clock().ticks,
+        tick: card.tick,
+        near,
+        touching,
+        us_per_tick: of(&|(engine, _)| engine * 1e6 * per_tick),
+        ns_per_atom_tick: of(&|(engine, _)| engine * per_atom),
+        plain: beside,
+        stages: Vec::new(),
+        residual: card.energy.residual,
+        residual_share: card.energy_error(),
+        hash: card.hash,
+        method: card.method,
+    };
+    let plan = engine.plan().cloned();
+    drop(engine);
+    let mut watched = load(plan)?;
+    stopwatch::watch(watched.world_mut());
+    watched.run_to_tick(first + ticks)?;
+    let before = watched.world().get_resource::<Stopwatch>().cloned();
+    watched.run_to_tick(first + 2 * ticks)?;
+    step();
+    Ok(Measured { stages: stages(before.as_ref(), watched.world().get_resource()), ..measured })
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
+    let start = Instant::now();
+    let done = work();
+    (start.elapsed(), done)
+}
+
+/// How many pairs are near each other, and how many of them touch.
+fn pairs(simulation: &Simulation) -> (usize, usize) {
+    let bodies = simulation.bodies();
+    let Some(pairs) = simulation.world().get_resource::<CandidatePairs>() else { return (0, 0) };
+    let (place, radius) = (&bodies.atom_position, &bodies.atom_radius);
+    let touch = |a: usize, b: usize| DVec2::distance(place[a], place[b]) < radius[a] + radius[b];
+    let atoms = pairs.atoms.iter().filter(|pair| touch(pair.a as usize, pair.b as usize)).count();
+    let meets = |wall: usize, atom: usize| {
+        let wall = &bodies.walls[wall];
+        (place[atom] - wall.point).dot(wall.normal) < radius[atom]
+    };
+    let walls = pairs.walls.iter().filter(|pair| meets(pair.wall as usize, pair.atom as usize)).count();
+    (pairs.atoms.len() + pairs.walls.len(), atoms + walls)
+}
+
+/// Shares of the time that was spent between two looks at a stopwatch.
+fn stages(before: Option<&Stopwatch>, after: Option<&Stopwatch>) -> Vec<(&'static str, f64)> {
+    let Some((before, after)) = before.zip(after) else { return Vec::new() };
+    let parts = Part::ALL.into_iter().filter(|part| *part != Part::Between);
+    let spent = |part| (after.spent(part) - before.spent(part)).as_secs_f64();
+    let spent: Vec<_> = parts.map(|part| (part.name(), spent(part))).collect();
+    let all: f64 = spent.iter().map(|(_, spent)| spent).sum();
+    let counts = spent.into_iter().filter(|(_, spent)| *spent > 0.0);
+    counts.map(|(name, spent)| (name, spent / all)).collect()
+}

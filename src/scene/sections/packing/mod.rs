@@ -1,0 +1,114 @@
+//! `packings`: many bodies whose places stand in a table beside the scene.
+
+mod table;
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::world::{material, sections};
+
+pub use table::{PackedBody, PackingTable, Wrong};
+
+/// The largest number of atoms of all entries together.
+pub const MOST_ATOMS: u64 = 1_000_000;
+
+/// Bodies from one table.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Packing")]
+pub struct PackingEntry {
+    /// What their names begin with.
+    pub name: String,
+    /// The table: a path from the folder of the file in which this stands, of comma-separated values; a name that ends in
+    /// `.gz` is decompressed.
+    pub file: String,
+    /// The name of their material. Default: `default`.
+    #[serde(default)]
+    pub material: Option<String>,
+    /// Which table was read for it. Not written by hand.
+    #[serde(default)]
+    #[schemars(skip)]
+    pub table: Option<u64>,
+}
+
+/// Many bodies whose places stand in a table beside the scene. The bodies of `grain` are called `grain_0`, `grain_1` and so
+/// on, in the order of the rows; at most 1 000 000 atoms in all.
+///
+/// The first line names the columns, in any order; the others hold a row of numbers for each atom, in SI units, without
+/// them. `x`, `y` and `radius` are needed; `vx` and `vy` (the velocity of the atom's centre), `spin`, `angle` and `body` may
+/// be there. Rows of the same `body`, a whole number, form one rigid body; without that column each row is a disc of its own.
+/// Masses follow from the material's density, the velocity of a rigid body from those of its atoms, its spin too if there is
+/// no such column. Empty lines and lines that begin with `#` are left out.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+pub struct PackingsSection(pub Vec<PackingEntry>);
+
+impl Section for PackingsSection {
+    const NAME: &'static str = "packings";
+    const EXAMPLE: &'static str = "packings: [(name: \"grain\", file: \"packings/grains.csv\", material: \"sand\")]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    /// Declares the bodies' names and the places they take.
+    fn declare(&self, outline: &mut Outline) {
+        for (index, entry) in self.0.iter().enumerate() {
+            let Some(table) = entry.read(outline) else { continue };
+            let path = format!("[{index}].name");
+            // One message about a bad name is enough.
+            let mut numbers = 0..table.body_count() as u64;
+            numbers.all(|number| outline.declare(Kind::BODY, &entry.body_name(number), &path));
+            for (center, radius) in table.discs() {
+                outline.occupy(Obstacle::Disc { center, radius });
+            }
+        }
+    }
+
+    /// Reports unknown materials, tables that nobody has read, too many atoms, and atoms too large for numbers.
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        let mut atoms = 0;
+        for (index, entry) in self.0.iter().enumerate() {
+            report.within(&format!("[{index}]"), |report| {
+                material::require(entry.material.as_deref(), outline, report);
+                let Some(table) = entry.read(outline) else {
+                    let help = "`packings` stands in a scene that is in a file";
+                    report.error("file", "the table was not read").help(help);
+                    return;
+                };
+                atoms += table.atom_count() as u64;
+                let finite = |number| {
+                    let body = table.body(number, 1.0);
+                    body.properties.inertia.is_finite() && body.position.is_finite() && body.velocity.is_finite()
+                };
+                if let Some(number) = (0..table.body_count()).find(|&number| !finite(number)) {
+                    let name = entry.body_name(number as u64);
+                    let message = format!("{name}: its mass, place or velocity is too large to be a number");
+                    report.error("file", message).help("the table is in metres and m/s: look for a zero too many");
+                }
+            });
+        }
+        if atoms > MOST_ATOMS {
+            report.error("", format!("must be at most {MOST_ATOMS} atoms in all, got {atoms}"));
+        }
+    }
+
+    fn install(self, outline: &Outline, app: &mut App) {
+        sections::spawn_packings(self, outline, app.world_mut());
+    }
+}
+
+impl PackingEntry {
+    /// The name of one of the bodies, counted from zero.
+    pub fn body_name(&self, number: u64) -> String {
+        format!("{}_{number}", self.name)
+    }
+
+    /// Its table, as it was read.
+    pub fn read(&self, outline: &Outline) -> Option<Arc<PackingTable>> {
+        self.table.and_then(|table| outline.table(table))
+    }
+}

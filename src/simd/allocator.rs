@@ -1,0 +1,44 @@
+//! Memory that begins where a line of the cache begins.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+
+/// Bytes of a line of the cache, and of the widest vector.
+const LINE: usize = 64;
+
+/// The allocator of the system, but for one thing: whatever is at least a few lines long begins at a line of the cache. Vectors
+/// that are loaded from arrays otherwise lie across two lines, each of them, which costs a third of the time of
+/// a tick of many bodies.
+///
+/// A program that runs large scenes with the library makes it its own:
+///
+/// ```
+/// #[global_allocator]
+/// static LINES: jostle::simd::Lines = jostle::simd::Lines;
+/// ```
+pub struct Lines;
+
+fn of_lines(layout: Layout) -> Layout {
+    if layout.size() < 4 * LINE {
+        return layout;
+    }
+    layout.align_to(LINE).unwrap_or(layout)
+}
+
+// SAFETY: everything is done by the allocator of the system. Which alignment was asked of it follows from size and alignment
+// alone, both of which come back with the memory.
+unsafe impl GlobalAlloc for Lines {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: as the caller promises; a stricter alignment serves as well.
+        unsafe { System.alloc(of_lines(layout)) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: likewise.
+        unsafe { System.alloc_zeroed(of_lines(layout)) }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        // SAFETY: it was allocated with the same layout.
+        unsafe { System.dealloc(memory, of_lines(layout)) }
+    }
+}

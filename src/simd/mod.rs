@@ -1,0 +1,104 @@
+//! Numbers side by side: the same arithmetic on one, two, four or eight of them at once.
+//!
+//! A kernel is written once, generic over [`Lanes`], and compiled for each [`Level`] of the processor; which one runs is
+//! chosen when the program starts. All levels give the same bits: each operation is the one of IEEE 754 on each lane,
+//! nothing is fused, and sums over lanes are kept apart in eight partial sums whatever the width.
+//!
+//! This is the one place of the project where `unsafe` stands: vector instructions may be called only where the
+//! processor has them, and [`run`] looks before it calls.
+#![allow(unsafe_code)]
+
+mod allocator;
+mod level;
+mod scalar;
+#[cfg(test)]
+mod tests;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use glam::DVec2;
+
+pub use allocator::Lines;
+pub use level::{Kernel, Level, run};
+
+/// Eight numbers that belong together and are loaded as one: a line of the cache.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(64))]
+pub struct Record(pub [f64; BLOCK]);
+
+/// Numbers in a block. Partial sums are as many, whatever the number of lanes.
+pub const BLOCK: usize = 8;
+
+/// Several numbers side by side.
+pub trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// How many: a divisor of [`BLOCK`].
+    const COUNT: usize;
+
+    /// For each lane yes or no.
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+
+    /// The same number in all lanes.
+    fn splat(number: f64) -> Self;
+
+    /// The first [`Lanes::COUNT`] numbers of a list.
+    fn load(numbers: &[f64]) -> Self;
+
+    /// Writes the lanes to the beginning of a list.
+    fn store(self, numbers: &mut [f64]);
+
+    /// The numbers at the first [`Lanes::COUNT`] places of a list of places.
+    fn gather(numbers: &[f64], places: &[u32]) -> Self;
+
+    /// As many pairs from the beginning of a list: their first numbers, and their second ones.
+    fn load_pairs(pairs: &[DVec2]) -> (Self, Self);
+
+    /// Writes pairs to the beginning of a list.
+    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]);
+
+    /// The records at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
+    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK];
+
+    /// The square root of each.
+    fn sqrt(self) -> Self;
+
+    /// The magnitude of each.
+    fn abs(self) -> Self;
+
+    /// The magnitude of each with the sign of the other.
+    fn copysign(self, sign: Self) -> Self;
+
+    /// Where it is less.
+    fn lt(self, other: Self) -> Self::Mask;
+
+    /// Where it is greater.
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+
+    /// The lower bits as a mask, the lowest for the first lane.
+    fn mask(bits: u8) -> Self::Mask;
+
+    /// A mask as bits.
+    fn bits(mask: Self::Mask) -> u8;
+
+    /// The first where the mask says so, else the second.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// Zero where a number is less; zero for what is no number.
+    #[inline(always)]
+    fn at_least_zero(self) -> Self {
+        let zero = Self::splat(0.0);
+        Self::select(self.gt(zero), self, zero)
+    }
+
+    /// The number where the mask says so, else zero.
+    #[inline(always)]
+    fn only(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::splat(0.0))
+    }
+}

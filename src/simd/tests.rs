@@ -1,0 +1,88 @@
+use glam::DVec2;
+
+use super::*;
+
+/// Each operation on numbers that are hard to get right, as bits.
+struct Everything<'a> {
+    numbers: &'a [f64; BLOCK],
+    others: &'a [f64; BLOCK],
+}
+
+impl Kernel for Everything<'_> {
+    type Output = Vec<u64>;
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) -> Vec<u64> {
+        let mut results = vec![[0.0; BLOCK]; 17];
+        let mut bits = [0_u8; 5];
+        let records: Vec<Record> = (0..BLOCK)
+            .map(|row| Record(std::array::from_fn(|column| self.numbers[row] + (10 * column) as f64)))
+            .collect();
+        let places = [3, 0, 7, 1, 6, 2, 5, 4];
+        let pairs: Vec<DVec2> = (0..BLOCK).map(|place| DVec2::new(self.numbers[place], self.others[place])).collect();
+        let mut swapped = [DVec2::ZERO; BLOCK];
+        let mut lane = 0;
+        while lane < BLOCK {
+            let (a, b) = (V::load(&self.numbers[lane..]), V::load(&self.others[lane..]));
+            let transposed = V::records(&records, &places[lane..]);
+            let chosen = V::mask(0b1011_0010 >> lane);
+            let both = V::load_pairs(&pairs[lane..]);
+            V::store_pairs(both.1, both.0, &mut swapped[lane..]);
+            let made = [
+                a + b,
+                a - b,
+                a * b,
+                a / b,
+                -a,
+                a.sqrt(),
+                a.abs(),
+                a.copysign(b),
+                a.at_least_zero(),
+                a.only(chosen),
+                V::select(chosen, a, b),
+                transposed[0],
+                transposed[5],
+                transposed[7],
+                both.0,
+                V::splat(1.5) * both.1,
+                V::gather(self.others, &places[lane..]),
+            ];
+            for (result, made) in results.iter_mut().zip(made) {
+                made.store(&mut result[lane..]);
+            }
+            let masks = [a.lt(b), a.gt(b), !chosen, chosen & a.lt(b), chosen | a.lt(b)];
+            let kept = ((1_u16 << V::COUNT) - 1) as u8;
+            for (bits, mask) in bits.iter_mut().zip(masks) {
+                *bits |= (V::bits(mask) & kept) << lane;
+            }
+            lane += V::COUNT;
+        }
+        let swapped = swapped.iter().flat_map(|pair| [pair.x, pair.y]);
+        let numbers = results.into_iter().flatten().chain(swapped).map(f64::to_bits);
+        numbers.chain(bits.map(u64::from)).collect()
+    }
+}
+
+/// Promise: all levels give the same bits. What is no number may have any bits of those that are none.
+#[test]
+fn all_levels_give_the_same_bits() {
+    let numbers = [1.0 / 3.0, -0.0, f64::MIN_POSITIVE / 8.0, -2.5e300, f64::INFINITY, f64::NAN, 7.0, 0.0];
+    let others = [-1.0 / 7.0, 0.0, 3.0, 2.5e300, 1.0, 1.0, 7.0, -0.0];
+    let same = |bits: &u64| if f64::from_bits(*bits).is_nan() { u64::MAX } else { *bits };
+    let expected = run(Level::Scalar, Everything { numbers: &numbers, others: &others });
+    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        let found = run(level, Everything { numbers: &numbers, others: &others });
+        assert!(found.iter().map(same).eq(expected.iter().map(same)), "{level}: {found:x?}, not {expected:x?}");
+    }
+    // The scalar level itself.
+    assert_eq!(f64::from_bits(expected[0]), 1.0 / 3.0 - 1.0 / 7.0);
+    assert_eq!(expected[expected.len() - 5], 0b0000_1100);
+}
+
+#[test]
+fn a_level_is_named_by_its_word() {
+    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        assert_eq!(level.name().parse(), Ok(level));
+    }
+    assert!("sse9".parse::<Level>().unwrap_err().contains("`avx2`"));
+}

@@ -1,0 +1,503 @@
+//! Two, four and eight lanes on x86-64.
+//!
+//! Each operation is one instruction of the processor. The types are made only inside [`super::run`], which has looked
+//! whether the instructions are there; that is what makes the calls below sound.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use glam::DVec2;
+
+use super::{BLOCK, Lanes, Record};
+
+macro_rules! operators {
+    ($name:ident: $($operation:ident $method:ident $instruction:ident),*) => {
+        $(impl $operation for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        })*
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.flip(Self::splat(-0.0))
+            }
+        }
+    };
+}
+
+/// Masks that are numbers with all bits set or none.
+macro_rules! bit_operators {
+    ($name:ident, $and:ident, $or:ident, $xor:ident, $all:expr) => {
+        impl BitAnd for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn bitand(self, other: Self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $and(self.0, other.0) })
+            }
+        }
+
+        impl BitOr for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn bitor(self, other: Self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $or(self.0, other.0) })
+            }
+        }
+
+        impl Not for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $xor(self.0, $all) })
+            }
+        }
+    };
+}
+
+/// Two numbers.
+#[derive(Clone, Copy)]
+pub struct F64x2(__m128d);
+
+/// Four numbers.
+#[derive(Clone, Copy)]
+pub struct F64x4(__m256d);
+
+/// Eight numbers.
+#[derive(Clone, Copy)]
+pub struct F64x8(__m512d);
+
+/// Eight times yes or no.
+#[derive(Clone, Copy)]
+pub struct Bits8(u8);
+
+operators!(F64x2: Add add _mm_add_pd, Sub sub _mm_sub_pd, Mul mul _mm_mul_pd, Div div _mm_div_pd);
+operators!(F64x4: Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
+operators!(F64x8: Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd);
+bit_operators!(F64x2, _mm_and_pd, _mm_or_pd, _mm_xor_pd, _mm_castsi128_pd(_mm_set1_epi64x(-1)));
+bit_operators!(F64x4, _mm256_and_pd, _mm256_or_pd, _mm256_xor_pd, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)));
+
+impl F64x2 {
+    #[inline(always)]
+    fn flip(self, signs: Self) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm_xor_pd(self.0, signs.0) })
+    }
+}
+
+impl F64x4 {
+    #[inline(always)]
+    fn flip(self, signs: Self) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm256_xor_pd(self.0, signs.0) })
+    }
+}
+
+impl F64x8 {
+    #[inline(always)]
+    fn flip(self, signs: Self) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm512_xor_pd(self.0, signs.0) })
+    }
+}
+
+impl BitAnd for Bits8 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl BitOr for Bits8 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl Not for Bits8 {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+impl Lanes for F64x2 {
+    const COUNT: usize = 2;
+    type Mask = Self;
+
+    #[inline(always)]
+    fn splat(number: f64) -> Self {
+        // SAFETY: each x86-64 processor has SSE2.
+        Self(unsafe { _mm_set1_pd(number) })
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[f64]) -> Self {
+        let numbers = &numbers[..Self::COUNT];
+        // SAFETY: as many numbers stand there.
+        Self(unsafe { _mm_loadu_pd(numbers.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [f64]) {
+        let numbers = &mut numbers[..Self::COUNT];
+        // SAFETY: there is room for as many.
+        unsafe { _mm_storeu_pd(numbers.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
+    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
+        let (first, second) = (&records[places[0] as usize].0, &records[places[1] as usize].0);
+        let mut transposed = [Self::splat(0.0); BLOCK];
+        for pair in 0..BLOCK / 2 {
+            let (first, second) = (Self::load(&first[2 * pair..]), Self::load(&second[2 * pair..]));
+            // SAFETY: each x86-64 processor has SSE2.
+            unsafe {
+                transposed[2 * pair] = Self(_mm_unpacklo_pd(first.0, second.0));
+                transposed[2 * pair + 1] = Self(_mm_unpackhi_pd(first.0, second.0));
+            }
+        }
+        transposed
+    }
+
+    #[inline(always)]
+    fn gather(numbers: &[f64], places: &[u32]) -> Self {
+        let at = |lane: usize| numbers[places[lane] as usize];
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm_set_pd(at(1), at(0)) })
+    }
+
+    #[inline(always)]
+    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
+        let pairs = &pairs[..Self::COUNT];
+        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
+        unsafe {
+            let first = pairs.as_ptr().cast::<f64>();
+            let (a, b) = (_mm_loadu_pd(first), _mm_loadu_pd(first.add(2)));
+            (Self(_mm_unpacklo_pd(a, b)), Self(_mm_unpackhi_pd(a, b)))
+        }
+    }
+
+    #[inline(always)]
+    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
+        let pairs = &mut pairs[..Self::COUNT];
+        // SAFETY: likewise.
+        unsafe {
+            let place = pairs.as_mut_ptr().cast::<f64>();
+            _mm_storeu_pd(place, _mm_unpacklo_pd(first.0, second.0));
+            _mm_storeu_pd(place.add(2), _mm_unpackhi_pd(first.0, second.0));
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: each x86-64 processor has SSE2.
+        Self(unsafe { _mm_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm_andnot_pd(Self::splat(-0.0).0, self.0) })
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.abs() | (sign & Self::splat(-0.0))
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm_cmplt_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mask(bits: u8) -> Self {
+        let lane = |lane: u8| -i64::from((bits >> lane) & 1);
+        // SAFETY: likewise.
+        Self(unsafe { _mm_castsi128_pd(_mm_set_epi64x(lane(1), lane(0))) })
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self) -> u8 {
+        // SAFETY: likewise.
+        unsafe { _mm_movemask_pd(mask.0) as u8 }
+    }
+
+    #[inline(always)]
+    fn select(mask: Self, yes: Self, no: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm_or_pd(_mm_and_pd(mask.0, yes.0), _mm_andnot_pd(mask.0, no.0)) })
+    }
+}
+
+impl Lanes for F64x4 {
+    const COUNT: usize = 4;
+    type Mask = Self;
+
+    #[inline(always)]
+    fn splat(number: f64) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm256_set1_pd(number) })
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[f64]) -> Self {
+        let numbers = &numbers[..Self::COUNT];
+        // SAFETY: as many numbers stand there.
+        Self(unsafe { _mm256_loadu_pd(numbers.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [f64]) {
+        let numbers = &mut numbers[..Self::COUNT];
+        // SAFETY: there is room for as many.
+        unsafe { _mm256_storeu_pd(numbers.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
+    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
+        let row = |lane: usize| &records[places[lane] as usize].0;
+        let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+        let mut transposed = [Self::splat(0.0); BLOCK];
+        let mut half = 0;
+        while half < BLOCK {
+            let (a, b) = (Self::load(&a[half..]), Self::load(&b[half..]));
+            let (c, d) = (Self::load(&c[half..]), Self::load(&d[half..]));
+            // SAFETY: see the head of the file.
+            unsafe {
+                let (even, odd) = (_mm256_unpacklo_pd(a.0, b.0), _mm256_unpackhi_pd(a.0, b.0));
+                let (even_too, odd_too) = (_mm256_unpacklo_pd(c.0, d.0), _mm256_unpackhi_pd(c.0, d.0));
+                transposed[half] = Self(_mm256_permute2f128_pd::<0x20>(even, even_too));
+                transposed[half + 1] = Self(_mm256_permute2f128_pd::<0x20>(odd, odd_too));
+                transposed[half + 2] = Self(_mm256_permute2f128_pd::<0x31>(even, even_too));
+                transposed[half + 3] = Self(_mm256_permute2f128_pd::<0x31>(odd, odd_too));
+            }
+            half += 4;
+        }
+        transposed
+    }
+
+    #[inline(always)]
+    fn gather(numbers: &[f64], places: &[u32]) -> Self {
+        let at = |lane: usize| numbers[places[lane] as usize];
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm256_set_pd(at(3), at(2), at(1), at(0)) })
+    }
+
+    #[inline(always)]
+    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
+        let pairs = &pairs[..Self::COUNT];
+        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
+        unsafe {
+            let place = pairs.as_ptr().cast::<f64>();
+            let (low, high) = (_mm256_loadu_pd(place), _mm256_loadu_pd(place.add(4)));
+            // Pairs 0 and 2, pairs 1 and 3.
+            let even = _mm256_permute2f128_pd::<0x20>(low, high);
+            let odd = _mm256_permute2f128_pd::<0x31>(low, high);
+            (Self(_mm256_unpacklo_pd(even, odd)), Self(_mm256_unpackhi_pd(even, odd)))
+        }
+    }
+
+    #[inline(always)]
+    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
+        let pairs = &mut pairs[..Self::COUNT];
+        // SAFETY: likewise.
+        unsafe {
+            let place = pairs.as_mut_ptr().cast::<f64>();
+            let (even, odd) = (_mm256_unpacklo_pd(first.0, second.0), _mm256_unpackhi_pd(first.0, second.0));
+            _mm256_storeu_pd(place, _mm256_permute2f128_pd::<0x20>(even, odd));
+            _mm256_storeu_pd(place.add(4), _mm256_permute2f128_pd::<0x31>(even, odd));
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm256_andnot_pd(Self::splat(-0.0).0, self.0) })
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.abs() | (sign & Self::splat(-0.0))
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mask(bits: u8) -> Self {
+        // SAFETY: likewise.
+        unsafe {
+            let places = _mm256_set_epi64x(8, 4, 2, 1);
+            let chosen = _mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), places);
+            Self(_mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, places)))
+        }
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self) -> u8 {
+        // SAFETY: likewise.
+        unsafe { _mm256_movemask_pd(mask.0) as u8 }
+    }
+
+    #[inline(always)]
+    fn select(mask: Self, yes: Self, no: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+    }
+}
+
+impl Lanes for F64x8 {
+    const COUNT: usize = 8;
+    type Mask = Bits8;
+
+    #[inline(always)]
+    fn splat(number: f64) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm512_set1_pd(number) })
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[f64]) -> Self {
+        let numbers = &numbers[..Self::COUNT];
+        // SAFETY: as many numbers stand there.
+        Self(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [f64]) {
+        let numbers = &mut numbers[..Self::COUNT];
+        // SAFETY: there is room for as many.
+        unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) }
+    }
+
+    /// A transposition of eight lines: pairs of numbers within quarters, then quarters, then halves.
+    #[inline(always)]
+    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
+        let row = |lane: usize| Self::load(&records[places[lane] as usize].0).0;
+        let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+        let (e, f, g, h) = (row(4), row(5), row(6), row(7));
+        // SAFETY: see the head of the file.
+        unsafe {
+            let (even_ab, odd_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+            let (even_cd, odd_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
+            let (even_ef, odd_ef) = (_mm512_unpacklo_pd(e, f), _mm512_unpackhi_pd(e, f));
+            let (even_gh, odd_gh) = (_mm512_unpacklo_pd(g, h), _mm512_unpackhi_pd(g, h));
+            // Quarters 0 and 2, then quarters 1 and 3, of two pairs of rows each.
+            let even_02 = _mm512_shuffle_f64x2::<0x88>(even_ab, even_cd);
+            let even_02_too = _mm512_shuffle_f64x2::<0x88>(even_ef, even_gh);
+            let even_13 = _mm512_shuffle_f64x2::<0xdd>(even_ab, even_cd);
+            let even_13_too = _mm512_shuffle_f64x2::<0xdd>(even_ef, even_gh);
+            let odd_02 = _mm512_shuffle_f64x2::<0x88>(odd_ab, odd_cd);
+            let odd_02_too = _mm512_shuffle_f64x2::<0x88>(odd_ef, odd_gh);
+            let odd_13 = _mm512_shuffle_f64x2::<0xdd>(odd_ab, odd_cd);
+            let odd_13_too = _mm512_shuffle_f64x2::<0xdd>(odd_ef, odd_gh);
+            [
+                Self(_mm512_shuffle_f64x2::<0x88>(even_02, even_02_too)),
+                Self(_mm512_shuffle_f64x2::<0x88>(odd_02, odd_02_too)),
+                Self(_mm512_shuffle_f64x2::<0x88>(even_13, even_13_too)),
+                Self(_mm512_shuffle_f64x2::<0x88>(odd_13, odd_13_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(even_02, even_02_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(odd_02, odd_02_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(even_13, even_13_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(odd_13, odd_13_too)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn gather(numbers: &[f64], places: &[u32]) -> Self {
+        let at = |lane: usize| numbers[places[lane] as usize];
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm512_set_pd(at(7), at(6), at(5), at(4), at(3), at(2), at(1), at(0)) })
+    }
+
+    #[inline(always)]
+    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
+        let pairs = &pairs[..Self::COUNT];
+        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
+        unsafe {
+            let place = pairs.as_ptr().cast::<f64>();
+            let (low, high) = (_mm512_loadu_pd(place), _mm512_loadu_pd(place.add(8)));
+            let first = _mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0);
+            let second = _mm512_set_epi64(15, 13, 11, 9, 7, 5, 3, 1);
+            (Self(_mm512_permutex2var_pd(low, first, high)), Self(_mm512_permutex2var_pd(low, second, high)))
+        }
+    }
+
+    #[inline(always)]
+    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
+        let pairs = &mut pairs[..Self::COUNT];
+        // SAFETY: likewise.
+        unsafe {
+            let place = pairs.as_mut_ptr().cast::<f64>();
+            let low = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0);
+            let high = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
+            _mm512_storeu_pd(place, _mm512_permutex2var_pd(first.0, low, second.0));
+            _mm512_storeu_pd(place.add(8), _mm512_permutex2var_pd(first.0, high, second.0));
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see the head of the file.
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm512_andnot_pd(Self::splat(-0.0).0, self.0) })
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm512_or_pd(self.abs().0, _mm512_and_pd(sign.0, Self::splat(-0.0).0)) })
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> Bits8 {
+        // SAFETY: likewise.
+        Bits8(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mask(bits: u8) -> Bits8 {
+        Bits8(bits)
+    }
+
+    #[inline(always)]
+    fn bits(mask: Bits8) -> u8 {
+        mask.0
+    }
+
+    #[inline(always)]
+    fn select(mask: Bits8, yes: Self, no: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}

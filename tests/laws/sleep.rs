@@ -1,0 +1,54 @@
+//! Law: leaving bodies at rest out of the work changes nothing, before and after they wake (numerics: a body whose forces
+//! balance and do not change stays where it is). A run in which each evaluation looks at them ends in the same bits.
+//!
+//! Tolerances: none.
+//!
+//! Not tested: bodies at rest under forces that change, which are always looked at.
+
+use jostle::Simulation;
+use jostle::contacts::penalty::PenaltyContacts;
+use jostle::world::hash::state_hash;
+
+use super::support::{load, run_to};
+
+/// A heap that comes to rest, and is hit by a bullet at 4 s; a ball far away goes on falling.
+fn heap(normal: &str, grains: u32) -> String {
+    format!(
+        "Scene(format: 1, clock: (duration: 6, tick: 0.001, method: VelocityVerlet), gravity: (0, -5),
+        materials: {{ \"stone\": (stiffness: 20000, friction: 0.5, restitution: 0.3, density: 10) }},
+        contacts: Penalty(normal: {normal}),
+        walls: [(name: \"floor\", left: (3, 0), right: (0, 0), material: \"stone\"),
+                (name: \"left\", left: (0, 0), right: (0, 1), material: \"stone\"),
+                (name: \"right\", left: (3, 1), right: (3, 0), material: \"stone\")],
+        fill: [(name: \"grain\", atoms: Disc(radius: 0.1), material: \"stone\", count: {grains}, within: ((0.1, 0.1), (2.9, 1.5)))],
+        bodies: [
+            (name: \"block\", at: (1.5, 1.8), material: \"stone\",
+             atoms: Picture(spacing: 0.2, mass: 0.3, rows: [\"##\", \"##\"])),
+            (name: \"bullet\", at: (1.5, 42), material: \"stone\", atoms: Disc(radius: 0.05)),
+        ],
+        sensors: [ContactForce(on: \"floor\")])"
+    )
+}
+
+fn load_awake(text: &str, may_sleep: bool) -> Simulation {
+    let mut simulation = load(text);
+    simulation.world_mut().resource_mut::<PenaltyContacts>().may_sleep = may_sleep;
+    simulation
+}
+
+#[test]
+fn sleep_changes_no_bit() {
+    for (normal, grains) in [("Inelasticity", 24), ("Dashpot", 3)] {
+        let text = heap(normal, grains);
+        let (mut asleep, mut awake) = (load_awake(&text, true), load_awake(&text, false));
+        let mut slept = false;
+        for time in [1.0, 2.0, 3.0, 3.9, 4.0, 4.1, 4.2, 5.0, 6.0] {
+            run_to(&mut asleep, time);
+            run_to(&mut awake, time);
+            assert_eq!(state_hash(asleep.bodies()), state_hash(awake.bodies()), "{normal} at {time} s");
+            assert!(awake.bodies().asleep.is_empty());
+            slept |= asleep.bodies().asleep.iter().any(|bits| *bits != 0);
+        }
+        assert!(slept, "{normal}: nobody slept");
+    }
+}
