@@ -17,7 +17,8 @@ const MARGIN_SHARE: f64 = 0.7;
 const FIRST_SHARE: f64 = 0.3;
 const LEAST_SHARE: f64 = 0.05;
 const MOST_SHARE: f64 = 6.0;
-/// What a search costs for each atom and for each pair that it finds, against what a pair costs in each evaluation.
+/// What a search costs for each atom and for each pair that it finds, against what a pair costs in each evaluation: rough
+/// figures, which decide how often lists are made and nothing else.
 const SEARCH_PER_ATOM: f64 = 12.0;
 const SEARCH_PER_PAIR: f64 = 3.0;
 /// Searches may cost this share of what pairs do; the margin shrinks where they cost less than a sixteenth of that.

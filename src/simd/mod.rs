@@ -6,7 +6,10 @@
 //!
 //! This is the one place of the project where `unsafe` stands: vector instructions may be called only where the
 //! processor has them, and [`run`] looks before it calls.
-#![allow(unsafe_code)]
+#![allow(
+    unsafe_code,
+    reason = "vector instructions, and an allocator that aligns, cannot be called otherwise; each call says why it is sound"
+)]
 
 mod allocator;
 mod level;

@@ -3,7 +3,8 @@
 //!
 //! Tolerances: none.
 //!
-//! Not tested: bodies at rest under forces that change, which are always looked at.
+//! Not tested: bodies at rest under forces that change, which are always looked at; piles in which a body is laid to rest in
+//! the very tick in which a sleeper is pushed, where such runs may part by rounding (ARCHITECTURE, Known limits).
 
 use jostle::Simulation;
 use jostle::contacts::penalty::PenaltyContacts;

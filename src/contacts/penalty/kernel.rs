@@ -1,8 +1,8 @@
 //! The kernel of contacts between atoms: candidate pairs are followed eight at a time, as many side by side as the
 //! processor can, and their forces go to the bodies pair by pair in canonical order.
 //!
-//! What a pair needs to know of an atom stands in one [`Record`], a line of the cache: loading the sixteen lines of eight
-//! pairs and transposing them costs a third of fetching each number where it lies.
+//! What a pair needs to know of an atom stands in one [`Record`], a line of the cache: the sixteen lines of eight pairs are
+//! loaded and transposed in registers.
 
 use std::marker::PhantomData;
 
