@@ -62,4 +62,7 @@ fn what_cannot_be_measured_is_told() {
     let ended = folder.jostle("bench explosion.ron example:tetris --ticks 200 --rounds 1").code(3);
     assert!(ended.out.contains("example:tetris"), "the others are measured: {}", ended.out);
     folder.jostle("bench example:tetris --rounds 0").code(2);
+    folder.jostle("bench example:tetris --from 1e9").code(2).says("the scene ends after 20 s");
+    let ended = folder.jostle("bench example:tetris --method RungeKutta4 --quick --ticks 5 --rounds 1").code(0);
+    assert!(ended.out.contains("its method is not velocity Verlet in whole ticks"), "{}", ended.out);
 }

@@ -125,6 +125,10 @@ impl Bench {
         let request = Request { name: scene, json: self.json };
         match stopped {
             Stopped::Scene(errors) => request.refuse_scene(errors),
+            Stopped::Ended(end) => {
+                let message = format!("--from {} s: the scene ends after {end} s", self.from);
+                request.refuse(Exit::Usage, "", &message, "an earlier moment, or --duration beyond it")
+            }
             Stopped::Run(failure) => {
                 let help = "a shorter tick, softer contacts or heavier bodies; `jostle run` tells more";
                 request.refuse(Exit::RunWrong, "", &failure.to_string(), help)

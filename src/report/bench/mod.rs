@@ -113,6 +113,8 @@ pub enum Stopped {
     Scene(SceneErrors),
     /// The run went wrong.
     Run(Failure),
+    /// The scene ends before anything is measured: after so many seconds.
+    Ended(f64),
 }
 
 impl From<SceneErrors> for Stopped {
@@ -130,7 +132,7 @@ impl From<Failure> for Stopped {
 /// Measures a scene. `load` reads it, run as a plan says if there is one; `step` is told each time a step is done.
 ///
 /// # Errors
-/// When the scene is wrong, or its run goes wrong.
+/// When the scene is wrong, its run goes wrong, or it ends before anything is measured.
 pub fn measure(
     load: impl Fn(Option<Plan>) -> Result<Simulation, SceneErrors>,
     order: Order,
@@ -139,6 +141,9 @@ pub fn measure(
     let mut engine = load(None)?;
     let ticks = order.ticks_of(&engine);
     let first = order.first_tick(&engine);
+    if first > 0 && first >= engine.ticks() {
+        return Err(Stopped::Ended(engine.ticks() as f64 * engine.clock().dt));
+    }
     engine.run_to_tick(first)?;
     step();
     let atoms = engine.bodies().atom_count();

@@ -11,6 +11,7 @@ use glam::DVec2;
 use super::cells::Cells;
 use crate::contacts::penalty::{NormalLaw, Penalty, RollingLaw};
 use crate::forces::gravity::Gravity;
+use crate::report::card::ChosenMethod;
 use crate::simulation::Simulation;
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials, PackedWall};
@@ -89,6 +90,10 @@ impl Plain {
         let (world, bodies) = (simulation.world(), simulation.bodies());
         if !simulation.header().outline.entries("forces").is_empty() {
             return Err("it has forces beside gravity and contacts");
+        }
+        let verlet = |method: &ChosenMethod| method.name == "VelocityVerlet" && !method.style.is_staged();
+        if !world.get_resource::<ChosenMethod>().is_some_and(verlet) {
+            return Err("its method is not velocity Verlet in whole ticks");
         }
         let penalty = world.get_resource::<Penalty>().ok_or("its contacts are not `Penalty`")?;
         if penalty.rolling != RollingLaw::None {
