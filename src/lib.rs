@@ -42,6 +42,7 @@ pub mod shapes;
 pub mod world;
 
 pub mod simd;
+pub mod threads;
 
 pub mod tick;
 

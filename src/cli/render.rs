@@ -10,6 +10,7 @@ use super::flags::{self, OverrideFlags};
 use super::load::Request;
 use super::result::{self, Detail, Ran};
 use super::say::{count as in_words, say};
+use super::side_by_side::all_cores;
 use super::target::{Place, Wish, places};
 use crate::output::{Target, Written};
 use crate::simulation::Overrides;
@@ -62,7 +63,7 @@ pub(super) struct Render {
     layers: Option<flags::LayerWords>,
     #[command(flatten)]
     overrides: OverrideFlags,
-    /// Threads that draw; the film does not depend on it. Default: one for each core
+    /// Threads that draw and that share the work of a tick; the film does not depend on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
     /// No progress bar, and messages only if something is wrong
@@ -134,7 +135,8 @@ impl Render {
 
     fn render(&self, request: Request, place: &Place) -> Exit {
         let layers = self.layers.clone().map(|layers| layers.0);
-        let overrides = Overrides { layers, ..self.overrides.overrides() };
+        let threads = Some(self.threads.unwrap_or_else(all_cores));
+        let overrides = Overrides { layers, threads, ..self.overrides.overrides() };
         let (source, mut simulation) = match request.load(&self.overrides.settings, &overrides) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,

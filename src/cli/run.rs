@@ -11,13 +11,14 @@ use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail, Ran};
 use super::say::say;
+use super::side_by_side::all_cores;
 use super::target::{is_directory, takes_no_file};
 use super::wall_clock::WallClock;
 use crate::output::OutputError;
 use crate::output::csv::Table;
 use crate::report::reversal::Reversal;
 use crate::sensors::Channels;
-use crate::simulation::{Overrides, Simulation};
+use crate::simulation::{Overrides, Plan, Simulation};
 use crate::tick::Failure;
 
 /// The command `run`.
@@ -41,7 +42,8 @@ pub(super) struct Run {
     /// Otherwise as fast as possible
     #[arg(long)]
     pace: bool,
-    /// Threads; a run uses one so far
+    /// Threads for the work of a tick, where there is enough of it; the results are the same to the bit. Default: one for each
+    /// core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
     /// No progress bar, and messages only if something is wrong
@@ -77,6 +79,11 @@ impl From<OutputError> for Trouble {
 }
 
 impl Run {
+    fn overrides(&self, plan: Option<Plan>) -> Overrides {
+        let threads = Some(self.threads.unwrap_or_else(all_cores));
+        Overrides { plan, threads, ..self.overrides.overrides() }
+    }
+
     pub(super) fn execute(self) -> Exit {
         let request = Request { name: &self.scene, json: self.json };
         if let Some(message) = self.output.as_deref().and_then(|path| objection(request, path)) {
@@ -85,7 +92,7 @@ impl Run {
         if self.json && self.output.as_deref() == Some(Path::new("-")) {
             return request.usage("standard output takes the channels or the result as JSON, not both: give -o a file");
         }
-        let (source, mut simulation) = match request.load(&self.overrides.settings, &self.overrides.overrides()) {
+        let (source, mut simulation) = match request.load(&self.overrides.settings, &self.overrides(None)) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
@@ -115,9 +122,7 @@ impl Run {
             Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
         };
         let back = if self.reverse && failure.is_none() {
-            let plan = simulation.plan().cloned();
-            let overrides = Overrides { plan, ..self.overrides.overrides() };
-            let again = Simulation::load_with(&source, &overrides, |_| {});
+            let again = Simulation::load_with(&source, &self.overrides(simulation.plan().cloned()), |_| {});
             match again.map_err(|errors| request.refuse_scene(&errors)) {
                 Ok(mut again) => Some(Reversal::of(&mut again)),
                 Err(exit) => return exit,

@@ -8,11 +8,11 @@ use serde::Deserialize;
 
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
-use crate::simd::{self, BLOCK, Kernel, Lanes};
+use crate::simd::{BLOCK, Lanes};
 use crate::tick::balance::EnergyTerms;
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
-use crate::world::motion::PerBody;
+use crate::world::part::{Part, PerBody};
 
 /// The acceleration of free fall. A scene without this section has no gravity.
 #[derive(Deserialize, JsonSchema)]
@@ -48,49 +48,36 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    let level = bodies.level;
-    let (mass, moment) = simd::run(level, Weigh { bodies: &mut bodies, gravity: gravity.0, sums: [[0.0; BLOCK]; 3] });
+    let (mut mass, mut moment) = (0.0, DVec2::ZERO);
+    bodies.each(Weigh { gravity: gravity.0, sums: [[0.0; BLOCK]; 3] }, |part| {
+        let [part, x, y] = part.sums.map(|partial| partial.into_iter().fold(0.0, |sum, part| sum + part));
+        mass += part;
+        moment += DVec2::new(x, y);
+    });
     balance.force += gravity.0 * mass;
     balance.torque += moment.perp_dot(gravity.0);
 }
 
-/// Adds the weight of each body that is not asleep; returns their mass, and the sum of mass times place.
-struct Weigh<'a> {
-    bodies: &'a mut Bodies,
+/// Adds the weight of each body that is not asleep, and sums their mass, and mass times place.
+#[derive(Clone)]
+struct Weigh {
     gravity: DVec2,
     sums: [[f64; BLOCK]; 3],
 }
 
-impl Kernel for Weigh<'_> {
-    type Output = (f64, DVec2);
-
+impl PerBody for Weigh {
     #[inline(always)]
-    fn run<V: Lanes>(mut self) -> (f64, DVec2) {
-        self.all::<V>();
-        let [mass, x, y] = self.sums.map(|partial| partial.into_iter().fold(0.0, |sum, part| sum + part));
-        (mass, DVec2::new(x, y))
-    }
-}
-
-impl PerBody for Weigh<'_> {
-    #[inline(always)]
-    fn whose(&self) -> &Bodies {
-        self.bodies
-    }
-
-    #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, first: usize) {
-        let bodies = &mut *self.bodies;
+    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let lane = first % BLOCK;
-        let mut moves = V::load(&bodies.inverse_mass[first..]).gt(V::splat(0.0));
-        if let Some(asleep) = bodies.asleep.get(first / BLOCK) {
+        let mut moves = V::load(&part.inverse_mass[first..]).gt(V::splat(0.0));
+        if let Some(asleep) = part.asleep.get(first / BLOCK) {
             moves = moves & V::mask(!asleep >> lane);
         }
-        let mass = V::load(&bodies.mass[first..]).only(moves);
-        let (x, y) = V::load_pairs(&bodies.position[first..]);
-        let (force_x, force_y) = V::load_pairs(&bodies.force[first..]);
+        let mass = V::load(&part.mass[first..]).only(moves);
+        let (x, y) = V::load_pairs(&part.position[first..]);
+        let (force_x, force_y) = V::load_pairs(&part.force[first..]);
         let (gravity_x, gravity_y) = (V::splat(self.gravity.x), V::splat(self.gravity.y));
-        V::store_pairs(force_x + gravity_x * mass, force_y + gravity_y * mass, &mut bodies.force[first..]);
+        V::store_pairs(force_x + gravity_x * mass, force_y + gravity_y * mass, &mut part.force[first..]);
         let sums = &mut self.sums;
         (V::load(&sums[0][lane..]) + mass).store(&mut sums[0][lane..]);
         (V::load(&sums[1][lane..]) + x * mass).store(&mut sums[1][lane..]);

@@ -53,9 +53,6 @@ pub trait Lanes:
     /// Writes the lanes to the beginning of a list.
     fn store(self, numbers: &mut [f64]);
 
-    /// The numbers at the first [`Lanes::COUNT`] places of a list of places.
-    fn gather(numbers: &[f64], places: &[u32]) -> Self;
-
     /// As many pairs from the beginning of a list: their first numbers, and their second ones.
     fn load_pairs(pairs: &[DVec2]) -> (Self, Self);
 
@@ -64,6 +61,19 @@ pub trait Lanes:
 
     /// The records at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
     fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK];
+
+    /// The records of two lists of places, transposed: of the first six numbers what the second is more than the first; the
+    /// last two numbers of the second, then those of the first.
+    #[inline(always)]
+    fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+        let (first, mut second) = (Self::records(records, first), Self::records(records, second));
+        let mut number = 0;
+        while number < BLOCK - 2 {
+            second[number] = second[number] - first[number];
+            number += 1;
+        }
+        (second, [first[BLOCK - 2], first[BLOCK - 1]])
+    }
 
     /// The square root of each.
     fn sqrt(self) -> Self;

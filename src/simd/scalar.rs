@@ -52,11 +52,6 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
-    fn gather(numbers: &[f64], places: &[u32]) -> Self {
-        numbers[places[0] as usize]
-    }
-
-    #[inline(always)]
     fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
         (pairs[0].x, pairs[0].y)
     }

@@ -13,18 +13,19 @@ impl Kernel for Everything<'_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) -> Vec<u64> {
-        let mut results = vec![[0.0; BLOCK]; 17];
+        let mut results = vec![[0.0; BLOCK]; 22];
         let mut bits = [0_u8; 5];
         let records: Vec<Record> = (0..BLOCK)
             .map(|row| Record(std::array::from_fn(|column| self.numbers[row] + (10 * column) as f64)))
             .collect();
-        let places = [3, 0, 7, 1, 6, 2, 5, 4];
+        let (places, second) = ([3, 0, 7, 1, 6, 2, 5, 4], [1, 1, 0, 6, 7, 4, 2, 3]);
         let pairs: Vec<DVec2> = (0..BLOCK).map(|place| DVec2::new(self.numbers[place], self.others[place])).collect();
         let mut swapped = [DVec2::ZERO; BLOCK];
         let mut lane = 0;
         while lane < BLOCK {
             let (a, b) = (V::load(&self.numbers[lane..]), V::load(&self.others[lane..]));
             let transposed = V::records(&records, &places[lane..]);
+            let (apart, own) = V::record_pairs(&records, &places[lane..], &second[lane..]);
             let chosen = V::mask(0b1011_0010 >> lane);
             let both = V::load_pairs(&pairs[lane..]);
             V::store_pairs(both.1, both.0, &mut swapped[lane..]);
@@ -45,7 +46,12 @@ impl Kernel for Everything<'_> {
                 transposed[7],
                 both.0,
                 V::splat(1.5) * both.1,
-                V::gather(self.others, &places[lane..]),
+                apart[0],
+                apart[5],
+                apart[6],
+                apart[7],
+                own[0],
+                own[1],
             ];
             for (result, made) in results.iter_mut().zip(made) {
                 made.store(&mut result[lane..]);

@@ -173,13 +173,6 @@ impl Lanes for F64x2 {
     }
 
     #[inline(always)]
-    fn gather(numbers: &[f64], places: &[u32]) -> Self {
-        let at = |lane: usize| numbers[places[lane] as usize];
-        // SAFETY: see the head of the file.
-        Self(unsafe { _mm_set_pd(at(1), at(0)) })
-    }
-
-    #[inline(always)]
     fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
         let pairs = &pairs[..Self::COUNT];
         // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
@@ -292,13 +285,6 @@ impl Lanes for F64x4 {
     }
 
     #[inline(always)]
-    fn gather(numbers: &[f64], places: &[u32]) -> Self {
-        let at = |lane: usize| numbers[places[lane] as usize];
-        // SAFETY: see the head of the file.
-        Self(unsafe { _mm256_set_pd(at(3), at(2), at(1), at(0)) })
-    }
-
-    #[inline(always)]
     fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
         let pairs = &pairs[..Self::COUNT];
         // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
@@ -370,36 +356,33 @@ impl Lanes for F64x4 {
     }
 }
 
-impl Lanes for F64x8 {
-    const COUNT: usize = 8;
-    type Mask = Bits8;
-
+impl F64x8 {
+    /// The first six numbers less those of another.
     #[inline(always)]
-    fn splat(number: f64) -> Self {
+    fn less_in_six(self, other: Self) -> Self {
         // SAFETY: see the head of the file.
-        Self(unsafe { _mm512_set1_pd(number) })
+        Self(unsafe { _mm512_mask_sub_pd(self.0, 0b0011_1111, self.0, other.0) })
     }
 
+    /// The last two numbers of four records: those at the first place of a list, the third, the fifth and the seventh.
     #[inline(always)]
-    fn load(numbers: &[f64]) -> Self {
-        let numbers = &numbers[..Self::COUNT];
-        // SAFETY: as many numbers stand there.
-        Self(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
-    }
-
-    #[inline(always)]
-    fn store(self, numbers: &mut [f64]) {
-        let numbers = &mut numbers[..Self::COUNT];
-        // SAFETY: there is room for as many.
-        unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) }
+    fn last_two(records: &[Record], places: &[u32]) -> __m512d {
+        let (a, b) = (&records[places[0] as usize].0, &records[places[2] as usize].0);
+        let (c, d) = (&records[places[4] as usize].0, &records[places[6] as usize].0);
+        // SAFETY: likewise; a record has two numbers from the seventh on.
+        unsafe {
+            let quarter = _mm512_castpd128_pd512(_mm_loadu_pd(a.as_ptr().add(BLOCK - 2)));
+            let half = _mm512_insertf64x2::<1>(quarter, _mm_loadu_pd(b.as_ptr().add(BLOCK - 2)));
+            let three = _mm512_insertf64x2::<2>(half, _mm_loadu_pd(c.as_ptr().add(BLOCK - 2)));
+            _mm512_insertf64x2::<3>(three, _mm_loadu_pd(d.as_ptr().add(BLOCK - 2)))
+        }
     }
 
     /// A transposition of eight lines: pairs of numbers within quarters, then quarters, then halves.
     #[inline(always)]
-    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
-        let row = |lane: usize| Self::load(&records[places[lane] as usize].0).0;
-        let (a, b, c, d) = (row(0), row(1), row(2), row(3));
-        let (e, f, g, h) = (row(4), row(5), row(6), row(7));
+    fn transposed(rows: [Self; BLOCK]) -> [Self; BLOCK] {
+        let [a, b, c, d, e, f, g, h] =
+            [rows[0].0, rows[1].0, rows[2].0, rows[3].0, rows[4].0, rows[5].0, rows[6].0, rows[7].0];
         // SAFETY: see the head of the file.
         unsafe {
             let (even_ab, odd_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
@@ -427,12 +410,53 @@ impl Lanes for F64x8 {
             ]
         }
     }
+}
+
+impl Lanes for F64x8 {
+    const COUNT: usize = 8;
+    type Mask = Bits8;
 
     #[inline(always)]
-    fn gather(numbers: &[f64], places: &[u32]) -> Self {
-        let at = |lane: usize| numbers[places[lane] as usize];
+    fn splat(number: f64) -> Self {
         // SAFETY: see the head of the file.
-        Self(unsafe { _mm512_set_pd(at(7), at(6), at(5), at(4), at(3), at(2), at(1), at(0)) })
+        Self(unsafe { _mm512_set1_pd(number) })
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[f64]) -> Self {
+        let numbers = &numbers[..Self::COUNT];
+        // SAFETY: as many numbers stand there.
+        Self(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [f64]) {
+        let numbers = &mut numbers[..Self::COUNT];
+        // SAFETY: there is room for as many.
+        unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
+    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
+        let row = |lane: usize| Self::load(&records[places[lane] as usize].0);
+        Self::transposed([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+    }
+
+    #[inline(always)]
+    fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+        let mut rows = [Self::splat(0.0); BLOCK];
+        let mut lane = 0;
+        while lane < BLOCK {
+            let own = Self::load(&records[first[lane] as usize].0);
+            rows[lane] = Self::load(&records[second[lane] as usize].0).less_in_six(own);
+            lane += 1;
+        }
+        let (even, odd) = (Self::last_two(records, first), Self::last_two(records, &first[1..]));
+        // SAFETY: see the head of the file.
+        unsafe {
+            let rest = [Self(_mm512_unpacklo_pd(even, odd)), Self(_mm512_unpackhi_pd(even, odd))];
+            (Self::transposed(rows), rest)
+        }
     }
 
     #[inline(always)]

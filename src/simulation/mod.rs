@@ -18,6 +18,7 @@ use crate::report::card::{Notes, number};
 use crate::scene::sections::FilmSection;
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::simd::Level;
+use crate::threads::Threads;
 use crate::tick::{Clock, Failure, TickAppExt, step};
 use crate::world::{Bodies, Name, packed};
 
@@ -38,6 +39,8 @@ pub struct Overrides {
     /// Vector instructions to use, which the processor must have. Default: the best it has. All give the same results to the
     /// bit.
     pub level: Option<Level>,
+    /// Threads for work on many bodies or contacts. Default: one. Any number gives the same results to the bit.
+    pub threads: Option<usize>,
     /// How the scene is run, as found for an earlier run of it ([`Simulation::plan`]): nothing is tried again.
     pub plan: Option<Plan>,
     /// Told of each trial run that a tolerance or a reference run needs.
@@ -127,7 +130,9 @@ impl Simulation {
         app.cleanup();
         let world = app.world_mut();
         let ticks = begin(world, source, &header, overrides)?;
-        world.resource_mut::<Bodies>().level = overrides.level.unwrap_or_default();
+        let mut bodies = world.resource_mut::<Bodies>();
+        bodies.level = overrides.level.unwrap_or_default();
+        bodies.threads = Threads::new(overrides.threads.unwrap_or(1));
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
     }

@@ -30,6 +30,17 @@ pub struct Balance {
 }
 
 impl Balance {
+    /// Adds the rates of another.
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+        self.drag += other.drag;
+        self.work += other.work;
+        self.friction += other.friction;
+        self.inelasticity += other.inelasticity;
+        self.alert |= other.alert;
+    }
+
     /// Books a force from outside on a body that stands at `position`, with its torque about the centre of mass.
     #[inline]
     pub fn outside(&mut self, position: DVec2, force: DVec2, torque: f64) {

@@ -9,6 +9,7 @@ mod lend;
 pub mod material;
 pub mod motion;
 pub mod packed;
+pub(crate) mod part;
 pub mod sections;
 pub mod spawn;
 pub mod wall;

@@ -1,8 +1,12 @@
 //! What happens to each body in a step, several bodies at once: kicks, drifts, estimates.
 
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use glam::DVec2;
 
 use super::packed::Bodies;
+use super::part::{Part, PerBody, Pose, parts_of};
 use crate::simd::{self, BLOCK, Kernel, Lanes};
 
 /// How far bodies went.
@@ -17,110 +21,62 @@ pub struct Travel {
 impl Bodies {
     /// Velocities change by the present forces over `dt` seconds.
     pub fn kick(&mut self, dt: f64) {
-        simd::run(self.level, Kick { bodies: self, dt });
+        self.each(Kick { dt }, |_| ());
     }
 
     /// Velocities change by the present forces over `kick` seconds, then positions and angles of dynamic bodies by those
     /// velocities over `drift` seconds (compensated summation: what rounding drops is added the next time). With `ahead` the
-    /// velocities so many seconds later are estimated from the same forces.
+    /// velocities so many seconds later are estimated from the same forces. Forces are those of a past state then: they are
+    /// to be evaluated next.
     pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) -> Travel {
         if ahead.is_some() {
             self.estimated_velocity.resize(self.len(), DVec2::ZERO);
             self.estimated_spin.resize(self.len(), 0.0);
         }
-        let travel = simd::run(self.level, Advance { bodies: self, kick, drift, ahead });
+        let mut travel = Travel::default();
+        self.each(Advance { kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK] }, |part| {
+            travel.greatest = part.greatest.into_iter().fold(travel.greatest, f64::max);
+            travel.sum = part.sum.into_iter().fold(travel.sum, |sum, part| sum + part);
+        });
         self.path += travel.greatest;
+        // Done on the way; atoms beside the centre take turning.
+        self.posed = self.lone_discs;
         travel
     }
-}
 
-/// Work on bodies, as many side by side as there are lanes.
-pub(crate) trait PerBody: Sized {
-    /// Whose they are.
-    fn whose(&self) -> &Bodies;
-
-    /// Does it for the bodies from `first` on.
-    fn bodies<V: Lanes>(&mut self, first: usize);
-
-    /// Does it for all that are not asleep.
-    #[inline(always)]
-    fn all<V: Lanes>(&mut self) {
-        let mut number = 0;
-        while number < self.whose().awake_blocks() {
-            let bodies = self.whose().awake_block(number);
-            let mut first = bodies.start;
-            if bodies.len() == BLOCK {
-                while first < bodies.end {
-                    self.bodies::<V>(first);
-                    first += V::COUNT;
-                }
-            } else {
-                while first < bodies.end {
-                    self.bodies::<f64>(first);
-                    first += 1;
-                }
-            }
-            number += 1;
+    /// Clears forces and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
+    /// body cannot grow or shrink however long it spins.
+    pub fn pose(&mut self) {
+        if !std::mem::take(&mut self.posed) {
+            self.each(Pose, |_| ());
         }
     }
 }
 
-struct Kick<'a> {
-    bodies: &'a mut Bodies,
+#[derive(Clone)]
+struct Kick {
     dt: f64,
 }
 
-impl Kernel for Kick<'_> {
-    type Output = ();
-
+impl PerBody for Kick {
     #[inline(always)]
-    fn run<V: Lanes>(mut self) {
-        self.all::<V>();
+    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
+        let dt = V::splat(self.dt);
+        let (x, y) = V::load_pairs(&part.velocity[first..]);
+        let (force_x, force_y) = V::load_pairs(&part.force[first..]);
+        let weight = V::load(&part.inverse_mass[first..]) * dt;
+        V::store_pairs(x + force_x * weight, y + force_y * weight, &mut part.velocity[first..]);
+        let weight = V::load(&part.inverse_inertia[first..]) * dt;
+        let spin = V::load(&part.spin[first..]) + V::load(&part.torque[first..]) * weight;
+        spin.store(&mut part.spin[first..]);
     }
 }
 
-impl PerBody for Kick<'_> {
-    #[inline(always)]
-    fn whose(&self) -> &Bodies {
-        self.bodies
-    }
-
-    #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, first: usize) {
-        let (bodies, dt) = (&mut *self.bodies, V::splat(self.dt));
-        let (x, y) = V::load_pairs(&bodies.velocity[first..]);
-        let (force_x, force_y) = V::load_pairs(&bodies.force[first..]);
-        let weight = V::load(&bodies.inverse_mass[first..]) * dt;
-        V::store_pairs(x + force_x * weight, y + force_y * weight, &mut bodies.velocity[first..]);
-        let weight = V::load(&bodies.inverse_inertia[first..]) * dt;
-        let spin = V::load(&bodies.spin[first..]) + V::load(&bodies.torque[first..]) * weight;
-        spin.store(&mut bodies.spin[first..]);
-    }
-}
-
-struct Advance<'a> {
-    bodies: &'a mut Bodies,
+#[derive(Clone)]
+struct Advance {
     kick: f64,
     drift: f64,
     ahead: Option<f64>,
-}
-
-impl Kernel for Advance<'_> {
-    type Output = Travel;
-
-    #[inline(always)]
-    fn run<V: Lanes>(self) -> Travel {
-        let mut advancing = Advancing { step: self, greatest: [0.0; BLOCK], sum: [0.0; BLOCK] };
-        advancing.all::<V>();
-        Travel {
-            greatest: advancing.greatest.into_iter().fold(0.0, f64::max),
-            sum: advancing.sum.into_iter().fold(0.0, |sum, part| sum + part),
-        }
-    }
-}
-
-struct Advancing<'a> {
-    step: Advance<'a>,
     greatest: [f64; BLOCK],
     sum: [f64; BLOCK],
 }
@@ -133,45 +89,42 @@ fn compensated<V: Lanes>(before: V, rest: V, step: V) -> (V, V) {
     (after, step - (after - before))
 }
 
-impl PerBody for Advancing<'_> {
+impl PerBody for Advance {
     #[inline(always)]
-    fn whose(&self) -> &Bodies {
-        self.step.bodies
-    }
-
-    #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, first: usize) {
-        let Advance { bodies, kick, drift, ahead } = &mut self.step;
-        let (force_x, force_y) = V::load_pairs(&bodies.force[first..]);
-        let (torque, inverse_mass) = (V::load(&bodies.torque[first..]), V::load(&bodies.inverse_mass[first..]));
-        let inverse_inertia = V::load(&bodies.inverse_inertia[first..]);
-        let (u, v) = V::load_pairs(&bodies.velocity[first..]);
-        let spin = V::load(&bodies.spin[first..]);
-        let (weight, turning) = (inverse_mass * V::splat(*kick), inverse_inertia * V::splat(*kick));
+    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
+        let (force_x, force_y) = V::load_pairs(&part.force[first..]);
+        let (torque, inverse_mass) = (V::load(&part.torque[first..]), V::load(&part.inverse_mass[first..]));
+        let inverse_inertia = V::load(&part.inverse_inertia[first..]);
+        let (u, v) = V::load_pairs(&part.velocity[first..]);
+        let spin = V::load(&part.spin[first..]);
+        let (weight, turning) = (inverse_mass * V::splat(self.kick), inverse_inertia * V::splat(self.kick));
         let (u, v, spin) = (u + force_x * weight, v + force_y * weight, spin + torque * turning);
-        V::store_pairs(u, v, &mut bodies.velocity[first..]);
-        spin.store(&mut bodies.spin[first..]);
-        if let Some(ahead) = *ahead {
+        V::store_pairs(u, v, &mut part.velocity[first..]);
+        spin.store(&mut part.spin[first..]);
+        if let Some(ahead) = self.ahead {
             let (weight, turning) = (inverse_mass * V::splat(ahead), inverse_inertia * V::splat(ahead));
             let (u, v) = (u + force_x * weight, v + force_y * weight);
-            V::store_pairs(u, v, &mut bodies.estimated_velocity[first..]);
-            (spin + torque * turning).store(&mut bodies.estimated_spin[first..]);
+            V::store_pairs(u, v, &mut part.estimated_velocity[first..]);
+            (spin + torque * turning).store(&mut part.estimated_spin[first..]);
         }
         let moves = inverse_mass.gt(V::splat(0.0));
-        let dt = V::splat(*drift).only(moves);
+        let dt = V::splat(self.drift).only(moves);
         let (dx, dy, turn) = (u * dt, v * dt, spin * dt);
-        V::store_pairs(dx, dy, &mut bodies.drift[first..]);
-        turn.store(&mut bodies.turn[first..]);
-        let (x, y) = V::load_pairs(&bodies.position[first..]);
-        let (rest_x, rest_y) = V::load_pairs(&bodies.position_rest[first..]);
+        V::store_pairs(dx, dy, &mut part.drift[first..]);
+        turn.store(&mut part.turn[first..]);
+        let (x, y) = V::load_pairs(&part.position[first..]);
+        let (rest_x, rest_y) = V::load_pairs(&part.position_rest[first..]);
         let ((x, rest_x), (y, rest_y)) = (compensated(x, rest_x, dx), compensated(y, rest_y, dy));
-        V::store_pairs(x, y, &mut bodies.position[first..]);
-        V::store_pairs(rest_x, rest_y, &mut bodies.position_rest[first..]);
-        let (angle, rest) = (V::load(&bodies.angle[first..]), V::load(&bodies.angle_rest[first..]));
+        V::store_pairs(x, y, &mut part.position[first..]);
+        V::store_pairs(rest_x, rest_y, &mut part.position_rest[first..]);
+        let (angle, rest) = (V::load(&part.angle[first..]), V::load(&part.angle_rest[first..]));
         let (angle, rest) = compensated(angle, rest, turn);
-        angle.store(&mut bodies.angle[first..]);
-        rest.store(&mut bodies.angle_rest[first..]);
-        let travel = (dx * dx + dy * dy).sqrt() + turn.abs() * V::load(&bodies.extent[first..]);
+        angle.store(&mut part.angle[first..]);
+        rest.store(&mut part.angle_rest[first..]);
+        if part.lone_discs {
+            Pose.bodies::<V>(part, first);
+        }
+        let travel = (dx * dx + dy * dy).sqrt() + turn.abs() * V::load(&part.extent[first..]);
         let lane = first % BLOCK;
         let greatest = V::load(&self.greatest[lane..]);
         V::select(travel.gt(greatest), travel, greatest).store(&mut self.greatest[lane..]);
@@ -183,15 +136,35 @@ impl Bodies {
     /// Whether each body that moves is nearer than `allowed` metres, its turn included, to where it stood: places and angles
     /// are given. What is no number is not.
     pub fn stayed_near(&self, allowed: f64, position: &[DVec2], angle: &[f64]) -> bool {
-        simd::run(self.level, Near { bodies: self, allowed, position, angle })
+        let near =
+            |blocks: Range<usize>| simd::run(self.level, Near { bodies: self, allowed, position, angle, blocks });
+        let blocks = self.awake_blocks();
+        let count = parts_of(BLOCK * blocks, FEWEST_NEAR);
+        if count == 1 {
+            return near(0..blocks);
+        }
+        let each = blocks.div_ceil(count);
+        let parts = (0..count).map(|part| blocks.min(part * each)..blocks.min((part + 1) * each)).collect();
+        let all = AtomicBool::new(true);
+        self.threads.each(parts, |blocks| {
+            // Relaxed: a part that does not know yet that another is not near looks in vain.
+            if all.load(Ordering::Relaxed) && !near(blocks) {
+                all.store(false, Ordering::Relaxed);
+            }
+        });
+        all.into_inner()
     }
 }
+
+/// Bodies of the smallest part of that.
+const FEWEST_NEAR: usize = 32768;
 
 struct Near<'a> {
     bodies: &'a Bodies,
     allowed: f64,
     position: &'a [DVec2],
     angle: &'a [f64],
+    blocks: Range<usize>,
 }
 
 impl Near<'_> {
@@ -216,8 +189,8 @@ impl Kernel for Near<'_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) -> bool {
-        let mut number = 0;
-        while number < self.bodies.awake_blocks() {
+        let mut number = self.blocks.start;
+        while number < self.blocks.end {
             let bodies = self.bodies.awake_block(number);
             let (mut first, whole) = (bodies.start, bodies.len() == BLOCK);
             while first < bodies.end {

@@ -14,6 +14,7 @@ use super::material::MaterialIndex;
 use super::motion::Travel;
 use super::wall::Wall;
 use crate::simd::{BLOCK, Level};
+use crate::threads::Threads;
 
 /// Place of a body in the packed state, kept on its entity.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,6 +45,8 @@ pub struct Bodies {
     pub touched: bool,
     /// Instructions for work on many bodies at once. Default: the best there are.
     pub level: Level,
+    /// Threads for work on many bodies or contacts. Default: one.
+    pub threads: Threads,
     /// Counts the rebuilds: whoever keeps indices compares it.
     pub generation: u64,
 
@@ -127,6 +130,9 @@ pub struct Bodies {
     /// Blocks of eight bodies that need work, in order; only where some need none.
     pub awake: Vec<u32>,
 
+    /// Forces are cleared and atoms stand where their bodies are: that was done when bodies were moved.
+    pub(crate) posed: bool,
+
     /// Something pushed a body that was asleep: forces are evaluated anew, with all bodies awake.
     pub disturbed: bool,
     /// How far any point of a body can have gone since the beginning, in metres: the sum of the greatest ways of all ticks. Not a
@@ -163,6 +169,7 @@ impl Bodies {
 
     /// All bodies need work from now on.
     pub fn wake_all(&mut self) {
+        self.posed = false;
         self.asleep.clear();
         self.awake.clear();
     }
@@ -178,6 +185,16 @@ impl Bodies {
     pub fn awake_block(&self, number: usize) -> std::ops::Range<usize> {
         let block = if self.asleep.is_empty() { number } else { self.awake[number] as usize };
         BLOCK * block..self.len().min(BLOCK * block + BLOCK)
+    }
+
+    /// Those of the blocks that need work whose bodies stand in a range that begins and ends with blocks.
+    pub fn awake_blocks_within(&self, bodies: std::ops::Range<usize>) -> std::ops::Range<usize> {
+        let (first, last) = (bodies.start / BLOCK, bodies.end.div_ceil(BLOCK));
+        if self.asleep.is_empty() {
+            return first..last;
+        }
+        let place = |block: usize| self.awake.partition_point(|&awake| (awake as usize) < block);
+        place(first)..place(last)
     }
 
     /// Number of atoms.
@@ -209,25 +226,6 @@ impl Bodies {
         self.torque[body] += arm.perp_dot(force);
     }
 
-    /// Clears forces and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
-    /// body cannot grow or shrink however long it spins.
-    pub fn pose(&mut self) {
-        for number in 0..self.awake_blocks() {
-            let bodies = self.awake_block(number);
-            self.force[bodies.clone()].fill(DVec2::ZERO);
-            self.torque[bodies.clone()].fill(0.0);
-            if self.lone_discs {
-                self.atom_position[bodies.clone()].copy_from_slice(&self.position[bodies]);
-                continue;
-            }
-            for body in bodies {
-                if self.moves[body] {
-                    self.pose_atoms(body);
-                }
-            }
-        }
-    }
-
     /// Takes the present state as the one from which drift and turn are counted.
     pub fn accept(&mut self) {
         self.drift.fill(DVec2::ZERO);
@@ -246,6 +244,7 @@ impl Bodies {
     /// Returns how far they went in the tick.
     pub fn prescribe(&mut self, begin: f64, time: f64) -> Travel {
         let prescribed = std::mem::take(&mut self.prescribed);
+        self.posed = false;
         let mut travelled = Travel::default();
         for (body, motion) in &prescribed.motions {
             let (body, from, now) = (*body, motion.state(begin), motion.state(time));
@@ -263,22 +262,22 @@ impl Bodies {
         self.path += travelled.greatest;
         travelled
     }
+}
 
-    fn pose_atoms(&mut self, body: usize) {
-        let atoms = self.atoms_of(body);
-        let position = self.position[body];
-        // A lone disc in its centre of mass needs no angle.
-        if let [offset] = &self.atom_offset[atoms.clone()]
-            && *offset == DVec2::ZERO
-        {
-            self.atom_position[atoms.start] = position;
-            return;
-        }
-        let (sin, cos) = libm::sincos(self.angle[body]);
-        let rotation = DVec2::new(cos, sin);
-        for (offset, place) in self.atom_offset[atoms.clone()].iter().zip(&mut self.atom_position[atoms]) {
-            *place = position + rotation.rotate(*offset);
-        }
+/// Puts atoms where their body is: at a place, turned by an angle.
+#[inline]
+pub(super) fn place_atoms((position, angle): (DVec2, f64), offsets: &[DVec2], places: &mut [DVec2]) {
+    // A lone disc in its centre of mass needs no angle.
+    if let [offset] = offsets
+        && *offset == DVec2::ZERO
+    {
+        places[0] = position;
+        return;
+    }
+    let (sin, cos) = libm::sincos(angle);
+    let rotation = DVec2::new(cos, sin);
+    for (offset, place) in offsets.iter().zip(places) {
+        *place = position + rotation.rotate(*offset);
     }
 }
 
@@ -349,7 +348,12 @@ pub fn rebuild(world: &mut World) {
     let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
     found.sort_unstable();
     let previous = world.remove_resource::<Bodies>().unwrap_or_default();
-    let mut bodies = Bodies { generation: previous.generation + 1, level: previous.level, ..Default::default() };
+    let mut bodies = Bodies {
+        generation: previous.generation + 1,
+        level: previous.level,
+        threads: previous.threads,
+        ..Default::default()
+    };
     bodies.first_atom.push(0);
     for (place, &(key, entity)) in found.iter().enumerate() {
         world.entity_mut(entity).insert(Slot(place as u32));
@@ -405,7 +409,8 @@ pub fn rebuild(world: &mut World) {
         }
         bodies.extent.push(extent);
         bodies.first_atom.push(bodies.atom_offset.len() as u32);
-        bodies.pose_atoms(place);
+        let atoms = bodies.atoms_of(place);
+        place_atoms((position, angle), &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
     }
     let lone = |body: usize| bodies.atoms_of(body).len() == 1 && bodies.atom_offset[body] == DVec2::ZERO;
     bodies.lone_discs = (0..bodies.len()).all(lone);

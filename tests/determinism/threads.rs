@@ -2,6 +2,14 @@
 
 use std::process::Command;
 
+use glam::DVec2;
+use jostle::Simulation;
+use jostle::scene::Source;
+use jostle::simd::Level;
+use jostle::simulation::Overrides;
+use jostle::tick::Ledger;
+use jostle::tick::balance::momentum;
+
 use super::{clumps, hash, load, run, scene};
 
 /// State hash that the program prints for the pile of this folder's other tests.
@@ -38,4 +46,61 @@ fn it_does_not_matter_what_runs_at_the_same_time() {
         runs.into_iter().map(|run| run.join().unwrap()).collect()
     });
     assert_eq!(together, [alone; 3]);
+}
+
+/// Forty thousand atoms in a heap without walls: enough for several parts of bodies and of contacts. `body` is what stands at
+/// each place of a lattice.
+fn many(contacts: &str, body: &str, more: &str) -> String {
+    format!(
+        "Scene(format: 1, clock: (duration: 0.02, tick: 0.001), contacts: {contacts}, {more}
+        materials: {{ \"stone\": (stiffness: 20000, friction: (static: 0.6, dynamic: 0.4), restitution: 0.4, density: 10) }},
+        bodies: [
+            Repeat(count: (200, 100), grid: (from: (0, 0), step: (0.098, 0.196)), make: [{body}]),
+            (name: \"post\", at: (7, -0.11), fixed: true, atoms: Disc(radius: 0.1), material: \"stone\"),
+        ])"
+    )
+}
+
+const DISCS: &str = "(name: \"a_{i}_{j}\", at: (\"x\", \"y\"), atoms: Disc(radius: \"0.05 + 0.001 * sin(3 * i + 7 * j)\"), material: \"stone\"),
+    (name: \"b_{i}_{j}\", at: (\"x\", \"y + 0.098\"), velocity: (0.1, \"0.2 * sin(i)\"), atoms: Disc(radius: 0.05), material: \"stone\")";
+const CLUMPS: &str =
+    "(name: \"c_{i}_{j}\", at: (\"x\", \"y\"), angle: \"0.1 * i + 0.4 * j\", spin: 3, material: \"stone\",
+    atoms: List([(at: (-0.02, 0), radius: 0.05), (at: (0.02, 0.06), radius: 0.04)]))";
+
+/// Hash, accounts and momentum of the end.
+fn end_of(text: &str, threads: usize, level: Level) -> (u64, Ledger, DVec2) {
+    let overrides = Overrides { threads: Some(threads), level: Some(level), ..Overrides::default() };
+    let mut simulation = Simulation::load_with(&Source::new("many", text), &overrides, |_| {}).unwrap();
+    simulation.run_to_end().unwrap();
+    let (bodies, ledger) = (simulation.bodies(), *simulation.world().resource::<Ledger>());
+    (hash(&simulation), ledger, momentum(bodies))
+}
+
+#[test]
+fn threads_that_share_the_work_change_no_bit() {
+    let gauge = "sensors: [ContactForce(of: \"post\", name: \"push\")], gravity: (0, -9.81),";
+    for (contacts, body, more) in [
+        ("Penalty()", DISCS, ""),
+        ("Penalty(normal: Dashpot)", DISCS, gauge),
+        ("Penalty(rolling: Spring(friction: 0.1))", CLUMPS, gauge),
+    ] {
+        let text = many(contacts, body, more);
+        let (hash, ledger, _) = end_of(&text, 1, Level::best());
+        assert!(ledger.friction.value() > 0.0, "{contacts}: nothing happened");
+        for (threads, level) in [(2, Level::best()), (5, Level::Baseline)] {
+            let other = end_of(&text, threads, level);
+            assert_eq!((other.0, other.1), (hash, ledger), "{contacts}, {threads} threads, {level}");
+        }
+    }
+}
+
+/// Law: what bodies of one part do to those of another comes back. Tolerance: momentum is a sum of forces that cancel in pairs,
+/// each rounded by a share of 1e-16 of what a body has; a push that is lost is that of one pair of eighty thousand.
+#[test]
+fn parts_that_are_pushed_by_others_push_back() {
+    let text = many("Penalty()", DISCS, "").replace("fixed: true", "fixed: false");
+    let still = text.replace("duration: 0.02", "duration: 0.001");
+    let (first, last) = (end_of(&still, 2, Level::best()).2, end_of(&text, 2, Level::best()).2);
+    let drift = (last - first).length() / last.length();
+    assert!(drift < 1e-11, "momentum changed by a share of {drift}");
 }

@@ -42,6 +42,9 @@ pub(super) struct Bench {
     from: f64,
     #[command(flatten)]
     overrides: OverrideFlags,
+    /// Threads for the work of a tick, where there is enough of it; the results are the same to the bit
+    #[arg(long, value_name = "N", value_parser = flags::threads, default_value = "1", allow_negative_numbers = true)]
+    threads: usize,
     /// Print what was measured of each scene as one line of JSON on standard output
     #[arg(long)]
     json: bool,
@@ -112,7 +115,7 @@ impl Bench {
     fn measure(&self, scene: &str, order: Order, progress: &Progress) -> Result<(Measured, Option<u64>), Stopped> {
         let source = self.source(scene)?;
         let load = |plan| {
-            let overrides = Overrides { plan, ..self.overrides.overrides() };
+            let overrides = Overrides { plan, threads: Some(self.threads), ..self.overrides.overrides() };
             Simulation::load_with(&source, &overrides, |_| {})
         };
         let measured = bench::measure(load, order, || progress.step())?;

@@ -1,7 +1,5 @@
 //! Penalty contacts applied: every candidate pair is followed, forces go to the bodies, losses to the ledger.
 
-use std::marker::PhantomData;
-
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
@@ -9,7 +7,7 @@ use super::Penalty;
 use super::contact::Losses;
 use super::critical::Watch;
 use super::follow::Touch;
-use super::kernel::{FollowPairs, Records};
+use super::kernel::{self, Moment, Records};
 use super::law::{LawTable, PairLaw, Side};
 use super::list::ContactList;
 use super::normal::{Approach, Mode, NormalForce};
@@ -22,7 +20,7 @@ use super::switching::Told;
 use crate::contacts::events::Touches;
 use crate::contacts::points::{ContactPoint, Other};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
-use crate::simd;
+use crate::simd::BLOCK;
 use crate::tick::{Balance, Evaluation, Ledger};
 use crate::world::{Bodies, Materials};
 
@@ -88,6 +86,14 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
         let pair = pairs.atoms[place];
         laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
     });
+    // Between discs that turn about their centres no lever arm changes.
+    let changes = |place: &u32| laws.get(*place).damping.depends_on_mobility();
+    if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && atoms.law.first().is_some_and(changes) {
+        let mobility = |pair: &AtomPair| bodies.inverse_mass[pair.a as usize] + bodies.inverse_mass[pair.b as usize];
+        let damping = |(place, pair)| N::response(laws.get(atoms.law[place]), mobility(pair)).1;
+        atoms.damping = pairs.atoms.iter().enumerate().map(damping).collect();
+        atoms.damping.resize(atoms.law.len(), 0.0);
+    }
     walls.carry(&pairs.walls_before, |place| {
         let pair = pairs.walls[place];
         let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
@@ -155,6 +161,33 @@ pub(super) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, law: &Pair
     (a.arm + normal * (a.radius - law.share_a * overlap), b.arm - normal * (b.radius - law.share_b * overlap))
 }
 
+/// Accounts of a force on side B that has gone to the bodies: for who asks for it, and for what does not move by forces.
+#[inline]
+pub(super) fn account(
+    bodies: &Bodies,
+    (balance, forces): (&mut Balance, Option<&mut ContactForces>),
+    (a, b): (&End, &End),
+    (arm_a, arm_b): (DVec2, DVec2),
+    force: DVec2,
+) {
+    if let Some(forces) = forces {
+        forces.on_body[a.body] -= force;
+        forces.on_body[b.body] += force;
+    }
+    // What a fixed body gives comes from outside; one that moves as prescribed works.
+    let driven = |end: &End, arm: DVec2, force: DVec2| {
+        if bodies.moves[end.body] { force.dot(bodies.velocity_at(end.body, arm)) } else { 0.0 }
+    };
+    if !bodies.dynamic[a.body] {
+        balance.outside(bodies.position[b.body] + arm_b, force, 0.0);
+        balance.work += driven(a, arm_a, force);
+    }
+    if !bodies.dynamic[b.body] {
+        balance.outside(bodies.position[a.body] + arm_a, -force, 0.0);
+        balance.work += driven(b, arm_b, -force);
+    }
+}
+
 impl Sink<'_> {
     /// `force` acts on side B, the opposite on side A, at the point where they touch.
     #[inline]
@@ -162,34 +195,8 @@ impl Sink<'_> {
         let (arm_a, arm_b) = arms((a, b), normal, overlap, law);
         self.bodies.push(a.body, arm_a, -force);
         self.bodies.push(b.body, arm_b, force);
-        self.account((a, b), normal, overlap, law, force);
-    }
-
-    /// Accounts of a force on side B that has gone to the bodies: for who asks for it, and for what does not move by forces.
-    #[inline]
-    pub fn account(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
-        if let Some(forces) = &mut self.forces {
-            forces.on_body[a.body] -= force;
-            forces.on_body[b.body] += force;
-        }
-        let (arm_a, arm_b) = arms((a, b), normal, overlap, law);
-        // What a fixed body gives comes from outside.
-        if !self.bodies.dynamic[a.body] {
-            self.balance.outside(self.bodies.position[b.body] + arm_b, force, 0.0);
-            self.driven(a, arm_a, force);
-        }
-        if !self.bodies.dynamic[b.body] {
-            self.balance.outside(self.bodies.position[a.body] + arm_a, -force, 0.0);
-            self.driven(b, arm_b, -force);
-        }
-    }
-
-    /// Books the work of a body that moves as prescribed and gives `force`.
-    #[inline]
-    fn driven(&mut self, end: &End, arm: DVec2, force: DVec2) {
-        if self.bodies.moves[end.body] {
-            self.balance.work += force.dot(self.bodies.velocity_at(end.body, arm));
-        }
+        let (arms, forces) = (arms((a, b), normal, overlap, law), self.forces.as_deref_mut());
+        account(self.bodies, (self.balance, forces), (a, b), arms, force);
     }
 
     /// `force` acts on an atom where it touches the wall, `height` metres from its centre.
@@ -245,34 +252,23 @@ pub(super) fn apply_penalty<N: NormalForce>(
         }
         return;
     }
-    let PenaltyContacts { laws, atoms, walls, records, .. } = &mut *contacts;
     let (time, elapsed) = (evaluation.time, evaluation.elapsed);
+    let PenaltyContacts { laws, atoms, walls, records, .. } = &mut *contacts;
     if !pairs.atoms.is_empty() {
         let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
         records.update(sink.bodies, &pairs.atoms, atoms, path);
-        let plain = sink.bodies.lone_discs && sink.bodies.all_dynamic && sink.forces.is_none();
-        losses = simd::run(
-            sink.bodies.level,
-            FollowPairs::<N> {
-                records: &records.list,
-                pairs: &pairs.atoms,
-                list: atoms,
-                laws,
-                sink: &mut sink,
-                deepest: &mut deepest,
-                plain,
-                path,
-                time,
-                elapsed,
-                law: PhantomData,
-            },
-        );
+        let moment = Moment { path, time, elapsed };
+        losses = kernel::follow_pairs::<N>(&records.list, &pairs.atoms, atoms, laws, &mut sink, &mut deepest, moment);
     }
-    for (place, &pair) in pairs.walls.iter().enumerate() {
-        if sink.bodies.is_asleep(sink.bodies.atom_body[pair.atom as usize] as usize) {
-            continue;
+    let mut number = 0;
+    while let Some(block) = (number < walls.awake_blocks()).then(|| walls.awake_block(number)) {
+        number += 1;
+        for place in BLOCK * block..pairs.walls.len().min(BLOCK * block + BLOCK) {
+            if !walls.is_asleep(place) {
+                let pair = pairs.walls[place];
+                follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), &mut deepest, (time, elapsed));
+            }
         }
-        follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), &mut deepest, (time, elapsed));
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);

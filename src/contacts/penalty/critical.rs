@@ -26,6 +26,9 @@ const TICKS_PER_PAIR: u64 = 32;
 /// Rounds in which the tick is sought where forces depend on velocities.
 const ROUNDS: usize = 12;
 
+/// What may be missing, as a share: a hundredth of what [`Springs::largest`] leaves out.
+const ENOUGH: f64 = 1e-4;
+
 /// Product of tick and angular frequency above which energy is watched at each tick; methods bear 2 and more.
 const ALERT: f64 = 1.5;
 
@@ -115,7 +118,10 @@ impl PenaltyContacts {
                 // Damping counts by the tick that is sought; each round halves at least what is missing.
                 for _ in 0..ROUNDS {
                     gather(&mut watch.springs, weight(squared.sqrt()));
-                    squared = watch.springs.largest();
+                    let before = std::mem::replace(&mut squared, watch.springs.largest());
+                    if (squared - before).abs() <= ENOUGH * squared {
+                        break;
+                    }
                 }
             }
             if squared > fastest * fastest {

@@ -8,15 +8,18 @@ use std::marker::PhantomData;
 
 use glam::DVec2;
 
-use super::apply::{End, Sink};
+use super::apply::{End, Sink, account, arms};
 use super::contact::Losses;
+use super::dashpot::Damping;
 use super::follow::{Followed, Touch};
 use super::law::{LawTable, PairLaw};
-use super::list::{ContactList, Phases, lanes};
+use super::list::{ContactList, ListPart, Phases, lanes};
 use super::normal::{Approach, NormalForce};
-use crate::contacts::{AtomPair, DeepestOverlap};
-use crate::simd::{BLOCK, Kernel, Lanes, Record};
+use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
+use crate::simd::{self, BLOCK, Kernel, Lanes, Record};
+use crate::tick::Balance;
 use crate::world::Bodies;
+use crate::world::part::parts_of;
 
 /// What contacts need to know of each atom: place, displacement since the last accepted state, turn since then, radius and
 /// velocity.
@@ -45,7 +48,9 @@ impl Records {
             self.needed.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
         }
         // Those of bodies that stand or are asleep are not filled in again.
-        (0..bodies.atom_count()).for_each(|atom| self.fill(bodies, atom));
+        for (atom, own) in self.list.iter_mut().enumerate() {
+            *own = record(bodies, atom);
+        }
     }
 
     /// Fills in the present state, as far as some pair has to be looked at; see [`FollowPairs::path`].
@@ -57,59 +62,156 @@ impl Records {
         if 2 * BLOCK * blocks().count() < atoms {
             for first in blocks().map(|block| BLOCK * block) {
                 for pair in &pairs[first..pairs.len().min(first + BLOCK)] {
-                    self.fill(bodies, pair.a as usize);
-                    self.fill(bodies, pair.b as usize);
+                    self.list[pair.a as usize] = record(bodies, pair.a as usize);
+                    self.list[pair.b as usize] = record(bodies, pair.b as usize);
                 }
             }
             return;
         }
-        if !all {
-            for place in 0..self.needed.len() {
-                self.fill(bodies, self.needed[place] as usize);
+        let each = self.list.len().div_ceil(parts_of(atoms, FEWEST)).next_multiple_of(BLOCK);
+        let parts = self.list.chunks_mut(each).enumerate().map(|(number, part)| (number * each, part)).collect();
+        let needed = &self.needed;
+        bodies.threads.each(parts, |(first, part): (usize, &mut [Record])| {
+            let atoms = first..first + part.len();
+            if all {
+                let blocks = bodies.awake_blocks_within(atoms);
+                for atom in blocks.flat_map(|number| bodies.awake_block(number)) {
+                    part[atom - first] = record(bodies, atom);
+                }
+            } else {
+                let place = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
+                for &atom in &needed[place(atoms.start)..place(atoms.end)] {
+                    part[atom as usize - first] = record(bodies, atom as usize);
+                }
             }
-            return;
-        }
-        for number in 0..bodies.awake_blocks() {
-            let block = bodies.awake_block(number);
-            let atoms = bodies.first_atom[block.start] as usize..bodies.first_atom[block.end] as usize;
-            for atom in atoms {
-                self.fill(bodies, atom);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn fill(&mut self, bodies: &Bodies, atom: usize) {
-        if bodies.lone_discs {
-            let (place, moved, velocity) = (bodies.position[atom], bodies.drift[atom], bodies.velocity[atom]);
-            let (turn, radius) = (bodies.turn[atom], bodies.atom_radius[atom]);
-            self.list[atom].0 = [place.x, place.y, moved.x, moved.y, turn, radius, velocity.x, velocity.y];
-            return;
-        }
-        let end = End::of(bodies, atom as u32);
-        let (place, (moved, turn), velocity) =
-            (bodies.atom_position[atom], end.displacement(bodies), end.velocity(bodies));
-        self.list[atom].0 = [place.x, place.y, moved.x, moved.y, turn, end.radius, velocity.x, velocity.y];
+        });
     }
 }
 
-/// All candidate pairs of atoms follow the motion of their sides.
-pub(super) struct FollowPairs<'a, 'b, N> {
-    pub records: &'a [Record],
-    pub pairs: &'a [AtomPair],
-    pub list: &'a mut ContactList,
-    pub laws: &'a LawTable,
-    pub sink: &'a mut Sink<'b>,
-    pub deepest: &'a mut DeepestOverlap,
-    /// Bodies are discs that move by forces, and nobody asks for single forces.
-    pub plain: bool,
+/// What contacts need to know of an atom at present.
+#[inline(always)]
+fn record(bodies: &Bodies, atom: usize) -> Record {
+    if bodies.lone_discs {
+        let (place, moved, velocity) = (bodies.position[atom], bodies.drift[atom], bodies.velocity[atom]);
+        let (turn, radius) = (bodies.turn[atom], bodies.atom_radius[atom]);
+        return Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, radius]);
+    }
+    let end = End::of(bodies, atom as u32);
+    let (place, (moved, turn), velocity) = (bodies.atom_position[atom], end.displacement(bodies), end.velocity(bodies));
+    Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, end.radius])
+}
+
+/// What else is to be known of an evaluation.
+#[derive(Clone, Copy)]
+pub(super) struct Moment {
     /// How far any point of a body can have gone since the beginning, in metres; not a number where that is not known.
     pub path: f64,
     /// Time of the state in seconds.
     pub time: f64,
     /// Seconds since the state that was last accepted.
     pub elapsed: f64,
-    pub law: PhantomData<N>,
+}
+
+/// Pairs of the smallest part: with fewer it costs more to hand them out than they do.
+const FEWEST: usize = 16384;
+
+/// All candidate pairs of atoms follow the motion of their sides, in parts if there are many. Each part gives forces to the
+/// bodies that stand first in its pairs; what is for others waits until all are done, and goes to them in the order of pairs.
+pub(super) fn follow_pairs<N: NormalForce>(
+    records: &[Record],
+    pairs: &[AtomPair],
+    list: &mut ContactList,
+    laws: &LawTable,
+    sink: &mut Sink,
+    deepest: &mut DeepestOverlap,
+    moment: Moment,
+) -> Losses {
+    let (level, threads) = (sink.bodies.level, sink.bodies.threads.clone());
+    let plain = sink.bodies.lone_discs && sink.bodies.all_dynamic && sink.forces.is_none();
+    let blocks = pairs.len().div_ceil(BLOCK).div_ceil(parts_of(pairs.len(), FEWEST));
+    let count = pairs.len().div_ceil(BLOCK).div_ceil(blocks);
+    let (mut force, mut torque) = (std::mem::take(&mut sink.bodies.force), std::mem::take(&mut sink.bodies.torque));
+    let bodies = &*sink.bodies;
+    let mut found: Vec<Found> = Vec::with_capacity(count);
+    let (mut forces, mut torques) = (&mut force[..], &mut torque[..]);
+    let mut parts = Vec::with_capacity(count);
+    for list in list.parts(blocks) {
+        let (begin, end) = (list.first * BLOCK, (list.first + blocks) * BLOCK);
+        let first = bodies.len() - forces.len();
+        let last = pairs.get(end).map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
+        let (force, rest) = std::mem::take(&mut forces).split_at_mut(last - first);
+        forces = rest;
+        let (torque, rest) = std::mem::take(&mut torques).split_at_mut(last - first);
+        torques = rest;
+        let balance = if list.first == 0 { *sink.balance } else { Balance::default() };
+        found.push(Found { balance, deepest: *deepest, ..Found::default() });
+        parts.push((list, Share { first, force, torque }, &pairs[begin..pairs.len().min(end)]));
+    }
+    let follow = |((list, share, pairs), found): ((ListPart, Share, &[AtomPair]), &mut Found),
+                  forces: Option<&mut ContactForces>| {
+        let law = PhantomData::<N>;
+        simd::run(level, FollowPairs { records, pairs, list, laws, bodies, share, found, forces, plain, moment, law });
+    };
+    let parts = parts.into_iter().zip(&mut found);
+    if sink.forces.is_some() || count == 1 {
+        parts.for_each(|part| follow(part, sink.forces.as_deref_mut()));
+    } else {
+        threads.each(parts.collect(), |part| follow(part, None));
+    }
+    (sink.bodies.force, sink.bodies.torque) = (force, torque);
+    let mut losses = Losses::default();
+    for (number, part) in found.iter().enumerate() {
+        for &(body, force, torque) in &part.others {
+            sink.bodies.force[body as usize] += force;
+            sink.bodies.torque[body as usize] += torque;
+        }
+        if number == 0 {
+            *sink.balance = part.balance
+        } else {
+            sink.balance.add(&part.balance)
+        }
+        losses.friction += part.losses.friction;
+        losses.inelasticity += part.losses.inelasticity;
+        if part.deepest.share > deepest.share {
+            *deepest = part.deepest;
+        }
+    }
+    losses
+}
+
+/// Forces of bodies in a row.
+struct Share<'a> {
+    /// The first of them.
+    first: usize,
+    force: &'a mut [DVec2],
+    torque: &'a mut [f64],
+}
+
+/// What comes of a part of the pairs beside forces on its own bodies.
+#[derive(Default)]
+struct Found {
+    /// Forces and torques for bodies of other parts.
+    others: Vec<(u32, DVec2, f64)>,
+    balance: Balance,
+    deepest: DeepestOverlap,
+    losses: Losses,
+}
+
+/// Pairs of a part follow the motion of their sides.
+struct FollowPairs<'a, N> {
+    records: &'a [Record],
+    pairs: &'a [AtomPair],
+    list: ListPart<'a>,
+    laws: &'a LawTable,
+    /// Without forces: those are shared out.
+    bodies: &'a Bodies,
+    share: Share<'a>,
+    found: &'a mut Found,
+    forces: Option<&'a mut ContactForces>,
+    /// Bodies are discs that move by forces, and nobody asks for single forces.
+    plain: bool,
+    moment: Moment,
+    law: PhantomData<N>,
 }
 
 /// Forces of a block: on side B, and the torques about the centres of both atoms.
@@ -168,11 +270,11 @@ struct Geometry {
 /// at the same time.
 const AHEAD: usize = 4;
 
-impl<N: NormalForce> Kernel for FollowPairs<'_, '_, N> {
-    type Output = Losses;
+impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<V: Lanes>(mut self) -> Losses {
+    fn run<V: Lanes>(mut self) {
         let mut lost = PartialLosses::default();
         let mut pushes = Pushes::default();
         let mut ahead = [Geometry::default(); AHEAD];
@@ -185,7 +287,7 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, '_, N> {
                 let block = self.list.awake_block(number);
                 number += 1;
                 // Nobody can have come near since it was looked at last.
-                if self.list.is_early(block, self.path) {
+                if self.list.is_early(block, self.moment.path) {
                     continue;
                 }
                 self.look::<V>(block, &mut ahead[near]);
@@ -203,11 +305,11 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, '_, N> {
             }
         }
         let sum = |partial: &[f64; BLOCK]| partial.iter().fold(0.0, |sum, part| sum + part);
-        Losses { friction: sum(&lost.friction), inelasticity: sum(&lost.inelasticity) }
+        self.found.losses = Losses { friction: sum(&lost.friction), inelasticity: sum(&lost.inelasticity) };
     }
 }
 
-impl<N: NormalForce> FollowPairs<'_, '_, N> {
+impl<N: NormalForce> FollowPairs<'_, N> {
     /// Finds out where the sides of the pairs of a block are.
     #[inline(always)]
     fn look<V: Lanes>(&mut self, block: usize, geometry: &mut Geometry) {
@@ -224,9 +326,8 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
         (geometry.block, geometry.among) = (block, 0);
         let mut lane = 0;
         while lane < BLOCK {
-            let [x_a, y_a, dx_a, dy_a, turn_a, radius_a, u_a, v_a] = V::records(self.records, &geometry.a[lane..]);
-            let [x_b, y_b, dx_b, dy_b, turn_b, radius_b, u_b, v_b] = V::records(self.records, &geometry.b[lane..]);
-            let (x, y) = (x_b - x_a, y_b - y_a);
+            let ([x, y, dx, dy, u, v, turn_b, radius_b], [turn_a, radius_a]) =
+                V::record_pairs(self.records, &geometry.a[lane..], &geometry.b[lane..]);
             let squared = x * x + y * y;
             let reach = radius_a + radius_b;
             // Written so that what is no number counts as near.
@@ -238,20 +339,19 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
             // Centres in one place have no direction: up is as good as any.
             let apart = V::splat(0.0).lt(distance);
             let normal = ((x * inverse).only(apart), V::select(apart, y * inverse, V::splat(1.0)));
-            let displacement = (dx_b - dx_a, dy_b - dy_a);
-            let swing = ((displacement.1 * normal.0 - displacement.0 * normal.1) * inverse).only(apart);
+            let swing = ((dy * normal.0 - dx * normal.1) * inverse).only(apart);
             normal.0.store(&mut geometry.normal[0][lane..]);
             normal.1.store(&mut geometry.normal[1][lane..]);
             (reach - distance).store(&mut geometry.overlap[lane..]);
-            displacement.0.store(&mut geometry.displacement[0][lane..]);
-            displacement.1.store(&mut geometry.displacement[1][lane..]);
+            dx.store(&mut geometry.displacement[0][lane..]);
+            dy.store(&mut geometry.displacement[1][lane..]);
             swing.store(&mut geometry.swing[lane..]);
             radius_a.store(&mut geometry.radius[0][lane..]);
             radius_b.store(&mut geometry.radius[1][lane..]);
             turn_a.store(&mut geometry.turn[0][lane..]);
             turn_b.store(&mut geometry.turn[1][lane..]);
             if N::DEPENDS_ON_VELOCITY {
-                ((u_b - u_a) * normal.0 + (v_b - v_a) * normal.1).store(&mut geometry.parting[lane..]);
+                (u * normal.0 + v * normal.1).store(&mut geometry.parting[lane..]);
             }
             lane += V::COUNT;
         }
@@ -262,7 +362,7 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
             for lane in 0..chunk.len() {
                 gap = gap.min(-geometry.overlap[lane]);
             }
-            self.list.due[block] = self.path + 0.5 * gap;
+            self.list.due[block] = self.moment.path + 0.5 * gap;
         }
     }
 
@@ -281,7 +381,7 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
         let phases = self.list.phases[block];
         let among = V::mask(geometry.among >> lane);
         let (loading, unloading) = (V::mask(phases.loading >> lane), V::mask(phases.unloading >> lane));
-        let law = match only {
+        let mut law = match only {
             Some(law) => *law,
             None => self.laws.lanes(&self.list.law[place..]),
         };
@@ -289,7 +389,9 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
         let mut approach = Approach { parting: V::splat(0.0), mobility: V::splat(0.0) };
         if N::DEPENDS_ON_VELOCITY {
             approach.parting = V::load(&geometry.parting[lane..]);
-            if law.damping.depends_on_mobility() {
+            if !self.list.damping.is_empty() {
+                law.damping = Damping::Coefficient(V::load(&self.list.damping[place..]));
+            } else if law.damping.depends_on_mobility() {
                 approach.mobility = self.mobility((&geometry.a[lane..], &geometry.b[lane..]), normal);
             }
         }
@@ -307,19 +409,22 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
             overlap: V::load(&self.list.overlap[place..]),
             normal_force: V::load(&self.list.normal_force[place..]),
             elongation: V::load(&self.list.elongation[place..]),
-            held: V::load(&self.list.held[place..]),
+            held: if phases.slides == 0 { V::splat(0.0) } else { V::load(&self.list.held[place..]) },
             loading,
             unloading,
             slips: V::mask(phases.slips >> lane),
             slides: V::mask(phases.slides >> lane),
         };
-        let losses = contacts.follow::<N>(&law, &touch, self.elapsed, among);
+        let losses = contacts.follow::<N>(&law, &touch, self.moment.elapsed, among);
         add(&mut lost.friction[lane..], losses.friction);
         add(&mut lost.inelasticity[lane..], losses.inelasticity);
         contacts.overlap.store(&mut self.list.overlap[place..]);
         contacts.normal_force.store(&mut self.list.normal_force[place..]);
         contacts.elongation.store(&mut self.list.elongation[place..]);
-        contacts.held.store(&mut self.list.held[place..]);
+        // What is held counts only where something slides.
+        if phases.slides != 0 {
+            contacts.held.store(&mut self.list.held[place..]);
+        }
         self.list.phases[block] = Phases {
             loading: written::<V>(phases.loading, contacts.loading, lane),
             unloading: written::<V>(phases.unloading, contacts.unloading, lane),
@@ -329,7 +434,7 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
         let pushing = (contacts.loading | contacts.unloading) & among;
         let touching = V::bits(pushing) & lanes_of::<V>();
         let smaller = V::select(radius.0.lt(radius.1), radius.0, radius.1);
-        let deeper = V::bits(contacts.overlap.gt(V::splat(self.deepest.share) * smaller)) & touching;
+        let deeper = V::bits(contacts.overlap.gt(V::splat(self.found.deepest.share) * smaller)) & touching;
         let (normal_force, tangential) = (contacts.normal_force, contacts.tangential_force(&law));
         let arm_a = radius.0 - law.share_a * contacts.overlap;
         let arm_b = radius.1 - law.share_b * contacts.overlap;
@@ -347,10 +452,7 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
     /// Relative velocity along the normal that an impulse of one newton second makes, in 1/kg.
     #[inline(always)]
     fn mobility<V: Lanes>(&self, (a, b): (&[u32], &[u32]), normal: (V, V)) -> V {
-        let bodies = &*self.sink.bodies;
-        if bodies.lone_discs {
-            return V::gather(&bodies.inverse_mass, a) + V::gather(&bodies.inverse_mass, b);
-        }
+        let bodies = self.bodies;
         let (mut x, mut y, mut mobility) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         normal.0.store(&mut x);
         normal.1.store(&mut y);
@@ -365,9 +467,9 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
     #[cold]
     fn note_deepest(&mut self, place: usize, deeper: u8, (a, b): (&[u32], &[u32])) {
         for lane in lanes(deeper) {
-            let (a, b) = (End::of(self.sink.bodies, a[lane]), End::of(self.sink.bodies, b[lane]));
-            let entity = &self.sink.bodies.entity;
-            self.deepest.note(self.list.overlap[place + lane], a.radius.min(b.radius), self.time, || {
+            let (a, b) = (End::of(self.bodies, a[lane]), End::of(self.bodies, b[lane]));
+            let entity = &self.bodies.entity;
+            self.found.deepest.note(self.list.overlap[place + lane], a.radius.min(b.radius), self.moment.time, || {
                 (entity[a.body], entity[b.body])
             });
         }
@@ -380,44 +482,46 @@ impl<N: NormalForce> FollowPairs<'_, '_, N> {
             return self.push_and_account(geometry, touching, pushes);
         }
         let (a, b) = (&geometry.a, &geometry.b);
-        let bodies = &mut *self.sink.bodies;
-        let count = bodies.force.len();
-        let (forces, torques) = (&mut bodies.force[..count], &mut bodies.torque[..count]);
         // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
         let mut left = if touching.count_ones() >= FULL { u8::MAX } else { touching };
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            let (x, y) = (pushes.force[0][lane], pushes.force[1][lane]);
-            let (a, b) = (a[lane] as usize, b[lane] as usize);
-            forces[a].x -= x;
-            forces[a].y -= y;
-            torques[a] += pushes.torque_a[lane];
-            forces[b].x += x;
-            forces[b].y += y;
-            torques[b] += pushes.torque_b[lane];
+            let force = DVec2::new(pushes.force[0][lane], pushes.force[1][lane]);
+            self.give(a[lane], -force, pushes.torque_a[lane]);
+            self.give(b[lane], force, pushes.torque_b[lane]);
+        }
+    }
+
+    /// A body of the part gets a force and a torque at once, one of another part later.
+    #[inline(always)]
+    fn give(&mut self, body: u32, force: DVec2, torque: f64) {
+        let own = (body as usize).wrapping_sub(self.share.first);
+        if let (Some(forces), Some(torques)) = (self.share.force.get_mut(own), self.share.torque.get_mut(own)) {
+            *forces += force;
+            *torques += torque;
+        } else {
+            self.found.others.push((body, force, torque));
         }
     }
 
     /// The same where bodies have several atoms, where some do not move by forces, or where somebody asks for forces.
     fn push_and_account(&mut self, geometry: &Geometry, touching: u8, pushes: &Pushes) {
-        let (first, a, b) = (BLOCK * geometry.block, &geometry.a, &geometry.b);
+        let (first, a, b, bodies) = (BLOCK * geometry.block, &geometry.a, &geometry.b, self.bodies);
         for lane in lanes(touching) {
             let force = DVec2::new(pushes.force[0][lane], pushes.force[1][lane]);
             let (a, b) = (a[lane] as usize, b[lane] as usize);
-            let bodies = &mut *self.sink.bodies;
             let (body_a, body_b) = (bodies.atom_body[a] as usize, bodies.atom_body[b] as usize);
             let (arm_a, arm_b) =
                 (bodies.atom_position[a] - bodies.position[body_a], bodies.atom_position[b] - bodies.position[body_b]);
-            bodies.force[body_a] -= force;
-            bodies.torque[body_a] += pushes.torque_a[lane] - arm_a.perp_dot(force);
-            bodies.force[body_b] += force;
-            bodies.torque[body_b] += pushes.torque_b[lane] + arm_b.perp_dot(force);
-            if self.sink.forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
+            self.give(body_a as u32, -force, pushes.torque_a[lane] - arm_a.perp_dot(force));
+            self.give(body_b as u32, force, pushes.torque_b[lane] + arm_b.perp_dot(force));
+            if self.forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
                 let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
                 let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
                 let law = self.laws.get(self.list.law[first + lane]);
-                self.sink.account(ends, normal, self.list.overlap[first + lane], law, force);
+                let arms = arms(ends, normal, self.list.overlap[first + lane], law);
+                account(bodies, (&mut self.found.balance, self.forces.as_deref_mut()), ends, arms, force);
             }
         }
     }

@@ -67,6 +67,8 @@ pub struct ContactList {
     pub(super) normal_force: Vec<f64>,
     pub(super) elongation: Vec<f64>,
     pub(super) held: Vec<f64>,
+    /// Damping in N s/m, where it is the same as long as the pairs are; else empty.
+    pub(super) damping: Vec<f64>,
     pub(super) phases: Vec<Phases>,
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
@@ -245,6 +247,83 @@ impl ContactList {
         }
         self.phases.resize(blocks, Phases::default());
         self.due.resize(blocks, f64::NEG_INFINITY);
+    }
+}
+
+/// The contacts of some blocks in a row. Blocks are counted from the first of them.
+pub(super) struct ListPart<'a> {
+    /// The first block, counted in the whole list.
+    pub first: usize,
+    pub law: &'a [u32],
+    pub damping: &'a [f64],
+    pub overlap: &'a mut [f64],
+    pub normal_force: &'a mut [f64],
+    pub elongation: &'a mut [f64],
+    pub held: &'a mut [f64],
+    pub phases: &'a mut [Phases],
+    pub due: &'a mut [f64],
+    asleep: &'a [u8],
+    /// Counted in the whole list.
+    awake: Option<&'a [u32]>,
+}
+
+impl ListPart<'_> {
+    /// Blocks in which some contact is not asleep: how many there are.
+    #[inline(always)]
+    pub fn awake_blocks(&self) -> usize {
+        self.awake.map_or(self.phases.len(), <[u32]>::len)
+    }
+
+    /// One of them.
+    #[inline(always)]
+    pub fn awake_block(&self, number: usize) -> usize {
+        self.awake.map_or(number, |awake| awake[number] as usize - self.first)
+    }
+
+    /// Whether none of the pairs of a block can have begun to touch.
+    #[inline(always)]
+    pub fn is_early(&self, block: usize, path: f64) -> bool {
+        path < self.due[block]
+    }
+
+    /// Which contacts of a block are asleep.
+    #[inline(always)]
+    pub fn asleep_in(&self, block: usize) -> u8 {
+        self.asleep.get(block).copied().unwrap_or(0)
+    }
+}
+
+impl ContactList {
+    /// The list in parts of so many blocks; the last may have fewer.
+    pub(super) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = ListPart<'_>> {
+        let (count, each) = (self.phases.len().div_ceil(blocks), BLOCK * blocks);
+        let (mut law, mut damping) = (self.law.chunks(each), self.damping.chunks(each));
+        let mut overlap = self.overlap.chunks_mut(each);
+        let mut normal_force = self.normal_force.chunks_mut(each);
+        let mut elongation = self.elongation.chunks_mut(each);
+        let mut held = self.held.chunks_mut(each);
+        let mut phases = self.phases.chunks_mut(blocks);
+        let mut due = self.due.chunks_mut(blocks);
+        let mut asleep = self.asleep.chunks(blocks);
+        let some_asleep = !self.asleep.is_empty();
+        let awake = &self.awake;
+        (0..count).map(move |number| {
+            let first = number * blocks;
+            let place = |block: usize| awake.partition_point(|&awake| (awake as usize) < block);
+            ListPart {
+                first,
+                law: law.next().unwrap_or_default(),
+                damping: damping.next().unwrap_or_default(),
+                overlap: overlap.next().unwrap_or_default(),
+                normal_force: normal_force.next().unwrap_or_default(),
+                elongation: elongation.next().unwrap_or_default(),
+                held: held.next().unwrap_or_default(),
+                phases: phases.next().unwrap_or_default(),
+                due: due.next().unwrap_or_default(),
+                asleep: asleep.next().unwrap_or_default(),
+                awake: some_asleep.then(|| &awake[place(first)..place(first + blocks)]),
+            }
+        })
     }
 }
 

@@ -7,8 +7,12 @@
 use glam::DVec2;
 
 use super::AtomPair;
+use crate::threads::Threads;
 use crate::world::Bodies;
+use crate::world::part::parts_of;
 
+/// Atoms of the smallest part of a search.
+const FEWEST: usize = 4096;
 /// An atom is large when its radius is so many times that of most.
 const LARGE: f64 = 2.0;
 /// The share of atoms that counts as most.
@@ -43,19 +47,8 @@ pub(super) fn pairs(bodies: &Bodies, margin: f64) -> Vec<AtomPair> {
     let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
     all.retain(|entry| entry.reach <= limit);
     let cells = Cells::of(&all);
-    let mut pairs = Vec::with_capacity(4 * all.len());
-    let mut found = Vec::new();
     let moves = |a: u32, b: u32| bodies.dynamic[a as usize] || bodies.dynamic[b as usize];
-    for entry in &all {
-        found.clear();
-        cells.near(entry, cells.reach, |other| {
-            if other.atom > entry.atom && moves(entry.body, other.body) {
-                found.push(other.atom);
-            }
-        });
-        found.sort_unstable();
-        pairs.extend(found.iter().map(|&other| AtomPair { a: entry.atom, b: other }));
-    }
+    let mut pairs = in_order(cells.all_pairs(&bodies.threads, moves), bodies.atom_count());
     let sorted = pairs.len();
     for (place, entry) in large.iter().enumerate() {
         let mut push = |other: &Entry| {
@@ -69,6 +62,28 @@ pub(super) fn pairs(bodies: &Bodies, margin: f64) -> Vec<AtomPair> {
     if pairs.len() > sorted {
         // Two sorted runs and a little more: nearly linear.
         pairs.sort();
+    }
+    pairs
+}
+
+/// Pairs that were found in any order in canonical order: those of each first atom together, and then by the second.
+fn in_order(found: Vec<Vec<AtomPair>>, atoms: usize) -> Vec<AtomPair> {
+    let mut first = vec![0_u32; atoms + 1];
+    for pair in found.iter().flatten() {
+        first[pair.a as usize + 1] += 1;
+    }
+    for atom in 0..atoms {
+        first[atom + 1] += first[atom];
+    }
+    let mut pairs = vec![AtomPair { a: 0, b: 0 }; first[atoms] as usize];
+    let mut next = first.clone();
+    for &pair in found.iter().flatten() {
+        let slot = &mut next[pair.a as usize];
+        pairs[*slot as usize] = pair;
+        *slot += 1;
+    }
+    for own in first.windows(2) {
+        pairs[own[0] as usize..own[1] as usize].sort_unstable();
     }
     pairs
 }
@@ -110,7 +125,8 @@ impl Cells {
         });
         let size = if all.is_empty() { DVec2::ZERO } else { high - low };
         let enough = (size.x * size.y / (CELLS_PER_ATOM * all.len() as f64)).sqrt();
-        let width = (2.0 * reach).max(size.max_element() / LONGEST).max(enough).max(f64::MIN_POSITIVE);
+        // A little wider, so that rounding never puts what is near two cells away.
+        let width = (2.000_000_01 * reach).max(size.max_element() / LONGEST).max(enough).max(f64::MIN_POSITIVE);
         let per_meter = 1.0 / width;
         let count = |length: f64| (length * per_meter) as usize + 1;
         let (columns, rows) = (count(size.x), count(size.y));
@@ -142,6 +158,48 @@ impl Cells {
     fn cell(&self, place: DVec2) -> usize {
         let (column, row) = self.column_and_row(place);
         row * self.columns + column
+    }
+
+    /// Pairs of entries of different bodies that are near each other, each once, if their bodies are wanted: band by band of
+    /// rows, in the order of cells.
+    fn all_pairs(&self, threads: &Threads, wanted: impl Fn(u32, u32) -> bool + Sync) -> Vec<Vec<AtomPair>> {
+        let bands = parts_of(self.entries.len(), FEWEST).min(self.rows);
+        let mut found = vec![Vec::new(); bands];
+        let each = self.rows.div_ceil(bands);
+        threads.each(found.iter_mut().enumerate().collect(), |(band, found): (usize, &mut Vec<AtomPair>)| {
+            let rows = band * each..self.rows.min((band + 1) * each);
+            found.reserve(3 * self.entries.len() / bands);
+            for row in rows {
+                self.pairs_of_row(row, &wanted, found);
+            }
+        });
+        found
+    }
+
+    /// Those of a row with what stands behind them in the row, and with the next row.
+    fn pairs_of_row(&self, row: usize, wanted: &impl Fn(u32, u32) -> bool, found: &mut Vec<AtomPair>) {
+        let (begin, end) = (row * self.columns, (row + 1) * self.columns);
+        for cell in begin..end {
+            let own = self.first[cell] as usize..self.first[cell + 1] as usize;
+            if own.is_empty() {
+                continue;
+            }
+            let beside = self.first[end.min(cell + 2)] as usize;
+            let above = if row + 1 < self.rows {
+                let (left, right) = ((cell + self.columns).saturating_sub(1).max(end), cell + self.columns + 2);
+                self.first[left] as usize..self.first[right.min(end + self.columns)] as usize
+            } else {
+                0..0
+            };
+            for place in own {
+                let entry = &self.entries[place];
+                for other in self.entries[place + 1..beside].iter().chain(&self.entries[above.clone()]) {
+                    if are_near(entry, other) && wanted(entry.body, other.body) {
+                        found.push(AtomPair { a: entry.atom.min(other.atom), b: entry.atom.max(other.atom) });
+                    }
+                }
+            }
+        }
     }
 
     /// Shows all entries of other bodies near to one; `reach` is the greatest that they have.

@@ -1,0 +1,141 @@
+//! Several threads for the work on many bodies or contacts of one tick.
+//!
+//! Work is cut into parts by how much of it there is, never by how many threads do it, and what the parts found is put
+//! together in their order: any number of threads gives the same bits.
+//!
+//! A thread without work sleeps, but not at once: to wake it takes longer than it takes until the next pass over the bodies
+//! (5 us on a computer of one's own, 45 us were measured on a virtual one).
+
+use std::cell::Cell;
+use std::fmt;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, OnceLock};
+use std::time::{Duration, Instant};
+
+use rayon::{ThreadPool, ThreadPoolBuilder, Yield};
+
+/// How long a thread looks for work before it sleeps, and how long one waits for the others before it does.
+const PATIENCE: Duration = Duration::from_micros(50);
+
+/// The threads of a run. Copies share them.
+#[derive(Clone)]
+pub struct Threads {
+    count: usize,
+    /// All but the one that asks. They begin when there is work for them for the first time.
+    others: Arc<OnceLock<Option<ThreadPool>>>,
+}
+
+impl Default for Threads {
+    /// One: all work is done by who asks for it.
+    fn default() -> Self {
+        Self::new(1)
+    }
+}
+
+impl fmt::Debug for Threads {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "Threads({})", self.count)
+    }
+}
+
+impl Threads {
+    /// So many threads, at least one.
+    pub fn new(count: usize) -> Self {
+        Self { count: count.max(1), others: Arc::default() }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Does `work` on each part, several at once. Each thread begins with its share of the parts, the same ones each time, which
+    /// its processor may still have at hand, and then helps the others.
+    ///
+    /// # Panics
+    /// When `work` does.
+    pub fn each<Part: Send>(&self, parts: Vec<Part>, work: impl Fn(Part) + Sync) {
+        let Some(others) = self.others().filter(|_| parts.len() > 1) else {
+            return parts.into_iter().for_each(work);
+        };
+        let parts: Vec<_> = parts.into_iter().map(|part| Mutex::new(Some(part))).collect();
+        let done = AtomicUsize::new(0);
+        let go_through = |thread: usize| {
+            let first = thread * parts.len() / self.count;
+            for part in parts[first..].iter().chain(parts[..first].iter().rev()) {
+                // Nobody panics while it is locked.
+                if let Some(part) = part.lock().map_or(None, |mut part| part.take()) {
+                    work(part);
+                    done.fetch_add(1, Ordering::Release);
+                }
+            }
+        };
+        others.in_place_scope(|scope| {
+            scope.spawn_broadcast(|_, others| {
+                go_through(others.index() + 1);
+                stay_awake();
+            });
+            go_through(0);
+            let until = Instant::now() + PATIENCE;
+            while done.load(Ordering::Acquire) < parts.len() && Instant::now() < until {
+                std::thread::yield_now();
+            }
+        });
+    }
+
+    fn others(&self) -> Option<&ThreadPool> {
+        if self.count == 1 {
+            return None;
+        }
+        // Where the system gives no threads the one that asks does all.
+        let begin = || ThreadPoolBuilder::new().num_threads(self.count - 1).build().ok();
+        self.others.get_or_init(begin).as_ref()
+    }
+}
+
+thread_local! {
+    /// Until when this thread looks for work, if it does.
+    static AWAKE: Cell<Option<Instant>> = const { Cell::new(None) };
+}
+
+/// The thread of a pool that asks looks for more work for a while before it sleeps.
+fn stay_awake() {
+    if AWAKE.replace(Some(Instant::now() + PATIENCE)).is_none() {
+        rayon::spawn(look_for_work);
+    }
+}
+
+fn look_for_work() {
+    while AWAKE.get().is_some_and(|until| Instant::now() < until) {
+        // What it finds may ask it to stay awake for longer.
+        if rayon::yield_now() != Some(Yield::Executed) {
+            std::thread::yield_now();
+        }
+    }
+    AWAKE.set(None);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_part_is_done_once_by_any_number_of_threads() {
+        for count in [0, 1, 2, 5] {
+            let threads = Threads::new(count);
+            for parts in [0, 1, 2, 40] {
+                let mut done = vec![0_u32; parts];
+                let work: Vec<(usize, &mut u32)> = done.iter_mut().enumerate().collect();
+                threads.each(work, |(place, part)| *part += 1 + place as u32);
+                assert!(done.iter().enumerate().all(|(place, &done)| done == 1 + place as u32), "{count}, {parts}");
+            }
+        }
+    }
+
+    #[test]
+    fn several_work_at_the_same_time() {
+        // Each waits until the other has begun: with one thread neither would go on.
+        let meeting = std::sync::Barrier::new(2);
+        Threads::new(2).each(vec![(), ()], |()| drop(meeting.wait()));
+    }
+}

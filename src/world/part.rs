@@ -1,0 +1,239 @@
+//! Bodies in parts that do not share anything: work on many bodies, several side by side and several threads at once.
+
+use std::ops::Range;
+
+use glam::DVec2;
+
+use super::packed::{Bodies, place_atoms};
+use crate::simd::{self, BLOCK, Kernel, Lanes};
+
+/// Atoms, or bodies without, of the smallest part: with fewer it costs more to hand them out than they do.
+const FEWEST: usize = 16384;
+/// Parts at most.
+const MOST: usize = 16;
+
+/// Some bodies in a row, with what they have: lists begin at the first of them and are as long as there are bodies.
+pub(crate) struct Part<'a> {
+    /// Place of the first body.
+    pub first: usize,
+    /// Blocks that need work among all bodies; none: all of them.
+    awake: Option<&'a [u32]>,
+    /// A bit for each body that is asleep, a byte for each block from the first on; empty: none is.
+    pub asleep: &'a [u8],
+    pub mass: &'a [f64],
+    pub inverse_mass: &'a [f64],
+    pub inverse_inertia: &'a [f64],
+    pub extent: &'a [f64],
+    pub position: &'a mut [DVec2],
+    pub position_rest: &'a mut [DVec2],
+    pub angle: &'a mut [f64],
+    pub angle_rest: &'a mut [f64],
+    pub velocity: &'a mut [DVec2],
+    pub spin: &'a mut [f64],
+    /// Empty where nobody estimates.
+    pub estimated_velocity: &'a mut [DVec2],
+    pub estimated_spin: &'a mut [f64],
+    pub drift: &'a mut [DVec2],
+    pub turn: &'a mut [f64],
+    pub force: &'a mut [DVec2],
+    pub torque: &'a mut [f64],
+    pub lone_discs: bool,
+    moves: &'a [bool],
+    /// One more than bodies.
+    first_atom: &'a [u32],
+    atom_offset: &'a [DVec2],
+    pub atom_position: &'a mut [DVec2],
+}
+
+/// The first items of a list, which then begins behind them.
+fn cut<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let whole = std::mem::take(list);
+    let (front, rest) = whole.split_at_mut(count.min(whole.len()));
+    *list = rest;
+    front
+}
+
+impl<'a> Part<'a> {
+    fn whole(bodies: &'a mut Bodies) -> Self {
+        Self {
+            first: 0,
+            awake: (!bodies.asleep.is_empty()).then_some(&bodies.awake),
+            asleep: &bodies.asleep,
+            mass: &bodies.mass,
+            inverse_mass: &bodies.inverse_mass,
+            inverse_inertia: &bodies.inverse_inertia,
+            extent: &bodies.extent,
+            position: &mut bodies.position,
+            position_rest: &mut bodies.position_rest,
+            angle: &mut bodies.angle,
+            angle_rest: &mut bodies.angle_rest,
+            velocity: &mut bodies.velocity,
+            spin: &mut bodies.spin,
+            estimated_velocity: &mut bodies.estimated_velocity,
+            estimated_spin: &mut bodies.estimated_spin,
+            drift: &mut bodies.drift,
+            turn: &mut bodies.turn,
+            force: &mut bodies.force,
+            torque: &mut bodies.torque,
+            lone_discs: bodies.lone_discs,
+            moves: &bodies.moves,
+            first_atom: &bodies.first_atom,
+            atom_offset: &bodies.atom_offset,
+            atom_position: &mut bodies.atom_position,
+        }
+    }
+
+    /// The first `count` bodies, whole blocks; what is left begins behind them.
+    fn take(&mut self, count: usize) -> Self {
+        let blocks = |list: &[u32]| list.partition_point(|&block| (block as usize) < (self.first + count) / BLOCK);
+        let (awake, rest) = self.awake.map(|list| list.split_at(blocks(list))).unzip();
+        let atoms = (self.first_atom[count] - self.first_atom[0]) as usize;
+        let front = Self {
+            first: self.first,
+            awake,
+            asleep: &self.asleep[..self.asleep.len().min(count / BLOCK)],
+            mass: &self.mass[..count],
+            inverse_mass: &self.inverse_mass[..count],
+            inverse_inertia: &self.inverse_inertia[..count],
+            extent: &self.extent[..count],
+            position: cut(&mut self.position, count),
+            position_rest: cut(&mut self.position_rest, count),
+            angle: cut(&mut self.angle, count),
+            angle_rest: cut(&mut self.angle_rest, count),
+            velocity: cut(&mut self.velocity, count),
+            spin: cut(&mut self.spin, count),
+            estimated_velocity: cut(&mut self.estimated_velocity, count),
+            estimated_spin: cut(&mut self.estimated_spin, count),
+            drift: cut(&mut self.drift, count),
+            turn: cut(&mut self.turn, count),
+            force: cut(&mut self.force, count),
+            torque: cut(&mut self.torque, count),
+            lone_discs: self.lone_discs,
+            moves: &self.moves[..count],
+            first_atom: &self.first_atom[..=count],
+            atom_offset: &self.atom_offset[..atoms],
+            atom_position: cut(&mut self.atom_position, atoms),
+        };
+        self.first += count;
+        self.awake = rest;
+        self.asleep = &self.asleep[front.asleep.len()..];
+        self.mass = &self.mass[count..];
+        self.inverse_mass = &self.inverse_mass[count..];
+        self.inverse_inertia = &self.inverse_inertia[count..];
+        self.extent = &self.extent[count..];
+        self.moves = &self.moves[count..];
+        self.first_atom = &self.first_atom[count..];
+        self.atom_offset = &self.atom_offset[atoms..];
+        front
+    }
+
+    #[inline(always)]
+    fn blocks(&self) -> usize {
+        self.awake.map_or(self.mass.len().div_ceil(BLOCK), <[u32]>::len)
+    }
+
+    /// Places within the part of one of its blocks that need work.
+    #[inline(always)]
+    fn block(&self, number: usize) -> Range<usize> {
+        let first = self.awake.map_or(number, |list| list[number] as usize - self.first / BLOCK) * BLOCK;
+        first..self.mass.len().min(first + BLOCK)
+    }
+
+    /// Puts the atoms of a body where it is, unless it stands.
+    #[inline(always)]
+    pub fn place_atoms(&mut self, body: usize) {
+        if self.moves[body] {
+            let atoms = |place: usize| (self.first_atom[place] - self.first_atom[0]) as usize;
+            let atoms = atoms(body)..atoms(body + 1);
+            let offsets = &self.atom_offset[atoms.clone()];
+            place_atoms((self.position[body], self.angle[body]), offsets, &mut self.atom_position[atoms]);
+        }
+    }
+}
+
+/// Work on bodies, as many side by side as there are lanes.
+pub(crate) trait PerBody: Clone + Send {
+    /// Does it for the bodies from place `first` of a part on.
+    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize);
+}
+
+struct All<'a, W> {
+    part: Part<'a>,
+    work: W,
+}
+
+impl<W: PerBody> Kernel for All<'_, W> {
+    type Output = W;
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) -> W {
+        let Self { mut part, mut work } = self;
+        let mut number = 0;
+        while number < part.blocks() {
+            let bodies = part.block(number);
+            let mut first = bodies.start;
+            if bodies.len() == BLOCK {
+                while first < bodies.end {
+                    work.bodies::<V>(&mut part, first);
+                    first += V::COUNT;
+                }
+            } else {
+                while first < bodies.end {
+                    work.bodies::<f64>(&mut part, first);
+                    first += 1;
+                }
+            }
+            number += 1;
+        }
+        work
+    }
+}
+
+/// How many parts a list is cut into that takes so much work: a function of that alone.
+pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
+    (work / fewest).clamp(1, MOST)
+}
+
+impl Bodies {
+    /// Does `work` for all bodies that are not asleep; `found` is told what it is afterwards, part by part in order.
+    pub(crate) fn each<W: PerBody>(&mut self, work: W, mut found: impl FnMut(W)) {
+        let (level, threads) = (self.level, self.threads.clone());
+        let count = parts_of(self.atom_count().max(self.len()), FEWEST);
+        if count == 1 {
+            return found(simd::run(level, All { part: Part::whole(self), work }));
+        }
+        let each = self.len().div_ceil(count).next_multiple_of(BLOCK);
+        let mut rest = Part::whole(self);
+        let mut parts = Vec::with_capacity(count);
+        while rest.mass.len() > each {
+            parts.push((rest.take(each), work.clone()));
+        }
+        parts.push((rest, work));
+        let mut done: Vec<Option<W>> = parts.iter().map(|_| None).collect();
+        threads.each(parts.into_iter().zip(&mut done).collect(), |((part, work), done)| {
+            *done = Some(simd::run(level, All { part, work }));
+        });
+        done.into_iter().flatten().for_each(found);
+    }
+}
+
+/// Clears forces and puts atoms where their bodies are.
+#[derive(Clone)]
+pub(super) struct Pose;
+
+impl PerBody for Pose {
+    #[inline(always)]
+    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
+        let zero = V::splat(0.0);
+        V::store_pairs(zero, zero, &mut part.force[first..]);
+        zero.store(&mut part.torque[first..]);
+        if part.lone_discs {
+            let (x, y) = V::load_pairs(&part.position[first..]);
+            V::store_pairs(x, y, &mut part.atom_position[first..]);
+            return;
+        }
+        for body in first..first + V::COUNT {
+            part.place_atoms(body);
+        }
+    }
+}
