@@ -41,12 +41,12 @@ impl Check {
                 Err(exit) => exit,
                 Ok((_, simulation)) if self.run => self.run(request, simulation),
                 Ok((_, simulation)) if self.json => {
-                    let notes = &simulation.header().remarks;
+                    let notes = simulation.notes();
                     print_line(&serde_json::json!({ "scene": name, "errors": [], "notes": notes }).to_string())
                 }
                 Ok((_, simulation)) => {
-                    for remark in &simulation.header().remarks {
-                        say(&format!("note: {name}: {remark}"));
+                    for note in simulation.notes() {
+                        say(&format!("note: {name}: {note}"));
                     }
                     print_line(&format!("{name}: good; {}", contents(&simulation)))
                 }

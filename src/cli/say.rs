@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Write};
 
 use super::Exit;
 
-pub(super) use crate::scene::number;
+pub(super) use crate::scene::{count, number};
 
 /// Prints a message to standard error; nobody is left to be told if that fails.
 pub(super) fn say(message: &str) {
@@ -23,9 +23,4 @@ pub(super) fn print_line(line: &str) -> Exit {
             Exit::Usage
         }
     }
-}
-
-/// A number of things in words: `1 body`, `3 bodies`.
-pub(super) fn count(number: usize, one: &str, many: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { many })
 }

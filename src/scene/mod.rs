@@ -55,6 +55,7 @@
 //! assert_eq!((wind.line, wind.column), (Some(1), Some(54)));
 //! ```
 
+mod cells;
 mod edit;
 mod error;
 mod expand;
@@ -75,11 +76,12 @@ mod tree;
 pub mod units;
 pub mod values;
 
+pub(crate) use cells::{cells, drop_empty_ends, separator};
 pub use error::{SceneError, SceneErrors};
 pub(crate) use layout::laid_out;
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
-pub(crate) use number::number;
+pub(crate) use number::{count, number};
 pub(crate) use outline::fits;
 pub use outline::{Kind, Mention, Obstacle, Outline};
 pub(crate) use registry::install_word;

@@ -74,7 +74,14 @@ impl FromStr for Level {
     fn from_str(word: &str) -> Result<Self, String> {
         let known = Self::ALL.into_iter().find(|level| level.name() == word);
         let level = known.ok_or_else(|| "expected `scalar`, `baseline`, `avx2` or `avx512`".to_owned())?;
-        if level.is_available() { Ok(level) } else { Err(format!("this processor has no {level}")) }
+        if level.is_available() {
+            Ok(level)
+        } else {
+            Err(format!(
+                "this processor has no {level}; its best is `{}`, which is taken without the flag",
+                Self::best()
+            ))
+        }
     }
 }
 

@@ -162,6 +162,11 @@ impl Simulation {
         &self.header
     }
 
+    /// What the engine chose and what it noted so far; the card adds what shows at its end.
+    pub fn notes(&self) -> &[String] {
+        &self.world().resource::<Notes>().0
+    }
+
     /// What is to be drawn.
     pub fn film(&self) -> &FilmSection {
         &self.film

@@ -36,6 +36,53 @@ fn what_is_not_time_is_the_same_each_time() {
     }
     assert!(json["plain"]["ratio"]["median"].as_f64().unwrap() > 0.0, "{json}");
     assert_eq!(json["bytes"].is_null(), !cfg!(target_os = "linux"));
+    assert!(json["bytes_per_atom"].is_null(), "tetris is smaller than the program: {json}");
+}
+
+/// Memory is that of the scene: of 2000 discs no more than some kB each, and no less than what a disc's state takes (place,
+/// velocity, angle, spin, mass, inertia and radius, ten numbers).
+#[test]
+fn memory_is_told_where_it_is_that_of_the_scene() {
+    let folder = Folder::new("bench_memory");
+    let measure = |scenes: &str| folder.jostle(&format!("bench {scenes} --ticks 2 --rounds 1 --json")).code(0).json();
+    if let Some(bytes) = measure("bench:gas")[0]["bytes_per_atom"].as_f64() {
+        assert!((80.0..5000.0).contains(&bytes), "{bytes}");
+    }
+    let table = folder.jostle("bench example:tetris --ticks 2 --rounds 1").code(0).out;
+    assert!(table.lines().nth(1).is_some_and(|row| row.ends_with(" -")), "{table}");
+}
+
+/// What the help shows can be pasted at the root of the repository. It is run with short rounds.
+#[test]
+fn examples_of_the_help_can_be_pasted() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let help = Folder::new("bench_help").jostle("bench --help").code(0).out;
+    let examples = help.lines().filter_map(|line| line.strip_prefix("  jostle "));
+    let mut seen = 0;
+    for example in examples.map(|line| line.split("  ").next().unwrap_or(line)) {
+        let mut words: Vec<String> = example.split(' ').map(str::to_owned).collect();
+        if let Some(star) = words.iter().position(|word| word.contains('*')) {
+            let pattern = words.remove(star);
+            let (folder, ending) = pattern.rsplit_once("/*").unwrap();
+            let files = std::fs::read_dir(root.join(folder)).unwrap().map(|file| file.unwrap().path());
+            let files = files.filter(|file| file.to_str().is_some_and(|name| name.ends_with(ending)));
+            words.extend(files.map(|file| file.to_str().unwrap().to_owned()));
+            assert!(words.len() > 2, "{pattern} fits nothing");
+        }
+        for (flag, value) in [("--ticks", "1"), ("--rounds", "1")] {
+            if !words.iter().any(|word| word == flag) {
+                words.extend([flag.to_owned(), value.to_owned()]);
+            }
+        }
+        let ended = std::process::Command::new(env!("CARGO_BIN_EXE_jostle"))
+            .args(&words)
+            .current_dir(root)
+            .output()
+            .unwrap_or_else(|error| panic!("{example}: {error}"));
+        assert!(ended.status.success(), "{example}: {}", String::from_utf8_lossy(&ended.stderr));
+        seen += 1;
+    }
+    assert!(seen >= 6, "{help}");
 }
 
 #[test]

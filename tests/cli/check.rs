@@ -22,3 +22,15 @@ fn a_good_scene_has_an_empty_list_of_mistakes() {
     assert_eq!(result["scene"], "example:tetris");
     assert_eq!(result["errors"], serde_json::json!([]));
 }
+
+/// What the engine notes before the first tick is seen without a run.
+#[test]
+fn an_overlap_at_the_start_is_noted() {
+    let scene = "Scene(format: 1, clock: (duration: 1, tick: 0.001, method: VelocityVerlet), bodies: [
+        (name: \"a\", at: (0, 0), atoms: Disc(radius: 1)), (name: \"b\", at: (1, 0), atoms: Disc(radius: 1))])";
+    let folder = Folder::new("check_overlap").with("two.ron", scene);
+    let ended = folder.jostle("check two.ron").code(0);
+    assert!(ended.err.starts_with("note: two.ron: at the start `a` and `b` overlap by 1 m, 100 %"), "{ended:?}");
+    let [result] = &folder.jostle("check --json two.ron").code(0).json()[..] else { panic!("one line") };
+    assert_eq!(result["notes"].as_array().map(Vec::len), Some(1), "{result}");
+}

@@ -48,11 +48,22 @@ fn names_and_words_are_explained() {
         ("horizon", "up to which a run can be told at all"),
         ("Reference", "the smallest error there is"),
         ("events located", "how often a step ended where forces jump"),
+        ("packing", "`packings` is a section of the scene"),
+        ("body", "`bodies` is a section of the scene"),
+        ("rest", "nothing moves at all, to the last bit"),
+        ("asleep", "ticks leave them out"),
+        ("sleep", "ticks leave them out"),
+        ("simd", "`--simd LEVEL` is a flag of `jostle run`, "),
+        ("vector instructions", "A level that the processor lacks is refused"),
+        ("threads", "Threads that draw; the film does not depend on it"),
+        ("quick", "`--quick` is a flag of `jostle bench`: "),
     ] {
         let ended = folder.jostle(&format!("explain {name}")).code(0);
         assert!(ended.out.contains(text), "{name}: {ended:?}");
     }
     folder.jostle("explain Darg").code(2).says("did you mean `Drag`?");
+    folder.jostle("explain thread").code(0);
+    folder.jostle("explain treads").code(2).says("did you mean `threads`?");
     folder.jostle("explain Drag --json").code(2).says("--json is for scenes");
 }
 

@@ -6,6 +6,7 @@ mod extremes;
 mod film;
 mod layers;
 mod manual;
+mod overlaps;
 mod packings;
 mod pictures;
 mod shipped;

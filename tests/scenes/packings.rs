@@ -26,7 +26,7 @@ fn scene(folder: &Path, packing: &str, more: &str) -> Source {
     Source::read(&path).unwrap()
 }
 
-const TABLE: &str = "x,y,radius,vx\n1,2,0.5,4\n8,2,0.25,-1\n";
+const TABLE: &str = "x,y,radius,vx,vy\n1,2,0.5,4,0\n8,2,0.25,-1,0\n";
 
 /// Plain and compressed, by itself and among other bodies: names, order, places, masses and motion.
 #[test]
@@ -54,6 +54,19 @@ fn a_table_becomes_bodies() {
         hashes.push(simulation.card().hash);
     }
     assert_eq!(hashes[0], hashes[1]);
+}
+
+/// One disc is one disc.
+#[test]
+fn a_table_of_one_disc_is_told_so() {
+    let folder = folder("one");
+    std::fs::write(folder.join("one.csv"), "x,y,radius\n1,2,0.5\n").unwrap();
+    std::fs::write(folder.join("clump.csv"), "x,y,radius,body\n1,2,0.5,3\n1,3,0.5,3\n").unwrap();
+    for (file, note) in [("one.csv", "a table of 1 disc"), ("clump.csv", "a table of 1 body of 2 atoms")] {
+        let entry = format!("(name: \"grain\", file: \"{file}\")");
+        let simulation = Simulation::load(&scene(&folder, &entry, "")).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(simulation.header().remarks, [format!("{file}: {note}")]);
+    }
 }
 
 /// A part in another folder finds its table, its bodies have the part's prefix, and forces of the part choose them.
@@ -92,6 +105,7 @@ fn tables_that_are_wrong_are_told_with_line_and_column() {
     std::fs::write(folder.join("word.csv"), "x,y,radius\n0,zero,1\n").unwrap();
     std::fs::write(folder.join("column.csv"), "x,y\n0,0\n").unwrap();
     std::fs::write(folder.join("huge.csv"), "x,y,radius\n0,0,1e200\n").unwrap();
+    std::fs::write(folder.join("half.csv"), "\"x\",\"y\",\"radius\",\"vx\"\n0,0,1,2\n").unwrap();
     std::fs::write(folder.join("good.csv"), TABLE).unwrap();
     for (file, message, help) in [
         ("none.csv", "there is no file `none.csv`", "the path begins at the folder"),
@@ -101,6 +115,7 @@ fn tables_that_are_wrong_are_told_with_line_and_column() {
         ("radius.csv", "line 3 of `radius.csv`, column `radius`, must be above zero, got -1", "radius in metres"),
         ("word.csv", "line 2 of `word.csv`, column `y`, is no number: `zero`", "SI units"),
         ("column.csv", "line 1 of `column.csv`, column `radius`, is missing", "`x,y,radius`"),
+        ("half.csv", "line 1 of `half.csv`, column `vy`, is missing, although there is `vx`", "add the column `vy`"),
         ("huge.csv", "grain_0: its mass, place or velocity is too large to be a number", "a zero too many"),
     ] {
         let entry = format!("(name: \"grain\", file: \"{file}\")");

@@ -4,6 +4,7 @@ use std::process::{Command, Stdio};
 
 use super::Bench;
 use crate::cli::Exit;
+use crate::cli::load;
 use crate::cli::say::print_line;
 use crate::report::bench::resident;
 use crate::simulation::Simulation;
@@ -30,9 +31,18 @@ pub(super) fn of_other_process(bench: &Bench, scene: &str, ticks: u64) -> Option
     std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
 }
 
+/// A small scene that goes ahead, so that the program itself is in memory: it is read as far as it is run.
+const WARM_UP: (&str, u64) = ("example:tetris", 100);
+
 impl Bench {
-    /// Reads and runs a scene, and prints by how many bytes this process has grown.
+    /// Reads and runs a scene, and prints by how many bytes this process has grown meanwhile.
     pub(super) fn print_memory(&self, scene: &str) -> Exit {
+        let (example, ticks) = WARM_UP;
+        let warm_up = load::source(example).and_then(|source| Simulation::load(&source));
+        let Ok(mut warm_up) = warm_up else { return Exit::SceneWrong };
+        if warm_up.run_to_tick(ticks).is_err() {
+            return Exit::RunWrong;
+        }
         let before = resident();
         let simulation =
             self.source(scene).and_then(|source| Simulation::load_with(&source, &self.overrides.overrides(), |_| {}));

@@ -55,20 +55,32 @@ pub(super) struct Bench {
 
 const EXAMPLES: &str = "\
 Examples:
-  jostle bench                                    a small look at this computer
-  jostle bench scenes/benchmarks/dense_10k.ron    ten thousand discs at rest
-  jostle bench scenes/benchmarks/*.ron --json     all benchmarks, for a program
-  jostle bench my.ron --ticks 100 --rounds 20     where rounds scatter: more of them
-  jostle bench my.ron --tick 0.5ms                with another tick
-  jostle bench my.ron --from 2                    from the state after two seconds on
+  jostle bench                                           a small look at this computer
+  jostle bench scenes/benchmarks/dense_10k.ron           ten thousand discs at rest
+  jostle bench scenes/benchmarks/*_1k.ron --json         several scenes, for a program
+  jostle bench example:plinko --ticks 100 --rounds 20    where rounds scatter: more of them
+  jostle bench example:plinko --from 2                   from the state after two seconds on
+  jostle bench scenes/bounce.ron --tick 0.5ms            with another tick
+  jostle bench scenes/tetris.ron --simd scalar           without vector instructions
 
-Of each scene: the median time of a tick over the rounds, and from the fastest round to the slowest as a share of it \
-(`scatter`); pairs of atoms that are near each other, and those of them that touch; bytes of memory for each atom, \
-where the system tells. `x plain` is the time of the engine over that of a plain loop that stands in the same program: \
-arrays, a grid of cells, springs with dashpots and friction, velocity Verlet, no vector instructions. Both begin at \
-the same state and run by turns. A round that is not timed goes ahead of the others, each of which goes on where the \
-one before ended. Times are those of your computer; the state hash is not. It depends on --ticks, --rounds, --quick \
-and --from.";
+Paths of the examples are from the root of the source repository.
+
+What is told of each scene:
+  bodies, atoms     what it holds
+  near, touching    pairs of atoms near each other, which each tick looks at; those that overlap
+  us/tick           microseconds of a tick: the median over the rounds
+  ns/atom           the same in nanoseconds for each atom
+  scatter           from the fastest round to the slowest, as a share of the median
+  plain             ns/atom of a plain loop in the same program: arrays, a grid of cells, springs
+                    with dashpots and friction, velocity Verlet, no vector instructions; a dash
+                    where it cannot do what the scene asks
+  x plain           time of the engine over that of the plain loop: the median over the rounds
+  bytes/atom        memory to read and run the scene, for each atom, where the system tells; a
+                    dash below 1000 atoms, where the program itself takes more
+
+Engine and plain loop begin at the same state and run by turns. A round that is not timed goes ahead of the others, each \
+of which goes on where the one before ended. Times are those of your computer; the state hash is not. It depends on \
+--ticks, --rounds, --quick and --from.";
 
 impl Bench {
     pub(super) fn execute(self) -> Exit {

@@ -10,6 +10,9 @@ use crate::report::bench::{Measured, Spread};
 /// A stage below this share of a tick is not told.
 const SMALLEST_SHARE: f64 = 0.005;
 
+/// Below so many atoms a scene takes less memory than what else grows in a process when it is run.
+const FEWEST_ATOMS: usize = 1000;
+
 /// What was measured of a scene.
 pub(super) struct Row {
     name: String,
@@ -22,10 +25,11 @@ impl Row {
         let name = scene.rsplit('/').next().unwrap_or(scene);
         Self { name: name.strip_suffix(".ron").unwrap_or(name).to_owned(), measured, bytes }
     }
+}
 
-    fn bytes_per_atom(&self) -> Option<f64> {
-        self.bytes.map(|bytes| bytes as f64 / self.measured.atoms.max(1) as f64)
-    }
+/// Memory for each atom, where it is that of the scene.
+fn bytes_per_atom(bytes: Option<u64>, atoms: usize) -> Option<f64> {
+    bytes.filter(|_| atoms >= FEWEST_ATOMS).map(|bytes| bytes as f64 / atoms as f64)
 }
 
 /// Three digits are enough of what was measured.
@@ -75,7 +79,7 @@ pub(super) fn table(rows: &[Row]) -> String {
                 percent(ns_per_atom_tick.width()),
                 or_dash(plain.map(|plain| plain.ns_per_atom_tick.median)),
                 or_dash(plain.map(|plain| plain.ratio.median)),
-                or_dash(row.bytes_per_atom()),
+                or_dash(bytes_per_atom(row.bytes, *atoms)),
             ]
         }),
     );
@@ -146,7 +150,7 @@ pub(super) fn json(scene: &str, measured: &Measured, bytes: Option<u64>) -> Valu
         "ns_per_atom_tick": spread(&measured.ns_per_atom_tick),
         "plain": plain,
         "bytes": bytes,
-        "bytes_per_atom": bytes.map(|bytes| bytes as f64 / measured.atoms.max(1) as f64),
+        "bytes_per_atom": bytes_per_atom(bytes, measured.atoms),
         "stages": measured.stages.iter().map(stage).collect::<Vec<_>>(),
         "energy_residual": measured.residual,
         "energy_residual_share": measured.residual_share,

@@ -1,5 +1,6 @@
 //! `jostle explain`: what a scene does in a tick and what that costs; what a name or a word means.
 
+mod flag;
 mod name;
 mod scene;
 mod words;
@@ -17,7 +18,7 @@ use super::say::say;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
-    /// A scene file or example:NAME; or the name of a section, entry, method or channel; or a word on the error card
+    /// A scene file or example:NAME; or the name of a section, entry, method, channel or flag; or a word on the error card
     #[arg(value_name = "SCENE|NAME", required = true)]
     what: Vec<String>,
     #[command(flatten)]
@@ -32,6 +33,7 @@ Examples:
   jostle explain example:tetris     its systems in order, who brought them, and how the time is shared out
   jostle explain Drag               what a force, sensor, section or method is, with an example
   jostle explain critical tick      what a word on the error card means
+  jostle explain threads            what a flag does, and which commands have it
 
 A scene is run for half a second twice: as it is, for the cost of a tick, and with a look at the clock around each stage.";
 

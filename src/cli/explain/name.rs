@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 
+use super::flag;
 use super::words::{WORDS, Word};
 use crate::cli::Exit;
 use crate::cli::list::READER;
@@ -9,15 +10,41 @@ use crate::cli::say::{print_line, say};
 use crate::integrate::Methods;
 use crate::raster::Theme;
 use crate::scene::schema::Language;
+use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, nearest_name};
 use crate::sensors::QUANTITIES;
 use crate::tick::TickAppExt;
 
-/// Explains a name; `what` may be written in capitals or not.
+/// Explains a name; `what` may be written in capitals or not, and in the singular or the plural.
 pub(super) fn explain(what: &str) -> Exit {
     let mut app = App::empty();
     app.add_tick();
     crate::plugins::standard(&mut app);
+    let (mut found, names) = look_up(what, &app);
+    for other in [plural(what), singular(what)] {
+        if found.is_empty() {
+            found = look_up(&other, &app).0;
+        }
+    }
+    if found.is_empty() {
+        let near = nearest_name(what, names.iter().map(String::as_str));
+        let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+        say(&format!(
+            "error: nothing is called `{what}`\nhelp: {near}`jostle list sections`, `jostle list forces` and so on show all \
+             names; flags and the words of the error card can be asked for too, such as `jostle explain critical tick`"
+        ));
+        return Exit::Usage;
+    }
+    print_line(&found.join("\n\n"))
+}
+
+fn singular(what: &str) -> String {
+    let stem = what.strip_suffix("ies").map(|stem| format!("{stem}y"));
+    stem.unwrap_or_else(|| what.strip_suffix('s').unwrap_or(what).to_owned())
+}
+
+/// What is said of a name, and all names that there are.
+fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
     let registry = app.world().resource::<SceneRegistry>();
     let language = Language::of(registry);
     let told = |section: &str, entry: Option<&str>| language.told(section, entry).unwrap_or_default();
@@ -84,8 +111,8 @@ pub(super) fn explain(what: &str) -> Exit {
     }
     names.extend(clock.lines().filter_map(|line| line.strip_prefix("  ")?.split(':').next()));
     for Word { word, meaning } in WORDS {
-        names.push(word);
-        if same(word) {
+        names.extend(word.split(", "));
+        if word.split(", ").any(same) {
             found.push(format!("{word}: {meaning}"));
         }
     }
@@ -95,16 +122,12 @@ pub(super) fn explain(what: &str) -> Exit {
             found.push(format!("{word} is a {list}; `jostle list` shows the others"));
         }
     }
-    if found.is_empty() {
-        let near = nearest_name(what, names.iter().copied());
-        let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-        say(&format!(
-            "error: nothing is called `{what}`\nhelp: {near}`jostle list sections`, `jostle list forces` and so on show all \
-             names; the words of the error card can be asked for too, such as `jostle explain critical tick`"
-        ));
-        return Exit::Usage;
+    let flags = flag::all();
+    for flag in flags.iter().filter(|flag| same(&flag.name)) {
+        found.push(flag.told());
     }
-    print_line(&found.join("\n\n"))
+    let names = names.into_iter().map(str::to_owned);
+    (found, names.chain(flags.into_iter().map(|flag| flag.name)).collect())
 }
 
 fn of_section(known: Known, registry: &SceneRegistry) -> String {

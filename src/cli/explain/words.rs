@@ -2,6 +2,7 @@
 
 /// A word and what it means.
 pub(super) struct Word {
+    /// The word, and others for the same, separated by commas.
     pub word: &'static str,
     pub meaning: &'static str,
 }
@@ -113,6 +114,25 @@ pub(super) const WORDS: &[Word] = &[
          may pass through another unseen.",
     ),
     word(
+        "rest",
+        "the state of bodies whose contacts bear every load: nothing moves at all, to the last bit, until something touches \
+         them or a load changes. It is found, not waited for, and no slow body is stopped. Where contacts lose nothing \
+         (`restitution: 1`) nothing comes to rest. The expectation `AtRest` looks whether bodies do; docs/scenes.md has more \
+         under Rest.",
+    ),
+    word(
+        "asleep, sleep",
+        "bodies at rest are asleep where no force changes with time or motion (gravity and contacts alone; no belt, no \
+         prescribed body): ticks leave them out, so they cost nothing, and a touch wakes them. No speed or time is set for \
+         it, and there is nothing to switch on or off: where bodies stay and what wakes them is as it would be without.",
+    ),
+    word(
+        "vector instructions",
+        "instructions of the processor that work on two, four or eight numbers at once (levels `baseline`, `avx2` and \
+         `avx512`; `scalar`: on one). All commands that run scenes take the best the processor has, or what `--simd LEVEL` \
+         says; the results are the same to the bit at all of them. A level that the processor lacks is refused.",
+    ),
+    word(
         "state hash",
         "a fingerprint of all positions, angles, velocities and spins in the end, bit by bit. The same scene and program \
          give the same hash, on every machine and with any number of threads.",
@@ -140,8 +160,8 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "bytes per atom",
-        "memory that a process needs to read a scene and run it, over the number of its atoms (`jostle bench`). The program \
-         itself counts in scenes of few atoms.",
+        "by how much the memory of a process grows when it reads a scene and runs a round of it, over the number of atoms \
+         (`jostle bench`). Below 1000 atoms it is not told: the memory of the program itself is most of it there.",
     ),
     word(
         "expectation",

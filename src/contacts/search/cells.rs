@@ -32,21 +32,35 @@ struct Entry {
     body: u32,
 }
 
+/// Atoms that touch something, sorted into cells; those much larger than most aside.
+struct Sorted {
+    all: Vec<Entry>,
+    large: Vec<Entry>,
+    cells: Cells,
+}
+
+impl Sorted {
+    fn of(bodies: &Bodies, margin: f64) -> Self {
+        let entry = |atom: usize| Entry {
+            center: bodies.atom_position[atom],
+            reach: bodies.atom_radius[atom] + margin / 2.0,
+            atom: atom as u32,
+            body: bodies.atom_body[atom],
+        };
+        let touching =
+            |atom: &usize| bodies.collides[bodies.atom_body[*atom] as usize] && bodies.atom_position[*atom].is_finite();
+        let mut all: Vec<Entry> = (0..bodies.atom_count()).filter(touching).map(entry).collect();
+        let limit = LARGE * usual_reach(&all);
+        let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
+        all.retain(|entry| entry.reach <= limit);
+        let cells = Cells::of(&all);
+        Self { all, large, cells }
+    }
+}
+
 /// All pairs of atoms of different bodies that are nearer than `margin` metres and do not both stand still, in canonical order.
 pub(super) fn pairs(bodies: &Bodies, margin: f64) -> Vec<AtomPair> {
-    let entry = |atom: usize| Entry {
-        center: bodies.atom_position[atom],
-        reach: bodies.atom_radius[atom] + margin / 2.0,
-        atom: atom as u32,
-        body: bodies.atom_body[atom],
-    };
-    let touching =
-        |atom: &usize| bodies.collides[bodies.atom_body[*atom] as usize] && bodies.atom_position[*atom].is_finite();
-    let mut all: Vec<Entry> = (0..bodies.atom_count()).filter(touching).map(entry).collect();
-    let limit = LARGE * usual_reach(&all);
-    let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
-    all.retain(|entry| entry.reach <= limit);
-    let cells = Cells::of(&all);
+    let Sorted { large, cells, .. } = Sorted::of(bodies, margin);
     let moves = |a: u32, b: u32| bodies.dynamic[a as usize] || bodies.dynamic[b as usize];
     let mut pairs = in_order(cells.all_pairs(&bodies.threads, moves), bodies.atom_count());
     let sorted = pairs.len();
@@ -86,6 +100,39 @@ fn in_order(found: Vec<Vec<AtomPair>>, atoms: usize) -> Vec<AtomPair> {
         pairs[own[0] as usize..own[1] as usize].sort_unstable();
     }
     pairs
+}
+
+/// Shows pairs of atoms of different bodies that overlap and do not both stand still, until `see` has seen enough or so many
+/// pairs were looked at; says whether all were shown.
+pub(super) fn overlapping(bodies: &Bodies, mut looks: usize, mut see: impl FnMut(AtomPair) -> bool) -> bool {
+    let Sorted { all, large, cells } = Sorted::of(bodies, 0.0);
+    let moves = |a: u32, b: u32| bodies.dynamic[a as usize] || bodies.dynamic[b as usize];
+    let mut go_on = true;
+    let mut look = |entry: &Entry, others: &[Entry], twice: bool| {
+        let others = &others[..others.len().min(looks)];
+        looks -= others.len();
+        for other in others.iter().filter(|other| are_near(entry, other) && moves(entry.body, other.body)) {
+            if !twice || other.atom > entry.atom {
+                go_on &= see(AtomPair { a: entry.atom.min(other.atom), b: entry.atom.max(other.atom) });
+            }
+        }
+        go_on &= looks > 0;
+        go_on
+    };
+    for entry in &all {
+        let mut more = true;
+        cells.around(entry, cells.reach, |others| more = look(entry, others, true));
+        if !more {
+            return false;
+        }
+    }
+    for (place, entry) in large.iter().enumerate() {
+        cells.around(entry, cells.reach, |others| _ = look(entry, others, false));
+        if !look(entry, &large[place + 1..], false) {
+            return false;
+        }
+    }
+    true
 }
 
 /// The reach that most atoms do not exceed.
@@ -205,6 +252,14 @@ impl Cells {
     /// Shows all entries of other bodies near to one; `reach` is the greatest that they have.
     #[inline]
     fn near(&self, entry: &Entry, reach: f64, mut see: impl FnMut(&Entry)) {
+        self.around(entry, reach, |others| {
+            others.iter().filter(|other| are_near(entry, other)).for_each(&mut see);
+        });
+    }
+
+    /// Shows all entries that may be near to one, and others; `reach` is the greatest that they have.
+    #[inline]
+    fn around(&self, entry: &Entry, reach: f64, mut see: impl FnMut(&[Entry])) {
         if self.entries.is_empty() {
             return;
         }
@@ -214,7 +269,7 @@ impl Cells {
         for row in first_row..=last_row {
             let first = self.first[row * self.columns + first_column] as usize;
             let last = self.first[row * self.columns + last_column + 1] as usize;
-            self.entries[first..last].iter().filter(|other| are_near(entry, other)).for_each(&mut see);
+            see(&self.entries[first..last]);
         }
     }
 }

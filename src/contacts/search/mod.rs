@@ -5,6 +5,7 @@
 //! list is made anew every pair that was in the old one is told its old place, so that whoever keeps history beside
 //! the list can carry it over.
 
+mod at_start;
 mod cells;
 mod sweep;
 
@@ -13,6 +14,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::bounds::{self, Bounds};
+use crate::simulation::Finishers;
 use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
 use crate::world::Bodies;
 
@@ -86,6 +88,7 @@ pub fn plugin(app: &mut App) {
         app.init_resource::<CandidatePairs>();
         let system = find_pairs.in_set(FindPairs).in_set(EvaluateStage::Contacts);
         app.add_packed_systems(Evaluate, 1, system);
+        app.world_mut().get_resource_or_init::<Finishers>().0.push(at_start::note_overlaps);
     }
 }
 

@@ -6,6 +6,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::forces::gravity::Gravity;
+use crate::scene::count;
 use crate::simulation::Simulation;
 use crate::world::{Body, Materials, Motion, Name};
 
@@ -126,7 +127,6 @@ struct Line {
 
 fn facts(simulation: &Simulation, moving: usize) -> Vec<String> {
     let (world, bodies) = (simulation.world(), simulation.bodies());
-    let count = |number: usize, one: &str, many: &str| format!("{number} {}", if number == 1 { one } else { many });
     let mut things = vec![count(moving, "body", "bodies")];
     if bodies.len() > moving {
         things.push(format!("{} fixed", bodies.len() - moving));

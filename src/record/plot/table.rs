@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::scene::{cells, drop_empty_ends, separator};
+
 /// A column of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
@@ -32,7 +34,7 @@ impl std::error::Error for TableError {}
 
 /// Reads a table: names in the first line, `height [m]` or `height (m)`, then a row of numbers in each line. Cells are
 /// separated by commas, semicolons or tabs, whichever is most frequent in the first line; they may stand in double
-/// quotes. Empty lines and lines that begin with `#` are skipped.
+/// quotes. Empty lines, lines that begin with `#` and empty cells behind the last column are skipped.
 ///
 /// # Errors
 /// A [`TableError`] names the first line that is not as it should be.
@@ -42,22 +44,25 @@ pub fn read(text: &str) -> Result<Vec<Column>, TableError> {
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let fail = |line, message: String| Err(TableError { line, message });
     let Some((line, header)) = lines.next() else { return fail(1, "the file has no line of names".to_owned()) };
-    let often = |separator: &char| header.matches(*separator).count();
-    // The last of equals: commas win.
-    let separator = ['\t', ';', ','].into_iter().max_by_key(often).unwrap_or(',');
-    let names = cells(header, separator);
+    let separator = separator(header);
+    let split = |line, text| {
+        cells(text, separator).ok_or_else(|| TableError { line, message: "a quote is not closed".to_owned() })
+    };
+    let mut names = split(line, header)?;
+    drop_empty_ends(&mut names, 1);
     if names.iter().all(|name| name.parse::<f64>().is_ok()) {
         return fail(line, format!("expected the names of the columns, found the number `{}`", names[0]));
     }
     let mut columns: Vec<Column> = names.iter().map(|name| column(name)).collect();
     for (line, row) in lines {
-        let cells = cells(row, separator);
+        let mut cells = split(line, row)?;
+        drop_empty_ends(&mut cells, columns.len());
         if cells.len() != columns.len() {
             let (names, found) = (columns.len(), cells.len());
             return fail(line, format!("expected {names} cells, as there are names, found {found}"));
         }
         for (column, cell) in columns.iter_mut().zip(&cells) {
-            column.values.push(match cell.as_str() {
+            column.values.push(match cell.as_ref() {
                 "" => f64::NAN,
                 cell => match cell.parse() {
                     Ok(value) => value,
@@ -67,19 +72,6 @@ pub fn read(text: &str) -> Result<Vec<Column>, TableError> {
         }
     }
     Ok(columns)
-}
-
-/// The cells of a line, without quotes and blanks around them.
-fn cells(line: &str, separator: char) -> Vec<String> {
-    let (mut cells, mut quoted) = (vec![String::new()], false);
-    for letter in line.chars() {
-        match letter {
-            '"' => quoted = !quoted,
-            letter if letter == separator && !quoted => cells.push(String::new()),
-            letter => cells.last_mut().into_iter().for_each(|cell| cell.push(letter)),
-        }
-    }
-    cells.into_iter().map(|cell| cell.trim().to_owned()).collect()
 }
 
 /// An empty column from its name and unit.
@@ -99,7 +91,7 @@ mod tests {
 
     #[test]
     fn names_units_and_numbers_are_read() {
-        let table = read("# a note\ntime [s];\"height, above; ground (m)\";n\r\n0;1.5;3\n\n0.1;;-2e-3\n").unwrap();
+        let table = read("# a note\ntime [s];\"height, above; ground (m)\";n;\r\n0;1.5;3;;\n\n0.1;;-2e-3\n").unwrap();
         let header: Vec<_> = table.iter().map(|column| (column.name.as_str(), column.unit.as_str())).collect();
         assert_eq!(header, [("time", "s"), ("height, above; ground", "m"), ("n", "")]);
         assert_eq!(table[0].values, [0.0, 0.1]);
@@ -113,6 +105,7 @@ mod tests {
             ("", "line 1: the file has no line of names"),
             ("1,2\n3,4\n", "line 1: expected the names of the columns, found the number `1`"),
             ("a,b\n1,2\n\n3\n", "line 4: expected 2 cells, as there are names, found 1"),
+            ("a,b\n1,\"2\n", "line 2: a quote is not closed"),
             ("a,b\n1,x\n", "line 2: `x` in the column `b` is not a number"),
         ] {
             assert_eq!(read(text).unwrap_err().to_string(), message);

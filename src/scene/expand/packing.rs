@@ -6,10 +6,10 @@ use super::door::{Wanted, Wrong};
 use super::emit::Context;
 use super::write::Buffer;
 use super::{Expander, Outcome};
-use crate::scene::Section;
 use crate::scene::explain;
 use crate::scene::sections::packing::{MOST_ATOMS, PackingEntry, PackingTable, PackingsSection};
 use crate::scene::tree::Id;
+use crate::scene::{Section, count};
 use crate::world::hash::of_bytes;
 
 /// The section in which tables of bodies stand.
@@ -65,8 +65,11 @@ impl Expander {
             (format!("line {} of `{name}`{column} {}", wrong.line, wrong.why), wrong.help)
         })?;
         self.notes.push(match (table.body_count(), table.atom_count()) {
-            (bodies, atoms) if bodies == atoms => format!("{name}: a table of {atoms} discs"),
-            (bodies, atoms) => format!("{name}: a table of {bodies} bodies of {atoms} atoms"),
+            (bodies, atoms) if bodies == atoms => format!("{name}: a table of {}", count(atoms, "disc", "discs")),
+            (bodies, atoms) => {
+                let bodies = count(bodies, "body", "bodies");
+                format!("{name}: a table of {bodies} of {}", count(atoms, "atom", "atoms"))
+            }
         });
         let key = of_bytes(bytes.iter().copied());
         self.packings.push(Known { path, key });

@@ -7,6 +7,7 @@ use super::emit::{Context, WORK};
 use super::write::Buffer;
 use super::{Expander, Outcome};
 use crate::scene::tree::{Form, Id};
+use crate::scene::{cells, count, drop_empty_ends, separator};
 
 /// The leading name of a table in a file, and the field in which it stands.
 pub(super) const NAME: &str = "Csv";
@@ -44,7 +45,7 @@ impl Expander {
             let _ = write!(text, "({time:?}, {value:?}),");
         }
         text.push_str("])");
-        self.notes.push(format!("{name}: a course of {} points", points.len()));
+        self.notes.push(format!("{name}: a course of {}", count(points.len(), "point", "points")));
         self.spend(context, id, 0, WORK * points.len() + text.len())?;
         out.made(&text, context.file.number, context.file.tree.head(id), context.step);
         Ok(())
@@ -76,9 +77,12 @@ fn points_of(text: &str) -> Result<Vec<(f64, f64)>, (usize, String)> {
             continue;
         }
         let wrong = |why: String| (index + 1, why);
-        let columns: Vec<&str> = line.split(',').map(str::trim).collect();
-        let &[time, value] = columns.as_slice() else {
-            return Err(wrong(format!("has {} columns, not two", columns.len())));
+        let Some(mut columns) = cells(line, separator(line)) else {
+            return Err(wrong("has a quote that is not closed".into()));
+        };
+        drop_empty_ends(&mut columns, 2);
+        let [time, value] = columns.as_slice() else {
+            return Err(wrong(format!("has {}, not two", count(columns.len(), "column", "columns"))));
         };
         let numbers = (time.parse::<f64>(), value.parse::<f64>());
         let (Ok(time), Ok(value)) = numbers else {
@@ -107,8 +111,11 @@ mod tests {
 
     #[test]
     fn tables_are_read_and_mistakes_told_with_their_line() {
+        assert_eq!(points_of("\"t\";\"f\";\n0;1\n"), Ok(vec![(0.0, 1.0)]));
         assert_eq!(points_of("t, f\n0, 1\n# then\n\n0.5, -2e3\n"), Ok(vec![(0.0, 1.0), (0.5, -2000.0)]));
-        for (text, line) in [("0,1\n0,2", 2), ("t,f\nu,g", 2), ("0,1,2", 1), ("", 1), ("0,1\n1,x", 2), ("0,inf", 1)] {
+        for (text, line) in
+            [("0,1\n0,2", 2), ("t,f\nu,g", 2), ("0,1,2", 1), ("", 1), ("0,1\n1,x", 2), ("0,inf", 1), ("0,\"1", 1)]
+        {
             assert_eq!(points_of(text).map_err(|wrong| wrong.0), Err(line), "{text:?}");
         }
     }

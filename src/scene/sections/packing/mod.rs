@@ -39,10 +39,11 @@ pub struct PackingEntry {
 /// on, in the order of the rows; at most 1 000 000 atoms in all.
 ///
 /// The first line names the columns, in any order; the others hold a row of numbers for each atom, in SI units, without
-/// them. `x`, `y` and `radius` are needed; `vx` and `vy` (the velocity of the atom's centre), `spin`, `angle` and `body` may
+/// them. `x`, `y` and `radius` are needed; `vx` with `vy` (the velocity of the atom's centre), `spin`, `angle` and `body` may
 /// be there. Rows of the same `body`, a whole number, form one rigid body; without that column each row is a disc of its own.
 /// Masses follow from the material's density, the velocity of a rigid body from those of its atoms, its spin too if there is
-/// no such column. Empty lines and lines that begin with `#` are left out.
+/// no such column. Names and numbers may stand in double quotes, with semicolons or tabs between them in place of commas.
+/// Empty lines, lines that begin with `#`, and separators behind the last column are left out.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct PackingsSection(pub Vec<PackingEntry>);
 

@@ -1,10 +1,11 @@
 //! The table of a packing: comma-separated values, a line for each atom, in SI units.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use crate::scene::suggest;
+use crate::scene::{cells, count, drop_empty_ends, separator, suggest};
 use crate::shapes::AtomSpec;
 use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 
@@ -79,17 +80,29 @@ impl PackingTable {
         let mut lines = lines.by_ref().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         let needed = "the first line names the columns: `x,y,radius`, and any of `vx,vy,spin,angle,body`";
         let Some((line, header)) = lines.next() else { return Err(wrong(1, None, "holds nothing", needed)) };
-        let columns = columns(line, header, needed)?;
+        let separator = separator(header);
+        let columns = columns(line, header, separator, needed)?;
         let has = |name: &str| columns.iter().any(|&column| COLUMNS[column] == name);
         let (has_spin, has_body) = (has("spin"), has("body"));
+        for (there, missing) in [("vx", "vy"), ("vy", "vx")] {
+            if has(there) && !has(missing) {
+                let why = format!("is missing, although there is `{there}`");
+                let help =
+                    format!("add the column `{missing}`, of zeros if nothing moves that way; or remove `{there}`");
+                return Err(wrong(line, Some(missing), why, help));
+            }
+        }
         let mut rows = Vec::new();
         let mut bodies: Vec<usize> = Vec::new();
         let mut known: BTreeMap<i64, usize> = BTreeMap::new();
-        for (line, text) in lines {
+        // Lines of nothing but separators are what programs make of empty ones.
+        for (line, text) in
+            lines.filter(|(_, text)| text.chars().any(|letter| letter != separator && !letter.is_whitespace()))
+        {
             if rows.len() as u64 == most {
                 return Err(wrong(line, None, format!("is one atom too many: the limit is {most}"), "keep fewer rows"));
             }
-            let values = numbers(line, text, &columns)?;
+            let values = numbers(line, text, separator, &columns)?;
             let [x, y, radius, vx, vy, spin, angle, body] = values;
             if radius <= 0.0 {
                 let why = format!("must be above zero, got {radius}");
@@ -217,10 +230,23 @@ impl PackingTable {
     }
 }
 
+/// The cells of a line, of which at least so many count: empty ones behind them are left out.
+fn cells_of(line: usize, text: &str, separator: char, wanted: usize) -> Result<Vec<Cow<'_, str>>, Wrong> {
+    let Some(mut cells) = cells(text, separator) else {
+        return Err(wrong(line, None, "has a quote that is not closed", "remove the quote; numbers need none"));
+    };
+    drop_empty_ends(&mut cells, wanted);
+    Ok(cells)
+}
+
 /// Which column of [`COLUMNS`] stands where.
-fn columns(line: usize, header: &str, needed: &str) -> Result<Vec<usize>, Wrong> {
+fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<Vec<usize>, Wrong> {
     let mut columns = Vec::new();
-    for name in header.split(',').map(str::trim) {
+    for (place, name) in cells_of(line, header, separator, 1)?.iter().map(AsRef::as_ref).enumerate() {
+        if name.is_empty() {
+            let why = format!("has no name for column {}", place + 1);
+            return Err(wrong(line, None, why, "name each column, and leave out those that are none of a packing"));
+        }
         if name.parse::<f64>().is_ok() {
             return Err(wrong(line, None, format!("holds no names of columns: `{name}` is a number"), needed));
         }
@@ -240,29 +266,28 @@ fn columns(line: usize, header: &str, needed: &str) -> Result<Vec<usize>, Wrong>
 }
 
 /// The numbers of a line, in the order of [`COLUMNS`]; zero where the table has no such column.
-fn numbers(line: usize, text: &str, columns: &[usize]) -> Result<[f64; COLUMNS.len()], Wrong> {
+fn numbers(line: usize, text: &str, separator: char, columns: &[usize]) -> Result<[f64; COLUMNS.len()], Wrong> {
     let mut values = [0.0; COLUMNS.len()];
-    let mut fields = text.split(',');
-    for &column in columns {
-        let Some(field) = fields.next().map(str::trim) else {
-            let why = format!("has {} values, not {}", text.split(',').count(), columns.len());
-            return Err(wrong(line, None, why, "each row has a value for each column"));
-        };
-        values[column] = match field.parse::<f64>() {
+    let cells = cells_of(line, text, separator, columns.len())?;
+    if cells.len() != columns.len() {
+        let why = format!("has {}, not {}", count(cells.len(), "value", "values"), columns.len());
+        return Err(wrong(line, None, why, "each row has a value for each column"));
+    }
+    for (cell, &column) in cells.iter().zip(columns) {
+        let wrong = |why: String, help| wrong(line, Some(COLUMNS[column]), why, help);
+        values[column] = match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => value,
             Ok(_) => {
-                let why = format!("must be a finite number, got `{field}`");
-                return Err(wrong(line, Some(COLUMNS[column]), why, "look for what made the table"));
+                return Err(wrong(format!("must be a finite number, got `{cell}`"), "look for what made the table"));
+            }
+            Err(_) if cell.is_empty() => {
+                return Err(wrong("is empty".to_owned(), "each row has a value for each column"));
             }
             Err(_) => {
-                let help = "numbers are in SI units and without them, such as `0.02`";
-                return Err(wrong(line, Some(COLUMNS[column]), format!("is no number: `{field}`"), help));
+                let help = "numbers are in SI units and without them, with a decimal point, such as `0.02`";
+                return Err(wrong(format!("is no number: `{cell}`"), help));
             }
         };
-    }
-    if fields.next().is_some() {
-        let why = format!("has {} values, not {}", text.split(',').count(), columns.len());
-        return Err(wrong(line, None, why, "each row has a value for each column"));
     }
     Ok(values)
 }
@@ -277,13 +302,29 @@ mod tests {
 
     #[test]
     fn columns_stand_in_any_order() {
-        let table = read("# settled\n radius, y,x ,vy\n\n0.5,2,1,-3\r\n0.25,4,3,0\n").unwrap();
+        let table = read("# settled\n radius, y,x ,vy,vx\n\n0.5,2,1,-3,7\r\n0.25,4,3,0,0\n").unwrap();
         assert_eq!((table.atom_count(), table.body_count()), (2, 2));
         let body = table.body(0, 4.0 / std::f64::consts::PI);
-        assert_eq!((body.position, body.velocity), (DVec2::new(1.0, 2.0), DVec2::new(0.0, -3.0)));
+        assert_eq!((body.position, body.velocity), (DVec2::new(1.0, 2.0), DVec2::new(7.0, -3.0)));
         // A disc of density 4/pi and radius 1/2: m = 1 and I = m r2/2.
         assert_eq!((body.properties.mass, body.properties.inertia), (1.0, 0.125));
         assert_eq!(table.body(1, 1.0).position, DVec2::new(3.0, 4.0));
+    }
+
+    /// What spreadsheets and programs write: names and numbers in quotes, separators at the ends of lines and in empty lines,
+    /// semicolons and tabs.
+    #[test]
+    fn tables_of_other_programs_are_read() {
+        let plain = read("x,y,radius\n1,2,0.5\n3,4,0.25\n").unwrap();
+        for text in [
+            "\"x\",\"y\",\"radius\"\n\"1\",\"2\",\"0.5\"\n3,4,0.25\n",
+            "x,y,radius,\n1,2,0.5,\n3,4,0.25,\n",
+            "x,y,radius\n1,2,0.5,,\n3,4,0.25\n,,\n",
+            "x;y;radius\n1;2;0.5\n3;4;0.25;\n",
+            "x\ty\tradius\n1\t2\t0.5\n3\t4\t0.25\n",
+        ] {
+            assert_eq!(read(text), Ok(plain.clone()), "{text:?}");
+        }
     }
 
     /// Two equal atoms that turn about their middle with 2 rad/s while it moves with (1, 0); atoms of one body need not
@@ -333,6 +374,13 @@ mod tests {
             ("x,y,radius\n1,inf,1\n", 2, Some("y"), "must be a finite number"),
             ("x,y,radius\n1,2,0\n", 2, Some("radius"), "must be above zero"),
             ("x,y,radius\n1,2\n", 2, None, "has 2 values, not 3"),
+            ("x,y,radius\n1\n", 2, None, "has 1 value, not 3"),
+            ("x,y,radius\n1,2,\n", 2, Some("radius"), "is empty"),
+            ("x,,y,radius\n1,2,3,4\n", 1, None, "has no name for column 2"),
+            ("\"x,y,radius\n1,2,3\n", 1, None, "has a quote that is not closed"),
+            ("x;y;radius\n0,5;1;2\n", 2, Some("x"), "is no number: `0,5`"),
+            ("x,y,radius,vx\n1,2,3,4\n", 1, Some("vy"), "is missing, although there is `vx`"),
+            ("vy,x,y,radius\n1,2,3,4\n", 1, Some("vx"), "is missing, although there is `vy`"),
             ("x,y,radius\n1,2,3,4\n", 2, None, "has 4 values, not 3"),
             ("x,y,radius,body\n1,2,3,0.5\n", 2, Some("body"), "must be a whole number"),
             ("x,y,radius,body,angle\n1,2,3,1,0\n4,2,3,1,1\n", 3, Some("angle"), "differs from that in line 2"),
