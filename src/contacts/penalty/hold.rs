@@ -20,6 +20,10 @@ const ROUNDS: usize = 2;
 
 /// Share to which conjugate gradients bring down the velocities of an island in one tick. A few ticks reach rounding.
 const GAIN: f64 = 1e-4;
+/// Rows that conjugate gradients go through at most, and their steps in any case: islands of a thousand rows are solved, in
+/// those of a hundred thousand, which would take minutes, each search goes on where the one before ended.
+const WORK: usize = 4_000_000;
+const FEWEST_STEPS: usize = 32;
 
 /// A share of a force that counts as rounding.
 const ROUNDING: f64 = 1e-12;
@@ -69,32 +73,56 @@ struct Row {
 }
 
 impl Row {
-    fn new(movers: &[Mover], ends: (usize, usize), (lever_a, lever_b): (f64, f64), direction: DVec2) -> Self {
+    #[inline(always)]
+    fn new(sides: &Sides, (lever_a, lever_b): (f64, f64), direction: DVec2) -> Self {
         let mut row = Self { direction, lever_a, lever_b, mobility: 0.0 };
-        let (of_a, of_b) = row.mobilities(movers, ends);
+        let (of_a, of_b) = row.mobilities(sides);
         row.mobility = of_a + of_b;
         row
     }
 
     /// What each side gives to the mobility.
-    fn mobilities(&self, movers: &[Mover], (a, b): (usize, usize)) -> (f64, f64) {
+    #[inline(always)]
+    fn mobilities(&self, sides: &Sides) -> (f64, f64) {
         let linear = self.direction.length_squared();
         let share = |mover: &Mover, lever: f64| linear * mover.inverse_mass + lever * lever * mover.inverse_inertia;
-        (share(&movers[a], self.lever_a), share(&movers[b], self.lever_b))
+        (share(&sides.a, self.lever_a), share(&sides.b, self.lever_b))
     }
 
-    fn velocity(&self, movers: &[Mover], (a, b): (usize, usize)) -> f64 {
-        (movers[b].velocity - movers[a].velocity).dot(self.direction) + movers[b].spin * self.lever_b
-            - movers[a].spin * self.lever_a
+    #[inline(always)]
+    fn velocity(&self, sides: &Sides) -> f64 {
+        (sides.b.velocity - sides.a.velocity).dot(self.direction) + sides.b.spin * self.lever_b
+            - sides.a.spin * self.lever_a
     }
 
-    fn push(&self, movers: &mut [Mover], (a, b): (usize, usize), impulse: f64) {
-        let (first, step) = (&mut movers[a], self.direction * impulse);
+    #[inline(always)]
+    fn push(&self, sides: &mut Sides, impulse: f64) {
+        let (first, step) = (&mut sides.a, self.direction * impulse);
         first.velocity -= step * first.inverse_mass;
         first.spin -= self.lever_a * impulse * first.inverse_inertia;
-        let second = &mut movers[b];
+        let second = &mut sides.b;
         second.velocity += step * second.inverse_mass;
         second.spin += self.lever_b * impulse * second.inverse_inertia;
+    }
+}
+
+/// Both sides of a contact, taken out of the list of movers while forces change between them.
+#[derive(Clone, Copy)]
+struct Sides {
+    a: Mover,
+    b: Mover,
+}
+
+impl Sides {
+    #[inline(always)]
+    fn of(movers: &[Mover], (a, b): (usize, usize)) -> Self {
+        Self { a: movers[a], b: movers[b] }
+    }
+
+    #[inline(always)]
+    fn put_back(&self, movers: &mut [Mover], (a, b): (usize, usize)) {
+        (movers[a].velocity, movers[a].spin) = (self.a.velocity, self.a.spin);
+        (movers[b].velocity, movers[b].spin) = (self.b.velocity, self.b.spin);
     }
 }
 
@@ -149,26 +177,20 @@ pub struct Seen {
     pub rolling: (f64, f64),
 }
 
-/// The bodies around the contacts of an island.
-struct Movers<'a> {
-    begin: &'a [Mover],
-    end: &'a [Mover],
-    /// For each the greatest tangential force and the greatest rolling torque of all its contacts.
+/// An island: its contacts and the bodies around them. What memory it has it keeps for the next.
+#[derive(Debug, Default)]
+pub struct Island {
+    /// What does not move by forces, then bodies and belts: velocities at the beginning of the tick.
+    pub begin: Vec<Mover>,
+    /// The same at its end, under the present forces; after [`Island::solve`] under those found.
+    pub movers: Vec<Mover>,
+    /// Contacts as they come.
+    pub seen: Vec<Seen>,
+    /// Contacts under search, in the same order.
+    pub candidates: Vec<Candidate>,
+    /// For each mover the greatest tangential force and the greatest rolling torque of all its contacts.
     grips: Vec<[f64; 2]>,
-}
-
-/// Sets up contacts for the `dt` seconds to come. `begin` and `end` hold the velocities at their beginning, and at their end
-/// under the present forces.
-pub fn candidates(begin: &[Mover], end: &[Mover], seen: &[Seen], dt: f64) -> Vec<Candidate> {
-    let mut grips = vec![[0.0; 2]; end.len()];
-    for Seen { ends, band, tangential, rolling, .. } in seen {
-        for place in [ends.0, ends.1] {
-            grips[place][0] += tangential.0 * band.1;
-            grips[place][1] += rolling.0 * band.1;
-        }
-    }
-    let movers = Movers { begin, end, grips };
-    seen.iter().map(|seen| Candidate::new(&movers, seen, dt)).collect()
+    gradients: Gradients,
 }
 
 /// A contact that may come to rest.
@@ -209,20 +231,20 @@ pub enum Verdict {
 }
 
 impl Candidate {
-    fn new(movers: &Movers, seen: &Seen, dt: f64) -> Self {
+    fn new(begin: &[Mover], end: &[Mover], grips: &[[f64; 2]], seen: &Seen, dt: f64) -> Self {
+        let (begin, sides) = (Sides::of(begin, seen.ends), Sides::of(end, seen.ends));
+        let grips = (grips[seen.ends.0], grips[seen.ends.1]);
         let along = |direction: DVec2| {
             let levers = (seen.arms.0.perp_dot(direction), seen.arms.1.perp_dot(direction));
-            Row::new(movers.end, seen.ends, levers, direction)
+            Row::new(&sides, levers, direction)
         };
-        let turn = Row::new(movers.end, seen.ends, (-1.0, -1.0), DVec2::ZERO);
+        let turn = Row::new(&sides, (-1.0, -1.0), DVec2::ZERO);
         let bounded = |place: usize, row: Row, (coefficient, force): (f64, f64)| {
             // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
-            let (of_a, of_b) = row.mobilities(movers.end, seen.ends);
-            let reach = 4.0 * (movers.grips[seen.ends.0][place] * of_a + movers.grips[seen.ends.1][place] * of_b) * dt;
-            let velocity = row.velocity(movers.end, seen.ends);
-            let engaged = (seen.engaged || force == 0.0) && coefficient > 0.0 && velocity.abs() <= reach;
-            let begin = row.velocity(movers.begin, seen.ends);
-            Bounded { row, coefficient, engaged, at_limit: false, force, begin }
+            let (of_a, of_b) = row.mobilities(&sides);
+            let reach = 4.0 * (grips.0[place] * of_a + grips.1[place] * of_b) * dt;
+            let engaged = (seen.engaged || force == 0.0) && coefficient > 0.0 && row.velocity(&sides).abs() <= reach;
+            Bounded { row, coefficient, engaged, at_limit: false, force, begin: row.velocity(&begin) }
         };
         Self {
             ends: seen.ends,
@@ -238,38 +260,47 @@ impl Candidate {
 
     /// Lets all forces work over `dt` seconds so that the contact stops, as far as their bounds allow. Returns the
     /// greatest change of a force over what counts as rounding.
+    #[inline(always)]
     fn relax(&mut self, movers: &mut [Mover], dt: f64) -> f64 {
-        let wanted = self.normal_force - self.normal.velocity(movers, self.ends) / (self.normal.mobility * dt);
-        let mut change = self.set_normal(movers, wanted, dt);
+        let mut sides = Sides::of(movers, self.ends);
+        let wanted = self.normal_force - self.normal.velocity(&sides) / (self.normal.mobility * dt);
+        let mut change = self.set_normal(&mut sides, wanted, dt);
         for place in 0..self.bounded.len() {
-            let Bounded { row, engaged, force, .. } = self.bounded[place];
-            if engaged {
-                let wanted = force - row.velocity(movers, self.ends) / (row.mobility * dt);
-                change = change.max(self.set_bounded(movers, place, wanted, dt));
+            let Bounded { row, engaged, force, .. } = &self.bounded[place];
+            if *engaged {
+                let wanted = force - row.velocity(&sides) / (row.mobility * dt);
+                change = change.max(self.set_bounded(&mut sides, place, wanted, dt));
             }
         }
+        sides.put_back(movers, self.ends);
         change
     }
 
     /// Sets the normal force to what is wanted, as far as its band allows. Returns the change over what counts as rounding.
-    fn set_normal(&mut self, movers: &mut [Mover], wanted: f64, dt: f64) -> f64 {
+    #[inline(always)]
+    fn set_normal(&mut self, sides: &mut Sides, wanted: f64, dt: f64) -> f64 {
         let force = nearest(wanted, self.band);
         self.at_limit = force != wanted;
         let change = force - self.normal_force;
         self.normal_force = force;
-        self.normal.push(movers, self.ends, change * dt);
+        self.normal.push(sides, change * dt);
         change.abs() / (ROUNDING * self.band.1)
     }
 
-    fn set_bounded(&mut self, movers: &mut [Mover], place: usize, wanted: f64, dt: f64) -> f64 {
+    #[inline(always)]
+    fn set_bounded(&mut self, sides: &mut Sides, place: usize, wanted: f64, dt: f64) -> f64 {
         let bounded = &mut self.bounded[place];
         let limit = bounded.coefficient * self.normal_force;
         let force = nearest(wanted, (-limit, limit));
         bounded.at_limit = force != wanted;
         let change = force - bounded.force;
         bounded.force = force;
-        bounded.row.push(movers, self.ends, change * dt);
+        bounded.row.push(sides, change * dt);
         change.abs() / (ROUNDING * bounded.coefficient * self.band.1)
+    }
+
+    fn stands(&self, row: &Row, sides: &Sides, dt: f64) -> bool {
+        row.velocity(sides).abs() <= self.noise * row.mobility * dt
     }
 
     /// The rows that no bound holds.
@@ -280,13 +311,13 @@ impl Candidate {
 
     /// What the contact does in the tick to come.
     pub fn verdict(&self, movers: &[Mover], dt: f64) -> Verdict {
-        let stands = |row: &Row| row.velocity(movers, self.ends).abs() <= self.noise * row.mobility * dt;
-        if self.at_limit && !stands(&self.normal) {
+        let sides = Sides::of(movers, self.ends);
+        if self.at_limit && !self.stands(&self.normal, &sides, dt) {
             return Verdict::Moves { approaches: self.normal_force > self.band.0 };
         }
         let held = |bounded: &Bounded| {
-            let holds = bounded.engaged && (bounded.is_free() || stands(&bounded.row));
-            let brakes = bounded.brakes(bounded.row.velocity(movers, self.ends));
+            let holds = bounded.engaged && (bounded.is_free() || self.stands(&bounded.row, &sides, dt));
+            let brakes = bounded.brakes(bounded.row.velocity(&sides));
             (holds || brakes).then_some((bounded.force, holds))
         };
         let stops = |bounded: &Bounded| held(bounded).is_some_and(|(_, holds)| holds);
@@ -302,69 +333,118 @@ fn nearest(wanted: f64, (least, greatest): (f64, f64)) -> f64 {
     if least <= greatest { wanted.clamp(least, greatest) } else { f64::NAN }
 }
 
-/// Finds the forces of an island of candidates for the `dt` seconds to come. `movers` hold the velocities at their end
-/// under the present forces, and are brought up to date. `may_rest`: nothing in the island has a contact that moves.
-pub fn solve(candidates: &mut [Candidate], movers: &mut [Mover], may_rest: bool, dt: f64) {
-    for _ in 0..if may_rest { ROUNDS } else { 1 } {
-        for _ in 0..SWEEPS {
-            let mut greatest = 0.0_f64;
-            for candidate in &mut *candidates {
-                greatest = greatest.max(candidate.relax(movers, dt));
-            }
-            if greatest <= 1e-2 {
-                return;
-            }
-        }
-        if may_rest {
-            finish(candidates, movers, dt);
-        }
+impl Island {
+    /// Forgets the island of before.
+    pub fn clear(&mut self) {
+        self.begin.clear();
+        self.movers.clear();
+        self.seen.clear();
     }
-    // Forces that stand at a limit without need come off it.
-    for candidate in candidates {
-        candidate.relax(movers, dt);
+
+    /// Sets up what was seen for the `dt` seconds to come.
+    pub fn set_up(&mut self, dt: f64) {
+        let Self { begin, movers, seen, candidates, grips, .. } = self;
+        grips.clear();
+        grips.resize(movers.len(), [0.0; 2]);
+        for Seen { ends, band, tangential, rolling, .. } in &*seen {
+            for place in [ends.0, ends.1] {
+                grips[place][0] += tangential.0 * band.1;
+                grips[place][1] += rolling.0 * band.1;
+            }
+        }
+        candidates.clear();
+        candidates.extend(seen.iter().map(|seen| Candidate::new(begin, movers, grips, seen, dt)));
+    }
+
+    /// Finds the forces for the `dt` seconds to come. `thorough`: sweeps take turns with conjugate gradients, which is worth it
+    /// where nothing in the island has a contact that moves.
+    pub fn solve(&mut self, thorough: bool, dt: f64) {
+        for _ in 0..if thorough { ROUNDS } else { 1 } {
+            for _ in 0..SWEEPS {
+                let mut greatest = 0.0_f64;
+                for candidate in &mut self.candidates {
+                    greatest = greatest.max(candidate.relax(&mut self.movers, dt));
+                }
+                if greatest <= 1e-2 {
+                    return;
+                }
+            }
+            if thorough {
+                self.gradients.finish(&mut self.candidates, &mut self.movers, dt);
+            }
+        }
+        // Forces that stand at a limit without need come off it.
+        for candidate in &mut self.candidates {
+            candidate.relax(&mut self.movers, dt);
+        }
     }
 }
 
 /// Conjugate gradients over the forces that no bound holds. A force that would leave its bounds stops there, and what
 /// that leaves is for the sweeps that follow.
-fn finish(candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
-    let rows: Vec<(Row, (usize, usize))> =
-        candidates.iter().flat_map(|c| c.free_rows().map(|row| (row, c.ends)).collect::<Vec<_>>()).collect();
-    let still: Vec<Mover> = movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }).collect();
-    let mut moved = still.clone();
-    let mut response = vec![0.0; rows.len()];
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
-    let mut impulses = vec![0.0; rows.len()];
-    let mut residual: Vec<f64> = rows.iter().map(|(row, ends)| -row.velocity(movers, *ends)).collect();
-    let mut scaled: Vec<f64> = rows.iter().zip(&residual).map(|((row, _), r)| r / row.mobility).collect();
-    let mut search = scaled.clone();
-    let mut size = dot(&residual, &search);
-    let goal = size * GAIN * GAIN;
-    for _ in 0..4 * rows.len() + 10 {
-        if size <= goal || size == 0.0 {
-            break;
+#[derive(Debug, Default)]
+struct Gradients {
+    rows: Vec<(Row, (usize, usize))>,
+    /// The movers without their velocities.
+    still: Vec<Mover>,
+    moved: Vec<Mover>,
+    impulses: Vec<f64>,
+    residual: Vec<f64>,
+    scaled: Vec<f64>,
+    search: Vec<f64>,
+    response: Vec<f64>,
+}
+
+impl Gradients {
+    fn finish(&mut self, candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
+        let Self { rows, still, moved, impulses, residual, scaled, search, response } = self;
+        rows.clear();
+        rows.extend(candidates.iter().flat_map(|c| c.free_rows().map(move |row| (row, c.ends))));
+        still.clear();
+        still.extend(movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }));
+        for list in [&mut *impulses, &mut *response] {
+            list.clear();
+            list.resize(rows.len(), 0.0);
         }
-        moved.clone_from(&still);
-        rows.iter().zip(&search).for_each(|((row, ends), &impulse)| row.push(&mut moved, *ends, impulse));
-        for (response, (row, ends)) in response.iter_mut().zip(&rows) {
-            *response = row.velocity(&moved, *ends);
+        residual.clear();
+        residual.extend(rows.iter().map(|(row, ends)| -row.velocity(&Sides::of(movers, *ends))));
+        scaled.clear();
+        scaled.extend(rows.iter().zip(&*residual).map(|((row, _), r)| r / row.mobility));
+        search.clone_from(scaled);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
+        let mut size = dot(residual, search);
+        let goal = size * GAIN * GAIN;
+        let affordable = (WORK / rows.len().max(1)).max(FEWEST_STEPS);
+        for _ in 0..affordable.min(4 * rows.len() + 10) {
+            if size <= goal || size == 0.0 {
+                break;
+            }
+            moved.clone_from(still);
+            for ((row, ends), &impulse) in rows.iter().zip(&*search) {
+                let mut sides = Sides::of(moved, *ends);
+                row.push(&mut sides, impulse);
+                sides.put_back(moved, *ends);
+            }
+            for (response, (row, ends)) in response.iter_mut().zip(&*rows) {
+                *response = row.velocity(&Sides::of(moved, *ends));
+            }
+            let curvature = dot(search, response);
+            if curvature <= 0.0 {
+                break;
+            }
+            let step = size / curvature;
+            for i in 0..rows.len() {
+                impulses[i] += step * search[i];
+                residual[i] -= step * response[i];
+                scaled[i] = residual[i] / rows[i].0.mobility;
+            }
+            let before = std::mem::replace(&mut size, dot(residual, scaled));
+            for i in 0..rows.len() {
+                search[i] = scaled[i] + size / before * search[i];
+            }
         }
-        let curvature = dot(&search, &response);
-        if curvature <= 0.0 {
-            break;
-        }
-        let step = size / curvature;
-        for i in 0..rows.len() {
-            impulses[i] += step * search[i];
-            residual[i] -= step * response[i];
-            scaled[i] = residual[i] / rows[i].0.mobility;
-        }
-        let before = std::mem::replace(&mut size, dot(&residual, &scaled));
-        for i in 0..rows.len() {
-            search[i] = scaled[i] + size / before * search[i];
-        }
+        take_over(candidates, movers, impulses, dt);
     }
-    take_over(candidates, movers, &impulses, dt);
 }
 
 /// Takes over the impulses of the free rows, each as far as its bounds allow.
@@ -373,18 +453,20 @@ fn take_over(candidates: &mut [Candidate], movers: &mut [Mover], impulses: &[f64
     let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
     for candidate in candidates {
         let free = candidate.bounded.map(|bounded| bounded.is_free());
+        let mut sides = Sides::of(movers, candidate.ends);
         if !candidate.at_limit {
-            candidate.set_normal(movers, candidate.normal_force + next(), dt);
+            candidate.set_normal(&mut sides, candidate.normal_force + next(), dt);
         }
         for (place, free) in free.into_iter().enumerate() {
             let Bounded { coefficient, engaged, force, .. } = candidate.bounded[place];
             if free {
-                candidate.set_bounded(movers, place, force + next(), dt);
+                candidate.set_bounded(&mut sides, place, force + next(), dt);
             } else if engaged {
                 // The limit has moved with the normal force.
-                candidate.set_bounded(movers, place, (coefficient * candidate.normal_force).copysign(force), dt);
+                candidate.set_bounded(&mut sides, place, (coefficient * candidate.normal_force).copysign(force), dt);
                 candidate.bounded[place].at_limit = true;
             }
         }
+        sides.put_back(movers, candidate.ends);
     }
 }

@@ -1,43 +1,99 @@
 //! Contacts that act on each other within a tick: those that share a body that moves by forces.
 
+use std::ops::Range;
+
 use super::case::Case;
 use crate::world::Bodies;
 
-/// Groups cases that share a body that moves by forces, in canonical order.
-pub(super) fn islands(cases: &[Case], bodies: &Bodies) -> Vec<Vec<Case>> {
-    if cases.is_empty() {
-        return Vec::new();
-    }
-    let mut root: Vec<usize> = (0..bodies.len()).collect();
-    fn find(root: &mut [usize], mut body: usize) -> usize {
-        while root[body] != body {
-            root[body] = root[root[body]];
-            body = root[body];
-        }
-        body
-    }
-    let joined =
-        |case: &Case| case.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[case.end.body]);
-    for case in cases {
-        if let Some(other) = joined(case) {
-            let (a, b) = (find(&mut root, other), find(&mut root, case.end.body));
-            root[a.max(b)] = a.min(b);
-        }
-    }
-    let mut sorted: Vec<(usize, Case)> = Vec::with_capacity(cases.len());
-    for case in cases {
-        let body = if bodies.dynamic[case.end.body] { Some(case.end.body) } else { case.other_body() };
-        sorted.push((find(&mut root, body.unwrap_or(case.end.body)), *case));
-    }
-    sorted.sort_by_key(|(root, _)| *root);
-    sorted.chunk_by(|a, b| a.0 == b.0).map(|chunk| chunk.iter().map(|(_, case)| *case).collect()).collect()
+/// Groups cases into islands. What memory it has it keeps for the next tick.
+#[derive(Debug, Default)]
+pub(super) struct Islands {
+    /// For each body one of its island, the first where it is asked for.
+    root: Vec<u32>,
+    ranges: Vec<Range<usize>>,
 }
 
-/// The bodies of an island in canonical order.
-pub(super) fn members(island: &[Case]) -> Vec<usize> {
-    let mut members: Vec<usize> =
-        island.iter().flat_map(|case| [Some(case.end.body), case.other_body()]).flatten().collect();
-    members.sort_unstable();
-    members.dedup();
-    members
+impl Islands {
+    /// Sorts cases so that those that share a body that moves by forces stand together, in canonical order. Returns where each
+    /// island stands.
+    pub fn sort(&mut self, cases: &mut [Case], bodies: &Bodies) -> &[Range<usize>] {
+        self.ranges.clear();
+        if cases.is_empty() {
+            return &self.ranges;
+        }
+        self.join(cases, bodies);
+        let root = |case: &Case| {
+            let body = if bodies.dynamic[case.end.body] { Some(case.end.body) } else { case.other_body() };
+            self.root[body.unwrap_or(case.end.body)]
+        };
+        cases.sort_by_key(root);
+        let mut first = 0;
+        for island in cases.chunk_by(|a, b| root(a) == root(b)) {
+            self.ranges.push(first..first + island.len());
+            first += island.len();
+        }
+        &self.ranges
+    }
+
+    /// Lets the root of each body be the first body of its island.
+    fn join(&mut self, cases: &[Case], bodies: &Bodies) {
+        let root = &mut self.root;
+        root.clear();
+        root.extend(0..bodies.len() as u32);
+        let joined =
+            |case: &Case| case.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[case.end.body]);
+        for case in cases {
+            if let Some(other) = joined(case) {
+                let (a, b) = (find(root, other as u32), find(root, case.end.body as u32));
+                root[a.max(b) as usize] = a.min(b);
+            }
+        }
+        // A root stands before all that point to it.
+        for body in 0..root.len() {
+            root[body] = root[root[body] as usize];
+        }
+    }
+}
+
+fn find(root: &mut [u32], mut body: u32) -> u32 {
+    while root[body as usize] != body {
+        root[body as usize] = root[root[body as usize] as usize];
+        body = root[body as usize];
+    }
+    body
+}
+
+/// The bodies of an island.
+#[derive(Debug, Default)]
+pub(super) struct Members {
+    /// In canonical order.
+    pub list: Vec<usize>,
+    /// For each body its place in the list and one more; zero for all others.
+    place: Vec<u32>,
+}
+
+impl Members {
+    /// Becomes those of the island of these cases, among so many bodies.
+    pub fn collect(&mut self, cases: &[Case], bodies: usize) {
+        for &body in &self.list {
+            self.place[body] = 0;
+        }
+        self.list.clear();
+        self.place.resize(bodies, 0);
+        for body in cases.iter().flat_map(|case| [Some(case.end.body), case.other_body()]).flatten() {
+            if self.place[body] == 0 {
+                self.place[body] = 1;
+                self.list.push(body);
+            }
+        }
+        self.list.sort_unstable();
+        for (place, &body) in self.list.iter().enumerate() {
+            self.place[body] = place as u32 + 1;
+        }
+    }
+
+    /// The place of a member behind what does not move by forces, which has the first; that one for all others.
+    pub fn place(&self, body: usize) -> usize {
+        self.place[body] as usize
+    }
 }

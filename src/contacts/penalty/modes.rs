@@ -9,11 +9,11 @@ use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::frame::Frame;
 use super::hold::{self, Mover, Seen, Verdict};
-use super::islands::{islands, members};
+use super::islands::{Islands, Members};
 use super::law::PairLaw;
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
-use super::patience::{Found, MANY};
+use super::patience::{Found, MANY, is_thorough};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
@@ -26,8 +26,11 @@ use crate::world::Bodies;
 pub(super) struct Scratch {
     touching: Vec<u32>,
     cases: Vec<Case>,
-    /// Bodies with a contact that does not stop.
-    moved: Vec<usize>,
+    /// For each body whether it has a contact that does not stop.
+    moved: Vec<bool>,
+    islands: Islands,
+    members: Members,
+    island: hold::Island,
 }
 
 /// The system of [`crate::tick::Modes`]: touching pairs choose loading, unloading or hold for the coming step; where that
@@ -52,7 +55,7 @@ pub(super) fn choose_modes<N: NormalForce>(
     }
     let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
     let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
-    let Scratch { touching, cases, moved } = &mut *scratch;
+    let Scratch { touching, cases, moved, islands, members, island } = &mut *scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
     let mut choice = Choice { sink, contacts, rolling, dt: span.length, losses };
     choice.wake_touched(&pairs);
@@ -66,6 +69,7 @@ pub(super) fn choose_modes<N: NormalForce>(
     }
     cases.clear();
     moved.clear();
+    moved.resize(choice.sink.bodies.len(), false);
     touching.clear();
     touching.extend(choice.contacts.atoms.awake_touching().map(|place| place as u32));
     for &place in &*touching {
@@ -86,10 +90,13 @@ pub(super) fn choose_modes<N: NormalForce>(
             choice.first_look::<N>(Case { place, normal, other: Other::Wall(wall), end }, cases, moved);
         }
     }
-    moved.sort_unstable();
     let mut found = Found::default();
-    for island in islands(cases, choice.sink.bodies) {
-        choice.stop::<N>(&island, moved, &mut ledger, &mut found);
+    for place in islands.sort(cases, choice.sink.bodies) {
+        let cases = &cases[place.clone()];
+        members.collect(cases, choice.sink.bodies.len());
+        let may_rest = members.list.iter().all(|&body| !moved[body]);
+        let thorough = may_rest && (!N::SET_VALUED || is_thorough(cases.len(), ticks));
+        choice.stop::<N>((cases, members), island, (may_rest, thorough), &mut ledger, &mut found);
     }
     choice.contacts.patience.note(found, restless, ticks);
     choice.book(&mut ledger);
@@ -163,15 +170,17 @@ impl Choice<'_> {
     }
 
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
-    fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Vec<usize>) {
+    fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut [bool]) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
         let (seen, law) = self.known(&case);
         if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
-        moved.push(case.end.body);
-        moved.extend(case.other_body());
+        moved[case.end.body] = true;
+        if let Some(other) = case.other_body() {
+            moved[other] = true;
+        }
         self.choose_by_velocity::<N>(&case, approach);
     }
 
@@ -273,43 +282,50 @@ impl Choice<'_> {
         }
     }
 
-    /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves.
-    fn stop<N: NormalForce>(&mut self, island: &[Case], moved: &[usize], ledger: &mut Ledger, found: &mut Found) {
-        let members = members(island);
-        let place = |body: usize| members.binary_search(&body).map_or(0, |place| place + 1);
+    /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves. `may_rest`: all of
+    /// its contacts could stop within the tick; `thorough`: the search is.
+    fn stop<N: NormalForce>(
+        &mut self,
+        (cases, members): (&[Case], &Members),
+        island: &mut hold::Island,
+        (may_rest, thorough): (bool, bool),
+        ledger: &mut Ledger,
+        found: &mut Found,
+    ) {
+        island.clear();
         let bodies = &*self.sink.bodies;
-        let mut begin = vec![Mover::default()];
-        begin.extend(members.iter().map(|&body| mover(bodies, body, 0.0)));
-        let mut movers = vec![Mover::default()];
-        movers.extend(members.iter().map(|&body| mover(bodies, body, self.dt)));
+        island.begin.push(Mover::default());
+        island.begin.extend(members.list.iter().map(|&body| mover(bodies, body, 0.0)));
+        island.movers.push(Mover::default());
+        island.movers.extend(members.list.iter().map(|&body| mover(bodies, body, self.dt)));
         // Walls whose surface moves stand behind the bodies.
-        let mut belt = movers.len()..;
-        for list in [&mut begin, &mut movers] {
-            list.extend(island.iter().filter_map(|case| case.belt(bodies)));
+        let mut belt = island.movers.len()..;
+        for list in [&mut island.begin, &mut island.movers] {
+            list.extend(cases.iter().filter_map(|case| case.belt(bodies)));
         }
-        let mut seen = Vec::with_capacity(island.len());
-        for case in island {
+        for case in cases {
             let belt = case.belt(self.sink.bodies).and_then(|_| belt.next());
-            let ends = (case.other_body().map_or(belt.unwrap_or(0), place), place(case.end.body));
-            seen.push(self.seen::<N>(case, ends));
+            let other = case.other_body().map_or(belt.unwrap_or(0), |body| members.place(body));
+            let seen = self.seen::<N>(case, (other, members.place(case.end.body)));
+            island.seen.push(seen);
         }
-        let mut candidates = hold::candidates(&begin, &movers, &seen, self.dt);
-        let frame = self.frame(island, &members, &movers[1..]);
+        island.set_up(self.dt);
+        let frame = self.frame(cases, &members.list, &island.movers[1..]);
         let place_of = |mover: usize, bodies: &Bodies| {
             mover
                 .checked_sub(1)
-                .and_then(|member| members.get(member))
+                .and_then(|member| members.list.get(member))
                 .map_or(DVec2::ZERO, |&body| bodies.position[body])
         };
         if let Some(frame) = frame {
-            let each = movers.iter_mut().enumerate();
+            let each = island.movers.iter_mut().enumerate();
             each.for_each(|(place, mover)| frame.enter(mover, place_of(place, self.sink.bodies)));
         }
-        let may_rest = members.iter().all(|body| moved.binary_search(body).is_err());
-        hold::solve(&mut candidates, &mut movers, may_rest, self.dt);
+        island.solve(thorough, self.dt);
+        let (candidates, movers) = (&island.candidates, &mut island.movers);
         let mut entirely = may_rest;
-        for (case, candidate) in island.iter().zip(&candidates) {
-            match candidate.verdict(&movers, self.dt) {
+        for (case, candidate) in cases.iter().zip(candidates) {
+            match candidate.verdict(movers, self.dt) {
                 Verdict::Moves { approaches } => {
                     entirely = false;
                     let mut approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
@@ -335,17 +351,17 @@ impl Choice<'_> {
             let each = movers.iter_mut().enumerate();
             each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
         }
-        let loads = hold::loads(&candidates, movers.len());
+        let loads = hold::loads(candidates, movers.len());
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
             let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };
             [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent[body], self.dt))
         };
-        if members.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
-            self.lay_to_rest(&members, &loads[1..], ledger);
+        if members.list.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
+            self.lay_to_rest(&members.list, &loads[1..], ledger);
             found.rest = true;
         } else {
-            found.stops |= island.len() > MANY / 8;
+            found.stops |= cases.len() > MANY / 8;
         }
     }
 

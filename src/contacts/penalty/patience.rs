@@ -19,6 +19,21 @@ const LONGEST: u64 = 4096;
 /// Searches in successive ticks while islands come to a stop: each brings their velocities down by a factor.
 const TRIES: u32 = 8;
 
+/// Contacts of an island beyond which it is large.
+const LARGE: usize = MANY / 2;
+/// Ticks from one thorough search in large islands to the next.
+const EVERY: u64 = 64;
+
+/// Whether the search in an island of so many contacts, all of which could stop, is made with conjugate gradients in this tick.
+///
+/// Those cost many times what the sweeps do, and find rest only where what still moves is so slow that no bound is in the way.
+/// In a heap that swings they stop all contacts at once with whatever forces the bounds allow, which the next tick
+/// cannot keep: pyramids of hundreds of boxes did not come to rest for that and crept. Sweeps alone take its motion away, and
+/// rest is found some 64 ticks later at the most where they would take longer.
+pub(super) fn is_thorough(contacts: usize, ticks: u64) -> bool {
+    contacts <= LARGE || ticks.is_multiple_of(EVERY)
+}
+
 /// When rest is looked for.
 #[derive(Debug, Default)]
 pub(super) struct Patience {

@@ -108,18 +108,19 @@ impl Rest {
             self.clear();
             return;
         }
-        if !bodies.asleep.is_empty() && !self.changed {
-            self.settle_asleep(bodies);
-            return;
+        if !bodies.asleep.is_empty() {
+            bodies.disturbed = self.any_pushed_asleep(bodies);
+            // Where all that rest are asleep nothing else is to be seen; and an evaluation that is made anew with all
+            // of them counts alone: who was just laid to rest is looked at in that one.
+            if bodies.disturbed || !self.changed {
+                return;
+            }
         }
         let still = &mut self.still;
         let (changed, woke) = (&mut self.changed, &mut self.woke);
-        let mut disturbed = false;
         self.resting.retain_mut(|resting| {
             let body = resting.body;
             if bodies.is_asleep(body) {
-                let pushed = bodies.force[body] != DVec2::ZERO || bodies.torque[body] != 0.0;
-                disturbed |= pushed && still[body];
                 return still[body];
             }
             let stays = resting.unchanged(bodies);
@@ -134,18 +135,17 @@ impl Rest {
             }
             stays
         });
-        bodies.disturbed = disturbed;
         if self.resting.len() == bodies.dynamic.iter().filter(|dynamic| **dynamic).count() {
             // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
             (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
         }
     }
 
-    /// The same where all that rest were asleep: if one was pushed, the evaluation is made anew with all of them.
-    fn settle_asleep(&mut self, bodies: &mut Bodies) {
+    /// Whether one of those that are asleep was pushed. All others were given no force.
+    fn any_pushed_asleep(&self, bodies: &Bodies) -> bool {
         let pushed = |body: usize| bodies.force[body] != DVec2::ZERO || bodies.torque[body] != 0.0;
         let mut awake = (0..bodies.awake_blocks()).flat_map(|number| bodies.awake_block(number));
-        bodies.disturbed = awake.any(|body| bodies.is_asleep(body) && pushed(body));
+        awake.any(|body| bodies.is_asleep(body) && self.has(body) && pushed(body))
     }
 }
 
@@ -166,7 +166,8 @@ impl PenaltyContacts {
         forces: Option<&mut ContactForces>,
     ) {
         let Self { rest, atoms, walls, sleep, .. } = self;
-        rest.changed = false;
+        // Whoever was laid to rest in this tick has yet to be looked at, though the lists be made anew before that.
+        rest.changed = rest.resting.iter().any(|resting| resting.left_over.is_none());
         bodies.wake_all();
         let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
         let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
