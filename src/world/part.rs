@@ -46,7 +46,7 @@ pub(crate) struct Part<'a> {
 }
 
 /// The first items of a list, which then begins behind them.
-fn cut<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+pub(crate) fn cut<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let whole = std::mem::take(list);
     let (front, rest) = whole.split_at_mut(count.min(whole.len()));
     *list = rest;
@@ -197,12 +197,13 @@ pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
 impl Bodies {
     /// Does `work` for all bodies that are not asleep; `found` is told what it is afterwards, part by part in order.
     pub(crate) fn each<W: PerBody>(&mut self, work: W, mut found: impl FnMut(W)) {
-        let (level, threads) = (self.level, self.threads.clone());
+        let level = self.level;
         let count = parts_of(self.atom_count().max(self.len()), FEWEST);
         if count == 1 {
             return found(simd::run(level, All { part: Part::whole(self), work }));
         }
         let each = self.len().div_ceil(count).next_multiple_of(BLOCK);
+        let threads = self.threads.clone();
         let mut rest = Part::whole(self);
         let mut parts = Vec::with_capacity(count);
         while rest.mass.len() > each {

@@ -55,7 +55,7 @@ fn names_and_words_are_explained() {
         ("sleep", "ticks leave them out"),
         ("simd", "`--simd LEVEL` is a flag of `jostle run`, "),
         ("vector instructions", "A level that the processor lacks is refused"),
-        ("threads", "Threads that draw; the film does not depend on it"),
+        ("threads", "Threads that draw and that share the work of a tick"),
         ("quick", "`--quick` is a flag of `jostle bench`: "),
     ] {
         let ended = folder.jostle(&format!("explain {name}")).code(0);

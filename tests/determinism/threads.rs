@@ -78,7 +78,7 @@ fn end_of(text: &str, threads: usize, level: Level) -> (u64, Ledger, DVec2) {
 
 #[test]
 fn threads_that_share_the_work_change_no_bit() {
-    let gauge = "sensors: [ContactForce(on: \"post\", name: \"push\")], gravity: (0, -9.81),";
+    let gauge = "sensors: [ContactForce(on: \"post\")], gravity: (0, -9.81),";
     for (contacts, body, more) in [
         ("Penalty(tangential: None)", DISCS, ""),
         ("Penalty(normal: Dashpot)", DISCS, gauge),

@@ -19,7 +19,7 @@ use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
 use crate::simd::{self, BLOCK, Kernel, Lanes, Record};
 use crate::tick::Balance;
 use crate::world::Bodies;
-use crate::world::part::parts_of;
+use crate::world::part::{cut, parts_of};
 
 /// What contacts need to know of each atom: place, displacement since the last accepted state, turn since then, radius and
 /// velocity.
@@ -126,50 +126,50 @@ pub(super) fn follow_pairs<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     moment: Moment,
 ) -> Losses {
-    let (level, threads) = (sink.bodies.level, sink.bodies.threads.clone());
+    let level = sink.bodies.level;
     let plain = sink.bodies.lone_discs && sink.bodies.all_dynamic && sink.forces.is_none();
-    let blocks = pairs.len().div_ceil(BLOCK).div_ceil(parts_of(pairs.len(), FEWEST));
-    let count = pairs.len().div_ceil(BLOCK).div_ceil(blocks);
+    let count = parts_of(pairs.len(), FEWEST);
     let (mut force, mut torque) = (std::mem::take(&mut sink.bodies.force), std::mem::take(&mut sink.bodies.torque));
     let bodies = &*sink.bodies;
-    let mut found: Vec<Found> = Vec::with_capacity(count);
+    let start = Found { balance: *sink.balance, deepest: *deepest, ..Found::default() };
+    let follow = |(pairs, list, share, found), forces: Option<&mut ContactForces>| {
+        let law = PhantomData::<N>;
+        simd::run(level, FollowPairs { records, pairs, list, laws, bodies, share, found, forces, plain, moment, law })
+    };
+    let mut losses = Losses::default();
+    if count == 1 {
+        let share = Share { first: 0, force: &mut force, torque: &mut torque };
+        let found = follow((pairs, list.whole(), share, start), sink.forces.as_deref_mut());
+        (*sink.balance, *deepest, losses) = (found.balance, found.deepest, found.losses);
+        (sink.bodies.force, sink.bodies.torque) = (force, torque);
+        return losses;
+    }
+    let blocks = pairs.len().div_ceil(BLOCK).div_ceil(count);
     let (mut forces, mut torques) = (&mut force[..], &mut torque[..]);
     let mut parts = Vec::with_capacity(count);
     for list in list.parts(blocks) {
         let (begin, end) = (list.first * BLOCK, (list.first + blocks) * BLOCK);
         let first = bodies.len() - forces.len();
         let last = pairs.get(end).map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
-        let (force, rest) = std::mem::take(&mut forces).split_at_mut(last - first);
-        forces = rest;
-        let (torque, rest) = std::mem::take(&mut torques).split_at_mut(last - first);
-        torques = rest;
-        let balance = if list.first == 0 { *sink.balance } else { Balance::default() };
-        found.push(Found { balance, deepest: *deepest, ..Found::default() });
-        parts.push((list, Share { first, force, torque }, &pairs[begin..pairs.len().min(end)]));
+        let share = Share { first, force: cut(&mut forces, last - first), torque: cut(&mut torques, last - first) };
+        let found = if begin == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
+        parts.push((&pairs[begin..pairs.len().min(end)], list, share, found));
     }
-    let follow = |((list, share, pairs), found): ((ListPart, Share, &[AtomPair]), &mut Found),
-                  forces: Option<&mut ContactForces>| {
-        let law = PhantomData::<N>;
-        simd::run(level, FollowPairs { records, pairs, list, laws, bodies, share, found, forces, plain, moment, law });
-    };
-    let parts = parts.into_iter().zip(&mut found);
-    if sink.forces.is_some() || count == 1 {
-        parts.for_each(|part| follow(part, sink.forces.as_deref_mut()));
+    let mut done: Vec<Option<Found>> = parts.iter().map(|_| None).collect();
+    let parts = parts.into_iter().zip(&mut done);
+    if sink.forces.is_some() {
+        parts.for_each(|(part, done)| *done = Some(follow(part, sink.forces.as_deref_mut())));
     } else {
-        threads.each(parts.collect(), |part| follow(part, None));
+        bodies.threads.each(parts.collect(), |(part, done)| *done = Some(follow(part, None)));
     }
     (sink.bodies.force, sink.bodies.torque) = (force, torque);
-    let mut losses = Losses::default();
-    for (number, part) in found.iter().enumerate() {
-        for &(body, force, torque) in &part.others {
+    *sink.balance = Balance::default();
+    for part in done.into_iter().flatten() {
+        for (body, force, torque) in part.others {
             sink.bodies.force[body as usize] += force;
             sink.bodies.torque[body as usize] += torque;
         }
-        if number == 0 {
-            *sink.balance = part.balance
-        } else {
-            sink.balance.add(&part.balance)
-        }
+        sink.balance.add(&part.balance);
         losses.friction += part.losses.friction;
         losses.inelasticity += part.losses.inelasticity;
         if part.deepest.share > deepest.share {
@@ -188,7 +188,7 @@ struct Share<'a> {
 }
 
 /// What comes of a part of the pairs beside forces on its own bodies.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Found {
     /// Forces and torques for bodies of other parts.
     others: Vec<(u32, DVec2, f64)>,
@@ -206,7 +206,7 @@ struct FollowPairs<'a, N> {
     /// Without forces: those are shared out.
     bodies: &'a Bodies,
     share: Share<'a>,
-    found: &'a mut Found,
+    found: Found,
     forces: Option<&'a mut ContactForces>,
     /// Bodies are discs that move by forces, and nobody asks for single forces.
     plain: bool,
@@ -271,10 +271,10 @@ struct Geometry {
 const AHEAD: usize = 4;
 
 impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
-    type Output = ();
+    type Output = Found;
 
     #[inline(always)]
-    fn run<V: Lanes>(mut self) {
+    fn run<V: Lanes>(mut self) -> Found {
         let mut lost = PartialLosses::default();
         let mut pushes = Pushes::default();
         let mut ahead = [Geometry::default(); AHEAD];
@@ -306,6 +306,7 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
         }
         let sum = |partial: &[f64; BLOCK]| partial.iter().fold(0.0, |sum, part| sum + part);
         self.found.losses = Losses { friction: sum(&lost.friction), inelasticity: sum(&lost.inelasticity) };
+        self.found
     }
 }
 

@@ -294,6 +294,23 @@ impl ListPart<'_> {
 }
 
 impl ContactList {
+    /// The list as one part.
+    pub(super) fn whole(&mut self) -> ListPart<'_> {
+        ListPart {
+            first: 0,
+            law: &self.law,
+            damping: &self.damping,
+            overlap: &mut self.overlap,
+            normal_force: &mut self.normal_force,
+            elongation: &mut self.elongation,
+            held: &mut self.held,
+            phases: &mut self.phases,
+            due: &mut self.due,
+            asleep: &self.asleep,
+            awake: (!self.asleep.is_empty()).then_some(&self.awake),
+        }
+    }
+
     /// The list in parts of so many blocks; the last may have fewer.
     pub(super) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = ListPart<'_>> {
         let (count, each) = (self.phases.len().div_ceil(blocks), BLOCK * blocks);
