@@ -20,6 +20,7 @@ mod plot;
 mod progress;
 mod projector;
 mod render;
+mod report;
 mod result;
 mod run;
 mod say;
@@ -108,6 +109,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Measure what ticks of scenes cost, beside a plain loop that does the same work
     Bench(bench::Bench),
+    /// Run problems whose answer is known by all methods, and report error against time: Markdown, HTML, tables, diagrams
+    Report(report::Report),
     /// Give scenes their standard layout; comments and line breaks stay
     Fmt(fmt::Fmt),
     /// Show what a scene does in a tick and what that costs; or what a name or a word on the error card means
@@ -131,6 +134,7 @@ impl CommandLine {
             Command::Test(test) => test.execute(),
             Command::Sweep(sweep) => sweep.execute(),
             Command::Bench(bench) => bench.execute(),
+            Command::Report(report) => report.execute(),
             Command::Fmt(fmt) => fmt.execute(),
             Command::Explain(explain) => explain.execute(),
             Command::List(list) => list.execute(),

@@ -6,6 +6,7 @@ pub mod bench;
 pub mod card;
 pub mod energy;
 pub mod reversal;
+pub mod survey;
 mod warnings;
 
 pub use advice::Remedy;

@@ -19,6 +19,7 @@ mod numbers;
 mod outputs;
 mod plots;
 mod promises;
+mod report;
 mod scene_files;
 mod schema;
 mod stills;

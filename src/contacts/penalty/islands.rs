@@ -8,7 +8,7 @@ use crate::world::Bodies;
 /// Groups cases into islands. What memory it has it keeps for the next tick.
 #[derive(Debug, Default)]
 pub(super) struct Islands {
-    /// For each body one of its island, the first where it is asked for.
+    /// For each body that is in a case the first of its island.
     root: Vec<u32>,
     ranges: Vec<Range<usize>>,
 }
@@ -35,11 +35,14 @@ impl Islands {
         &self.ranges
     }
 
-    /// Lets the root of each body be the first body of its island.
+    /// Lets the root of each body that is in a case be the first body of its island.
     fn join(&mut self, cases: &[Case], bodies: &Bodies) {
         let root = &mut self.root;
-        root.clear();
-        root.extend(0..bodies.len() as u32);
+        root.resize(bodies.len(), 0);
+        let ends = || cases.iter().flat_map(|case| [Some(case.end.body), case.other_body()]).flatten();
+        for body in ends() {
+            root[body] = body as u32;
+        }
         let joined =
             |case: &Case| case.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[case.end.body]);
         for case in cases {
@@ -48,9 +51,8 @@ impl Islands {
                 root[a.max(b) as usize] = a.min(b);
             }
         }
-        // A root stands before all that point to it.
-        for body in 0..root.len() {
-            root[body] = root[root[body] as usize];
+        for body in ends() {
+            root[body] = find(root, body as u32);
         }
     }
 }
