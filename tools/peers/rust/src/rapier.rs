@@ -1,0 +1,127 @@
+//! Rapier, in single and in double precision: the same source for both crates.
+
+macro_rules! rapier {
+    ($module:ident, $crate_name:ident, $real:ty) => {
+        pub mod $module {
+            use $crate_name::na::Unit;
+            use $crate_name::prelude::*;
+
+            use crate::job::{Job, State};
+
+            pub struct World {
+                world: PhysicsWorld,
+                discs: Vec<RigidBodyHandle>,
+                /// Stiffness of the spring in N/m, where it is a force of ours.
+                pull: Option<$real>,
+                /// Angles are told within a turn: here they go on.
+                turned: Vec<(f64, f64)>,
+            }
+
+            pub fn world(job: &Job) -> World {
+                let (scene, settings) = (&job.scene, &job.settings);
+                let mut world = PhysicsWorld::new();
+                let vector = |v: [f64; 2]| Vector::new(v[0] as $real, v[1] as $real);
+                world.gravity = vector(scene.gravity);
+                let parameters = &mut world.integration_parameters;
+                parameters.dt = job.step as $real;
+                parameters.num_solver_iterations = settings.substeps as usize;
+                for softness in [&mut parameters.contact_softness, &mut parameters.static_contact_softness] {
+                    if let Some(hertz) = settings.contact_hertz {
+                        softness.natural_frequency = hertz as $real;
+                    }
+                    if let Some(ratio) = settings.contact_damping {
+                        softness.damping_ratio = ratio as $real;
+                    }
+                }
+                if let Some(speed) = settings.push_speed {
+                    parameters.normalized_max_corrective_velocity = speed as $real;
+                }
+                if let Some(distance) = settings.prediction {
+                    parameters.normalized_prediction_distance = distance as $real;
+                }
+                if let Some(iterations) = settings.iterations {
+                    parameters.num_internal_pgs_iterations = iterations as usize;
+                }
+                parameters.contact_recycling = settings.recycling;
+                if !settings.continuous {
+                    parameters.max_ccd_substeps = 0;
+                }
+                if !settings.warm_start {
+                    parameters.warmstart_coefficient = 0.0;
+                }
+                let material = |collider: ColliderBuilder| {
+                    collider.friction(scene.material.friction as $real).restitution(scene.material.restitution as $real)
+                };
+                if scene.floor {
+                    let floor = ColliderBuilder::halfspace(Unit::new_unchecked(Vector::new(0.0, 1.0).into()));
+                    world.colliders.insert(material(floor));
+                }
+                let mut discs = Vec::new();
+                for disc in &scene.bodies {
+                    let mass = MassProperties::new(Vector::new(0.0, 0.0), disc.mass as $real, disc.inertia() as $real);
+                    let mut body = RigidBodyBuilder::dynamic()
+                        .translation(vector(disc.at))
+                        .linvel(vector(disc.velocity))
+                        .angvel(disc.spin as $real)
+                        .linear_damping(scene.drag as $real)
+                        .can_sleep(settings.sleep)
+                        .additional_mass_properties(mass);
+                    if !disc.turns {
+                        body = body.lock_rotations();
+                    }
+                    let handle = world.bodies.insert(body);
+                    let collider = material(ColliderBuilder::ball(disc.radius as $real).density(0.0));
+                    world.colliders.insert_with_parent(collider, handle, &mut world.bodies);
+                    discs.push(handle);
+                }
+                let mut pull = None;
+                if let Some(stiffness) = scene.spring {
+                    if settings.spring_joint {
+                        let anchor = world.bodies.insert(RigidBodyBuilder::fixed().translation(Vector::new(-1.0, 0.0)));
+                        let spring = SpringJointBuilder::new(1.0, stiffness as $real, 0.0);
+                        world.impulse_joints.insert(anchor, discs[0], spring, true);
+                    } else {
+                        pull = Some(stiffness as $real);
+                    }
+                }
+                let turned = vec![(0.0, 0.0); discs.len()];
+                World { world, discs, pull, turned }
+            }
+
+            impl crate::job::World for World {
+                fn step(&mut self) {
+                    if let Some(stiffness) = self.pull {
+                        let body = &mut self.world.bodies[self.discs[0]];
+                        let force = Vector::new(-stiffness * body.translation().x, 0.0);
+                        body.reset_forces(true);
+                        body.add_force(force, true);
+                    }
+                    self.world.step();
+                }
+
+                fn follow(&mut self) {
+                    for (disc, (angle, last)) in self.discs.iter().zip(&mut self.turned) {
+                        let now = f64::from(self.world.bodies[*disc].rotation().angle());
+                        *angle += (now - *last + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+                        *last = now;
+                    }
+                }
+
+                fn states(&self) -> Vec<State> {
+                    let state = |(disc, (angle, _)): (&RigidBodyHandle, &(f64, f64))| {
+                        let body = &self.world.bodies[*disc];
+                        let (at, velocity) = (body.translation(), body.linvel());
+                        let numbers = [at.x, at.y, 0.0, velocity.x, velocity.y, body.angvel()];
+                        let mut numbers = numbers.map(f64::from);
+                        numbers[2] = *angle;
+                        numbers
+                    };
+                    self.discs.iter().zip(&self.turned).map(state).collect()
+                }
+            }
+        }
+    };
+}
+
+rapier!(single, rapier2d, f32);
+rapier!(double, rapier2d_f64, f64);
