@@ -68,18 +68,25 @@ fn tell_trial(number: u32, what: &str) {
 
 /// The registered methods: an integrator that registers itself is offered here without a second list.
 fn methods() -> PossibleValuesParser {
+    let names = [ClockSection::AUTO, ClockSection::REFERENCE].into_iter().chain(registered());
+    PossibleValuesParser::new(names.collect::<Vec<_>>())
+}
+
+/// The registered methods, without those that choose or judge others.
+pub(super) fn registered_methods() -> PossibleValuesParser {
+    PossibleValuesParser::new(registered())
+}
+
+fn registered() -> Vec<&'static str> {
     let mut app = bevy_app::App::empty();
     app.add_tick();
     crate::plugins::standard(&mut app);
     let registered = app.world().get_resource::<Methods>().map_or_else(Vec::new, |methods| methods.0.clone());
-    let names = [ClockSection::AUTO, ClockSection::REFERENCE]
-        .into_iter()
-        .chain(registered.into_iter().map(|method| method.name));
-    PossibleValuesParser::new(names.collect::<Vec<_>>())
+    registered.into_iter().map(|method| method.name).collect()
 }
 
 /// A parameter and its value.
-fn setting(text: &str) -> Result<(String, String), String> {
+pub(super) fn setting(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
     let good = parts.filter(|(name, value)| !name.is_empty() && !value.is_empty());
     good.map(|(name, value)| (name.to_owned(), value.to_owned()))
@@ -99,7 +106,7 @@ fn time(text: &str) -> Option<f64> {
 }
 
 /// A time above zero.
-fn above_zero(text: &str) -> Result<f64, String> {
+pub(super) fn above_zero(text: &str) -> Result<f64, String> {
     let value = time(text).filter(|value| value.is_finite() && *value > 0.0);
     value.ok_or_else(|| "expected a time above zero, such as 0.5 (seconds) or 20ms".to_owned())
 }

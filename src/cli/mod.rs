@@ -4,6 +4,7 @@ mod aim;
 mod bench;
 mod check;
 mod colors;
+mod columns;
 mod examples;
 mod explain;
 mod film;
@@ -13,6 +14,7 @@ mod fmt;
 mod junit;
 mod list;
 mod load;
+mod measure;
 mod moments;
 mod new;
 mod pace;
@@ -71,6 +73,7 @@ Examples:
   jostle check my_scene.ron                              read it and say what is wrong
   jostle test scenes/                                    do all scenes of a folder do what they expect?
   jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values
+  jostle measure my_scene.ron                            which method and tick reach which error, and at what cost
   jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
   jostle schema --manual | less                          every section and field that a scene may have
@@ -111,6 +114,8 @@ enum Command {
     Bench(bench::Bench),
     /// Run problems whose answer is known by all methods, and report error against time: Markdown, HTML, tables, diagrams
     Report(report::Report),
+    /// Measure which error each method and tick has on a scene and what it costs, and say which to take
+    Measure(measure::Measure),
     /// Give scenes their standard layout; comments and line breaks stay
     Fmt(fmt::Fmt),
     /// Show what a scene does in a tick and what that costs; or what a name or a word on the error card means
@@ -135,6 +140,7 @@ impl CommandLine {
             Command::Sweep(sweep) => sweep.execute(),
             Command::Bench(bench) => bench.execute(),
             Command::Report(report) => report.execute(),
+            Command::Measure(measure) => measure.execute(),
             Command::Fmt(fmt) => fmt.execute(),
             Command::Explain(explain) => explain.execute(),
             Command::List(list) => list.execute(),

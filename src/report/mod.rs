@@ -5,6 +5,7 @@ mod advice;
 pub mod bench;
 pub mod card;
 pub mod energy;
+pub mod measure;
 pub mod reversal;
 pub mod survey;
 mod warnings;

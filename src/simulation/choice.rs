@@ -29,6 +29,10 @@ pub enum Goal {
     Reference,
 }
 
+/// Seconds of physics that a run is asked for, whatever its tick.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Duration(pub f64);
+
 /// How a scene is run.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -63,6 +67,7 @@ pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64,
         }
         None => clock.duration.si(),
     };
+    world.insert_resource(Duration(duration));
     let goal = goal(&clock, overrides, &mut notes)?;
     let plan = match (&overrides.plan, goal) {
         (Some(plan), _) => plan.clone(),

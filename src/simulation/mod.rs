@@ -182,6 +182,11 @@ impl Simulation {
         self.ticks
     }
 
+    /// Seconds of physics that the scene or the command line asks for. The run ends at the tick that reaches it.
+    pub fn duration(&self) -> f64 {
+        self.world().get_resource::<choice::Duration>().map_or(0.0, |duration| duration.0)
+    }
+
     /// Runs until `tick` ticks are done in all; does nothing if they are.
     ///
     /// # Errors

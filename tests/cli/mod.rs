@@ -14,6 +14,7 @@ mod interrupt;
 mod json;
 mod list;
 mod look;
+mod measure;
 mod new;
 mod numbers;
 mod outputs;

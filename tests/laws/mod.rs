@@ -24,6 +24,7 @@ mod kinematic;
 mod ledger;
 mod located;
 mod long_steps;
+mod measured;
 mod million;
 mod momentum;
 mod oblique;

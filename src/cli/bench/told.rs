@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use crate::cli::columns::aligned;
 use crate::cli::say::number;
 use crate::report::bench::{Measured, Spread};
 
@@ -103,23 +104,6 @@ pub(super) fn table(rows: &[Row]) -> String {
         if let Err(why) = row.measured.plain {
             let _ = writeln!(text, "note: {}: no plain loop beside it, for {why}", row.name);
         }
-    }
-    text
-}
-
-/// Columns side by side: the first begins at the left, numbers end at the right.
-fn aligned(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let head = head.iter().map(|name| (*name).to_owned()).collect();
-    let lines: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
-    let widths: Vec<usize> =
-        (0..lines[0].len()).map(|column| lines.iter().map(|line| line[column].len()).max().unwrap_or(0)).collect();
-    let mut text = String::new();
-    for line in &lines {
-        let _ = write!(text, "{:<width$}", line[0], width = widths[0]);
-        for (value, width) in line.iter().zip(&widths).skip(1) {
-            let _ = write!(text, "  {value:>width$}");
-        }
-        text.push('\n');
     }
     text
 }

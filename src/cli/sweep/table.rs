@@ -1,6 +1,7 @@
 //! The table of a sweep: a row for each run. It holds nothing that depends on time or threads, so the same sweep makes the
 //! same bytes, in one piece or in shards.
 
+use crate::cli::columns::quoted;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
@@ -195,12 +196,6 @@ impl Table {
         };
         size == self.rows.len() && self.rows.iter().enumerate().all(fits)
     }
-}
-
-/// A cell; quoted where it has to be (RFC 4180). Line breaks become blanks.
-fn quoted(cell: &str) -> String {
-    let line: String = cell.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
-    if line.contains([',', '"']) { format!("\"{}\"", line.replace('"', "\"\"")) } else { line }
 }
 
 /// The cells of all lines.

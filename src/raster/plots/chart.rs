@@ -169,6 +169,27 @@ impl Chart {
         chart
     }
 
+    /// The same with something said beside the title.
+    pub(super) fn with_aside(mut self, text: &str) -> Chart {
+        text.clone_into(&mut self.aside);
+        self
+    }
+
+    /// The part between the axes.
+    pub(super) fn inner(&self) -> &Area {
+        &self.inner
+    }
+
+    /// The pixel of a pair of values.
+    pub(super) fn spot(&self, x: f64, y: f64) -> Point {
+        self.place(&Sample { time: 0.0, x, y })
+    }
+
+    /// The colour of a curve.
+    pub(super) fn color(&self, curve: usize) -> Rgb {
+        self.traces.get(curve).map_or(self.tones.ink, |trace| trace.color)
+    }
+
     fn place(&self, sample: &Sample) -> Point {
         let pixel = |value: f64| if value.is_finite() { value.clamp(-FAR, FAR) as f32 } else { f32::NAN };
         (pixel(self.across.0.place(sample.x)), pixel(self.up.0.place(sample.y)))
@@ -444,7 +465,8 @@ fn nested(heads: &[(Point, Rgb)], radius: f32) -> Vec<(Point, f32, Rgb)> {
     (0..heads.len()).map(grown).collect()
 }
 
-fn fill(canvas: &mut Canvas, area: &Area, color: Rgb) {
+/// Fills an area.
+pub(super) fn fill(canvas: &mut Canvas, area: &Area, color: Rgb) {
     let (width, height) = (canvas.width(), canvas.height());
     let side = |from: f32, to: f32, end: usize| (from.max(0.0) as usize).min(end)..(to.max(0.0) as usize).min(end);
     let columns = side(area.left, area.right, width);

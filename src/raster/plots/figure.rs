@@ -10,7 +10,7 @@ use crate::raster::{SizeError, Theme};
 use crate::record::plot::Plot;
 
 /// Letters of a figure are larger than those beside a film: it is looked at alone, and often made smaller.
-const LETTERS: f32 = 1.45;
+pub(super) const LETTERS: f32 = 1.45;
 
 /// Draws plots below each other, as they are in the end.
 ///

@@ -2,6 +2,7 @@
 //! taller than wide.
 
 mod chart;
+mod diagram;
 mod figure;
 mod legend;
 mod pen;
@@ -15,13 +16,15 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub(super) use chart::Tools;
+pub use diagram::{Diagram, Sign, Spot, draw_diagram};
 pub use figure::figure;
 
 use super::canvas::{Canvas, fill};
 use super::theme::Theme;
 use crate::record::frame::Rgb;
 use crate::record::plot::Board;
-use chart::{Chart, Naming};
+use chart::{Chart, Naming, fill as fill_area};
+use figure::LETTERS;
 use legend::Key;
 use stroke::Area;
 use style::{Sizes, Tones};

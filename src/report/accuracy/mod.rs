@@ -1,9 +1,9 @@
 //! Runs that know their error: a scene is run in several ways, and what they differ by says how wrong they are.
 
 mod fineness;
-mod reference;
+pub(super) mod reference;
 mod tolerance;
-mod trajectory;
+pub(super) mod trajectory;
 
 use crate::Simulation;
 use crate::scene::SceneErrors;

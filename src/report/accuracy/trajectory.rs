@@ -23,7 +23,7 @@ struct Pose {
 }
 
 /// A run as it went.
-pub(super) struct Trajectory {
+pub(in crate::report) struct Trajectory {
     moments: Vec<(f64, Vec<Pose>)>,
     /// Greatest distance of any point of each body from its centre of mass in m.
     extents: Vec<f64>,
@@ -42,7 +42,7 @@ const LEAST_SHARE: f64 = 1e-2;
 
 /// How far two runs are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Apart {
+pub(in crate::report) struct Apart {
     /// The greater of both as shares: of how far each body goes, and of how fast it is.
     pub share: f64,
     /// Greatest distance between the places of a point of a body, in m.
@@ -79,10 +79,35 @@ impl Trajectory {
         let bodies = simulation.bodies().len() as u64;
         let most = MOST_MOMENTS.min(MOST_NUMBERS / (6 * bodies.max(1))).max(8);
         let stride = ticks.div_ceil(most).max(1) * per_moment;
+        Self::seen(simulation, stride, |simulation| simulation.run_to_end().err())
+    }
+
+    /// Runs a scene to its end and looks at each `stride` ticks. `goes_on` is asked at each of them; nothing, and the share of
+    /// the run that is done, if it says no.
+    pub fn while_it(simulation: &mut Simulation, stride: u64, goes_on: &dyn Fn() -> bool) -> Result<Self, f64> {
+        let mut stopped = None;
+        let trajectory = Self::seen(simulation, stride, |simulation| {
+            while simulation.clock().ticks < simulation.ticks() {
+                if !goes_on() {
+                    stopped = Some(simulation.clock().ticks as f64 / simulation.ticks() as f64);
+                    return None;
+                }
+                let next = (simulation.clock().ticks + stride).min(simulation.ticks());
+                if let Err(failure) = simulation.run_to_tick(next) {
+                    return Some(failure);
+                }
+            }
+            None
+        });
+        stopped.map_or(Ok(trajectory), Err)
+    }
+
+    /// What is seen of a run that `run` makes, each `stride` ticks.
+    fn seen(simulation: &mut Simulation, stride: u64, run: impl FnOnce(&mut Simulation) -> Option<Failure>) -> Self {
         let begin = (simulation.clock().time(), poses(simulation.bodies()));
         simulation.world_mut().insert_resource(Lookout { stride, moments: vec![begin] });
         add_packed_observer(simulation.world_mut(), look);
-        let failure = simulation.run_to_end().err();
+        let failure = run(simulation);
         let lookout = simulation.world_mut().remove_resource::<Lookout>();
         let mut moments = lookout.map_or_else(Vec::new, |lookout| lookout.moments);
         if !simulation.clock().ticks.is_multiple_of(stride) {
@@ -97,6 +122,19 @@ impl Trajectory {
             crowded: world.get_resource::<LocatedEvents>().is_some_and(|events| events.given_up > 0),
             bounded: world.get_resource::<StepCount>().is_some_and(StepCount::is_bounded),
         }
+    }
+
+    /// The same without what comes after `time` seconds, and with each `every`th moment only.
+    pub fn part(&self, time: f64, every: usize) -> Self {
+        let seen = self.moments.iter().step_by(every);
+        // A moment at the time itself may lie behind it by rounding.
+        let moments = seen.take_while(|(at, _)| *at <= time * (1.0 + 1e-9)).cloned().collect();
+        Self { moments, extents: self.extents.clone(), failure: self.failure.clone(), ..*self }
+    }
+
+    /// How many moments were looked at after the beginning.
+    pub fn moments(&self) -> usize {
+        self.moments.len().saturating_sub(1)
     }
 
     /// How far bodies came from where they began, in m, and how fast they were, in m/s. A turn counts as no more than one
@@ -120,7 +158,7 @@ impl Trajectory {
     }
 
     /// How far and how fast each body goes, as in [`Trajectory::sizes`].
-    fn measures(&self) -> Vec<(f64, f64)> {
+    pub fn measures(&self) -> Vec<(f64, f64)> {
         let (farthest, fastest) = self.sizes();
         let Some((_, first)) = self.moments.first() else { return Vec::new() };
         let least = |size: f64, most: f64| if most > 0.0 { size.max(LEAST_SHARE * most) } else { 1.0 };
@@ -135,11 +173,15 @@ impl Trajectory {
 
     /// How far another run is from this one. A run that went wrong is infinitely far from any.
     pub fn apart(&self, other: &Self) -> Apart {
+        self.apart_by(other, &other.measures())
+    }
+
+    /// The same, where it is known how far and how fast each body goes.
+    pub fn apart_by(&self, other: &Self, measures: &[(f64, f64)]) -> Apart {
         let infinite = Apart { share: f64::INFINITY, distance: f64::INFINITY, speed: f64::INFINITY };
         if self.failure.is_some() || other.failure.is_some() || self.moments.len() != other.moments.len() {
             return infinite;
         }
-        let measures = other.measures();
         let (mut distance, mut share, mut squares) = (0.0_f64, 0.0_f64, vec![0.0; measures.len()]);
         for ((_, own), (_, others)) in self.moments.iter().zip(&other.moments) {
             for (body, (own, other)) in own.iter().zip(others).enumerate() {
@@ -151,7 +193,7 @@ impl Trajectory {
         }
         let mean = |squares: f64| (squares / self.moments.len() as f64).sqrt();
         let speed = squares.iter().map(|&squares| mean(squares)).fold(0.0, greater);
-        let shares = squares.iter().zip(&measures).map(|(&squares, (_, speed))| mean(squares) / speed);
+        let shares = squares.iter().zip(measures).map(|(&squares, (_, speed))| mean(squares) / speed);
         let apart = Apart { share: shares.fold(share, greater), distance, speed };
         if apart.share.is_finite() && apart.distance.is_finite() && apart.speed.is_finite() { apart } else { infinite }
     }

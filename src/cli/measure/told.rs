@@ -1,0 +1,258 @@
+//! What was measured, for people, for spreadsheets and for programs.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use crate::cli::columns::{aligned, quoted};
+use crate::cli::say::number;
+use crate::output::csv;
+use crate::report::measure::{Advice, Cost, Measured, NORM, NoReference, Outcome, Setting, is_best};
+use crate::tick::Wrong;
+
+/// Three digits are enough of what was measured.
+fn rounded(value: f64) -> String {
+    number(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
+/// An error is known to two digits at the best.
+fn error_in_words(measured: &Measured, setting: &Setting) -> String {
+    match (setting.error(), measured.claimed(setting)) {
+        (Some(error), Some(claimed)) if error < claimed => format!("< {claimed:.1e}"),
+        (Some(error), _) => format!("{error:.1e}"),
+        (None, _) => String::new(),
+    }
+}
+
+/// How it came out, in a word.
+fn word(setting: &Setting) -> &'static str {
+    match setting.outcome {
+        Outcome::Measured(_) => "measured",
+        Outcome::Unknown => "unknown",
+        Outcome::Failed(_) => "failed",
+        Outcome::Refused(_) => "refused",
+        Outcome::Stopped(_) => "stopped",
+    }
+}
+
+/// What is to be known beside the numbers.
+fn note(setting: &Setting) -> String {
+    let first = match &setting.outcome {
+        Outcome::Measured(_) => None,
+        Outcome::Unknown => Some("reaches its end, its error is unknown".to_owned()),
+        Outcome::Failed(failure) => {
+            let what = match failure.wrong {
+                Wrong::NotFinite(quantity) => {
+                    format!("the {quantity} of `{}` is no longer a finite number", failure.body)
+                }
+                Wrong::Energy(_) => "energy comes out of nowhere".to_owned(),
+            };
+            Some(format!("fails at t = {} s: {what}", number(failure.time)))
+        }
+        Outcome::Refused(why) => Some(format!("refused: {why}")),
+        Outcome::Stopped(share) => Some(format!("stopped at {:.0} % of the run: the budget is used up", 100.0 * share)),
+    };
+    first.iter().chain(&setting.notes).map(String::as_str).collect::<Vec<_>>().join("; ")
+}
+
+/// The command that runs a scene with a setting.
+fn command(run: &str, setting: &Setting) -> String {
+    format!("{run} --method {} --tick {}", setting.method, csv::number(setting.tick))
+}
+
+/// Table, reference run and advice; `run` is the command that runs the scene.
+pub(super) fn text(measured: &Measured, run: &str) -> String {
+    let mut text = aligned(
+        &["method", "tick in s", "error", "s/s", "evaluations/s", ""],
+        measured.settings.iter().map(|setting| {
+            let star = if is_best(measured, setting) { " *" } else { "" };
+            let runs = setting.evaluations > 0.0;
+            vec![
+                format!("{}{star}", setting.method),
+                rounded(setting.tick),
+                error_in_words(measured, setting),
+                setting.seconds.map_or_else(String::new, rounded),
+                if runs { rounded(setting.evaluations) } else { String::new() },
+                note(setting),
+            ]
+        }),
+    );
+    text.push_str("\nWhere the ladder of ticks ends:\n");
+    let ends = measured.ends.iter().map(|(method, why)| vec![(*method).to_owned(), why.clone()]);
+    let ends = aligned(&["method", ""], ends);
+    text.push_str(ends.split_once('\n').map_or("", |(_, rest)| rest));
+    text.push('\n');
+    let _ = writeln!(text, "Error: {NORM}.");
+    let _ = writeln!(
+        text,
+        "s/s and evaluations/s: seconds, and evaluations of all forces, per second of physics. A star: nothing is more exact for \
+         less {}.",
+        cost(measured)
+    );
+    match &measured.reference {
+        Ok(reference) => {
+            let _ = writeln!(
+                text,
+                "Reference: {}; its own error is about {:.0e} at most, and none below {:.0e} is claimed.",
+                reference.words,
+                reference.floor,
+                reference.claim()
+            );
+            if let Some(why) = &reference.why_until {
+                let _ = writeln!(
+                    text,
+                    "Compared until t = {} s of {} s: {why}.",
+                    number(rough(reference.until)),
+                    number(measured.duration)
+                );
+            }
+            if let Some(warning) = &reference.warning {
+                let _ = writeln!(text, "warning: {warning}");
+            }
+        }
+        Err(_) => text.push_str("Reference: none; no errors are known.\n"),
+    }
+    let advice = measured.advice();
+    if measured.reference.is_ok() {
+        let parts: Vec<String> = advice.iter().map(|advice| sentence(measured, advice)).collect();
+        let told = |error: f64| measured.reference.as_ref().is_ok_and(|reference| reference.claim() <= error);
+        let missed = advice.iter().any(|advice| advice.reached.is_none() && told(advice.target));
+        let more = if missed { "; a larger --budget tries finer ticks" } else { "" };
+        let _ = writeln!(text, "\nAdvice: {}{more}.", parts.join("; "));
+        let mut lines: Vec<String> = Vec::new();
+        for setting in advice.iter().filter_map(|advice| advice.reached.or(advice.nearest)) {
+            let line = format!("  {}", command(run, setting));
+            if !lines.contains(&line) {
+                lines.push(line);
+            }
+        }
+        text.push_str(&lines.join("\n"));
+        text.push('\n');
+    }
+    text
+}
+
+fn rough(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+fn cost(measured: &Measured) -> &'static str {
+    match measured.cost {
+        Cost::Time => "time",
+        Cost::Evaluations => "evaluations",
+    }
+}
+
+/// What to take for an error, as a part of a sentence.
+fn sentence(measured: &Measured, advice: &Advice) -> String {
+    let target = format!("{:.0e}", advice.target);
+    let price = |setting: &Setting| {
+        let spent = match measured.cost {
+            Cost::Time => setting.seconds.map(|seconds| format!("{} s", rounded(seconds))),
+            Cost::Evaluations => Some(format!("{} evaluations", rounded(setting.evaluations))),
+        };
+        let spent = spent.map_or_else(String::new, |spent| format!(", {spent} per second"));
+        format!(
+            "{} with ticks of {} s (error {}{spent})",
+            setting.method,
+            rounded(setting.tick),
+            error_in_words(measured, setting)
+        )
+    };
+    match (advice.reached, advice.nearest) {
+        (Some(setting), _) => format!("for an error of {target} {}", price(setting)),
+        (None, Some(setting)) => {
+            let below = measured.reference.as_ref().is_ok_and(|reference| reference.claim() > advice.target);
+            let why =
+                if below { "the reference run does not tell so small errors" } else { "nothing tried reaches it" };
+            format!("for {target} {why}, nearest comes {}", price(setting))
+        }
+        (None, None) => format!("for {target} nothing tried is of any use"),
+    }
+}
+
+/// All settings as comma-separated values.
+pub(super) fn csv(measured: &Measured) -> String {
+    let mut text = "method,tick [s],located,outcome,error,error_claimed,position_error [m],velocity_error [m/s],seconds_per_second,\
+                    evaluations_per_second [1/s],best,note\n"
+        .to_owned();
+    let or_empty = |value: Option<f64>| value.map_or_else(String::new, csv::number);
+    for setting in &measured.settings {
+        let deviation = if let Outcome::Measured(deviation) = setting.outcome { Some(deviation) } else { None };
+        let cells = [
+            setting.method.to_owned(),
+            csv::number(setting.tick),
+            setting.located.to_string(),
+            word(setting).to_owned(),
+            or_empty(setting.error()),
+            or_empty(measured.claimed(setting)),
+            or_empty(deviation.map(|deviation| deviation.position)),
+            or_empty(deviation.map(|deviation| deviation.velocity)),
+            or_empty(setting.seconds),
+            csv::number(setting.evaluations),
+            is_best(measured, setting).to_string(),
+            quoted(&note(setting)),
+        ];
+        text.push_str(&cells.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+/// What was measured, for programs.
+pub(super) fn json(scene: &str, measured: &Measured, run: &str) -> Value {
+    let setting = |setting: &Setting| {
+        let deviation = if let Outcome::Measured(deviation) = setting.outcome { Some(deviation) } else { None };
+        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+        json!({
+            "method": setting.method,
+            "tick": setting.tick,
+            "located": setting.located,
+            "outcome": word(setting),
+            "error": finite(setting.error()),
+            "error_claimed": finite(measured.claimed(setting)),
+            "position_error": finite(deviation.map(|deviation| deviation.position)),
+            "velocity_error": finite(deviation.map(|deviation| deviation.velocity)),
+            "seconds_per_second": setting.seconds,
+            "evaluations_per_second": setting.evaluations,
+            "best": is_best(measured, setting),
+            "note": note(setting),
+        })
+    };
+    let advice = |advice: &Advice| {
+        let taken = advice.reached.or(advice.nearest);
+        json!({
+            "target": advice.target,
+            "reached": advice.reached.is_some(),
+            "method": taken.map(|setting| setting.method),
+            "tick": taken.map(|setting| setting.tick),
+            "error_claimed": taken.and_then(|setting| measured.claimed(setting)),
+            "command": taken.map(|setting| command(run, setting)),
+        })
+    };
+    let reference = match &measured.reference {
+        Ok(reference) => json!({
+            "made_by": reference.words,
+            "error": reference.floor,
+            "smallest_claimed": reference.claim(),
+            "horizon": reference.horizon,
+            "compared_until": reference.until,
+            "why_until": reference.why_until,
+            "warning": reference.warning,
+        }),
+        Err(NoReference::Failed(failure)) => json!({ "missing": failure.to_string() }),
+        Err(_) => json!({ "missing": "there is none" }),
+    };
+    let end = |(method, why): &(&str, String)| json!({ "method": method, "why": why });
+    json!({
+        "scene": scene,
+        "time": measured.duration,
+        "norm": NORM,
+        "cost": cost(measured),
+        "reference": reference,
+        "settings": measured.settings.iter().map(setting).collect::<Vec<_>>(),
+        "ends": measured.ends.iter().map(end).collect::<Vec<_>>(),
+        "advice": if measured.reference.is_ok() { measured.advice().iter().map(advice).collect() } else { Vec::new() },
+        "seconds_spent": measured.spent,
+    })
+}

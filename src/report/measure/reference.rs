@@ -1,0 +1,278 @@
+//! The truth that settings are compared with: a run whose error is known to be small, and until when it is.
+//!
+//! Two runs of Dop853 with located events, whose steps may err by 1e-12 and 1e-14 of the motion, differ by about the error of the
+//! coarser one; that is the floor, a bound of what the finer one errs by. A third run begins a hair beside: how fast that grows tells
+//! chaos. Where contacts are too many to be located one by one, or that takes too long, runs of velocity Verlet with finer and
+//! finer ticks take their place.
+
+use super::{Budget, Load, Scene, Way, plan, timed};
+use crate::Simulation;
+use crate::integrate::{Allowance, Pace};
+use crate::report::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
+use crate::report::accuracy::trajectory::Trajectory;
+use crate::report::card::number;
+use crate::scene::SceneErrors;
+use crate::scene::sections::clock::EventTiming;
+use crate::simulation::Plan;
+use crate::tick::Failure;
+
+/// Shares of the budget by which the located runs have to be done, and those by ticks that may take their place.
+const LOCATED_BY: f64 = 0.4;
+const TICKS_BY: f64 = 0.6;
+/// Of the time until rounding is seen, runs are compared for this share: then rounding has grown to less than a millionth.
+const BEFORE_HORIZON: f64 = 0.7;
+/// Two reference runs that differ by this share of the motion no longer tell the truth.
+const PARTED: f64 = 1e-2;
+/// No error below so many times the floor is claimed.
+const CLAIMED: f64 = 3.0;
+/// Ticks of a radian of the fastest contact in the coarsest reference run by ticks, and how often it is made finer at the most.
+const TICKS_PER_RADIAN: f64 = 4.0;
+const MOST_DOUBLINGS: u32 = 12;
+
+/// What is known of the reference run.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// How it was made.
+    pub words: String,
+    /// Its own error is no larger, in the norm of the settings.
+    pub floor: f64,
+    /// When rounding alone is seen, in s, if the motion is chaotic.
+    pub horizon: Option<f64>,
+    /// Until when settings are compared with it, in s.
+    pub until: f64,
+    /// Why that is not the whole run.
+    pub why_until: Option<String>,
+    /// What weakens it.
+    pub warning: Option<String>,
+}
+
+impl Reference {
+    /// The smallest error that may be claimed of a setting.
+    pub fn claim(&self) -> f64 {
+        CLAIMED * self.floor
+    }
+}
+
+/// Why there is no reference run.
+#[derive(Clone, Debug)]
+pub enum NoReference {
+    /// The scene is wrong.
+    Scene(SceneErrors),
+    /// The budget is too short; about so many seconds are needed.
+    Short(f64),
+    /// It went wrong.
+    Failed(Failure),
+    /// Nothing moves.
+    Still,
+    /// Reference runs part at once.
+    Parts,
+}
+
+impl From<SceneErrors> for NoReference {
+    fn from(errors: SceneErrors) -> Self {
+        Self::Scene(errors)
+    }
+}
+
+/// The reference run, and what is known of it.
+pub(super) struct Truth {
+    pub run: Trajectory,
+    /// How far and how fast each body goes in it.
+    pub measures: Vec<(f64, f64)>,
+    pub about: Reference,
+}
+
+/// The plan of a run of `duration` seconds with located events, whose steps may err by a share of the motion.
+pub(super) fn located(tick: f64, share: f64, duration: f64) -> Plan {
+    plan("Dop853", tick, Pace::Allowed(Allowance { share, longest: duration }), EventTiming::Located)
+}
+
+/// Why runs with located events are no reference.
+enum Unfit {
+    Crowded,
+    /// Seconds that they would have taken, about.
+    Slow(f64),
+    Failed(Failure),
+}
+
+/// Finds the truth.
+pub(super) fn find(load: Load, scene: &Scene, budget: &Budget) -> Result<Truth, NoReference> {
+    let unfit = match by_located(load, scene, budget)? {
+        Ok(truth) => return truth,
+        Err(unfit) => unfit,
+    };
+    let why = match &unfit {
+        Unfit::Crowded => "contacts are too many to be located one by one",
+        Unfit::Slow(_) => "locating each event takes too long for the budget",
+        Unfit::Failed(_) => "the run with located events goes wrong",
+    };
+    match by_ticks(load, scene, budget, why) {
+        Err(NoReference::Short(needed)) => match unfit {
+            Unfit::Slow(located) => Err(NoReference::Short(needed.min(located))),
+            Unfit::Crowded | Unfit::Failed(_) => Err(NoReference::Short(needed)),
+        },
+        // The first of two failures is the one of the finer run.
+        Err(NoReference::Failed(other)) => match unfit {
+            Unfit::Failed(failure) => Err(NoReference::Failed(failure)),
+            Unfit::Crowded | Unfit::Slow(_) => Err(NoReference::Failed(other)),
+        },
+        other => other,
+    }
+}
+
+type Attempt = Result<Result<Truth, NoReference>, Unfit>;
+
+fn by_located(load: Load, scene: &Scene, budget: &Budget) -> Result<Attempt, SceneErrors> {
+    let tick = scene.duration / scene.moments as f64;
+    let mut done = 0.0;
+    let mut run = |share: f64, change: &dyn Fn(&mut Simulation)| -> Result<Result<Trajectory, Unfit>, SceneErrors> {
+        let mut simulation = load(Way::Plan(&located(tick, share, scene.duration)))?;
+        change(&mut simulation);
+        Ok(match Trajectory::while_it(&mut simulation, 1, &|| budget.within(LOCATED_BY)) {
+            Ok(Trajectory { crowded: true, .. }) => Err(Unfit::Crowded),
+            Ok(Trajectory { failure: Some(failure), .. }) => Err(Unfit::Failed(failure)),
+            Ok(trajectory) => {
+                done += 1.0;
+                Ok(trajectory)
+            }
+            // Three runs; the two that are left are at most twice as fine.
+            Err(share) => Err(Unfit::Slow(budget.used() * 4.0 / (done + share).max(1e-3) / LOCATED_BY)),
+        })
+    };
+    let coarse = match run(COARSE, &|_| {})? {
+        Ok(coarse) => coarse,
+        Err(unfit) => return Ok(Err(unfit)),
+    };
+    let (distance, speed) = coarse.sizes();
+    if distance <= 0.0 && speed <= 0.0 {
+        return Ok(Ok(Err(NoReference::Still)));
+    }
+    let fine = match run(FINE, &|_| {})? {
+        Ok(fine) => fine,
+        Err(unfit) => return Ok(Err(unfit)),
+    };
+    let hair = BESIDE * if distance > 0.0 { distance } else { 1.0 };
+    let beside = match run(COARSE, &|simulation| disturb(simulation, hair))? {
+        Ok(beside) => beside,
+        Err(unfit) => return Ok(Err(unfit)),
+    };
+    let growths: Vec<(f64, f64)> = coarse.differences(&beside).map(|(time, far)| (time, far / hair)).collect();
+    let horizon = horizon(&growths);
+    let before = horizon.map_or(f64::INFINITY, |horizon| BEFORE_HORIZON * horizon);
+    let words = "Dop853 with located events, steps that err by 1e-14 of the motion".to_owned();
+    let mut warning = None;
+    if coarse.bounded && fine.bounded {
+        warning = Some("rounding bounds its steps: the floor is that of rounding alone".to_owned());
+    }
+    let about = Reference { words, floor: 0.0, horizon, until: before, why_until: None, warning };
+    let most = |until: f64| {
+        let before = growths.iter().filter(|(time, _)| *time <= until);
+        before.fold(1.0, |most: f64, (_, growth)| most.max(*growth))
+    };
+    Ok(Ok(compared(&coarse, fine, about, scene.duration, &most)))
+}
+
+fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Truth, NoReference> {
+    let mut count = scene.moments;
+    let wanted = scene.fastest.map_or(0.0, |fastest| TICKS_PER_RADIAN * fastest * scene.duration);
+    while (count as f64) < wanted {
+        count *= 2;
+    }
+    let mut runs: Vec<Trajectory> = Vec::new();
+    let mut ticks = count;
+    let started = budget.used();
+    let mut begun = started;
+    for _ in 0..MOST_DOUBLINGS {
+        let plan = plan("VelocityVerlet", scene.duration / count as f64, Pace::Even(1), EventTiming::PerTick);
+        let mut simulation = load(Way::Plan(&plan))?;
+        let within = || budget.within(TICKS_BY);
+        let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, count / scene.moments, &within));
+        let run = match seen {
+            Ok(run) => run,
+            Err(_) if runs.len() >= 2 => break,
+            Err(share) => {
+                // The runs so far, this one, and one that is twice as fine if it is the first.
+                let rest = if runs.is_empty() { 3.0 } else { 1.0 };
+                let needed = begun - started + rest * spent.as_secs_f64() / share.max(1e-3);
+                let slow = started >= LOCATED_BY * budget.whole;
+                return Err(NoReference::Short(needed / if slow { TICKS_BY - LOCATED_BY } else { TICKS_BY }));
+            }
+        };
+        if let Some(failure) = run.failure {
+            return Err(NoReference::Failed(failure));
+        }
+        if run.sizes() == (0.0, 0.0) {
+            return Err(NoReference::Still);
+        }
+        if runs.len() == 2 {
+            runs.remove(0);
+        }
+        runs.push(run);
+        ticks = count;
+        count *= 2;
+        begun = budget.used();
+        let next = 2.0 * spent.as_secs_f64();
+        if runs.len() == 2 && begun + next > TICKS_BY * budget.whole {
+            break;
+        }
+    }
+    let (Some(fine), Some(coarse)) = (runs.pop(), runs.pop()) else { return Err(NoReference::Parts) };
+    let tick = scene.duration / ticks as f64;
+    let about = Reference {
+        words: format!("VelocityVerlet by whole ticks of {} s", number(tick)),
+        floor: 0.0,
+        horizon: None,
+        until: f64::INFINITY,
+        why_until: None,
+        warning: Some(format!(
+            "{why}: the reference is a run of velocity Verlet with fine ticks, and the floor what one with twice the tick differs by"
+        )),
+    };
+    compared(&coarse, fine, about, scene.duration, &|_| 1.0)
+}
+
+/// Compares two reference runs as long as they tell the truth. `growth` says by how much a disturbance has grown until a time.
+fn compared(
+    coarse: &Trajectory,
+    fine: Trajectory,
+    mut about: Reference,
+    duration: f64,
+    growth: &dyn Fn(f64) -> f64,
+) -> Result<Truth, NoReference> {
+    let (distance, _) = fine.sizes();
+    let distance = if distance > 0.0 { distance } else { 1.0 };
+    let parted = coarse.parts(&fine, PARTED * distance);
+    // The last moment before they part.
+    let before = parted.map(|parted| {
+        let times = coarse.differences(&fine).map(|(time, _)| time).take_while(|time| *time < parted);
+        times.fold(0.0, f64::max)
+    });
+    let mut until = about.until;
+    if let Some(horizon) = about.horizon.filter(|_| until < duration) {
+        about.why_until = Some(format!(
+            "the motion is chaotic: rounding alone shows after about {} s, and nobody knows places beyond that",
+            number(horizon)
+        ));
+    }
+    if let (Some(before), Some(parted)) = (before, parted)
+        && before < until
+    {
+        until = before;
+        about.why_until = Some(format!(
+            "two reference runs are more than {} % of the motion apart at t = {} s: the motion is too sensitive to be told there",
+            number(100.0 * PARTED),
+            number(parted)
+        ));
+    }
+    about.until = until.min(duration);
+    let (own, other) = (fine.part(about.until, 1), coarse.part(about.until, 1));
+    if own.moments() == 0 {
+        return Err(NoReference::Parts);
+    }
+    let rounding = growth(about.until) * f64::EPSILON * own.farthest().max(distance) / distance;
+    about.floor = other.apart(&own).share.max(rounding);
+    if about.floor > TELLS_NOTHING {
+        return Err(NoReference::Parts);
+    }
+    Ok(Truth { measures: own.measures(), run: own, about })
+}
