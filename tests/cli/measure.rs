@@ -97,8 +97,9 @@ const ON_A_FLOOR: &str = r#"Scene(
     format: 1,
     clock: (duration: 0.2, tick: "1 ms", events: PerTick),
     gravity: (0, -9.81),
-    walls: [(name: "floor", left: (1, 0), right: (0, 0))],
-    bodies: [(name: "ball", at: (0, 0.11), velocity: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
+    materials: { "rough": (friction: 0.5) },
+    walls: [(name: "floor", left: (1, 0), right: (0, 0), material: "rough")],
+    bodies: [(name: "ball", at: (0, 0.11), velocity: (1, 0), material: "rough", atoms: Disc(radius: 0.1, mass: 1))],
 )"#;
 
 #[test]

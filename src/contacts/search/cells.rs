@@ -17,10 +17,12 @@ const FEWEST: usize = 4096;
 const LARGE: f64 = 2.0;
 /// The share of atoms that counts as most.
 const MOST: f64 = 0.75;
-/// Cells along a side, at most: indices stay small, and what is strewn over a plain lies in fewer, wider ones.
-const LONGEST: f64 = 8192.0;
+/// Fine cells along a side, at most: with more, rounding could put what is near two cells away.
+const LONGEST: f64 = 1e7;
 /// Cells per atom, at most.
 const CELLS_PER_ATOM: f64 = 4.0;
+/// With so many times as many fine cells what lies empty is looked for.
+const WASTE: f64 = 16.0;
 
 /// An atom as the search sees it.
 #[derive(Clone, Copy, Default)]
@@ -151,12 +153,66 @@ fn are_near(a: &Entry, b: &Entry) -> bool {
     a.body != b.body && a.center.distance_squared(b.center) < reach * reach
 }
 
-struct Cells {
-    low: DVec2,
-    /// Cells per metre.
+/// Cells along one axis.
+struct Axis {
+    low: f64,
+    /// Fine cells per metre.
     per_meter: f64,
-    columns: usize,
-    rows: usize,
+    /// Fine cells in which something lies, from low to high, each with its number among those that are kept: of what lies empty
+    /// between two of them one is kept. Empty: all are kept.
+    taken: Vec<(u64, u64)>,
+    /// Cells that are kept and count as one.
+    merged: u64,
+    count: usize,
+}
+
+impl Axis {
+    fn fine(&self, place: f64) -> u64 {
+        // What is below becomes the first.
+        ((place - self.low) * self.per_meter) as u64
+    }
+
+    /// The cell of a place. Places nearer than the width of a fine cell are in one cell or in neighbours.
+    fn cell(&self, place: f64) -> usize {
+        let fine = self.fine(place);
+        let kept = if self.taken.is_empty() {
+            fine
+        } else {
+            let next = self.taken.partition_point(|(taken, _)| *taken <= fine);
+            let (taken, number) = self.taken[next.saturating_sub(1)];
+            number + u64::from(taken < fine)
+        };
+        let cell = if self.merged == 1 { kept } else { kept / self.merged };
+        (cell as usize).min(self.count - 1)
+    }
+
+    /// Leaves out what lies empty.
+    fn compress(&mut self, places: impl Iterator<Item = f64>) {
+        let mut fine: Vec<u64> = places.map(|place| self.fine(place)).collect();
+        fine.sort_unstable();
+        fine.dedup();
+        let mut number = 0;
+        let mut before = None;
+        self.taken = fine
+            .into_iter()
+            .map(|fine| {
+                number += before.map_or(0, |before| 2.min(fine - before));
+                before = Some(fine);
+                (fine, number)
+            })
+            .collect();
+        self.count = number as usize + 1;
+    }
+
+    fn merge(&mut self, cells: u64) {
+        self.merged = cells;
+        self.count = (self.count as u64).div_ceil(cells) as usize;
+    }
+}
+
+struct Cells {
+    columns: Axis,
+    rows: Axis,
     /// First entry of each cell, row by row, and the number of entries at the end.
     first: Vec<u32>,
     entries: Vec<Entry>,
@@ -171,14 +227,26 @@ impl Cells {
             (low.min(entry.center), high.max(entry.center), reach.max(entry.reach))
         });
         let size = if all.is_empty() { DVec2::ZERO } else { high - low };
-        let enough = (size.x * size.y / (CELLS_PER_ATOM * all.len() as f64)).sqrt();
         // A little wider, so that rounding never puts what is near two cells away.
-        let width = (2.000_000_01 * reach).max(size.max_element() / LONGEST).max(enough).max(f64::MIN_POSITIVE);
-        let per_meter = 1.0 / width;
-        let count = |length: f64| (length * per_meter) as usize + 1;
-        let (columns, rows) = (count(size.x), count(size.y));
-        let mut cells =
-            Self { low, per_meter, columns, rows, first: vec![0; columns * rows + 1], entries: Vec::new(), reach };
+        let width = (2.000_000_01 * reach).max(size.max_element() / LONGEST).max(f64::MIN_POSITIVE);
+        let axis = |low: f64, length: f64| {
+            let per_meter = 1.0 / width;
+            Axis { low, per_meter, taken: Vec::new(), merged: 1, count: (length * per_meter) as usize + 1 }
+        };
+        let (mut columns, mut rows) = (axis(low.x, size.x), axis(low.y, size.y));
+        let most = CELLS_PER_ATOM * all.len().max(1) as f64;
+        let cells = |columns: &Axis, rows: &Axis| columns.count as f64 * rows.count as f64;
+        if cells(&columns, &rows) > WASTE * most {
+            // Something lies far from the rest.
+            columns.compress(all.iter().map(|entry| entry.center.x));
+            rows.compress(all.iter().map(|entry| entry.center.y));
+        }
+        let merged = (cells(&columns, &rows) / most).sqrt().ceil().max(1.0) as u64;
+        columns.merge(merged);
+        rows.merge(merged);
+        let first = vec![0; columns.count * rows.count + 1];
+        let mut cells = Self { columns, rows, first, entries: Vec::new(), reach };
+        let (columns, rows) = (cells.columns.count, cells.rows.count);
         let places: Vec<u32> = all.iter().map(|entry| cells.cell(entry.center) as u32).collect();
         for &place in &places {
             cells.first[place as usize + 1] += 1;
@@ -197,24 +265,22 @@ impl Cells {
     }
 
     fn column_and_row(&self, place: DVec2) -> (usize, usize) {
-        let at = (place - self.low) * self.per_meter;
-        // A negative number becomes zero.
-        ((at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1))
+        (self.columns.cell(place.x), self.rows.cell(place.y))
     }
 
     fn cell(&self, place: DVec2) -> usize {
         let (column, row) = self.column_and_row(place);
-        row * self.columns + column
+        row * self.columns.count + column
     }
 
     /// Pairs of entries of different bodies that are near each other, each once, if their bodies are wanted: band by band of
     /// rows, in the order of cells.
     fn all_pairs(&self, threads: &Threads, wanted: impl Fn(u32, u32) -> bool + Sync) -> Vec<Vec<AtomPair>> {
-        let bands = parts_of(self.entries.len(), FEWEST).min(self.rows);
+        let bands = parts_of(self.entries.len(), FEWEST).min(self.rows.count);
         let mut found = vec![Vec::new(); bands];
-        let each = self.rows.div_ceil(bands);
+        let each = self.rows.count.div_ceil(bands);
         threads.each(found.iter_mut().enumerate().collect(), |(band, found): (usize, &mut Vec<AtomPair>)| {
-            let rows = band * each..self.rows.min((band + 1) * each);
+            let rows = band * each..self.rows.count.min((band + 1) * each);
             found.reserve(3 * self.entries.len() / bands);
             for row in rows {
                 self.pairs_of_row(row, &wanted, found);
@@ -225,16 +291,17 @@ impl Cells {
 
     /// Those of a row with what stands behind them in the row, and with the next row.
     fn pairs_of_row(&self, row: usize, wanted: &impl Fn(u32, u32) -> bool, found: &mut Vec<AtomPair>) {
-        let (begin, end) = (row * self.columns, (row + 1) * self.columns);
+        let columns = self.columns.count;
+        let (begin, end) = (row * columns, (row + 1) * columns);
         for cell in begin..end {
             let own = self.first[cell] as usize..self.first[cell + 1] as usize;
             if own.is_empty() {
                 continue;
             }
             let beside = self.first[end.min(cell + 2)] as usize;
-            let above = if row + 1 < self.rows {
-                let (left, right) = ((cell + self.columns).saturating_sub(1).max(end), cell + self.columns + 2);
-                self.first[left] as usize..self.first[right.min(end + self.columns)] as usize
+            let above = if row + 1 < self.rows.count {
+                let (left, right) = ((cell + columns).saturating_sub(1).max(end), cell + columns + 2);
+                self.first[left] as usize..self.first[right.min(end + columns)] as usize
             } else {
                 0..0
             };
@@ -267,8 +334,8 @@ impl Cells {
         let (first_column, first_row) = self.column_and_row(entry.center - around);
         let (last_column, last_row) = self.column_and_row(entry.center + around);
         for row in first_row..=last_row {
-            let first = self.first[row * self.columns + first_column] as usize;
-            let last = self.first[row * self.columns + last_column + 1] as usize;
+            let first = self.first[row * self.columns.count + first_column] as usize;
+            let last = self.first[row * self.columns.count + last_column + 1] as usize;
             see(&self.entries[first..last]);
         }
     }
@@ -315,10 +382,47 @@ mod tests {
         (bodies, bounds)
     }
 
+    /// Promise: one body far away, or two crowds far apart, do not put everybody into a few cells.
+    #[test]
+    fn what_lies_far_away_does_not_crowd_the_cells() {
+        let crowd = |origin: DVec2| {
+            (0..2500).map(move |place| Entry {
+                center: origin + DVec2::new(f64::from(place % 50), f64::from(place / 50)),
+                reach: 0.5,
+                atom: place as u32,
+                body: place as u32,
+            })
+        };
+        let far = DVec2::new(-1e5, 3e4);
+        for (what, all) in [
+            ("one crowd", crowd(DVec2::ZERO).collect::<Vec<_>>()),
+            ("and a body far away", crowd(DVec2::ZERO).chain(crowd(far).take(1)).collect()),
+            ("two crowds", crowd(DVec2::ZERO).chain(crowd(far)).collect()),
+            (
+                "and bodies along a line",
+                crowd(DVec2::ZERO).chain((0..2500).map(|at| crowd(far * f64::from(at)).next().unwrap())).collect(),
+            ),
+        ] {
+            let cells = Cells::of(&all);
+            let most = cells.first.windows(2).map(|pair| pair[1] - pair[0]).max();
+            // Squares of 1 m hold one or, where they are merged, a few.
+            assert!(most <= Some(36), "{what}: {most:?} in one cell");
+            assert!(cells.first.len() <= 16 * all.len(), "{what}: {} cells", cells.first.len());
+        }
+    }
+
     #[test]
     fn cells_find_what_a_sweep_finds() {
         for (seed, count, side) in [(1, 300, 6.0), (2, 300, 60.0), (3, 2000, 12.0), (4, 7, 1.0), (5, 1, 1.0)] {
-            let (bodies, bounds) = strewn(seed, count, side);
+            let (mut bodies, mut bounds) = strewn(seed, count, side);
+            if seed > 2 {
+                // One of them far away.
+                let far = DVec2::new(1e5, -3e6) - bodies.atom_position[0];
+                for atom in bodies.atoms_of(0) {
+                    bodies.atom_position[atom] += far;
+                }
+                (bounds.low[0], bounds.high[0]) = (bounds.low[0] + far, bounds.high[0] + far);
+            }
             let found = pairs(&bodies, bounds.margin);
             assert_eq!(found, sweep::pairs(&bodies, &bounds), "seed {seed}");
             assert!(count < 10 || found.len() > 10, "{} pairs", found.len());
