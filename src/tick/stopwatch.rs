@@ -7,6 +7,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 
 use super::{Census, Evaluate, EvaluateStage, Modes, SimTick, Stage};
+use crate::contacts::search::{FindPairs, find_pairs};
 
 /// Parts of a tick, in the order in which it goes through them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,7 +22,9 @@ pub enum Part {
     Bounds,
     /// [`EvaluateStage::Forces`].
     Forces,
-    /// [`EvaluateStage::Contacts`].
+    /// The search for pairs in [`EvaluateStage::Contacts`].
+    Search,
+    /// What is left of [`EvaluateStage::Contacts`]: contact laws.
     Contacts,
     /// [`EvaluateStage::Joints`].
     Joints,
@@ -35,12 +38,13 @@ pub enum Part {
 
 impl Part {
     /// All parts of a tick, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Begin,
         Self::ModesOfForces,
         Self::ModesOfContacts,
         Self::Bounds,
         Self::Forces,
+        Self::Search,
         Self::Contacts,
         Self::Joints,
         Self::Integrate,
@@ -56,6 +60,7 @@ impl Part {
             Self::ModesOfContacts => "Modes: Contacts",
             Self::Bounds => "Evaluate: Bounds",
             Self::Forces => "Evaluate: Forces",
+            Self::Search => "Evaluate: Search",
             Self::Contacts => "Evaluate: Contacts",
             Self::Joints => "Evaluate: Joints",
             Self::Integrate => "Integrate",
@@ -97,6 +102,7 @@ const MODES_OF_FORCES: usize = Part::ModesOfForces as usize;
 const MODES_OF_CONTACTS: usize = Part::ModesOfContacts as usize;
 const BOUNDS: usize = Part::Bounds as usize;
 const FORCES: usize = Part::Forces as usize;
+const SEARCH: usize = Part::Search as usize;
 const CONTACTS: usize = Part::Contacts as usize;
 const JOINTS: usize = Part::Joints as usize;
 const INTEGRATE: usize = Part::Integrate as usize;
@@ -118,7 +124,9 @@ pub fn watch(world: &mut World) {
     let in_evaluation = (
         turn_to::<BOUNDS>.before(Of::Bounds),
         turn_to::<FORCES>.after(Of::Bounds).before(Of::Forces),
-        turn_to::<CONTACTS>.after(Of::Forces).before(Of::Contacts),
+        turn_to::<SEARCH>.after(Of::Forces).before(Of::Contacts),
+        // Laws run after all that finds pairs.
+        turn_to::<CONTACTS>.in_set(Of::Contacts).in_set(FindPairs).after(find_pairs),
         turn_to::<JOINTS>.after(Of::Contacts).before(Of::Joints),
         turn_to::<INTEGRATE>.after(Of::Joints),
     );
@@ -129,7 +137,7 @@ pub fn watch(world: &mut World) {
     );
     let mut census = world.get_resource_or_init::<Census>();
     census.packed_in_tick += 4;
-    census.packed_in_evaluate += 5;
+    census.packed_in_evaluate += 6;
     world.schedule_scope(SimTick, |_, schedule| {
         schedule.add_systems(in_tick);
     });

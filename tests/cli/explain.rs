@@ -12,6 +12,7 @@ fn a_scene_is_taken_apart() {
         "6 bodies (5 moved by forces, 1 fixed or led), 87 atoms, 4 walls\n",
         "jostle::forces::gravity",
         "sensors: Pose",
+        "Evaluate: Search",
         "Evaluate: Contacts",
         "find_pairs (jostle::contacts::search",
         "for `gravity`)",
