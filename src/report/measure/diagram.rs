@@ -61,7 +61,7 @@ pub fn diagram(measured: &Measured, name: &str) -> Diagram {
             let before = if claim <= low { "farther left: " } else { "" };
             (claim, format!("{before}what the reference leaves unknown, {claim:.0e}"))
         }),
-        useless: (USELESS, "failed, or as wrong as the motion is large".to_owned()),
+        useless: (USELESS, "failed, or useless".to_owned()),
     }
 }
 

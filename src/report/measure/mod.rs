@@ -1,8 +1,8 @@
 //! What a run of a scene costs and how wrong it is, method by method and tick by tick, on this very scene.
 //!
-//! A run whose error is far smaller is the truth (`reference`); every method climbs a ladder of ticks from coarse to fine
-//! (`ladder`); its runs are timed apart from those that are compared (`timing`); of what came out, the settings that nothing
-//! else beats are marked and the cheapest for each wanted error named (`advice`). `diagram` draws it.
+//! A run whose error is far smaller is the truth (`reference.rs`); every method climbs a ladder of ticks from coarse to fine
+//! (`ladder.rs`); its runs are timed apart from those that are compared (`timing.rs`); of what came out, the settings that nothing
+//! else beats are marked and the cheapest for each wanted error named (`advice.rs`). `diagram.rs` draws it.
 
 mod advice;
 mod diagram;

@@ -111,6 +111,12 @@ pub(super) fn find(load: Load, scene: &Scene, budget: &Budget) -> Result<Truth, 
             Unfit::Slow(located) => Err(NoReference::Short(needed.min(located))),
             Unfit::Crowded | Unfit::Failed(_) => Err(NoReference::Short(needed)),
         },
+        // A method by whole ticks may be none for this scene.
+        Err(NoReference::Scene(errors)) => Err(match unfit {
+            Unfit::Slow(needed) => NoReference::Short(needed),
+            Unfit::Failed(failure) => NoReference::Failed(failure),
+            Unfit::Crowded => NoReference::Scene(errors),
+        }),
         // The first of two failures is the one of the finer run.
         Err(NoReference::Failed(other)) => match unfit {
             Unfit::Failed(failure) => Err(NoReference::Failed(failure)),

@@ -4,6 +4,7 @@
 """
 
 import importlib
+import itertools
 import math
 import time
 
@@ -108,7 +109,10 @@ class Mujoco:
     DEFAULTS = {
         "integrator": None, "cone": None, "impratio": None, "iterations": None, "tolerance": None, "noslip_iterations": None,
         # Steps that a contact lasts; None: `solref` and `solimp` as they are, which have no restitution.
-        "contact_steps": None, "spring_joint": True,
+        "contact_steps": None,
+        # Steps in which friction of such contacts stops slip (`solreffriction`); None: as `solref`.
+        "friction_steps": None,
+        "spring_joint": True,
     }
 
     def __init__(self, scene, step, settings):
@@ -120,15 +124,17 @@ class Mujoco:
             if settings[name] is not None:
                 option += f' {name}="{settings[name]}"'
         material = scene["material"]
-        geom = f'friction="{material["friction"]!r} 0 0" condim="{3 if material["friction"] else 1}"'
+        condim = 3 if material["friction"] else 1
+        geom = f'friction="{material["friction"]!r} 0 0" condim="{condim}"'
+        stiff = ""
         if settings["contact_steps"] is not None:
             # Negative values are stiffness and damping over the effective mass: contacts then are springs and dashpots, and
             # the restitution follows from the ratio of damping.
             rate = math.pi / (settings["contact_steps"] * step)
             damping = 2 * damping_ratio(material["restitution"]) * rate
-            geom += f' solref="{-rate * rate!r} {-damping!r}" solimp="0.9999 0.9999 0.001 0.5 2"'
+            stiff = f'solref="{-rate * rate!r} {-damping!r}" solimp="0.9999 0.9999 0.001 0.5 2"'
         bodies = ""
-        for disc in scene["bodies"]:
+        for place, disc in enumerate(scene["bodies"]):
             mass, inertia = disc["mass"], disc["mass"] * disc["radius"] ** 2 / 2
             hinge = '<joint type="hinge" axis="0 0 1"/>' if disc["turns"] else ""
             spring = ""
@@ -138,9 +144,16 @@ class Mujoco:
             bodies += f"""<body pos="{disc["at"][0]!r} {disc["at"][1]!r} 0">
                 <inertial pos="0 0 0" mass="{mass!r}" diaginertia="{inertia!r} {inertia!r} {inertia!r}"/>
                 <joint type="slide" axis="1 0 0" {drag} {spring}/><joint type="slide" axis="0 1 0" {drag}/>{hinge}
-                <geom type="sphere" size="{disc["radius"]!r}" {geom}/></body>"""
-        floor = f'<geom type="plane" size="100 100 1" zaxis="0 1 0" {geom}/>' if scene["floor"] else ""
-        text = f"<mujoco><option {option}/><worldbody>{floor}{bodies}</worldbody></mujoco>"
+                <geom name="disc{place}" type="sphere" size="{disc["radius"]!r}" {geom} {stiff}/></body>"""
+        floor = f'<geom name="floor" type="plane" size="100 100 1" zaxis="0 1 0" {geom} {stiff}/>' if scene["floor"] else ""
+        pairs = ""
+        if settings["friction_steps"] is not None:
+            names = [f"disc{place}" for place in range(len(scene["bodies"]))] + (["floor"] if floor else [])
+            stiff += f' solreffriction="{settings["friction_steps"] * step!r} 1"'
+            for first, second in itertools.combinations(names, 2):
+                law = f'condim="{condim}" friction="{material["friction"]!r} {material["friction"]!r} 0 0 0" {stiff}'
+                pairs += f'<pair geom1="{first}" geom2="{second}" {law}/>'
+        text = f"<mujoco><option {option}/><worldbody>{floor}{bodies}</worldbody><contact>{pairs}</contact></mujoco>"
         self.model = mujoco.MjModel.from_xml_string(text)
         self.data = mujoco.MjData(self.model)
         self.starts = [disc["at"] for disc in scene["bodies"]]

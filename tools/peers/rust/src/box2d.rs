@@ -73,7 +73,8 @@ pub fn world(job: &Job) -> World {
             let circle = b2Circle { center: vector([0.0, 0.0]), radius: disc.radius as f32 };
             b2CreateCircleShape(id, &shape, &circle);
             let inertia = if disc.turns { disc.inertia() } else { 0.0 };
-            let mass = b2MassData { mass: disc.mass as f32, center: vector([0.0, 0.0]), rotationalInertia: inertia as f32 };
+            let mass =
+                b2MassData { mass: disc.mass as f32, center: vector([0.0, 0.0]), rotationalInertia: inertia as f32 };
             b2Body_SetMassData(id, mass);
             discs.push(id);
         }
@@ -123,9 +124,8 @@ impl crate::job::World for World {
     fn states(&self) -> Vec<State> {
         let state = |(&disc, (angle, _)): (&b2BodyId, &(f64, f64))| {
             // SAFETY: the ids are of this world, which lives.
-            let (at, velocity, spin) = unsafe {
-                (b2Body_GetPosition(disc), b2Body_GetLinearVelocity(disc), b2Body_GetAngularVelocity(disc))
-            };
+            let (at, velocity, spin) =
+                unsafe { (b2Body_GetPosition(disc), b2Body_GetLinearVelocity(disc), b2Body_GetAngularVelocity(disc)) };
             let numbers = [at.x, at.y, 0.0, velocity.x, velocity.y, spin];
             let mut numbers = numbers.map(f64::from);
             numbers[2] = *angle;

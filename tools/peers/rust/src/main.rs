@@ -14,7 +14,10 @@ use job::{Answer, Job};
 fn main() -> Result<(), Box<dyn Error>> {
     if std::env::args().any(|argument| argument == "--versions") {
         let rapier = locked("rapier2d");
-        println!("{}", serde_json::json!({ "rapier-f32": rapier, "rapier-f64": locked("rapier2d-f64"), "box2d": box2d::version() }));
+        println!(
+            "{}",
+            serde_json::json!({ "rapier-f32": rapier, "rapier-f64": locked("rapier2d-f64"), "box2d": box2d::version() })
+        );
         return Ok(());
     }
     for line in std::io::stdin().lock().lines() {

@@ -102,7 +102,8 @@ macro_rules! rapier {
                 fn follow(&mut self) {
                     for (disc, (angle, last)) in self.discs.iter().zip(&mut self.turned) {
                         let now = f64::from(self.world.bodies[*disc].rotation().angle());
-                        *angle += (now - *last + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+                        *angle += (now - *last + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
+                            - std::f64::consts::PI;
                         *last = now;
                     }
                 }
