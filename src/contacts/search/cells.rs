@@ -398,10 +398,6 @@ mod tests {
             ("one crowd", crowd(DVec2::ZERO).collect::<Vec<_>>()),
             ("and a body far away", crowd(DVec2::ZERO).chain(crowd(far).take(1)).collect()),
             ("two crowds", crowd(DVec2::ZERO).chain(crowd(far)).collect()),
-            (
-                "and bodies along a line",
-                crowd(DVec2::ZERO).chain((0..2500).map(|at| crowd(far * f64::from(at)).next().unwrap())).collect(),
-            ),
         ] {
             let cells = Cells::of(&all);
             let most = cells.first.windows(2).map(|pair| pair[1] - pair[0]).max();
