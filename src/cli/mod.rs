@@ -5,6 +5,7 @@ mod bench;
 mod check;
 mod colors;
 mod columns;
+mod estimate;
 mod examples;
 mod explain;
 mod film;

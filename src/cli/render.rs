@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Exit;
+use super::estimate::EstimateFlags;
 use super::film::{Made, Order, Shot};
 use super::flags::{self, OverrideFlags};
 use super::load::Request;
@@ -63,6 +64,8 @@ pub(super) struct Render {
     layers: Option<flags::LayerWords>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    #[command(flatten)]
+    estimates: EstimateFlags,
     /// Threads that draw and that share the work of a tick; the film does not depend on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
@@ -156,6 +159,7 @@ impl Render {
             silent: self.quiet || self.json,
             quiet: self.quiet,
         };
+        self.estimates.watch(&mut simulation);
         let Made { written, failure } = match order.make(&mut simulation) {
             Ok(made) => made,
             Err(exit) => return exit,
@@ -165,6 +169,11 @@ impl Render {
             && (detail == Detail::Card || failure.is_some())
         {
             report(written, failure.is_some());
+        }
+        if failure.is_none()
+            && let Err(exit) = self.estimates.estimate(&mut simulation, request, (&source, &overrides))
+        {
+            return exit;
         }
         let ran = Ran { cut: self.still().is_some(), ..Ran::whole(&simulation, failure.as_ref()) };
         result::tell(request, &ran, detail)

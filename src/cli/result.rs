@@ -6,9 +6,8 @@ use super::Exit;
 use super::load::Request;
 use super::say::{count, print_line, say};
 use crate::expect::Outcome;
-use crate::report::card::number;
+use crate::report::Card;
 use crate::report::reversal::Reversal;
-use crate::report::{Card, Remedy};
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
@@ -53,12 +52,11 @@ impl<'a> Ran<'a> {
 /// Tells how a run went, and returns how it ended.
 pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     let Ran { simulation, failure, cut, back } = *ran;
-    let mut card = simulation.card();
+    let card = simulation.card();
     let mut exit = Exit::Good;
     if let Some(failure) = failure {
-        let remedy = remedy(&card);
-        say(&format!("error: {}: the run went wrong: {failure}\nhelp: {remedy}", request.name));
-        card.verdict = format!("Do not trust it: the run went wrong: {failure}; {remedy}.");
+        let why = card.why.as_deref().unwrap_or_default();
+        say(&format!("error: {}: the run went wrong: {failure}\nhelp: {why}", request.name));
         exit = Exit::RunWrong;
     }
     for warning in &card.warnings {
@@ -106,28 +104,6 @@ fn returned(back: &Reversal) -> String {
         "There and back: places to {:.1e} m, velocities to {:.1e} m/s, angles to {:.1e} rad of the beginning{because}.",
         back.position, back.velocity, back.angle
     )
-}
-
-/// The likely cause of a run that went wrong, and what to try.
-pub(super) fn remedy(card: &Card) -> String {
-    let advice = card.remedy().map_or_else(String::new, |remedy| format!(": try `{remedy}`"));
-    match card.critical_tick.zip(card.holder()) {
-        Some((critical, holder)) if card.tick > critical => format!(
-            "the tick of {} s is longer than the {holder} can bear, {} s{advice}",
-            number(card.tick),
-            number(critical),
-        ),
-        _ => format!(
-            "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near \
-             zero, for drag that stops a body within a tick, for a plugin that does not book its work{}",
-            // Whatever is said of contacts came of that.
-            match card.remedy() {
-                Some(Remedy::Tick(_)) => format!(", or try `{}`", Remedy::Tick(card.tick / 4.0)),
-                Some(remedy) => format!(", or try `{remedy}`"),
-                None => String::new(),
-            }
-        ),
-    }
 }
 
 /// A body in `--json`.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::Exit;
+use super::estimate::EstimateFlags;
 use super::flags::{self, OverrideFlags};
 use super::load::Request;
 use super::pace::Runner;
@@ -34,6 +35,8 @@ pub(super) struct Run {
     output: Option<PathBuf>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    #[command(flatten)]
+    estimates: EstimateFlags,
     /// Afterwards run there and back: to the end, all velocities turned round, and as long again. Says how closely the scene
     /// comes back to its beginning
     #[arg(long)]
@@ -62,6 +65,8 @@ Examples:
   jostle run my.ron --tick 0.1ms --json         another tick; the result for a program
   jostle run my.ron --tolerance 1e-6            the coarsest steps whose error stays below a millionth of the motion
   jostle run my.ron --method Reference          the smallest error there is, and how large it is
+  jostle run my.ron --estimate --rounding --model
+                                                how wrong it is: by its tick, by finite digits, by soft contacts
   jostle run my.ron --reverse                   there and back: how closely it returns
   jostle run my.ron --pace                      at the speed of the clock on the wall
 
@@ -96,6 +101,7 @@ impl Run {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
+        self.estimates.watch(&mut simulation);
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let measures = simulation.world().get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
         if self.output.is_some() && !measures {
@@ -121,6 +127,12 @@ impl Run {
             Err(Trouble::Run(failure)) => Some(failure),
             Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
         };
+        if failure.is_none() {
+            let scene = (&source, &self.overrides(None));
+            if let Err(exit) = self.estimates.estimate(&mut simulation, request, scene) {
+                return exit;
+            }
+        }
         let back = if self.reverse && failure.is_none() {
             let again = Simulation::load_with(&source, &self.overrides(simulation.plan().cloned()), |_| {});
             match again.map_err(|errors| request.refuse_scene(&errors)) {

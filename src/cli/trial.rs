@@ -1,7 +1,6 @@
 //! How a run ended when many are made at once: in a word, with the reason.
 
 use super::Exit;
-use super::result::remedy;
 use crate::expect::Outcome;
 use crate::scene::SceneErrors;
 use crate::simulation::Simulation;
@@ -86,7 +85,7 @@ impl Trial {
         let expect = simulation.outcomes();
         let broken: Vec<String> = expect.iter().filter(|outcome| !outcome.holds).map(told).collect();
         let (verdict, reason) = match failure {
-            Some(failure) => (Verdict::Failed, format!("{failure}; {}", remedy(&card))),
+            Some(failure) => (Verdict::Failed, format!("{failure}; {}", card.why.as_deref().unwrap_or_default())),
             None if broken.is_empty() => (Verdict::Good, String::new()),
             None => (Verdict::Broken, broken.join("; ")),
         };

@@ -19,6 +19,16 @@ pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
 pub struct ContactLaw(pub &'static str);
 
+/// Makes all contacts so many times as stiff. To be done before the packed state is made.
+pub(crate) fn stiffen(world: &mut World, factor: f64) {
+    let mut atoms = world.query::<(Entity, &Atom)>();
+    let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });
+    let stiffer: Vec<_> = atoms.iter(world).map(stiffer).collect();
+    for (entity, atom) in stiffer {
+        world.entity_mut(entity).insert(atom);
+    }
+}
+
 /// The deepest overlap so far, as a share of the smaller radius.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeepestOverlap {

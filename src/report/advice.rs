@@ -28,7 +28,7 @@ impl fmt::Display for Remedy {
 impl Remedy {
     /// The same, where less of it would do as well.
     pub fn or_finer(&self) -> String {
-        if *self == Self::Method { self.to_string() } else { format!("{self} or finer") }
+        if *self == Self::Method { format!("`{self}`") } else { format!("`{self}` or finer") }
     }
 }
 
@@ -68,7 +68,7 @@ impl Known {
 }
 
 /// The next lower of 1, 2, 2.5 and 5 times a power of ten.
-fn rounded_down(value: f64) -> f64 {
+pub(super) fn rounded_down(value: f64) -> f64 {
     let exponent = value.log10().floor() as i32;
     let candidates = [(5.0, exponent), (2.5, exponent), (2.0, exponent), (1.0, exponent), (5.0, exponent - 1)];
     // Read back from decimal digits, so that it is the same number as on a command line; a part in 1e12 is rounding.

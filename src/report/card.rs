@@ -6,13 +6,15 @@ use std::fmt;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
-use super::advice::{Known, Remedy};
+use super::advice::{Known, Remedy, rounded_down};
 use super::energy::EnergyLedger;
-use super::warnings::{FEWEST_TICKS, warnings};
+use super::estimate::EstimatedError;
+use super::verdict::Evidence;
+use super::warnings::warnings;
 use crate::contacts::DeepestOverlap;
 use crate::integrate::{LocatedEvents, StepCount};
 use crate::tick::balance::Totals;
-use crate::tick::{Clock, Holder, Ledger, Models, Responses, Stability, Style, largest_travel};
+use crate::tick::{Clock, Failure, Ledger, Models, Responses, Stability, Style, largest_travel};
 use crate::world::hash::state_hash;
 use crate::world::{Bodies, Name};
 
@@ -75,19 +77,20 @@ pub struct ErrorEstimate {
     pub horizon: Option<f64>,
 }
 
-impl ErrorEstimate {
-    /// Whether to trust a run of `end` seconds.
-    fn verdict(&self, end: f64) -> String {
-        let Some((position, velocity)) = self.position.discretisation.zip(self.velocity.discretisation) else {
-            return "Do not trust its places: runs of it differ by more than can be told.".to_owned();
+impl fmt::Display for ErrorEstimate {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let size = |part: f64| if part < NONE { "0".to_owned() } else { rough(part) };
+        let parts = |parts: ErrorParts, unit: &str| {
+            let named = [(parts.discretisation, "tick"), (parts.rounding, "rounding"), (parts.model, "model")];
+            let told = named.into_iter().filter_map(|(part, from)| Some(format!("+- {} ({from})", size(part?))));
+            let told: Vec<String> = told.collect();
+            if told.is_empty() { "unknown".to_owned() } else { format!("{} {unit}", told.join(" ")) }
         };
-        let horizon = self.horizon.filter(|horizon| *horizon < end);
-        let until = horizon.map_or_else(String::new, |horizon| format!(" until about t = {} s", number(horizon)));
-        format!(
-            "Trust it{until}: places to about {} m, velocities to about {} m/s, as several runs of it tell.",
-            rough(position),
-            rough(velocity)
-        )
+        write!(f, "places {}, velocities {}", parts(self.position, "m"), parts(self.velocity, "m/s"))?;
+        if let Some(order) = self.observed_order {
+            write!(f, ", order {order:.1}")?;
+        }
+        self.horizon.map_or(Ok(()), |horizon| write!(f, ", until t = {} s", number(horizon)))
     }
 }
 
@@ -142,34 +145,32 @@ pub struct Card {
     #[serde(skip)]
     pub warnings: Vec<String>,
     #[serde(skip)]
-    shortest_contact: Option<f64>,
+    pub(super) shortest_contact: Option<f64>,
+    /// The likely cause of a run that went wrong, and what to try.
     #[serde(skip)]
-    holder: Option<Holder>,
+    pub why: Option<String>,
     #[serde(skip)]
-    missed: Option<String>,
+    pub(super) missed: Option<String>,
     #[serde(skip)]
-    located: bool,
+    pub(super) located: bool,
     #[serde(skip)]
     steps: StepCount,
     #[serde(skip)]
     ticks: u64,
     #[serde(skip)]
-    time: f64,
+    pub(super) time: f64,
     #[serde(skip)]
     seconds_spent: f64,
     #[serde(skip)]
-    energy_scale: f64,
+    pub(super) energy_scale: f64,
     /// Whether its steps were chosen for an error, and which that was.
     #[serde(skip)]
     asked: Option<Option<f64>>,
 }
 
-/// Share of the energy that went round.
-const UNACCOUNTED: f64 = 0.05;
-
 impl Card {
-    /// The card of the present state, after `seconds_spent` seconds of computing.
-    pub fn of(world: &World, seconds_spent: f64) -> Self {
+    /// The card of the present state, after `seconds_spent` seconds of computing, and how the run went wrong, if it did.
+    pub fn of(world: &World, seconds_spent: f64, failure: Option<&Failure>) -> Self {
         let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.name);
         let (responses, stability) = (Responses::of(world), world.resource::<Stability>());
@@ -186,6 +187,7 @@ impl Card {
         let atoms = bodies.atom_count().max(1) as f64 * clock.ticks.max(1) as f64;
         let smallest = bodies.smallest_radius;
         let share = |length: f64| if smallest.is_finite() { length / smallest } else { 0.0 };
+        let estimated = world.get_resource::<EstimatedError>().cloned().unwrap_or_default();
         let mut card = Self {
             method: method.to_owned(),
             tick: clock.dt,
@@ -203,9 +205,9 @@ impl Card {
             verdict: String::new(),
             notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
             warnings: Vec::new(),
-            error: world.get_resource::<KnownError>().and_then(|known| known.estimate),
+            error: estimated.estimate.or(world.get_resource::<KnownError>().and_then(|known| known.estimate)),
             shortest_contact,
-            holder: responses.fastest.map(|fastest| fastest.holder),
+            why: None,
             missed: world.get_resource::<KnownError>().and_then(|known| known.warning.clone()),
             located: ChosenMethod::locates(world),
             steps: world.get_resource().copied().unwrap_or_default(),
@@ -215,22 +217,24 @@ impl Card {
             energy_scale: energy.turned_over(world),
             asked: world.get_resource::<KnownError>().map(|known| known.tolerance),
         };
+        card.notes.extend(estimated.notes);
         card.notes.extend(world.resource::<Models>().remarks.iter().filter_map(|remark| remark(world)));
         card.warnings = warnings(world, card.remedy());
-        card.warnings.extend(card.unaccounted());
+        let evidence = Evidence { world, card: &card };
+        let (missing, why) = (evidence.missing_energy(), failure.map(|_| evidence.why()));
+        let verdict = match failure.zip(why.as_ref()) {
+            Some((failure, why)) => format!("Do not trust it: the run went wrong: {failure}; {why}."),
+            None => evidence.verdict(),
+        };
+        card.warnings.extend(missing);
         card.notes.extend(card.warnings.iter().map(|warning| format!("warning: {warning}")));
-        card.verdict = card.judge();
+        (card.verdict, card.why) = (verdict, why);
         card
     }
 
     /// Energy residual over the energy that went round.
     pub fn energy_error(&self) -> f64 {
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
-    }
-
-    /// What has responded, as far as that was measured: only then can it be to blame.
-    pub fn holder(&self) -> Option<Holder> {
-        self.holder
     }
 
     /// What this run is advised to try next; nothing where nothing finer can be asked for.
@@ -242,84 +246,27 @@ impl Card {
         }
     }
 
-    /// What is advised, between words that go with it.
-    fn advice(&self, before: &str, after: &str) -> String {
-        self.remedy().map_or_else(String::new, |remedy| format!("{before}{remedy}{after}"))
+    /// Whether its steps are its ticks, as long as they were asked for.
+    pub(super) fn by_ticks(&self) -> bool {
+        self.asked.is_none()
+    }
+
+    /// The tick with which an error that falls with this power of it becomes `wanted`, rounded as people write it.
+    pub(super) fn tick_for(&self, error: f64, wanted: f64, order: f64) -> f64 {
+        rounded_down(self.tick * libm::pow(wanted / error, 1.0 / order).min(0.5))
     }
 
     fn known(&self) -> Known {
         let Self { tick, critical_tick: critical, shortest_contact, largest_travel_share: travel, .. } = *self;
         Known { tick, critical, shortest_contact, travel }
     }
-
-    /// The largest part of energy that may be unaccounted for without a warning is [`UNACCOUNTED`].
-    fn unaccounted(&self) -> Option<String> {
-        let percent = self.energy_error() * 100.0;
-        let advice = self.advice("; use ", "");
-        (self.energy_error() > UNACCOUNTED).then(|| format!("{percent:.1} % of the energy is unaccounted for{advice}"))
-    }
-
-    fn judge(&self) -> String {
-        let finer = self.remedy().map_or_else(String::new, |remedy| format!(" Use {}.", remedy.or_finer()));
-        if ![self.energy.residual, self.momentum_residual[0], self.momentum_residual[1]].iter().all(|x| x.is_finite()) {
-            return format!("Do not trust it: numbers are no longer finite.{finer}");
-        }
-        let contact_ticks = self.shortest_contact.map(|shortest| shortest / self.tick);
-        let overlap = &self.largest_overlap;
-        if self.error.is_none() && self.critical_tick.is_some_and(|critical| critical < self.tick) {
-            let holder = self.holder.unwrap_or(Holder::Contacts);
-            return format!("Do not trust it: the tick is longer than the {holder} can bear.{finer}");
-        }
-        if let Some(unaccounted) = self.unaccounted() {
-            return format!("Do not trust it: {unaccounted}.");
-        }
-        if let Some(why) = &self.missed {
-            return format!("Do not trust its last digits: {why}.");
-        }
-        if overlap.share_of_radius > 1.0 {
-            let (far, error) = (overlap.share_of_radius * 100.0, percent(self.energy_error()));
-            let (numbers, with) = match &self.error {
-                Some(_) => ("Trust the numbers".to_owned(), String::new()),
-                None => (format!("Trust the numbers to about {error} of energy"), self.advice(" with ", "")),
-            };
-            return format!(
-                "{numbers}, not the model: bodies overlap by {far:.0} % of a radius. A higher `stiffness`{with} would make \
-                 contacts harder."
-            );
-        }
-        if let Some(known) = &self.error {
-            return known.verdict(self.time);
-        }
-        if contact_ticks.is_some_and(|ticks| ticks < FEWEST_TICKS) {
-            let ticks = contact_ticks.unwrap_or_default();
-            let advice = self.advice(" Use ", ".");
-            return format!("Trust it roughly: the stiffest contact lasts only {ticks:.1} ticks.{advice}");
-        }
-        if self.largest_travel_share > 1.0 && !self.located {
-            return format!(
-                "Trust it roughly: something travelled {:.1} radii in one tick and may have missed a contact.{}",
-                self.largest_travel_share,
-                self.advice(" Use ", "."),
-            );
-        }
-        let error = percent(self.energy_error());
-        if self.energy_error() > 1e-3 {
-            let advice = self.advice("; ", " would improve it");
-            return format!("Trust it to about {error} of energy{advice}.");
-        }
-        let accounted = if self.energy_error() == 0.0 {
-            "all energy is accounted for".to_owned()
-        } else {
-            format!("energy is accounted for to {error}")
-        };
-        let advice = self.advice("; ", " would show whether anything changes");
-        format!("Trust it: {accounted}{advice}.")
-    }
 }
 
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     if share == 0.0 {
         "nothing".to_owned()
+    } else if share >= 0.1 {
+        format!("{:.0} %", share * 100.0)
     } else if share >= 1e-4 {
         format!("{:.2} %", share * 100.0)
     } else {
@@ -327,9 +274,14 @@ fn percent(share: f64) -> String {
     }
 }
 
+/// What a body or wall is called.
+pub(super) fn name(world: &World, entity: Entity) -> String {
+    world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone())
+}
+
 fn largest_overlap(world: &World) -> LargestOverlap {
     let Some(deepest) = world.get_resource::<DeepestOverlap>() else { return LargestOverlap::default() };
-    let name = |entity| world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone());
+    let name = |entity| name(world, entity);
     LargestOverlap {
         meters: deepest.overlap,
         share_of_radius: deepest.share,
@@ -398,6 +350,9 @@ impl fmt::Display for Card {
             )?;
         }
         row("largest travel", format!("{:.1} % of the smallest radius per tick", self.largest_travel_share * 100.0))?;
+        if let Some(error) = &self.error {
+            row("error", error.to_string())?;
+        }
         row("state hash", self.hash.clone())?;
         for note in &self.notes {
             row("note", note.clone())?;
@@ -416,9 +371,15 @@ fn parts(parts: &[(&str, f64)]) -> String {
     if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
 }
 
+/// Errors below this are nothing but rounding.
+const NONE: f64 = 1e-16;
+
 /// A number of which only the size counts.
 pub(crate) fn rough(value: f64) -> String {
-    if value < 1e-16 { "0 or rounding".to_owned() } else { format!("{value:.0e}") }
+    match format!("{value:.0e}").parse() {
+        Ok(short) if value >= NONE => number(short),
+        _ => "0 or rounding".to_owned(),
+    }
 }
 
 /// A number in at most five digits, as people write it.

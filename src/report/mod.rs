@@ -5,9 +5,11 @@ mod advice;
 pub mod bench;
 pub mod card;
 pub mod energy;
+pub mod estimate;
 pub mod measure;
 pub mod reversal;
 pub mod survey;
+mod verdict;
 mod warnings;
 
 pub use advice::Remedy;

@@ -3,11 +3,11 @@
 use bevy_ecs::prelude::*;
 
 use super::advice::Remedy;
-use super::card::{ChosenMethod, KnownError, number};
+use super::card::{ChosenMethod, KnownError, name, number};
 use crate::contacts::ContactLaw;
 use crate::integrate::LocatedEvents;
 use crate::tick::{Clock, Models, Responses, Style, far_travel};
-use crate::world::{Bodies, Name};
+use crate::world::Bodies;
 
 /// Contacts that last fewer ticks are not resolved.
 pub(super) const FEWEST_TICKS: f64 = 10.0;
@@ -16,7 +16,7 @@ pub(super) const FEWEST_TICKS: f64 = 10.0;
 ///
 /// `remedy` is what mends them all.
 pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
-    let name = |entity| world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone());
+    let name = |entity| name(world, entity);
     let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
     let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
     let mut warnings = Vec::new();

@@ -84,8 +84,8 @@ pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64,
         };
         world.insert_resource(KnownError { estimate: plan.error, warning: plan.warning.clone(), tolerance });
         world.insert_resource(goal);
-        world.insert_resource(plan);
     }
+    world.insert_resource(plan);
     world.resource_mut::<Notes>().0.extend(notes);
     Ok(ticks)
 }

@@ -41,6 +41,8 @@ pub struct Overrides {
     pub level: Option<Level>,
     /// Threads for work on many bodies or contacts. Default: one. Any number gives the same results to the bit.
     pub threads: Option<usize>,
+    /// Factor of the stiffness of all contacts, for whoever asks what hard ones would do. Default: one.
+    pub stiffness: Option<f64>,
     /// How the scene is run, as found for an earlier run of it ([`Simulation::plan`]): nothing is tried again.
     pub plan: Option<Plan>,
     /// Told of each trial run that a tolerance or a reference run needs.
@@ -79,6 +81,7 @@ pub struct Simulation {
     film: FilmSection,
     ticks: u64,
     spent: Duration,
+    failure: Option<Failure>,
 }
 
 impl Simulation {
@@ -111,7 +114,7 @@ impl Simulation {
         let (Some(goal), Some(plan)) = (world.get_resource::<Goal>(), world.get_resource::<Plan>()) else {
             return Ok(first);
         };
-        if plan.error.is_some() {
+        if overrides.plan.is_some() || plan.error.is_some() {
             return Ok(first);
         }
         let begin = (plan.clone(), choice::order(world, plan), choice::steps_per_tick(world, plan));
@@ -134,10 +137,10 @@ impl Simulation {
         bodies.level = overrides.level.unwrap_or_default();
         bodies.threads = Threads::new(overrides.threads.unwrap_or(1));
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
-        Ok(Self { app, header, film, ticks, spent: Duration::ZERO })
+        Ok(Self { app, header, film, ticks, spent: Duration::ZERO, failure: None })
     }
 
-    /// How it is run, if trials had to find that: with [`Overrides::plan`] another run of the scene needs none.
+    /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.
     pub fn plan(&self) -> Option<&Plan> {
         self.world().get_resource()
     }
@@ -202,6 +205,7 @@ impl Simulation {
         if self.clock().ticks == self.ticks {
             observe_all(self.app.world_mut());
         }
+        self.failure = result.as_ref().err().cloned();
         result
     }
 
@@ -215,7 +219,7 @@ impl Simulation {
 
     /// The error card of the present state.
     pub fn card(&self) -> Card {
-        Card::of(self.world(), self.spent.as_secs_f64())
+        Card::of(self.world(), self.spent.as_secs_f64(), self.failure.as_ref())
     }
 
     /// Seconds spent computing so far.
@@ -259,6 +263,9 @@ pub(crate) fn begin(
     overrides: &Overrides,
 ) -> Result<u64, SceneErrors> {
     world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
+    if let Some(factor) = overrides.stiffness {
+        contacts::stiffen(world, factor);
+    }
     packed::rebuild(world);
     for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
         finish(world);

@@ -75,7 +75,7 @@ fn every_row_of_the_card_is_explained() {
     let card = folder.jostle("run example:tetris --duration 2").code(0).err;
     let rows = card.lines().skip(1).take_while(|line| !line.starts_with("  Trust") && !line.starts_with("  Do not"));
     let rows: Vec<&str> = rows.map(|line| line[..20].trim()).filter(|row| *row != "time").collect();
-    assert_eq!(rows.len(), 10, "{card}");
+    assert_eq!(rows.len(), 11, "{card}");
     for row in rows {
         folder.jostle(&format!("explain {row}")).code(0);
     }

@@ -12,7 +12,8 @@ fn a_run_that_explodes_says_where_why_and_what_to_try() {
         .code(3)
         .says("error: boom.ron: the run went wrong: energy came out of nowhere, ")
         .says(" J were put in, most of it in ")
-        .says("help: the tick of 0.01 s is longer than the contacts can bear, 6.3246e-6 s: try `--tick 5e-7`\n")
+        .says("help: the tick of 0.01 s is longer than the contacts can bear, 6.3246e-6 s, as `")
+        .says(" s: try `--tick 5e-7` or finer\n")
         .says("Do not trust it: the run went wrong: ");
     let names = ["`first`", "`second`"];
     assert!(names.iter().any(|name| ended.err.contains(name)) && ended.err.contains(" s (tick "), "{ended:?}");

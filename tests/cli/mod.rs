@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod estimates;
 mod explain;
 mod failures;
 mod film_control;
@@ -28,5 +29,6 @@ mod streams;
 mod sweep;
 mod test_command;
 mod values;
+mod verdicts;
 mod warnings;
 mod whole_files;

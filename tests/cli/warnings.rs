@@ -80,7 +80,10 @@ fn the_advice_suits_the_run() {
     let folder = Folder::new("advice").with("bounce.ron", BOUNCE);
     let said = |flags: &str| folder.jostle(&format!("run bounce.ron {flags}")).code(0).err;
     let euler = said("--method ExplicitEuler --duration 0.3");
-    assert!(euler.contains("use --method VelocityVerlet") && euler.contains("Use --method VelocityVerlet."), "{euler}");
+    assert!(
+        euler.contains("use --method VelocityVerlet") && euler.contains("Use `--method VelocityVerlet`."),
+        "{euler}"
+    );
     assert!(euler.contains("(none is stable)") && !euler.contains("--tick"), "{euler}");
     for flags in ["--tolerance 1e-4", "--method Reference"] {
         let card = said(flags);

@@ -90,7 +90,7 @@ fn a_bevy_app_computes_the_same_bits_as_a_headless_run() {
         assert_eq!(app.world().resource::<Clock>().ticks, 1000);
         assert_eq!(hash(&app), state_hash(headless.bodies()), "{steps} ticks per update");
         // The card and the expectations of the scene are there too.
-        assert_eq!(Card::of(app.world(), 1.0).energy.residual, headless.card().energy.residual);
+        assert_eq!(Card::of(app.world(), 1.0, None).energy.residual, headless.card().energy.residual);
         // Systems of the app ran as often as the physics or more, and saw a ball press itself into the floor.
         let seen = app.world().resource::<Seen>();
         assert!(seen.looks >= 1000 && seen.lowest < 0.1, "{} {}", seen.looks, seen.lowest);

@@ -15,6 +15,7 @@ mod critical_tick;
 mod crowds;
 mod dashpot;
 mod energy;
+mod estimated;
 mod forces;
 mod frames;
 mod friction;

@@ -133,6 +133,15 @@ pub(super) const WORDS: &[Word] = &[
          says; the results are the same to the bit at all of them. A level that the processor lacks is refused.",
     ),
     word(
+        "error",
+        "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with half the tick, \
+         as far as that takes 3 % of the work or a tenth of a second (`--estimate` takes all it needs, `--no-estimate` none); \
+         `rounding` by runs with wrong last bits (`--rounding`); `model` by a run with contacts four times as stiff \
+         (`--model`). Places: the greatest distance of any point of a body, in m; velocities: the root of its mean square \
+         over time, in m/s. `until t = ..`: finer runs go elsewhere from then on, as chaotic ones do, and the error is \
+         that until then.",
+    ),
+    word(
         "state hash",
         "a fingerprint of all positions, angles, velocities and spins in the end, bit by bit. The same scene and program \
          give the same hash, on every machine and with any number of threads.",

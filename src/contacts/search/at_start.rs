@@ -15,6 +15,15 @@ const SHARE: f64 = 0.05;
 const MOST_PAIRS: usize = 1 << 22;
 const MOST_LOOKS: usize = 1 << 30;
 
+/// The deepest overlap before the first tick, if there is one worth telling.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct OverlapAtStart {
+    /// As a share of the smaller radius.
+    pub share: f64,
+    /// The two bodies, or the body and the wall.
+    pub between: (Entity, Entity),
+}
+
 /// A body, and a body behind it or a wall.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Pair {
@@ -83,6 +92,7 @@ pub(super) fn note_overlaps(world: &mut World) {
         Pair::Bodies(a, b) => [bodies.entity[a as usize], bodies.entity[b as usize]],
         Pair::Wall(body, wall) => [bodies.entity[body as usize], bodies.walls[wall as usize].entity],
     };
+    let begin = OverlapAtStart { share, between: (a, b) };
     let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or("(unnamed)", |name| &name.0));
     let (overlap, percent) = (number(overlap), number((share * 1000.0).round() / 10.0));
     let who = match pairs.len() {
@@ -98,4 +108,5 @@ pub(super) fn note_overlaps(world: &mut World) {
          apart, make them smaller, or give them `collides: false`"
     );
     world.resource_mut::<Notes>().0.push(note);
+    world.insert_resource(begin);
 }

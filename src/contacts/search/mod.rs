@@ -9,6 +9,8 @@ mod at_start;
 mod cells;
 mod sweep;
 
+pub use at_start::OverlapAtStart;
+
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;

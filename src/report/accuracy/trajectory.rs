@@ -62,12 +62,15 @@ impl Apart {
 /// whoever else may look.
 #[derive(Resource)]
 struct Lookout {
-    stride: u64,
+    /// The ticks at whose ends it looks, and how many of them are over.
+    ticks: Vec<u64>,
+    over: usize,
     moments: Vec<(f64, Vec<Pose>)>,
 }
 
 fn look(bodies: Res<Bodies>, clock: Res<Clock>, mut lookout: ResMut<Lookout>) {
-    if clock.ticks.is_multiple_of(lookout.stride) {
+    if lookout.ticks.get(lookout.over) == Some(&clock.ticks) {
+        lookout.over += 1;
         lookout.moments.push((clock.time(), poses(&bodies)));
     }
 }
@@ -104,15 +107,27 @@ impl Trajectory {
 
     /// What is seen of a run that `run` makes, each `stride` ticks.
     fn seen(simulation: &mut Simulation, stride: u64, run: impl FnOnce(&mut Simulation) -> Option<Failure>) -> Self {
-        let begin = (simulation.clock().time(), poses(simulation.bodies()));
-        simulation.world_mut().insert_resource(Lookout { stride, moments: vec![begin] });
-        add_packed_observer(simulation.world_mut(), look);
+        let end = simulation.ticks();
+        let last = (!end.is_multiple_of(stride)).then_some(end);
+        Self::watch(simulation, (1..=end / stride).map(|place| place * stride).chain(last).collect());
         let failure = run(simulation);
-        let lookout = simulation.world_mut().remove_resource::<Lookout>();
-        let mut moments = lookout.map_or_else(Vec::new, |lookout| lookout.moments);
-        if !simulation.clock().ticks.is_multiple_of(stride) {
-            moments.push((simulation.clock().time(), poses(simulation.bodies())));
-        }
+        Self::watched(simulation, failure)
+    }
+
+    /// Looks at a run that begins, at the ends of these ticks, in ascending order. It may be run in any way.
+    pub fn watch(simulation: &mut Simulation, ticks: Vec<u64>) {
+        let begin = (simulation.clock().time(), poses(simulation.bodies()));
+        simulation.world_mut().insert_resource(Lookout { ticks, over: 0, moments: vec![begin] });
+        add_packed_observer(simulation.world_mut(), look);
+    }
+
+    /// What was seen of a run that was watched, and how it went wrong, if it did. It is watched no longer.
+    pub fn watched(simulation: &mut Simulation, failure: Option<Failure>) -> Self {
+        let lookout = simulation.world_mut().get_resource_mut::<Lookout>();
+        let moments = lookout.map_or_else(Vec::new, |mut lookout| {
+            lookout.ticks.clear();
+            std::mem::take(&mut lookout.moments)
+        });
         let world = simulation.world();
         Self {
             moments,
@@ -203,12 +218,29 @@ impl Trajectory {
         self.differences(other).find(|(_, apart)| *apart > distance).map(|(time, _)| time)
     }
 
-    /// Time, and greatest difference of places in m, at each moment.
-    pub fn differences<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64)> + 'a {
+    /// Time, greatest difference of places in m and of velocities in m/s, at each moment that both have.
+    pub fn errors<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
         self.moments.iter().zip(&other.moments).map(|((time, own), (_, others))| {
             let pairs = own.iter().zip(others).zip(&self.extents);
-            (*time, pairs.map(|((own, other), extent)| difference(own, other, *extent).0).fold(0.0, greater))
+            let differences = pairs.map(|((own, other), extent)| difference(own, other, *extent));
+            let (far, fast) = differences.fold((0.0, 0.0), |(a, b), (c, d)| (greater(a, c), greater(b, d)));
+            (*time, far, fast)
         })
+    }
+
+    /// The first body whose place is farther than `distance` metres from that of another run, and the moment in s.
+    pub fn first_apart(&self, other: &Self, distance: f64) -> Option<(usize, f64)> {
+        self.moments.iter().zip(&other.moments).find_map(|((time, own), (_, others))| {
+            let apart = own.iter().zip(others).zip(&self.extents);
+            let far = apart.map(|((own, other), extent)| difference(own, other, *extent).0);
+            let farthest = far.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+            farthest.filter(|(_, far)| *far > distance).map(|(body, _)| (body, *time))
+        })
+    }
+
+    /// Time, and greatest difference of places in m, at each moment.
+    pub fn differences<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.errors(other).map(|(time, far, _)| (time, far))
     }
 }
 

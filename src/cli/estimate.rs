@@ -1,0 +1,65 @@
+//! The flags that ask for the error of a run, and the runs that tell it.
+
+use std::io::IsTerminal;
+
+use clap::Args;
+
+use super::Exit;
+use super::load::Request;
+use super::say::say;
+use crate::report::estimate::{self, Effort, Repeated, Wanted};
+use crate::scene::Source;
+use crate::simulation::{Overrides, Simulation};
+
+/// What is to be estimated of a run.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(super) struct EstimateFlags {
+    /// Take the time to estimate the error of the run: it is made again with half and with a quarter of the tick. Otherwise
+    /// as much of that as takes 3 % of the run, or about a tenth of a second
+    #[arg(long, conflicts_with = "no_estimate")]
+    estimate: bool,
+    /// Do not estimate the error of the run
+    #[arg(long)]
+    no_estimate: bool,
+    /// Estimate the error of finite digits too: three more runs, with wrong last bits
+    #[arg(long)]
+    rounding: bool,
+    /// Estimate too what hard contacts would do otherwise: one more run, with four times the stiffness and half the tick
+    #[arg(long)]
+    model: bool,
+}
+
+impl EstimateFlags {
+    fn wanted(self) -> Wanted {
+        let effort = match (self.estimate, self.no_estimate) {
+            (_, true) => Effort::None,
+            (true, false) => Effort::Full,
+            (false, false) => Effort::Little,
+        };
+        Wanted { effort, rounding: self.rounding, model: self.model }
+    }
+
+    /// Makes ready for a run that begins.
+    pub fn watch(self, simulation: &mut Simulation) {
+        estimate::watch(simulation, self.wanted());
+    }
+
+    /// Estimates the error of the run, which is over and went well.
+    pub fn estimate(
+        self,
+        simulation: &mut Simulation,
+        request: Request,
+        (source, overrides): (&Source, &Overrides),
+    ) -> Result<(), Exit> {
+        let load = |overrides: &Overrides| Simulation::load_with(source, overrides, |_| {});
+        let scene = Repeated { overrides, load: &load, tell: Some(tell) };
+        estimate::estimate(simulation, self.wanted(), &scene).map_err(|errors| request.refuse_scene(&errors))
+    }
+}
+
+/// Says which run is under way, where somebody looks.
+fn tell(what: &str) {
+    if std::io::stderr().is_terminal() {
+        say(&format!("estimating the error: {what}"));
+    }
+}

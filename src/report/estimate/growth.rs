@@ -1,0 +1,176 @@
+//! How the difference of two runs grows.
+
+use crate::report::accuracy::trajectory::Trajectory;
+
+/// Runs that differ by more than this share of the motion tell no places.
+const USELESS: f64 = 0.1;
+/// Differences of smooth motion grow with no higher power of time, for long: faster is exponential growth.
+const HIGHEST_POWER: f64 = 3.0;
+/// Differences below this share of the motion are rounding, and tell no order.
+const ROUNDING: f64 = 1e-13;
+
+/// Time in s, difference of places in m and of velocities in m/s at each moment.
+pub(super) struct Seen(Vec<(f64, f64, f64)>);
+
+impl Seen {
+    pub fn between(run: &Trajectory, other: &Trajectory) -> Self {
+        Self(run.errors(other).collect())
+    }
+}
+
+/// How far two runs part.
+#[derive(Clone, Debug)]
+pub(super) struct Growth {
+    seen: Vec<(f64, f64, f64)>,
+    /// How far bodies go, in m.
+    motion: f64,
+    /// Greatest difference of places until the horizon, in m.
+    pub distance: f64,
+    /// Root of the mean square over time of the greatest difference of velocities until the horizon, in m/s.
+    pub speed: f64,
+    /// The last moment in s before the two runs tell no places any more; nothing, if they always do.
+    pub horizon: Option<f64>,
+}
+
+impl Growth {
+    /// What two runs showed, of bodies that go as far as `motion` metres.
+    pub fn of(seen: Seen, motion: f64) -> Self {
+        let Seen(seen) = seen;
+        // What is no number is useless too.
+        let lost = seen.iter().position(|(_, far, _)| !(*far <= USELESS * motion || motion == 0.0));
+        let horizon = lost.map(|place| place.checked_sub(1).map_or(0.0, |before| seen[before].0));
+        let told = &seen[..lost.unwrap_or(seen.len())];
+        let distance = told.iter().fold(0.0_f64, |most, (_, far, _)| most.max(*far));
+        Self { motion, distance, speed: mean(told), horizon, seen }
+    }
+
+    /// The difference of places as a share of how far bodies go; one, where they tell no places.
+    pub fn share(&self) -> Option<f64> {
+        let share = if self.motion > 0.0 { self.distance / self.motion } else { 0.0 };
+        Some(if self.horizon.is_some() { 1.0 } else { share })
+    }
+
+    /// The power with which differences fall with the tick, from two runs and a pair twice as fine; nothing where they are
+    /// rounding, or do not fall.
+    pub fn order_against(&self, finer: &Self) -> Option<f64> {
+        let order = libm::log2(self.distance / finer.distance);
+        let told = finer.distance > ROUNDING * self.motion && self.horizon.is_none();
+        (told && order.is_finite() && order > 0.0).then_some(order)
+    }
+
+    /// Whether places are lost because differences grew exponentially: from when they were seen first they grew more in the later
+    /// half of the time than any power lets them.
+    pub fn is_exponential(&self) -> bool {
+        let Some(end) = self.horizon else { return false };
+        let seen = |(_, far, _): &&(f64, f64, f64)| *far > ROUNDING * self.motion;
+        let Some(&(begin, ..)) = self.seen.iter().find(seen) else { return false };
+        self.until(end) > libm::exp2(HIGHEST_POWER) * self.until(0.5 * (begin + end))
+    }
+
+    /// The greatest difference of places until a time in s, in m.
+    fn until(&self, time: f64) -> f64 {
+        let before = self.seen.iter().filter(|(at, ..)| *at <= time);
+        before.fold(0.0_f64, |most, (_, far, _)| most.max(*far))
+    }
+
+    /// Goes on as it began until `end` seconds: by the power of time by which the later half of what was seen is above the quarter before
+    /// it, or exponentially where that power is higher than any of smooth motion. What only began in the later half goes on
+    /// evenly.
+    pub fn extrapolate(&mut self, end: f64) {
+        let Some(&(last, ..)) = self.seen.last().filter(|_| self.horizon.is_none()) else { return };
+        let (whole, early, late) =
+            (self.until(last), self.level(0.25 * last, 0.5 * last), self.level(0.5 * last, last));
+        if whole == 0.0 {
+            return;
+        }
+        let begun = early > ROUNDING * self.motion;
+        // Errors stay, walk at random, drift, or drift ever faster: by whole and half powers of time.
+        let power = if begun { (2.0 * libm::log2(late / early)).round().max(0.0) / 2.0 } else { 1.0 };
+        let useless = USELESS * self.motion / whole;
+        let (factor, reaches) = if power <= HIGHEST_POWER {
+            (libm::pow(end / last, power), last * libm::pow(useless, 1.0 / power.max(f64::MIN_POSITIVE)))
+        } else {
+            // What grows so fast is seen at the ends of the two parts, half of the time apart.
+            let rate = (late / early).ln() / (0.5 * last);
+            (libm::exp((end - last) * rate), last + useless.ln() / rate)
+        };
+        if reaches < end {
+            (self.horizon, self.distance) = (Some(reaches), USELESS * self.motion);
+            self.speed *= useless;
+        } else {
+            self.distance *= factor;
+            self.speed *= factor;
+        }
+    }
+
+    /// Root of the mean square of the differences of places in a part of the time, in m.
+    fn level(&self, from: f64, until: f64) -> f64 {
+        let inside = self.seen.iter().filter(|(at, ..)| *at > from && *at <= until);
+        let (sum, many) = inside.fold((0.0, 0.0), |(sum, many), (_, far, _)| (sum + far * far, many + 1.0));
+        if many > 0.0 { (sum / many).sqrt() } else { 0.0 }
+    }
+}
+
+/// Root of the mean square over time, by the rule of trapezoids.
+fn mean(seen: &[(f64, f64, f64)]) -> f64 {
+    let area = |pair: &[(f64, f64, f64)]| (pair[1].0 - pair[0].0) * 0.5 * (pair[0].2.powi(2) + pair[1].2.powi(2));
+    match seen {
+        [.., last] if last.0 > seen[0].0 => (seen.windows(2).map(area).sum::<f64>() / (last.0 - seen[0].0)).sqrt(),
+        _ => seen.iter().fold(0.0, |most, (.., fast)| most.max(*fast)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grown(law: impl Fn(f64) -> f64, until: u32) -> Growth {
+        let seen = (0..=until).map(|time| (f64::from(time), law(f64::from(time)), 2.0 * law(f64::from(time))));
+        Growth::of(Seen(seen.collect()), 1.0)
+    }
+
+    /// `c t^p` seen for a time goes on four times as long as `4^p` times as much. Tolerance: rounding.
+    #[test]
+    fn powers_of_time_go_on() {
+        for power in [0, 1, 2] {
+            let mut growth = grown(|time| 1e-12 * time.powi(power), 1024);
+            growth.extrapolate(4096.0);
+            let exact = 1e-12 * 4096.0_f64.powi(power);
+            assert!((growth.distance / exact - 1.0).abs() < 1e-12, "power {power}: {} {exact}", growth.distance);
+            assert_eq!(growth.horizon, None);
+        }
+    }
+
+    /// `e^(t/32) 1e-15` reaches a tenth after `32 ln 1e14` = 1031.6 s. Tolerance: mean squares over parts
+    /// of 160 s and 320 s differ by the root of 2 beside the factor of e^10: `ln sqrt(2)/10` of the rate, and
+    /// the square of that.
+    #[test]
+    fn exponential_growth_has_a_horizon() {
+        let mut growth = grown(|time| 1e-15 * (time / 32.0).exp(), 640);
+        growth.extrapolate(3000.0);
+        let (horizon, exact) = (growth.horizon.expect("it grows exponentially"), 32.0 * 1e14_f64.ln());
+        assert!((horizon - exact).abs() < (exact - 640.0) / 25.0, "{horizon} {exact}");
+        assert_eq!(growth.distance, USELESS);
+    }
+
+    /// The last moment at which runs agree counts, and what is larger later does not.
+    #[test]
+    fn a_horizon_that_was_seen_ends_what_is_told() {
+        let growth = grown(|time| 0.01 * time, 50);
+        assert_eq!(growth.horizon, Some(10.0));
+        assert!(growth.distance <= 0.1 && growth.distance > 0.099);
+        assert_eq!(growth.share(), Some(1.0));
+        // `2 c t` has the mean square `4 c^2 T^2/3`; the rule of trapezoids adds a part in 2 T^2.
+        let exact = 2.0 * 0.1 / 3.0_f64.sqrt();
+        assert!((growth.speed / exact - 1.0).abs() < 1.0 / 200.0, "{}", growth.speed);
+    }
+
+    #[test]
+    fn the_order_is_that_of_the_differences() {
+        let (coarse, fine) = (grown(|time| 4e-6 * time, 16), grown(|time| 1e-6 * time, 16));
+        assert_eq!(coarse.order_against(&fine), Some(2.0));
+        assert_eq!(fine.order_against(&coarse), None);
+        let rounding = grown(|_| 1e-15, 16);
+        assert_eq!(fine.order_against(&rounding), None);
+    }
+}

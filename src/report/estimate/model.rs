@@ -1,0 +1,52 @@
+//! Soft contacts as a model of hard ones: the run with contacts four times as stiff, and half the tick, for they are twice as
+//! fast.
+//!
+//! What a spring does in place of a hard surface falls with one over the stiffness where bodies rest on each other, and with one
+//! over its root where they meet: overlap and duration of a contact (numbers of an impact follow from `v sqrt(m/k)`). The
+//! slower fall counts, for it leaves the larger error: twice the difference of the two runs.
+
+use super::growth::{Growth, Seen};
+use super::{EstimatedError, Repeated, finer, moments};
+use crate::Simulation;
+use crate::contacts::ContactLaw;
+use crate::report::accuracy::trajectory::Trajectory;
+use crate::report::card::ErrorEstimate;
+use crate::scene::SceneErrors;
+
+/// How many times as stiff.
+const STIFFER: f64 = 4.0;
+/// Its error over the difference: `1/(1 - 1/sqrt(STIFFER))`.
+const LEFT: f64 = 2.0;
+
+/// Estimates the error of soft contacts.
+pub(super) fn estimate(
+    simulation: &Simulation,
+    run: &Trajectory,
+    scene: &Repeated,
+    found: &mut EstimatedError,
+) -> Result<(), SceneErrors> {
+    let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
+    if !simulation.world().contains_resource::<ContactLaw>() {
+        (estimate.position.model, estimate.velocity.model) = (Some(0.0), Some(0.0));
+        return Ok(());
+    }
+    let Some(plan) = simulation.plan() else { return Ok(()) };
+    let (plan, parts) = finer(simulation, 2).map_or((plan.clone(), 1), |plan| (plan, 2));
+    let mut stiffer = scene.again(simulation, plan, STIFFER, "with contacts four times as stiff")?;
+    let ticks = simulation.clock().ticks;
+    let all = moments(simulation.ticks(), simulation.bodies().len() as u64);
+    Trajectory::watch(&mut stiffer, all.into_iter().filter(|tick| *tick <= ticks).map(|tick| tick * parts).collect());
+    if let Err(failure) = stiffer.run_to_tick(ticks * parts) {
+        found.notes.push(format!("with contacts four times as stiff the run goes wrong: {failure}"));
+        return Ok(());
+    }
+    let other = Trajectory::watched(&mut stiffer, None);
+    let growth = Growth::of(Seen::between(run, &other), run.sizes().0);
+    if let Some(horizon) = growth.horizon {
+        found.notes.push(format!(
+            "contacts four times as stiff lead elsewhere after t = {horizon:.3} s: what is said of the model holds until then"
+        ));
+    }
+    (estimate.position.model, estimate.velocity.model) = (Some(LEFT * growth.distance), Some(LEFT * growth.speed));
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! Rounding: runs whose last bits are wrong at every tick, some up, some down.
+//!
+//! Each tick rounds places and velocities by up to half a unit in the last place, here they are moved by a whole one. What
+//! comes of that shows how the motion makes rounding grow (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.
+//! 2002, 1.18: beware, the true errors of rounding are no random numbers).
+
+use bevy_ecs::prelude::*;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::growth::{Growth, Seen};
+use super::{EstimatedError, Repeated, finer, moments};
+use crate::Simulation;
+use crate::report::accuracy::trajectory::Trajectory;
+use crate::report::card::ErrorEstimate;
+use crate::scene::SceneErrors;
+use crate::tick::add_packed_observer;
+use crate::world::Bodies;
+
+/// Runs with wrong last bits.
+const SAMPLES: u64 = 3;
+
+/// Where the wrong bits come from.
+#[derive(Resource)]
+struct LastBits(ChaCha8Rng);
+
+/// Moves all numbers of bodies in motion by a unit in the last place.
+fn disturb(mut bodies: ResMut<Bodies>, mut bits: ResMut<LastBits>) {
+    for body in 0..bodies.len() {
+        if !bodies.dynamic[body] || bodies.is_asleep(body) {
+            continue;
+        }
+        let mut random = bits.0.next_u32();
+        let mut moved = |value: f64| {
+            let up = random & 1 == 0;
+            random >>= 1;
+            match value {
+                0.0 => value,
+                _ if up => value.next_up(),
+                _ => value.next_down(),
+            }
+        };
+        let (position, velocity) = (bodies.position[body], bodies.velocity[body]);
+        bodies.position[body] = [moved(position.x), moved(position.y)].into();
+        bodies.velocity[body] = [moved(velocity.x), moved(velocity.y)].into();
+        bodies.angle[body] = moved(bodies.angle[body]);
+        bodies.spin[body] = moved(bodies.spin[body]);
+    }
+}
+
+/// Estimates the error of finite digits.
+pub(super) fn estimate(
+    simulation: &Simulation,
+    run: &Trajectory,
+    scene: &Repeated,
+    found: &mut EstimatedError,
+) -> Result<(), SceneErrors> {
+    let Some(plan) = simulation.plan() else { return Ok(()) };
+    let plan = finer(simulation, 1).unwrap_or_else(|| plan.clone());
+    let (mut distance, mut speed) = (0.0_f64, 0.0_f64);
+    let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
+    for sample in 0..SAMPLES {
+        let what = format!("with wrong last bits, {} of {SAMPLES}", sample + 1);
+        let mut other = scene.again(simulation, plan.clone(), 1.0, &what)?;
+        let ticks = simulation.clock().ticks;
+        let all = moments(simulation.ticks(), simulation.bodies().len() as u64);
+        Trajectory::watch(&mut other, all.into_iter().filter(|tick| *tick <= ticks).collect());
+        other.world_mut().insert_resource(LastBits(ChaCha8Rng::seed_from_u64(sample)));
+        add_packed_observer(other.world_mut(), disturb);
+        let failure = other.run_to_tick(ticks).err();
+        if let Some(failure) = failure {
+            found.notes.push(format!("with wrong last bits the run goes wrong: {failure}"));
+            return Ok(());
+        }
+        let growth = Growth::of(Seen::between(run, &Trajectory::watched(&mut other, None)), run.sizes().0);
+        (distance, speed) = (distance.max(growth.distance), speed.max(growth.speed));
+        estimate.horizon = [estimate.horizon, growth.horizon].into_iter().flatten().reduce(f64::min);
+    }
+    (estimate.position.rounding, estimate.velocity.rounding) = (Some(distance), Some(speed));
+    Ok(())
+}

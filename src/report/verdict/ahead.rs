@@ -1,0 +1,39 @@
+//! What was wrong before the first tick: the scene itself.
+
+use super::energy::UNACCOUNTED;
+use super::{Cause, Evidence, Trust};
+use crate::contacts::search::OverlapAtStart;
+use crate::report::card::{number, percent};
+use crate::tick::Ledger;
+
+/// Share of the energy that went round which springs may hold at the start without a word: what lies on the ground holds some.
+const COMPRESSED: f64 = 0.1;
+/// Drag that took less of it has not turned anything round.
+const TAKEN: f64 = 0.3;
+
+/// Bodies stand in each other at the start: springs that nobody compressed drive them apart.
+pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let overlap = world.get_resource::<OverlapAtStart>()?;
+    let begin = world.resource::<Ledger>().start?;
+    let share = begin.elastic / card.energy_scale.max(begin.elastic);
+    let (a, b) = (evidence.name(overlap.between.0), evidence.name(overlap.between.1));
+    let what = format!(
+        "`{a}` and `{b}` overlap at the start by {} of the smaller radius, and contacts hold {} J there that nothing in the scene \
+         put in, {} of what went round",
+        percent(overlap.share),
+        number(begin.elastic),
+        percent(share)
+    );
+    let remedy = Some("other places, smaller bodies, or `collides: false`".to_owned());
+    (share > COMPRESSED).then_some(Cause { trust: Trust::NotTheModel, what, remedy })
+}
+
+/// Drag that takes more than there is: a method of whole steps then turns a velocity round and makes it larger.
+pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
+    let card = evidence.card;
+    let taken = card.energy.drag / card.energy_scale;
+    let mad = card.energy.drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
+    let what = "drag takes more than the whole velocity of a body in a tick, and turns it round".to_owned();
+    mad.then(|| Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+}

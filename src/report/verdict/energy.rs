@@ -1,0 +1,56 @@
+//! Energy that is missing, or came out of nowhere.
+
+use super::{Cause, Evidence, Trust, ticks};
+use crate::report::Remedy;
+use crate::report::card::percent;
+
+/// Share of the energy that went round which may be missing.
+pub(in crate::report) const UNACCOUNTED: f64 = 0.05;
+
+/// Numbers that are none.
+pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
+    let card = evidence.card;
+    let finite =
+        [card.energy.residual, card.momentum_residual[0], card.momentum_residual[1]].iter().all(|x| x.is_finite());
+    let what = "numbers are no longer finite".to_owned();
+    (!finite).then(|| Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+}
+
+/// More energy is missing than a good tick leaves. What else is known of the ticks is said with it.
+pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
+    let card = evidence.card;
+    let error = card.energy_error();
+    if error <= UNACCOUNTED {
+        return None;
+    }
+    let why = [ticks::brief_contact, ticks::far_travel_unseen].into_iter().find_map(|cause| cause(evidence));
+    let why = why.map(|cause| cause.what).or_else(|| super::motion::began(evidence)).map_or_else(
+        || ": the tick is too long for the forces, or a plugin does not book its work".to_owned(),
+        |why| format!(": {why}"),
+    );
+    let what = format!("{:.1} % of the energy is unaccounted for{why}", error * 100.0);
+    Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`")) })
+}
+
+/// What may have happened where nothing is known.
+pub(super) fn of_unknown_cause(evidence: &Evidence) -> String {
+    let card = evidence.card;
+    let remedy = match card.remedy() {
+        // Whatever is said of contacts came of that.
+        Some(Remedy::Tick(_)) => format!(", or try `{}`", Remedy::Tick(card.tick / 4.0)),
+        Some(remedy) => format!(", or try `{remedy}`"),
+        None => String::new(),
+    };
+    format!(
+        "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near zero, for drag that stops a body \
+         within a tick, for a plugin that does not book its work{remedy}"
+    )
+}
+
+/// Energy that is accounted for, in words.
+pub(super) fn accounted(evidence: &Evidence) -> String {
+    match evidence.card.energy_error() {
+        0.0 => "all energy is accounted for".to_owned(),
+        error => format!("energy is accounted for to {}", percent(error)),
+    }
+}

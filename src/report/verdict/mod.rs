@@ -1,0 +1,135 @@
+//! The verdict: one plain line that says how far to trust a run, what most likely spoils it, where and when that began, and what
+//! would mend it.
+//!
+//! Each cause is a function that looks at the evidence: the card and the world. The first that finds something speaks, so they
+//! stand in the order in which one explains the others: a tick above the critical one makes everything else go wrong too.
+
+mod ahead;
+mod energy;
+mod motion;
+mod place;
+mod soft;
+mod ticks;
+
+use bevy_ecs::prelude::*;
+
+use super::card::{Card, ErrorEstimate, name, number, percent, rough};
+
+/// What a verdict is found from.
+pub(super) struct Evidence<'a> {
+    pub world: &'a World,
+    pub card: &'a Card,
+}
+
+/// How far a run can be trusted.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Trust {
+    /// Not at all: what was computed is not the scene.
+    Not,
+    /// The numbers are those of the scene, but the scene is not what it is meant to be.
+    NotTheModel,
+    /// For a first look.
+    Roughly,
+    /// In part: the words say which.
+    Partly(String),
+}
+
+/// What most likely spoils a run.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cause {
+    pub trust: Trust,
+    /// What it is, with bodies and times.
+    pub what: String,
+    /// What would mend it.
+    pub remedy: Option<String>,
+}
+
+/// What may be to blame, in the order in which one explains the others.
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 12] = [
+    ticks::unstable,
+    ahead::overlaps_at_the_start,
+    ahead::drag,
+    place::rounding,
+    energy::numbers_that_are_none,
+    energy::unaccounted,
+    motion::tolerance_not_reached,
+    soft::deep,
+    ticks::brief_contact,
+    ticks::far_travel_unseen,
+    motion::chaos,
+    motion::inexact,
+];
+
+impl Evidence<'_> {
+    fn cause(&self) -> Option<Cause> {
+        CAUSES.iter().find_map(|cause| cause(self))
+    }
+
+    /// The remedy that the card advises, between words that go with it.
+    pub fn advice(&self, before: &str, after: &str) -> String {
+        self.card.remedy().map_or_else(String::new, |remedy| format!("{before}{remedy}{after}"))
+    }
+
+    /// The same as a remedy.
+    pub fn finer(&self) -> Option<String> {
+        self.card.remedy().map(|remedy| remedy.or_finer())
+    }
+
+    /// The energy that is missing, as a warning.
+    pub fn missing_energy(&self) -> Option<String> {
+        let Cause { what, remedy, .. } = energy::unaccounted(self)?;
+        Some(remedy.map_or_else(|| what.clone(), |remedy| format!("{what}; use {remedy}")))
+    }
+
+    /// The likely cause of a run that went wrong, and what to try.
+    pub fn why(&self) -> String {
+        let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, place::rounding];
+        let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
+            return energy::of_unknown_cause(self);
+        };
+        remedy.map_or_else(|| what.clone(), |remedy| format!("{what}: try {remedy}"))
+    }
+
+    /// What a body or wall is called.
+    pub fn name(&self, entity: Entity) -> String {
+        name(self.world, entity)
+    }
+
+    /// The verdict of a run that came to its end.
+    pub fn verdict(&self) -> String {
+        self.cause().map_or_else(|| motion::good(self), |cause| cause.to_string())
+    }
+}
+
+impl std::fmt::Display for Cause {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { trust, what, remedy } = self;
+        match trust {
+            Trust::Not => write!(f, "Do not trust it: {what}.")?,
+            Trust::NotTheModel => write!(f, "Trust the numbers, not the model: {what}.")?,
+            Trust::Roughly => write!(f, "Trust it roughly: {what}.")?,
+            Trust::Partly(part) => write!(f, "{part}: {what}.")?,
+        }
+        remedy.as_ref().map_or(Ok(()), |remedy| write!(f, " Use {remedy}."))
+    }
+}
+
+/// A share of how far bodies go.
+fn of_the_way(share: f64) -> String {
+    format!("{} of how far bodies go", percent(share))
+}
+
+/// Places and velocities in words.
+fn places(card: &Card) -> Option<String> {
+    places_of(card.error.as_ref()?)
+}
+
+fn places_of(error: &ErrorEstimate) -> Option<String> {
+    let (position, velocity) = error.position.discretisation.zip(error.velocity.discretisation)?;
+    Some(format!("places to about {} m, velocities to about {} m/s", rough(position), rough(velocity)))
+}
+
+/// A time in s.
+fn at(time: f64) -> String {
+    format!("t = {} s", number(time))
+}

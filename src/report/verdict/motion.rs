@@ -1,0 +1,118 @@
+//! Places that are not exact, as the estimated error tells: chaos, events that ticks do not see, or a tick too long for the
+//! motion itself. And what is said where nothing is wrong.
+
+use super::{Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
+use crate::contacts::ContactLaw;
+use crate::report::card::{ErrorEstimate, number, percent};
+use crate::report::estimate::EstimatedError;
+use crate::world::Bodies;
+
+/// Share of how far bodies go by which places may be wrong without a cause.
+const INEXACT: f64 = 1e-2;
+/// Share of the energy that may be missing without a word.
+const MISSING: f64 = 1e-3;
+/// Where a tolerance is advised in place of a tick.
+const TOLERANCE: &str = "`--tolerance 0.001`";
+/// More bodies are not run with a tolerance in a time that anybody waits.
+const FEW: usize = 30;
+
+/// The tolerance that was asked for is not reached.
+pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
+    let missed = evidence.card.missed.clone()?;
+    Some(Cause { trust: Trust::Partly("Do not trust its last digits".to_owned()), what: missed, remedy: None })
+}
+
+/// Where and when a finer run first went another way, in words.
+pub(super) fn began(evidence: &Evidence) -> Option<String> {
+    let estimated = evidence.world.get_resource::<EstimatedError>()?;
+    let (body, time) = estimated.began.as_ref()?;
+    Some(format!(
+        "a run with half the tick is elsewhere by a hundredth of the motion from {} on, `{body}` first",
+        at(*time)
+    ))
+}
+
+/// Any error grows until nothing is left of places.
+pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
+    let estimated = evidence.world.get_resource::<EstimatedError>()?;
+    let horizon = evidence.card.error.filter(|_| evidence.card.by_ticks())?.horizon?;
+    let body = estimated.began.as_ref().map_or_else(|| "places".to_owned(), |(body, _)| format!("`{body}` first"));
+    let what = format!(
+        "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}. A finer tick moves that on by \
+         little; statistics last, and {}",
+        energy::accounted(evidence)
+    );
+    estimated.chaotic.then(|| Cause { trust: until(horizon), what, remedy: None })
+}
+
+fn until(horizon: f64) -> Trust {
+    Trust::Partly(format!("Trust places until about {}", at(horizon)))
+}
+
+/// The tick is too long for contacts whose beginnings it does not see, or for the motion.
+pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let estimated = world.get_resource::<EstimatedError>()?;
+    let (share, error) = (estimated.share?, card.error.filter(|_| card.by_ticks())?);
+    if share <= INEXACT {
+        return None;
+    }
+    let unseen = world.contains_resource::<ContactLaw>() && !card.located && card.largest_overlap.meters > 0.0;
+    let why = if unseen {
+        format!("contacts begin and end inside ticks, which {} sees at their ends only", card.method)
+    } else {
+        format!("the tick of {} s is too long for the motion", number(card.tick))
+    };
+    let why = match (began(evidence), error.horizon) {
+        (Some(began), _) => format!("{why}: {began}"),
+        (None, _) => why,
+    };
+    let trust = match (error.horizon, places(card)) {
+        (Some(horizon), _) => until(horizon),
+        (None, Some(places)) => Trust::Partly(format!("Trust {places} ({})", of_the_way(share))),
+        (None, None) => Trust::Roughly,
+    };
+    let few = world.resource::<Bodies>().len() <= FEW;
+    let tolerance = if few { format!(", or {TOLERANCE}") } else { String::new() };
+    // Beyond a horizon nothing says how errors fall.
+    let order = if unseen { 1.0 } else { 2.0 };
+    let tick = if error.horizon.is_some() { card.tick / 10.0 } else { card.tick_for(share, INEXACT / 10.0, order) };
+    let whether = if error.horizon.is_some() { " to see whether that moves on" } else { "" };
+    Some(Cause { trust, what: why, remedy: Some(format!("`--tick {}`{whether}{tolerance}", number(tick))) })
+}
+
+/// What is said where nothing is wrong.
+pub(super) fn good(evidence: &Evidence) -> String {
+    let card = evidence.card;
+    if let Some(known) = card.error.as_ref().filter(|_| !card.by_ticks()) {
+        return of_a_tolerance(known, card.time);
+    }
+    if card.energy_error() > MISSING {
+        let advice = evidence.advice("; ", " would improve it");
+        return format!("Trust it to about {} of energy{advice}.", percent(card.energy_error()));
+    }
+    let energy = energy::accounted(evidence);
+    match places(card) {
+        Some(places) => {
+            let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
+            let share = share
+                .filter(|share| *share > 0.0)
+                .map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
+            format!("Trust it: {places}{share}, as a run with half the tick tells; {energy}.")
+        }
+        None => {
+            let advice = evidence.advice("; ", " would show whether anything changes");
+            format!("Trust it: {energy}{advice}.")
+        }
+    }
+}
+
+/// What is said of a run of `end` seconds whose steps were chosen for its error.
+fn of_a_tolerance(error: &ErrorEstimate, end: f64) -> String {
+    let Some(places) = places_of(error) else {
+        return "Do not trust its places: runs of it differ by more than can be told.".to_owned();
+    };
+    let until = error.horizon.filter(|horizon| *horizon < end);
+    let until = until.map_or_else(String::new, |horizon| format!(" until about {}", at(horizon)));
+    format!("Trust it{until}: {places}, as several runs of it tell.")
+}

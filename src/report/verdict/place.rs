@@ -1,0 +1,31 @@
+//! Digits: places far from the origin have few of them left.
+
+use super::{Cause, Evidence, Trust};
+use crate::report::card::{number, percent, rough};
+use crate::world::Bodies;
+
+/// A last digit of a place that is so large a share of what contacts do makes them rattle.
+const COARSE: f64 = 1e-3;
+
+/// The last digit of a place is no longer small beside the overlaps that make forces, or beside the bodies themselves.
+pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
+    let (bodies, card) = (evidence.world.resource::<Bodies>(), evidence.card);
+    let (far, body) = (0..bodies.len())
+        .map(|body| (bodies.position[body].abs().max_element(), body))
+        .filter(|(far, _)| far.is_finite())
+        .fold((0.0, None), |most, (far, body)| if far > most.0 { (far, Some(body)) } else { most });
+    let digit = f64::EPSILON * far;
+    let overlap = card.largest_overlap.meters;
+    let size = if overlap > 0.0 { overlap } else { bodies.smallest_radius };
+    let share = digit / size;
+    let body = evidence.name(bodies.entity[body?]);
+    let what = format!(
+        "`{body}` is {} m from the origin, where places have steps of {} m, {} of the {}",
+        number(far),
+        rough(digit),
+        percent(share),
+        if overlap > 0.0 { "deepest overlap" } else { "smallest radius" }
+    );
+    let remedy = Some("a scene that lies around the origin".to_owned());
+    (share > COARSE && share.is_finite()).then_some(Cause { trust: Trust::Not, what, remedy })
+}

@@ -1,0 +1,45 @@
+//! Contacts that give way more than bodies are large.
+
+use super::{Cause, Evidence, Trust};
+use crate::contacts::DeepestOverlap;
+use crate::report::card::percent;
+use crate::world::{Bodies, Slot};
+
+/// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
+const HEAVY: f64 = 100.0;
+
+/// Something was pressed in by more than a radius.
+pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let overlap = &card.largest_overlap;
+    if overlap.share_of_radius <= 1.0 {
+        return None;
+    }
+    let by = overlap.share_of_radius * 100.0;
+    let deepest = world.get_resource::<DeepestOverlap>()?.between?;
+    let bodies = world.resource::<Bodies>();
+    let mass = |entity| {
+        let slot = world.get::<Slot>(entity)?.0 as usize;
+        bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass[slot])
+    };
+    let (a, b) = (evidence.name(deepest.0), evidence.name(deepest.1));
+    let masses = mass(deepest.0).zip(mass(deepest.1));
+    let heavy =
+        masses.map(|(first, second)| if first > second { (first / second, &a, &b) } else { (second / first, &b, &a) });
+    let heavy = heavy.filter(|(ratio, ..)| *ratio > HEAVY);
+    let what = match heavy {
+        Some((ratio, heavier, lighter)) => format!(
+            "`{heavier}` has {ratio:.0} times the mass of `{lighter}` and is pressed into it by {by:.0} % of a radius at {}",
+            super::at(overlap.time)
+        ),
+        None => format!("bodies overlap by {by:.0} % of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
+    };
+    let error = card.energy_error();
+    let with = if card.by_ticks() { evidence.advice(" with ", "") } else { String::new() };
+    let what = if card.by_ticks() && error > 0.0 {
+        format!("{what}; energy is accounted for to {}", percent(error))
+    } else {
+        what
+    };
+    Some(Cause { trust: Trust::NotTheModel, what, remedy: Some(format!("a higher `stiffness`{with}")) })
+}

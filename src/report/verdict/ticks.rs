@@ -1,0 +1,51 @@
+//! Ticks that are too long for what they have to resolve.
+
+use super::{Cause, Evidence, Trust, at};
+use crate::contacts::ContactLaw;
+use crate::report::card::number;
+use crate::report::warnings::FEWEST_TICKS;
+use crate::tick::{Holder, Responses, far_travel};
+
+/// The tick is above the critical one: springs gain energy at each.
+pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let critical = card.critical_tick.filter(|critical| card.by_ticks() && *critical < card.tick)?;
+    let fastest = Responses::of(world).fastest;
+    let holder = fastest.map_or(Holder::Contacts, |fastest| fastest.holder);
+    let seen = fastest
+        .map_or_else(String::new, |fastest| format!(", as `{}` at {}", evidence.name(fastest.body), at(fastest.time)));
+    let most =
+        if critical > 0.0 { format!("{} s", number(critical)) } else { "none at all under this method".to_owned() };
+    let what = format!("the tick of {} s is longer than the {holder} can bear, {most}{seen}", number(card.tick));
+    Some(Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+}
+
+/// Contacts come and go within few ticks.
+pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let ticks = card.shortest_contact.filter(|_| card.by_ticks())? / card.tick;
+    let brief = Responses::of(world).briefest;
+    if brief.is_none() && far_travel_unseen(evidence).is_some() {
+        return None;
+    }
+    let whose = brief.map_or_else(
+        || "the stiffest contact".to_owned(),
+        |brief| {
+            let (a, b) = (evidence.name(brief.between.0), evidence.name(brief.between.1));
+            format!("the contact of `{a}` and `{b}` at {}", at(brief.time))
+        },
+    );
+    let what = format!("{whose} lasts only {ticks:.1} ticks");
+    (ticks < FEWEST_TICKS).then(|| Cause { trust: Trust::Roughly, what, remedy: evidence.finer() })
+}
+
+/// A body moves farther in a tick than the smallest radius.
+pub(super) fn far_travel_unseen(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let share = card.largest_travel_share;
+    let who = far_travel(world)
+        .map_or_else(|| "something".to_owned(), |far| format!("`{}` at {}", evidence.name(far.body), at(far.time)));
+    let what = format!("{who} travelled {share:.1} radii in one tick and may have missed a contact");
+    let unseen = world.contains_resource::<ContactLaw>() && !card.located;
+    (share > 1.0 && unseen).then(|| Cause { trust: Trust::Roughly, what, remedy: evidence.finer() })
+}

@@ -1,0 +1,109 @@
+//! Law: the error that a run estimates of itself is that which it has.
+//!
+//! Two runs with ticks `h` and `h/2` differ by `(1 - 2^-p)` of the error of the first, if errors fall with the power `p`; the next
+//! term of an error, and an order that is lower where forces jump, change that by a factor below 3 in the range where errors fall
+//! with the tick. Phases of events in ticks scatter: a tenth of the settings may be outside, none by more than 10 below.
+//!
+//! The truth is the reference run of the same scene, whose error is far below.
+
+use jostle::Simulation;
+use jostle::problems;
+use jostle::report::Card;
+use jostle::report::estimate::check::{Checked, METHODS, check};
+use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
+use jostle::scene::Source;
+use jostle::simulation::Overrides;
+
+#[test]
+fn estimates_are_within_a_factor_of_three_of_the_truth() {
+    let all: Vec<Checked> = problems::ALL
+        .iter()
+        .flat_map(|problem| check(problem).unwrap_or_else(|error| panic!("{}: {error}", problem.name)))
+        .collect();
+    // On most problems errors of order 8 are rounding before they fall with the order.
+    for (method, least) in METHODS.into_iter().zip([60, 40, 12]) {
+        let many = all.iter().filter(|checked| checked.method == method).count();
+        assert!(many >= least, "{method}: {many} settings are compared");
+    }
+    let outside: Vec<&Checked> = all.iter().filter(|checked| !(1.0 / 3.0..=3.0).contains(&checked.ratio())).collect();
+    assert!(10 * outside.len() <= all.len(), "{} of {} are outside: {outside:#?}", outside.len(), all.len());
+    let low: Vec<&&Checked> = outside.iter().filter(|checked| checked.ratio() < 0.1).collect();
+    assert!(low.is_empty(), "more than ten times too small: {low:#?}");
+}
+
+/// Runs a scene and estimates its error.
+fn estimated(text: &str, wanted: Wanted) -> Card {
+    let source = Source::new("scene.ron", text);
+    let overrides = Overrides::default();
+    let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
+    let mut simulation = load(&overrides).unwrap();
+    watch(&mut simulation, wanted);
+    simulation.run_to_end().unwrap();
+    estimate(&mut simulation, wanted, &Repeated { overrides: &overrides, load: &load, tell: None }).unwrap();
+    simulation.card()
+}
+
+/// Law: velocity Verlet runs an oscillator ahead by `(omega h)^2/24` of its phase (Hairer, Lubich, Wanner, *Geometric Numerical
+/// Integration*, 2nd ed. 2006, I.5), so that its error grows with time. Of the long run only the beginning is made again. The
+/// ends of the part fall on some phase, whose sine changes what is seen by a factor of 2 at most after several periods.
+#[test]
+fn what_is_extrapolated_goes_on_as_it_began() {
+    let (omega, tick, duration) = (10.0_f64, 1e-4, 200.0);
+    let text = format!(
+        "Scene(format: 1, clock: (duration: {duration}, tick: {tick}, method: VelocityVerlet),
+            bodies: [(name: \"mass\", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
+            forces: [Spring(a: \"mass\", b: World, stiffness: {}, length: 0)])",
+        omega * omega
+    );
+    let card = estimated(&text, Wanted::default());
+    assert!(card.notes.iter().any(|note| note.contains("extrapolated")), "{:?}", card.notes);
+    let found = card.error.unwrap().position.discretisation.unwrap();
+    let exact = omega * duration * (omega * tick).powi(2) / 24.0;
+    assert!((0.5..2.0).contains(&(found / exact)), "{found:e} {exact:e}");
+}
+
+/// Law: a contact lasts `pi sqrt(m/k)`, by which a body comes back later than from a hard wall: its place is off by that times
+/// its speed. With four times the stiffness it is half of that, so the estimate is the error but for that of the ticks: 2 %.
+#[test]
+fn the_error_of_the_model_is_that_of_soft_contacts() {
+    let text = "Scene(format: 1, clock: (duration: 2, tick: 1e-4, method: VelocityVerlet),
+        materials: { \"elastic\": (stiffness: 4000, restitution: 1) },
+        walls: [(name: \"wall\", left: (0, 0), right: (0, 1), material: \"elastic\")],
+        bodies: [(name: \"ball\", at: (1, 0.5), velocity: (-1, 0), material: \"elastic\", atoms: Disc(radius: 0.1, mass: 1))])";
+    let card = estimated(text, Wanted { effort: Effort::None, model: true, rounding: false });
+    let found = card.error.unwrap().position.model.unwrap();
+    let exact = std::f64::consts::PI / 4000.0_f64.sqrt();
+    assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");
+}
+
+/// Law: `n` ticks whose velocity and place are wrong by a last bit, `u v` and `u x`, leave a place wrong by the sum of random
+/// steps: `u v t sqrt(n/3)` by velocities, and `u x sqrt(n)`. Tolerance: the greatest of three samples of a normal
+/// distribution at the end of the run lies between a tenth of its width and five widths but for one in a thousand, and last
+/// bits are between half and the whole of `u`.
+#[test]
+fn rounding_walks_at_random() {
+    let text = "Scene(format: 1, clock: (duration: 10, tick: 1e-3, method: VelocityVerlet),
+        bodies: [(name: \"ball\", at: (1, 0), velocity: (1, 0), atoms: Disc(radius: 0.1, mass: 1))])";
+    let card = estimated(text, Wanted { effort: Effort::None, rounding: true, model: false });
+    let found = card.error.unwrap().position.rounding.unwrap();
+    let (ticks, duration) = (1e4_f64, 10.0);
+    let width = f64::EPSILON * (duration * (ticks / 3.0).sqrt()).hypot(duration * ticks.sqrt());
+    assert!((0.05 * width..5.0 * width).contains(&found), "{found:e} {width:e}");
+}
+
+/// Law: orders 2 and 4 on smooth motion. Tolerance: half an order.
+#[test]
+fn the_observed_order_is_that_of_the_method() {
+    let spring = |method: &str| {
+        format!(
+            "Scene(format: 1, clock: (duration: 5, tick: 0.02, method: {method}),
+            bodies: [(name: \"mass\", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
+            forces: [Spring(a: \"mass\", b: World, stiffness: 25, length: 0)])"
+        )
+    };
+    for (method, order) in [("VelocityVerlet", 2.0), ("RungeKutta4", 4.0)] {
+        let card = estimated(&spring(method), Wanted { effort: Effort::Full, ..Wanted::default() });
+        let observed = card.error.unwrap().observed_order.unwrap();
+        assert!((observed - order).abs() < 0.5, "{method}: {observed}");
+    }
+}
