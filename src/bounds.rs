@@ -108,8 +108,8 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, ev
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for atom in bodies.atoms_of(body) {
             let reach = DVec2::splat(bodies.atom_radius[atom] + bounds.margin / 2.0);
-            low = low.min(bodies.atom_position[atom] - reach);
-            high = high.max(bodies.atom_position[atom] + reach);
+            low = low.min(bodies.atom_place(atom) - reach);
+            high = high.max(bodies.atom_place(atom) + reach);
         }
         bounds.low.push(low);
         bounds.high.push(high);

@@ -8,11 +8,9 @@ use serde::Deserialize;
 
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
-use crate::simd::{BLOCK, Lanes};
 use crate::tick::balance::EnergyTerms;
-use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::tick::{Balance, Evaluate, EvaluateStage, ForceSlot, TickAppExt};
 use crate::world::Bodies;
-use crate::world::part::{Part, PerBody};
 
 /// The acceleration of free fall. A scene without this section has no gravity.
 #[derive(Deserialize, JsonSchema)]
@@ -39,7 +37,7 @@ pub struct Gravity(pub DVec2);
 /// Installs the field.
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
-    app.add_packed_force(Dependence::Nothing, apply_gravity);
+    app.add_packed_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
 }
 
@@ -47,42 +45,17 @@ pub(super) fn plugin(app: &mut App) {
     app.register_section::<GravitySection>();
 }
 
+/// The weight is where the sum of forces begins: bodies have it as soon as their forces are cleared. It is left to be told
+/// which, and to be booked.
 fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    let (mut mass, mut moment) = (0.0, DVec2::ZERO);
-    bodies.each(Weigh { gravity: gravity.0, sums: [[0.0; BLOCK]; 3] }, |part| {
-        let [part, x, y] = part.sums.map(|partial| partial.into_iter().fold(0.0, |sum, part| sum + part));
-        mass += part;
-        moment += DVec2::new(x, y);
-    });
+    if bodies.field != Some(gravity.0) {
+        bodies.field = Some(gravity.0);
+        bodies.posed = false;
+        bodies.pose();
+    }
+    let (mass, moment) = bodies.weighed;
     balance.force += gravity.0 * mass;
     balance.torque += moment.perp_dot(gravity.0);
-}
-
-/// Adds the weight of each body that is not asleep, and sums their mass, and mass times place.
-#[derive(Clone)]
-struct Weigh {
-    gravity: DVec2,
-    sums: [[f64; BLOCK]; 3],
-}
-
-impl PerBody for Weigh {
-    #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
-        let lane = first % BLOCK;
-        let mut moves = V::load(&part.inverse_mass[first..]).gt(V::splat(0.0));
-        if let Some(asleep) = part.asleep.get(first / BLOCK) {
-            moves = moves & V::mask(!asleep >> lane);
-        }
-        let mass = V::load(&part.mass[first..]).only(moves);
-        let (x, y) = V::load_pairs(&part.position[first..]);
-        let (force_x, force_y) = V::load_pairs(&part.force[first..]);
-        let (gravity_x, gravity_y) = (V::splat(self.gravity.x), V::splat(self.gravity.y));
-        V::store_pairs(force_x + gravity_x * mass, force_y + gravity_y * mass, &mut part.force[first..]);
-        let sums = &mut self.sums;
-        (V::load(&sums[0][lane..]) + mass).store(&mut sums[0][lane..]);
-        (V::load(&sums[1][lane..]) + x * mass).store(&mut sums[1][lane..]);
-        (V::load(&sums[2][lane..]) + y * mass).store(&mut sums[2][lane..]);
-    }
 }
 
 fn potential_energy(world: &World) -> f64 {

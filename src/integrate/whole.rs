@@ -109,7 +109,5 @@ fn version_of_lists(tick: &Tick) -> Option<u64> {
 
 /// Whether a body went so far in the tick that it may have passed another: lists made at its end do not show whom.
 fn may_have_passed(tick: &Tick) -> bool {
-    let (bodies, bounds) = (tick.world.resource::<Bodies>(), tick.world.resource::<Bounds>());
-    let travel = |body: usize| bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
-    (0..bodies.len()).any(|body| bodies.moves[body] && travel(body) > bounds.margin / 2.0)
+    tick.farthest() > tick.world.resource::<Bounds>().margin / 2.0
 }

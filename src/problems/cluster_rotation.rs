@@ -66,6 +66,6 @@ fn scene(setting: &Setting, duration: f64) -> String {
 
 /// The greatest distance of an atom from where it should be, in m.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
-    let found = &simulation.bodies().atom_position;
-    atoms(time).iter().zip(found).map(|(exact, found)| (*exact - *found).length()).fold(0.0, f64::max)
+    let found = |atom: usize| simulation.bodies().atom_place(atom);
+    atoms(time).iter().enumerate().map(|(atom, exact)| (*exact - found(atom)).length()).fold(0.0, f64::max)
 }

@@ -13,6 +13,7 @@
 
 mod allocator;
 mod level;
+mod pairs;
 mod scalar;
 #[cfg(test)]
 mod tests;
@@ -25,6 +26,7 @@ use glam::DVec2;
 
 pub use allocator::Lines;
 pub use level::{Kernel, Level, run};
+pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
 
 /// Eight numbers that belong together and are loaded as one: a line of the cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,8 +66,11 @@ pub trait Lanes:
 
     /// The records of two lists of places, transposed: of the first six numbers what the second is more than the first; the
     /// last two numbers of the second, then those of the first.
+    ///
+    /// # Safety
+    /// The first [`Lanes::COUNT`] places of both lists are those of records.
     #[inline(always)]
-    fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+    unsafe fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
         let (first, mut second) = (Self::records(records, first), Self::records(records, second));
         let mut number = 0;
         while number < BLOCK - 2 {

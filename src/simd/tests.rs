@@ -18,14 +18,17 @@ impl Kernel for Everything<'_> {
         let records: Vec<Record> = (0..BLOCK)
             .map(|row| Record(std::array::from_fn(|column| self.numbers[row] + (10 * column) as f64)))
             .collect();
-        let (places, second) = ([3, 0, 7, 1, 6, 2, 5, 4], [1, 1, 0, 6, 7, 4, 2, 3]);
+        let (places, second) = ([3_u32, 0, 7, 1, 6, 2, 5, 4], [1_u32, 1, 0, 6, 7, 4, 2, 3]);
+        let mut twins = PairBlocks::default();
+        twins.list(places.into_iter().zip(second));
+        let pairs_of_records = twins.records(&records);
         let pairs: Vec<DVec2> = (0..BLOCK).map(|place| DVec2::new(self.numbers[place], self.others[place])).collect();
         let mut swapped = [DVec2::ZERO; BLOCK];
         let mut lane = 0;
         while lane < BLOCK {
             let (a, b) = (V::load(&self.numbers[lane..]), V::load(&self.others[lane..]));
             let transposed = V::records(&records, &places[lane..]);
-            let (apart, own) = V::record_pairs(&records, &places[lane..], &second[lane..]);
+            let (apart, own) = pairs_of_records.load::<V>(0, lane);
             let chosen = V::mask(0b1011_0010 >> lane);
             let both = V::load_pairs(&pairs[lane..]);
             V::store_pairs(both.1, both.0, &mut swapped[lane..]);

@@ -101,6 +101,42 @@ impl F64x4 {
     }
 }
 
+impl F64x4 {
+    /// A transposition of four records, each in two halves.
+    #[inline(always)]
+    fn transposed(rows: [(Self, Self); 4]) -> [Self; BLOCK] {
+        let [a, b, c, d] = rows;
+        let (low, high) = (quarters([a.0, b.0, c.0, d.0]), quarters([a.1, b.1, c.1, d.1]));
+        [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]]
+    }
+}
+
+/// A transposition of four numbers of four records.
+#[inline(always)]
+fn quarters([a, b, c, d]: [F64x4; 4]) -> [F64x4; 4] {
+    // SAFETY: see the head of the file.
+    unsafe {
+        let (even, odd) = (_mm256_unpacklo_pd(a.0, b.0), _mm256_unpackhi_pd(a.0, b.0));
+        let (even_too, odd_too) = (_mm256_unpacklo_pd(c.0, d.0), _mm256_unpackhi_pd(c.0, d.0));
+        [
+            F64x4(_mm256_permute2f128_pd::<0x20>(even, even_too)),
+            F64x4(_mm256_permute2f128_pd::<0x20>(odd, odd_too)),
+            F64x4(_mm256_permute2f128_pd::<0x31>(even, even_too)),
+            F64x4(_mm256_permute2f128_pd::<0x31>(odd, odd_too)),
+        ]
+    }
+}
+
+/// The last two numbers of a record.
+///
+/// # Safety
+/// The place is that of a record.
+#[inline(always)]
+unsafe fn last_two_of(records: &[Record], place: u32) -> __m128d {
+    // SAFETY: as the caller promises; a record has two numbers from the seventh on.
+    unsafe { _mm_loadu_pd(records.get_unchecked(place as usize).0.as_ptr().add(BLOCK - 2)) }
+}
+
 impl F64x8 {
     #[inline(always)]
     fn flip(self, signs: Self) -> Self {
@@ -207,6 +243,12 @@ impl Lanes for F64x2 {
     }
 
     #[inline(always)]
+    fn at_least_zero(self) -> Self {
+        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        Self(unsafe { _mm_max_pd(self.0, Self::splat(0.0).0) })
+    }
+
+    #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
         self.abs() | (sign & Self::splat(-0.0))
     }
@@ -263,25 +305,35 @@ impl Lanes for F64x4 {
 
     #[inline(always)]
     fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
-        let row = |lane: usize| &records[places[lane] as usize].0;
-        let (a, b, c, d) = (row(0), row(1), row(2), row(3));
-        let mut transposed = [Self::splat(0.0); BLOCK];
-        let mut half = 0;
-        while half < BLOCK {
-            let (a, b) = (Self::load(&a[half..]), Self::load(&b[half..]));
-            let (c, d) = (Self::load(&c[half..]), Self::load(&d[half..]));
-            // SAFETY: see the head of the file.
-            unsafe {
-                let (even, odd) = (_mm256_unpacklo_pd(a.0, b.0), _mm256_unpackhi_pd(a.0, b.0));
-                let (even_too, odd_too) = (_mm256_unpacklo_pd(c.0, d.0), _mm256_unpackhi_pd(c.0, d.0));
-                transposed[half] = Self(_mm256_permute2f128_pd::<0x20>(even, even_too));
-                transposed[half + 1] = Self(_mm256_permute2f128_pd::<0x20>(odd, odd_too));
-                transposed[half + 2] = Self(_mm256_permute2f128_pd::<0x31>(even, even_too));
-                transposed[half + 3] = Self(_mm256_permute2f128_pd::<0x31>(odd, odd_too));
-            }
-            half += 4;
+        let mut rows = [(Self::splat(0.0), Self::splat(0.0)); Self::COUNT];
+        let mut lane = 0;
+        while lane < Self::COUNT {
+            let row = &records[places[lane] as usize].0;
+            rows[lane] = (Self::load(row), Self::load(&row[Self::COUNT..]));
+            lane += 1;
         }
-        transposed
+        Self::transposed(rows)
+    }
+
+    #[inline(always)]
+    unsafe fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+        let (first, second) = (&first[..Self::COUNT], &second[..Self::COUNT]);
+        let mut rows = [(Self::splat(0.0), Self::splat(0.0)); Self::COUNT];
+        let mut lane = 0;
+        // SAFETY: the places are those of records, as the caller promises; see the head of the file.
+        unsafe {
+            while lane < Self::COUNT {
+                let own = &records.get_unchecked(first[lane] as usize).0;
+                let other = &records.get_unchecked(second[lane] as usize).0;
+                let high = Self::load(&other[Self::COUNT..]);
+                let less = high - Self::load(&own[Self::COUNT..]);
+                rows[lane] = (Self::load(other) - Self::load(own), Self(_mm256_blend_pd::<0b1100>(less.0, high.0)));
+                lane += 1;
+            }
+            let even = _mm256_set_m128d(last_two_of(records, first[2]), last_two_of(records, first[0]));
+            let odd = _mm256_set_m128d(last_two_of(records, first[3]), last_two_of(records, first[1]));
+            (Self::transposed(rows), [Self(_mm256_unpacklo_pd(even, odd)), Self(_mm256_unpackhi_pd(even, odd))])
+        }
     }
 
     #[inline(always)]
@@ -320,6 +372,12 @@ impl Lanes for F64x4 {
     fn abs(self) -> Self {
         // SAFETY: likewise.
         Self(unsafe { _mm256_andnot_pd(Self::splat(-0.0).0, self.0) })
+    }
+
+    #[inline(always)]
+    fn at_least_zero(self) -> Self {
+        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        Self(unsafe { _mm256_max_pd(self.0, Self::splat(0.0).0) })
     }
 
     #[inline(always)]
@@ -365,16 +423,17 @@ impl F64x8 {
     }
 
     /// The last two numbers of four records: those at the first place of a list, the third, the fifth and the seventh.
+    ///
+    /// # Safety
+    /// The places are those of records.
     #[inline(always)]
-    fn last_two(records: &[Record], places: &[u32]) -> __m512d {
-        let (a, b) = (&records[places[0] as usize].0, &records[places[2] as usize].0);
-        let (c, d) = (&records[places[4] as usize].0, &records[places[6] as usize].0);
-        // SAFETY: likewise; a record has two numbers from the seventh on.
+    unsafe fn last_two(records: &[Record], places: &[u32]) -> __m512d {
+        // SAFETY: as the caller promises; a record has two numbers from the seventh on.
         unsafe {
-            let quarter = _mm512_castpd128_pd512(_mm_loadu_pd(a.as_ptr().add(BLOCK - 2)));
-            let half = _mm512_insertf64x2::<1>(quarter, _mm_loadu_pd(b.as_ptr().add(BLOCK - 2)));
-            let three = _mm512_insertf64x2::<2>(half, _mm_loadu_pd(c.as_ptr().add(BLOCK - 2)));
-            _mm512_insertf64x2::<3>(three, _mm_loadu_pd(d.as_ptr().add(BLOCK - 2)))
+            let quarter = _mm512_castpd128_pd512(last_two_of(records, places[0]));
+            let half = _mm512_insertf64x2::<1>(quarter, last_two_of(records, places[2]));
+            let three = _mm512_insertf64x2::<2>(half, last_two_of(records, places[4]));
+            _mm512_insertf64x2::<3>(three, last_two_of(records, places[6]))
         }
     }
 
@@ -443,17 +502,18 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+    unsafe fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+        let (first, second) = (&first[..BLOCK], &second[..BLOCK]);
         let mut rows = [Self::splat(0.0); BLOCK];
         let mut lane = 0;
-        while lane < BLOCK {
-            let own = Self::load(&records[first[lane] as usize].0);
-            rows[lane] = Self::load(&records[second[lane] as usize].0).less_in_six(own);
-            lane += 1;
-        }
-        let (even, odd) = (Self::last_two(records, first), Self::last_two(records, &first[1..]));
-        // SAFETY: see the head of the file.
+        // SAFETY: the places are those of records, as the caller promises; see the head of the file.
         unsafe {
+            while lane < BLOCK {
+                let own = Self::load(&records.get_unchecked(first[lane] as usize).0);
+                rows[lane] = Self::load(&records.get_unchecked(second[lane] as usize).0).less_in_six(own);
+                lane += 1;
+            }
+            let (even, odd) = (Self::last_two(records, first), Self::last_two(records, &first[1..]));
             let rest = [Self(_mm512_unpacklo_pd(even, odd)), Self(_mm512_unpackhi_pd(even, odd))];
             (Self::transposed(rows), rest)
         }
@@ -495,6 +555,12 @@ impl Lanes for F64x8 {
     fn abs(self) -> Self {
         // SAFETY: likewise.
         Self(unsafe { _mm512_andnot_pd(Self::splat(-0.0).0, self.0) })
+    }
+
+    #[inline(always)]
+    fn at_least_zero(self) -> Self {
+        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        Self(unsafe { _mm512_max_pd(self.0, Self::splat(0.0).0) })
     }
 
     #[inline(always)]

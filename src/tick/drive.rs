@@ -7,12 +7,14 @@ use glam::DVec2;
 use super::balance::Totals;
 use super::failure::{Failure, Wrong};
 use super::guard::EnergyGuard;
+use super::travel::FarTravel;
 use super::{
     Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Indicator, Ledger, Models, Modes, SimTick, Span,
     Stage, Style, Watch,
 };
 use crate::bounds::Bounds;
 use crate::integrate::Method;
+use crate::world::motion::Travel;
 use crate::world::{Bodies, Force, Name, Slot, Torque, finite, lend, packed};
 
 /// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
@@ -41,24 +43,15 @@ pub(super) struct Drive {
     /// Ticks were run since the components were last brought up to date.
     stepped: bool,
     /// Greatest travel of any point of a body in one tick, in metres.
-    travel: f64,
-    /// Sum over all bodies of the travel in the last tick: not finite as soon as one of them is.
-    travelled: f64,
+    pub(super) travel: f64,
+    /// See [`Travel::sum`], of the last tick: not finite as soon as the way of somebody is not.
+    pub(super) travelled: f64,
+    /// Greatest travel in the last tick, in metres.
+    pub(super) farthest: f64,
     /// The first body that travelled farther than the smallest radius in one tick.
-    far: Option<FarTravel>,
-    energy: EnergyGuard,
+    pub(super) far: Option<FarTravel>,
+    pub(super) energy: EnergyGuard,
     failure: Option<Failure>,
-}
-
-/// A body that travelled farther in one tick than the smallest radius: it may have passed through others unseen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FarTravel {
-    /// The body.
-    pub body: Entity,
-    /// How far any of its points travelled, in metres.
-    pub travel: f64,
-    /// The end of that tick in seconds.
-    pub time: f64,
 }
 
 /// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
@@ -221,18 +214,12 @@ fn refresh(world: &mut World) {
     world.resource_mut::<Drive>().running = Some(running);
 }
 
-/// Looks for a body that travelled too far, and at the energy.
+/// Looks at the energy.
 #[cold]
 fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
     let created = energy.look(world, travel);
     let clock = *world.resource::<Clock>();
     let bodies = world.resource::<Bodies>();
-    let far = |body: usize| {
-        let travel = bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
-        let far = bodies.collides[body] && bodies.moves[body] && travel > bodies.smallest_radius;
-        far.then(|| FarTravel { body: bodies.entity[body], travel, time: clock.time() })
-    };
-    let far = (0..bodies.len()).find_map(far);
     let failure = created.map(|(body, created)| Failure {
         body: world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default(),
         wrong: if created.energy.is_finite() { Wrong::Energy(created) } else { Wrong::NotFinite("energy") },
@@ -241,7 +228,6 @@ fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
     });
     let mut drive = world.resource_mut::<Drive>();
     drive.energy = energy;
-    drive.far = drive.far.or(far);
     drive.failure = failure;
 }
 
@@ -283,20 +269,10 @@ pub fn set_method(world: &mut World, method: Method) {
     world.resource_mut::<Drive>().method = Some(method);
 }
 
-/// Greatest distance that any point of a body travelled in one tick so far, in metres.
-pub fn largest_travel(world: &World) -> f64 {
-    world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)
-}
-
 /// The greatest energy that was seen to go round so far, in J, looked for every few hundred ticks: of motion and springs, and
 /// what fields released.
 pub fn energy_seen(world: &World) -> f64 {
     world.get_resource::<Drive>().map_or(0.0, |drive| drive.energy.seen())
-}
-
-/// The first body that travelled farther in one tick than the smallest radius.
-pub fn far_travel(world: &World) -> Option<FarTravel> {
-    world.get_resource::<Drive>().and_then(|drive| drive.far)
 }
 
 /// What an integrator may do inside a tick.
@@ -317,7 +293,7 @@ pub struct Tick<'a> {
     pub begin: f64,
     /// Time at its end in seconds: the beginning of the next to the last bit.
     pub end: f64,
-    alert: bool,
+    pub(super) alert: bool,
 }
 
 impl Tick<'_> {
@@ -360,9 +336,9 @@ impl Tick<'_> {
         let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
         bodies.swap_estimate();
         if let Some(driven) = driven {
-            let mut drive = self.world.resource_mut::<Drive>();
-            drive.travel = drive.travel.max(driven.greatest);
-            drive.travelled += driven.sum;
+            let smallest = bodies.smallest_radius;
+            let Drive { farthest, travelled, .. } = *self.world.resource::<Drive>();
+            self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
         }
         self.run_evaluation(time, elapsed);
         let mut bodies = self.world.resource_mut::<Bodies>();
@@ -550,23 +526,6 @@ impl Tick<'_> {
         }
     }
 
-    /// Books how far bodies have travelled in the tick: `from` are positions and angles at its beginning.
-    pub fn book_travel(&mut self, from: &[(DVec2, f64)]) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
-        let (mut greatest, mut sum) = (0.0_f64, 0.0);
-        for (body, &(position, angle)) in from.iter().enumerate() {
-            (bodies.drift[body], bodies.turn[body]) = (bodies.position[body] - position, bodies.angle[body] - angle);
-            let travel = bodies.drift[body].length() + bodies.turn[body].abs() * bodies.extent[body];
-            greatest = greatest.max(travel);
-            sum += travel;
-        }
-        let alert = self.world.resource::<Balance>().alert;
-        self.alert |= alert;
-        let mut drive = self.world.resource_mut::<Drive>();
-        drive.travel = drive.travel.max(greatest);
-        drive.travelled = sum;
-    }
-
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
     pub fn kick(&mut self, dt: f64) {
         self.book(dt);
@@ -579,10 +538,9 @@ impl Tick<'_> {
     /// place of the velocities, which stay as they are.
     pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
         self.book(kick);
-        let travelled = self.world.resource_mut::<Bodies>().advance(kick, drift, ahead);
-        let mut drive = self.world.resource_mut::<Drive>();
-        drive.travel = drive.travel.max(travelled.greatest);
-        drive.travelled = travelled.sum;
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        let (travelled, smallest) = (bodies.advance(kick, drift, ahead), bodies.smallest_radius);
+        self.note_travel(travelled, smallest);
     }
 
     fn book(&mut self, dt: f64) {

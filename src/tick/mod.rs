@@ -34,6 +34,7 @@ pub mod response;
 pub mod stability;
 pub mod steady;
 pub mod stopwatch;
+mod travel;
 mod undo;
 
 use bevy_app::App;
@@ -43,12 +44,13 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
-pub use drive::{FarTravel, Tick, energy_seen, far_travel, largest_travel, set_method, step};
+pub use drive::{Tick, energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use models::{Indicator, Models, Objection, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
+pub use travel::{FarTravel, far_travel, largest_travel};
 pub use undo::Undo;
 
 /// The schedule of one tick.

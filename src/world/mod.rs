@@ -10,6 +10,7 @@ pub mod material;
 pub mod motion;
 pub mod packed;
 pub(crate) mod part;
+mod pose;
 pub mod sections;
 pub mod spawn;
 pub mod wall;

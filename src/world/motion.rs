@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
-use super::packed::Bodies;
-use super::part::{Part, PerBody, Pose, parts_of};
+use super::packed::{Bodies, Moved};
+use super::part::{Part, PerBody, parts_of};
+use super::pose::Pose;
 use crate::simd::{self, BLOCK, Kernel, Lanes};
 
 /// How far bodies went.
@@ -14,7 +15,7 @@ use crate::simd::{self, BLOCK, Kernel, Lanes};
 pub struct Travel {
     /// The greatest way of any point of a body, in metres.
     pub greatest: f64,
-    /// The sum over all bodies, in metres: not finite as soon as one of them is.
+    /// A sum over all bodies that is finite as long as the squares of their ways are.
     pub sum: f64,
 }
 
@@ -33,22 +34,31 @@ impl Bodies {
             self.estimated_velocity.resize(self.len(), DVec2::ZERO);
             self.estimated_spin.resize(self.len(), 0.0);
         }
+        if matches!(self.moved, Moved::For(_)) {
+            self.moved = Moved::For(drift);
+        }
         let mut travel = Travel::default();
-        self.each(Advance { kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK] }, |part| {
-            travel.greatest = part.greatest.into_iter().fold(travel.greatest, f64::max);
-            travel.sum = part.sum.into_iter().fold(travel.sum, |sum, part| sum + part);
+        let mut weighed = (0.0, DVec2::ZERO);
+        let pose = Pose::new(self.field);
+        self.each(Advance { kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK], pose }, |part| {
+            travel.greatest = part.greatest.iter().copied().fold(travel.greatest, f64::max);
+            travel.sum = part.sum.iter().fold(travel.sum, |sum, part| sum + part);
+            part.pose.add_to(&mut weighed);
         });
         self.path += travel.greatest;
+        self.weighed = weighed;
         // Done on the way; atoms beside the centre take turning.
         self.posed = self.lone_discs;
         travel
     }
 
-    /// Clears forces and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
+    /// Clears forces, to the weight of each body where there is a field, and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
     /// body cannot grow or shrink however long it spins.
     pub fn pose(&mut self) {
         if !std::mem::take(&mut self.posed) {
-            self.each(Pose, |_| ());
+            let mut weighed = (0.0, DVec2::ZERO);
+            self.each(Pose::new(self.field), |part| part.add_to(&mut weighed));
+            self.weighed = weighed;
         }
     }
 }
@@ -79,6 +89,7 @@ struct Advance {
     ahead: Option<f64>,
     greatest: [f64; BLOCK],
     sum: [f64; BLOCK],
+    pose: Pose,
 }
 
 /// A number that changes by a step, and what rounding leaves of that (Kahan 1965).
@@ -110,8 +121,10 @@ impl PerBody for Advance {
         let moves = inverse_mass.gt(V::splat(0.0));
         let dt = V::splat(self.drift).only(moves);
         let (dx, dy, turn) = (u * dt, v * dt, spin * dt);
-        V::store_pairs(dx, dy, &mut part.drift[first..]);
-        turn.store(&mut part.turn[first..]);
+        if !part.drift.is_empty() {
+            V::store_pairs(dx, dy, &mut part.drift[first..]);
+            turn.store(&mut part.turn[first..]);
+        }
         let (x, y) = V::load_pairs(&part.position[first..]);
         let (rest_x, rest_y) = V::load_pairs(&part.position_rest[first..]);
         let ((x, rest_x), (y, rest_y)) = (compensated(x, rest_x, dx), compensated(y, rest_y, dy));
@@ -122,13 +135,17 @@ impl PerBody for Advance {
         angle.store(&mut part.angle[first..]);
         rest.store(&mut part.angle_rest[first..]);
         if part.lone_discs {
-            Pose.bodies::<V>(part, first);
+            self.pose.forces(part, first, (x, y), inverse_mass);
         }
-        let travel = (dx * dx + dy * dy).sqrt() + turn.abs() * V::load(&part.extent[first..]);
-        let lane = first % BLOCK;
-        let greatest = V::load(&self.greatest[lane..]);
-        V::select(travel.gt(greatest), travel, greatest).store(&mut self.greatest[lane..]);
-        (V::load(&self.sum[lane..]) + travel).store(&mut self.sum[lane..]);
+        let (lane, around) = (first % BLOCK, turn.abs() * V::load(&part.extent[first..]));
+        // No way is longer than along both axes: roots only of those that may be the longest so far.
+        let squared = dx * dx + dy * dy;
+        let (bound, greatest) = (dx.abs() + dy.abs() + around, V::load(&self.greatest[lane..]));
+        if V::bits(bound.gt(greatest)) != 0 {
+            let travel = squared.sqrt() + around;
+            V::select(travel.gt(greatest), travel, greatest).store(&mut self.greatest[lane..]);
+        }
+        (V::load(&self.sum[lane..]) + squared + around).store(&mut self.sum[lane..]);
     }
 }
 

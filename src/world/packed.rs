@@ -33,6 +33,16 @@ pub struct PackedWall {
     pub material: MaterialIndex,
 }
 
+/// How it is known how far bodies moved since the last accepted state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Moved {
+    /// As is listed for each of them.
+    #[default]
+    Listed,
+    /// As their velocities say over so many seconds: lone discs, none of which moves as prescribed.
+    For(f64),
+}
+
 /// All bodies, atoms and walls, packed.
 ///
 /// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`].
@@ -92,10 +102,13 @@ pub struct Bodies {
     pub estimated_velocity: Vec<DVec2>,
     /// Likewise angular velocities in rad/s.
     pub estimated_spin: Vec<f64>,
-    /// Displacement since the last accepted state, in metres. Tangential springs follow it.
-    pub drift: Vec<DVec2>,
-    /// Turn since the last accepted state, in radians.
-    pub turn: Vec<f64>,
+    /// Displacement since the last accepted state, in metres, where it is listed: see [`Bodies::displacement`].
+    pub(crate) drift: Vec<DVec2>,
+    /// Likewise turn since the last accepted state, in radians.
+    pub(crate) turn: Vec<f64>,
+    pub(crate) moved: Moved,
+    /// The estimate of velocities has taken the place of them.
+    pub(crate) estimating: bool,
     /// Force of the present evaluation in newtons.
     pub force: Vec<DVec2>,
     /// Torque of the present evaluation in N m.
@@ -103,8 +116,8 @@ pub struct Bodies {
 
     /// Centre of each atom from its body's centre of mass, in the body's frame, in metres.
     pub atom_offset: Vec<DVec2>,
-    /// Centre of each atom in the world, in metres.
-    pub atom_position: Vec<DVec2>,
+    /// Centre of each atom in the world, in metres; empty where bodies are lone discs. See [`Bodies::atom_place`].
+    pub(crate) atom_position: Vec<DVec2>,
     /// Radius of each atom in metres.
     pub atom_radius: Vec<f64>,
     /// Mass of each atom in kg.
@@ -132,6 +145,10 @@ pub struct Bodies {
 
     /// Forces are cleared and atoms stand where their bodies are: that was done when bodies were moved.
     pub(crate) posed: bool,
+    /// Acceleration in m/s2 of a uniform field: forces are not cleared to nothing but to the weight in it.
+    pub(crate) field: Option<DVec2>,
+    /// Mass of all bodies that have a weight, in kg, and mass times place, in kg m: of where they stand.
+    pub(crate) weighed: (f64, DVec2),
 
     /// Something pushed a body that was asleep: forces are evaluated anew, with all bodies awake.
     pub disturbed: bool,
@@ -213,10 +230,29 @@ impl Bodies {
         self.velocity[body] + arm.perp() * self.spin[body]
     }
 
-    /// Displacement since the last accepted state of a point that moves with body `body`.
-    #[inline]
-    pub fn drift_at(&self, body: usize, arm: DVec2) -> DVec2 {
-        self.drift[body] + arm.perp() * self.turn[body]
+    /// Displacement of a body since the last accepted state in metres, and its turn in radians. Tangential springs follow them.
+    #[inline(always)]
+    pub fn displacement(&self, body: usize) -> (DVec2, f64) {
+        let Moved::For(time) = self.moved else { return (self.drift[body], self.turn[body]) };
+        let (velocity, spin) = if self.estimating {
+            (self.estimated_velocity[body], self.estimated_spin[body])
+        } else {
+            (self.velocity[body], self.spin[body])
+        };
+        let time = if self.inverse_mass[body] > 0.0 { time } else { 0.0 };
+        (velocity * time, spin * time)
+    }
+
+    /// The way in metres that some point of a body made at most since the last accepted state.
+    pub(crate) fn travel(&self, body: usize) -> f64 {
+        let (moved, turn) = self.displacement(body);
+        moved.length() + turn.abs() * self.extent[body]
+    }
+
+    /// Where the centre of an atom is, in metres.
+    #[inline(always)]
+    pub fn atom_place(&self, atom: usize) -> DVec2 {
+        if self.lone_discs { self.position[atom] } else { self.atom_position[atom] }
     }
 
     /// Adds a force that acts `arm` metres from the centre of mass of body `body`.
@@ -228,8 +264,27 @@ impl Bodies {
 
     /// Takes the present state as the one from which drift and turn are counted.
     pub fn accept(&mut self) {
-        self.drift.fill(DVec2::ZERO);
-        self.turn.fill(0.0);
+        if matches!(self.moved, Moved::For(_)) {
+            self.moved = Moved::For(0.0);
+        } else {
+            self.list_displacements();
+        }
+    }
+
+    /// A body has not moved since the last accepted state: it was laid to rest, its velocity is zero.
+    pub(crate) fn stays(&mut self, body: usize) {
+        if self.moved == Moved::Listed {
+            (self.drift[body], self.turn[body]) = (DVec2::ZERO, 0.0);
+        }
+    }
+
+    /// Displacements and turns are listed, from nothing on.
+    pub(crate) fn list_displacements(&mut self) {
+        self.moved = Moved::Listed;
+        self.drift.clear();
+        self.drift.resize(self.len(), DVec2::ZERO);
+        self.turn.clear();
+        self.turn.resize(self.len(), 0.0);
     }
 
     /// Before an evaluation the estimate, if there is one, takes the place of the velocities; afterwards it goes back.
@@ -237,6 +292,7 @@ impl Bodies {
         if !self.estimated_velocity.is_empty() {
             std::mem::swap(&mut self.velocity, &mut self.estimated_velocity);
             std::mem::swap(&mut self.spin, &mut self.estimated_spin);
+            self.estimating = !self.estimating;
         }
     }
 
@@ -352,6 +408,7 @@ pub fn rebuild(world: &mut World) {
         generation: previous.generation + 1,
         level: previous.level,
         threads: previous.threads,
+        field: previous.field,
         ..Default::default()
     };
     bodies.first_atom.push(0);
@@ -391,8 +448,6 @@ pub fn rebuild(world: &mut World) {
             bodies.estimated_velocity.push(kept.map_or(velocity, |b| previous.estimated_velocity[b]));
             bodies.estimated_spin.push(kept.map_or(spin, |b| previous.estimated_spin[b]));
         }
-        bodies.drift.push(DVec2::ZERO);
-        bodies.turn.push(0.0);
         bodies.force.push(DVec2::ZERO);
         bodies.torque.push(0.0);
         let mut extent = 0.0_f64;
@@ -414,6 +469,12 @@ pub fn rebuild(world: &mut World) {
     }
     let lone = |body: usize| bodies.atoms_of(body).len() == 1 && bodies.atom_offset[body] == DVec2::ZERO;
     bodies.lone_discs = (0..bodies.len()).all(lone);
+    if bodies.lone_discs {
+        bodies.atom_position = Vec::new();
+    }
+    bodies.moved =
+        if bodies.lone_discs && bodies.prescribed.motions.is_empty() { Moved::For(0.0) } else { Moved::Listed };
+    bodies.accept();
     bodies.all_dynamic = bodies.dynamic.iter().all(|dynamic| *dynamic);
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
     bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);

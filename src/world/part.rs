@@ -33,6 +33,7 @@ pub(crate) struct Part<'a> {
     /// Empty where nobody estimates.
     pub estimated_velocity: &'a mut [DVec2],
     pub estimated_spin: &'a mut [f64],
+    /// Empty where displacements are not listed.
     pub drift: &'a mut [DVec2],
     pub turn: &'a mut [f64],
     pub force: &'a mut [DVec2],
@@ -42,6 +43,7 @@ pub(crate) struct Part<'a> {
     /// One more than bodies.
     first_atom: &'a [u32],
     atom_offset: &'a [DVec2],
+    /// Empty where bodies are lone discs.
     pub atom_position: &'a mut [DVec2],
 }
 
@@ -159,15 +161,16 @@ pub(crate) trait PerBody: Clone + Send {
 
 struct All<'a, W> {
     part: Part<'a>,
-    work: W,
+    /// Lent: partial sums are too long to be handed on.
+    work: &'a mut W,
 }
 
 impl<W: PerBody> Kernel for All<'_, W> {
-    type Output = W;
+    type Output = ();
 
     #[inline(always)]
-    fn run<V: Lanes>(self) -> W {
-        let Self { mut part, mut work } = self;
+    fn run<V: Lanes>(self) {
+        let Self { mut part, work } = self;
         let mut number = 0;
         while number < part.blocks() {
             let bodies = part.block(number);
@@ -185,7 +188,6 @@ impl<W: PerBody> Kernel for All<'_, W> {
             }
             number += 1;
         }
-        work
     }
 }
 
@@ -196,45 +198,25 @@ pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
 
 impl Bodies {
     /// Does `work` for all bodies that are not asleep; `found` is told what it is afterwards, part by part in order.
-    pub(crate) fn each<W: PerBody>(&mut self, work: W, mut found: impl FnMut(W)) {
+    pub(crate) fn each<W: PerBody>(&mut self, mut work: W, mut found: impl FnMut(&W)) {
         let level = self.level;
         let count = parts_of(self.atom_count().max(self.len()), FEWEST);
         if count == 1 {
-            return found(simd::run(level, All { part: Part::whole(self), work }));
+            simd::run(level, All { part: Part::whole(self), work: &mut work });
+            return found(&work);
         }
         let each = self.len().div_ceil(count).next_multiple_of(BLOCK);
         let threads = self.threads.clone();
         let mut rest = Part::whole(self);
         let mut parts = Vec::with_capacity(count);
         while rest.mass.len() > each {
-            parts.push((rest.take(each), work.clone()));
+            parts.push(rest.take(each));
         }
-        parts.push((rest, work));
-        let mut done: Vec<Option<W>> = parts.iter().map(|_| None).collect();
-        threads.each(parts.into_iter().zip(&mut done).collect(), |((part, work), done)| {
-            *done = Some(simd::run(level, All { part, work }));
+        parts.push(rest);
+        let mut works = vec![work; parts.len()];
+        threads.each(parts.into_iter().zip(&mut works).collect(), |(part, work)| {
+            simd::run(level, All { part, work });
         });
-        done.into_iter().flatten().for_each(found);
-    }
-}
-
-/// Clears forces and puts atoms where their bodies are.
-#[derive(Clone)]
-pub(super) struct Pose;
-
-impl PerBody for Pose {
-    #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
-        let zero = V::splat(0.0);
-        V::store_pairs(zero, zero, &mut part.force[first..]);
-        zero.store(&mut part.torque[first..]);
-        if part.lone_discs {
-            let (x, y) = V::load_pairs(&part.position[first..]);
-            V::store_pairs(x, y, &mut part.atom_position[first..]);
-            return;
-        }
-        for body in first..first + V::COUNT {
-            part.place_atoms(body);
-        }
+        works.iter().for_each(found);
     }
 }

@@ -47,7 +47,7 @@ fn apply_axis_wise(
 ) {
     for &AtomPair { a, b } in &pairs.atoms {
         let (a, b) = (a as usize, b as usize);
-        let between = bodies.atom_position[a] - bodies.atom_position[b];
+        let between = bodies.atom_place(a) - bodies.atom_place(b);
         let distance = between.length();
         let compression = bodies.atom_radius[a] + bodies.atom_radius[b] - distance;
         if compression <= 0.0 {
@@ -65,7 +65,7 @@ fn apply_axis_wise(
     }
     for &WallPair { wall, atom } in &pairs.walls {
         let (wall, atom) = (bodies.walls[wall as usize], atom as usize);
-        let height = (bodies.atom_position[atom] - wall.point).dot(wall.normal);
+        let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
         let compression = bodies.atom_radius[atom] - height;
         if compression <= 0.0 {
             continue;
@@ -82,15 +82,15 @@ fn apply_axis_wise(
 
 fn velocity(bodies: &Bodies, atom: usize) -> DVec2 {
     let body = bodies.atom_body[atom] as usize;
-    bodies.velocity_at(body, bodies.atom_position[atom] - bodies.position[body])
+    bodies.velocity_at(body, bodies.atom_place(atom) - bodies.position[body])
 }
 
 /// The law lets forces act at the centre of the atom.
 fn push(bodies: &mut Bodies, balance: &mut Balance, atom: usize, force: DVec2) {
     let body = bodies.atom_body[atom] as usize;
-    let arm = bodies.atom_position[atom] - bodies.position[body];
+    let arm = bodies.atom_place(atom) - bodies.position[body];
     bodies.push(body, arm, force);
-    balance.outside(bodies.atom_position[atom], force, 0.0);
+    balance.outside(bodies.atom_place(atom), force, 0.0);
 }
 
 /// -1, 0 or 1 per component, 0 for 0: unlike `signum`.

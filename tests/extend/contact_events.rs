@@ -151,7 +151,7 @@ fn touching(bodies: &Bodies) -> Vec<(bool, usize, usize)> {
         for b in a + 1..bodies.len() {
             let touch = atoms(a).any(|i| {
                 atoms(b).any(|j| {
-                    let between = bodies.atom_position[j] - bodies.atom_position[i];
+                    let between = bodies.atom_place(j) - bodies.atom_place(i);
                     bodies.atom_radius[i] + bodies.atom_radius[j] - between.length() > 0.0
                 })
             });
@@ -162,7 +162,7 @@ fn touching(bodies: &Bodies) -> Vec<(bool, usize, usize)> {
     }
     for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body]) {
         for (place, wall) in bodies.walls.iter().enumerate() {
-            let height = |i: usize| (bodies.atom_position[i] - wall.point).dot(wall.normal);
+            let height = |i: usize| (bodies.atom_place(i) - wall.point).dot(wall.normal);
             if atoms(body).any(|i| bodies.atom_radius[i] - height(i) > 0.0) {
                 pairs.push((true, body, place));
             }

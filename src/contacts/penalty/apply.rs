@@ -86,13 +86,18 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
         let pair = pairs.atoms[place];
         laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
     });
+    atoms.pairs.list(pairs.atoms.iter().map(|pair| (pair.a, pair.b)));
     // Between discs that turn about their centres no lever arm changes.
     let changes = |place: &u32| laws.get(*place).damping.depends_on_mobility();
-    if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && atoms.law.first().is_some_and(changes) {
+    if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && !atoms.is_empty() && changes(&atoms.get(0).law) {
         let mobility = |pair: &AtomPair| bodies.inverse_mass[pair.a as usize] + bodies.inverse_mass[pair.b as usize];
-        let damping = |(place, pair)| N::response(laws.get(atoms.law[place]), mobility(pair)).1;
-        atoms.damping = pairs.atoms.iter().enumerate().map(damping).collect();
-        atoms.damping.resize(atoms.law.len(), 0.0);
+        let damping = |law: &u32, pair| N::response(laws.get(*law), mobility(pair)).1;
+        atoms.damping = vec![[0.0; BLOCK]; atoms.law.len()];
+        for ((damped, law), pairs) in atoms.damping.iter_mut().zip(&atoms.law).zip(pairs.atoms.chunks(BLOCK)) {
+            for ((damped, law), pair) in damped.iter_mut().zip(law).zip(pairs) {
+                *damped = damping(law, pair);
+            }
+        }
     }
     walls.carry(&pairs.walls_before, |place| {
         let pair = pairs.walls[place];
@@ -112,11 +117,11 @@ pub(super) struct End {
 }
 
 impl End {
-    #[inline]
+    #[inline(always)]
     pub fn of(bodies: &Bodies, atom: u32) -> Self {
         let atom = atom as usize;
         let body = bodies.atom_body[atom] as usize;
-        Self { body, arm: bodies.atom_position[atom] - bodies.position[body], radius: bodies.atom_radius[atom] }
+        Self { body, arm: bodies.atom_place(atom) - bodies.position[body], radius: bodies.atom_radius[atom] }
     }
 
     /// Relative velocity along `normal` that an impulse of one newton second makes on this side, in 1/kg.
@@ -128,10 +133,10 @@ impl End {
 
     /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
     /// the turn of its body.
-    #[inline]
+    #[inline(always)]
     pub fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
-        let turn = bodies.turn[self.body];
-        (bodies.drift[self.body] + self.arm.perp() * turn + self.arm * (0.5 * turn * turn), turn)
+        let (moved, turn) = bodies.displacement(self.body);
+        (moved + self.arm.perp() * turn + self.arm * (0.5 * turn * turn), turn)
     }
 
     #[inline]
@@ -289,7 +294,7 @@ fn follow_wall<N: NormalForce>(
 ) {
     let packed = sink.bodies.walls[wall as usize];
     let end = End::of(sink.bodies, atom);
-    let height = (sink.bodies.atom_position[atom as usize] - packed.point).dot(packed.normal);
+    let height = (sink.bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
     if height >= end.radius && !list.is_touching(place) {
         return;
     }
@@ -380,7 +385,10 @@ impl PenaltyContacts {
 impl PenaltyContacts {
     /// Elastic energy of all contacts in J.
     pub fn energy(&self) -> f64 {
-        let of = |list: &ContactList, place: usize| list.get(place).energy(self.laws.get(list.law[place]));
+        let of = |list: &ContactList, place: usize| {
+            let contact = list.get(place);
+            contact.energy(self.laws.get(contact.law))
+        };
         let atoms = self.atoms.touching().map(|place| of(&self.atoms, place));
         let walls = self.walls.touching().map(|place| of(&self.walls, place));
         atoms.chain(walls).fold(0.0, |sum, energy| sum + energy)

@@ -31,7 +31,11 @@ impl<V: Lanes> Touch<V> {
     /// begins inside a tick and sticks would be of first order.
     #[inline(always)]
     fn share_in_touch(&self, began: V::Mask) -> V {
-        let (along, one) = (self.displacement.0 * self.normal.0 + self.displacement.1 * self.normal.1, V::splat(1.0));
+        let one = V::splat(1.0);
+        if V::bits(began) == 0 {
+            return one;
+        }
+        let along = self.displacement.0 * self.normal.0 + self.displacement.1 * self.normal.1;
         let within = began & (-along).gt(self.overlap);
         if V::bits(within) == 0 {
             return one;
@@ -87,16 +91,21 @@ impl<V: Lanes> Followed<V> {
         let began = among & !(self.loading | self.unloading);
         let before = (self.overlap, self.normal_force);
         let loading = self.loading | began;
-        let held = self.loading & self.unloading;
         let overlap = touch.overlap.at_least_zero();
-        let sign = V::select(loading, V::splat(1.0), zero) - V::select(self.unloading, V::splat(1.0), zero);
+        let sign = if N::SET_VALUED {
+            V::select(loading, V::splat(1.0), zero) - V::select(self.unloading, V::splat(1.0), zero)
+        } else {
+            V::splat(1.0)
+        };
         let mut normal_force = N::force(law, sign, overlap, touch.approach);
-        if N::SET_VALUED {
+        let held = self.loading & self.unloading;
+        let some_held = N::SET_VALUED && V::bits(held) != 0;
+        if some_held {
             normal_force = V::select(held, self.normal_force, normal_force);
         }
         let after = (overlap, normal_force);
         let mut inelasticity = N::loss(law, sign, before, after);
-        if N::SET_VALUED && V::bits(held) != 0 {
+        if some_held {
             inelasticity = V::select(held, lost_work(law, before, after), inelasticity);
         }
         // Bodies that are put into each other, at the start or by hand, have done no work.
@@ -109,7 +118,6 @@ impl<V: Lanes> Followed<V> {
             } else {
                 zero
             };
-            let grips = self.slips & self.slides;
             let trial = elongation + displacement;
             let coefficient = V::select(self.slips, law.friction_dynamic, law.friction_static);
             let beyond = (law.tangential_stiffness * trial.abs()).gt(coefficient * normal_force);
@@ -118,8 +126,13 @@ impl<V: Lanes> Followed<V> {
             let slipped = V::splat(0.5) * law.tangential_stiffness * (elongation + drawn) * (trial - drawn);
             // What holds stays as it is; where no time has passed only the normal force may be another one, and a
             // contact that slips begins to stick by moving back, never by being looked at.
-            friction = V::select(grips, self.held * displacement, slipped).only(acts);
-            let springs = acts & !grips;
+            let (mut lost, mut springs) = (slipped, acts);
+            if V::bits(self.slides) != 0 {
+                let grips = self.slips & self.slides;
+                lost = V::select(grips, self.held * displacement, slipped);
+                springs = acts & !grips;
+            }
+            friction = lost.only(acts);
             elongation = V::select(springs, drawn, elongation);
             let stays = if elapsed > 0.0 { beyond } else { beyond | slips };
             slips = (springs & stays) | (!springs & slips);

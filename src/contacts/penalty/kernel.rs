@@ -16,7 +16,7 @@ use super::law::{LawTable, PairLaw};
 use super::list::{ContactList, ListPart, Phases, lanes};
 use super::normal::{Approach, NormalForce};
 use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
-use crate::simd::{self, BLOCK, Kernel, Lanes, Record};
+use crate::simd::{self, BLOCK, Kernel, Lanes, PairedRecords, Pushes, Record};
 use crate::tick::Balance;
 use crate::world::Bodies;
 use crate::world::part::{cut, parts_of};
@@ -92,12 +92,12 @@ impl Records {
 #[inline(always)]
 fn record(bodies: &Bodies, atom: usize) -> Record {
     if bodies.lone_discs {
-        let (place, moved, velocity) = (bodies.position[atom], bodies.drift[atom], bodies.velocity[atom]);
-        let (turn, radius) = (bodies.turn[atom], bodies.atom_radius[atom]);
+        let (place, velocity, radius) = (bodies.position[atom], bodies.velocity[atom], bodies.atom_radius[atom]);
+        let (moved, turn) = bodies.displacement(atom);
         return Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, radius]);
     }
     let end = End::of(bodies, atom as u32);
-    let (place, (moved, turn), velocity) = (bodies.atom_position[atom], end.displacement(bodies), end.velocity(bodies));
+    let (place, (moved, turn), velocity) = (bodies.atom_place(atom), end.displacement(bodies), end.velocity(bodies));
     Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, end.radius])
 }
 
@@ -132,14 +132,14 @@ pub(super) fn follow_pairs<N: NormalForce>(
     let (mut force, mut torque) = (std::mem::take(&mut sink.bodies.force), std::mem::take(&mut sink.bodies.torque));
     let bodies = &*sink.bodies;
     let start = Found { balance: *sink.balance, deepest: *deepest, ..Found::default() };
-    let follow = |(pairs, list, share, found), forces: Option<&mut ContactForces>| {
-        let law = PhantomData::<N>;
-        simd::run(level, FollowPairs { records, pairs, list, laws, bodies, share, found, forces, plain, moment, law })
+    let follow = |(list, share, found): (ListPart, Share, Found), forces: Option<&mut ContactForces>| {
+        let (sides, law) = (list.pairs.records(records), PhantomData::<N>);
+        simd::run(level, FollowPairs { sides, list, laws, bodies, share, found, forces, plain, moment, law })
     };
     let mut losses = Losses::default();
     if count == 1 {
         let share = Share { first: 0, force: &mut force, torque: &mut torque };
-        let found = follow((pairs, list.whole(), share, start), sink.forces.as_deref_mut());
+        let found = follow((list.whole(), share, start), sink.forces.as_deref_mut());
         (*sink.balance, *deepest, losses) = (found.balance, found.deepest, found.losses);
         (sink.bodies.force, sink.bodies.torque) = (force, torque);
         return losses;
@@ -148,12 +148,12 @@ pub(super) fn follow_pairs<N: NormalForce>(
     let (mut forces, mut torques) = (&mut force[..], &mut torque[..]);
     let mut parts = Vec::with_capacity(count);
     for list in list.parts(blocks) {
-        let (begin, end) = (list.first * BLOCK, (list.first + blocks) * BLOCK);
+        let end = (list.first + blocks) * BLOCK;
         let first = bodies.len() - forces.len();
         let last = pairs.get(end).map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
         let share = Share { first, force: cut(&mut forces, last - first), torque: cut(&mut torques, last - first) };
-        let found = if begin == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
-        parts.push((&pairs[begin..pairs.len().min(end)], list, share, found));
+        let found = if list.first == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
+        parts.push((list, share, found));
     }
     let mut done: Vec<Option<Found>> = parts.iter().map(|_| None).collect();
     let parts = parts.into_iter().zip(&mut done);
@@ -199,8 +199,7 @@ struct Found {
 
 /// Pairs of a part follow the motion of their sides.
 struct FollowPairs<'a, N> {
-    records: &'a [Record],
-    pairs: &'a [AtomPair],
+    sides: PairedRecords<'a>,
     list: ListPart<'a>,
     laws: &'a LawTable,
     /// Without forces: those are shared out.
@@ -214,19 +213,12 @@ struct FollowPairs<'a, N> {
     law: PhantomData<N>,
 }
 
-/// Forces of a block: on side B, and the torques about the centres of both atoms.
-#[derive(Default)]
-struct Pushes {
-    force: [[f64; BLOCK]; 2],
-    torque_a: [f64; BLOCK],
-    torque_b: [f64; BLOCK],
-}
-
 /// Touching pairs of a block from which on all its pairs are pushed.
 const FULL: u32 = 4;
 
 /// Partial sums of what is lost, in J.
 #[derive(Default)]
+#[repr(C, align(64))]
 struct PartialLosses {
     friction: [f64; BLOCK],
     inelasticity: [f64; BLOCK],
@@ -249,14 +241,10 @@ fn add<V: Lanes>(sums: &mut [f64], terms: V) {
     (V::load(sums) + terms).store(sums);
 }
 
-/// Where the sides of the pairs of a block are, and how they moved.
+/// Where the sides of the pairs of a block are, and how they moved. Lists begin at lines of the cache.
 #[derive(Clone, Copy, Default)]
+#[repr(C, align(64))]
 struct Geometry {
-    block: usize,
-    a: [u32; BLOCK],
-    b: [u32; BLOCK],
-    /// Which pairs are there, are not asleep, and are near enough to touch or did.
-    among: u8,
     normal: [[f64; BLOCK]; 2],
     overlap: [f64; BLOCK],
     displacement: [[f64; BLOCK]; 2],
@@ -264,6 +252,9 @@ struct Geometry {
     radius: [[f64; BLOCK]; 2],
     turn: [[f64; BLOCK]; 2],
     parting: [f64; BLOCK],
+    block: usize,
+    /// Which pairs are there, are not asleep, and are near enough to touch or did.
+    among: u8,
 }
 
 /// Blocks whose geometry is worked out before their laws are applied: so the processor finds the roots and quotients of several
@@ -275,10 +266,22 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
 
     #[inline(always)]
     fn run<V: Lanes>(mut self) -> Found {
+        match self.list.only_law {
+            Some(law) => self.all::<V, true>(&self.laws.lanes::<V>(&[law; BLOCK])),
+            None if self.list.phases.is_empty() => {}
+            None => self.all::<V, false>(&self.laws.lanes::<V>(&[0; BLOCK])),
+        }
+        self.found
+    }
+}
+
+impl<N: NormalForce> FollowPairs<'_, N> {
+    /// Follows all pairs; `law` is that of all of them if there is only one.
+    #[inline(always)]
+    fn all<V: Lanes, const ONE_LAW: bool>(&mut self, law: &PairLaw<V>) {
         let mut lost = PartialLosses::default();
-        let mut pushes = Pushes::default();
+        let mut pushes = Pushes::NONE;
         let mut ahead = [Geometry::default(); AHEAD];
-        let only = self.laws.is_uniform().then(|| self.laws.lanes::<V>(&[0; BLOCK]));
         let (blocks, mut number) = (self.list.awake_blocks(), 0);
         while number < blocks {
             let together = AHEAD.min(blocks - number);
@@ -296,7 +299,7 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
             for geometry in &ahead[..near] {
                 let (mut lane, mut touching) = (0, 0);
                 while lane < BLOCK {
-                    touching |= self.follow(lane, geometry, only.as_ref(), &mut pushes, &mut lost) << lane;
+                    touching |= self.follow::<V, ONE_LAW>(lane, geometry, law, &mut pushes, &mut lost) << lane;
                     lane += V::COUNT;
                 }
                 if touching != 0 {
@@ -306,29 +309,17 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
         }
         let sum = |partial: &[f64; BLOCK]| partial.iter().fold(0.0, |sum, part| sum + part);
         self.found.losses = Losses { friction: sum(&lost.friction), inelasticity: sum(&lost.inelasticity) };
-        self.found
     }
-}
 
-impl<N: NormalForce> FollowPairs<'_, N> {
     /// Finds out where the sides of the pairs of a block are.
     #[inline(always)]
     fn look<V: Lanes>(&mut self, block: usize, geometry: &mut Geometry) {
-        let first = BLOCK * block;
-        let chunk = &self.pairs[first..self.pairs.len().min(first + BLOCK)];
-        if chunk.len() < BLOCK {
-            (geometry.a, geometry.b) = ([0; BLOCK], [0; BLOCK]);
-        }
-        for (lane, pair) in chunk.iter().enumerate() {
-            (geometry.a[lane], geometry.b[lane]) = (pair.a, pair.b);
-        }
-        let there = (u16::MAX >> (16 - chunk.len())) as u8 & !self.list.asleep_in(block);
-        let touched = self.list.phases[block].touching();
+        let (there, touched) = (self.list.awake_in(block), self.list.phases[block].touching());
         (geometry.block, geometry.among) = (block, 0);
         let mut lane = 0;
         while lane < BLOCK {
             let ([x, y, dx, dy, u, v, turn_b, radius_b], [turn_a, radius_a]) =
-                V::record_pairs(self.records, &geometry.a[lane..], &geometry.b[lane..]);
+                self.sides.load::<V>(self.list.first + block, lane);
             let squared = x * x + y * y;
             let reach = radius_a + radius_b;
             // Written so that what is no number counts as near.
@@ -360,7 +351,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         if geometry.among == 0 {
             // Both sides may come nearer.
             let mut gap = f64::INFINITY;
-            for lane in 0..chunk.len() {
+            for lane in 0..self.list.count_in(block) {
                 gap = gap.min(-geometry.overlap[lane]);
             }
             self.list.due[block] = self.moment.path + 0.5 * gap;
@@ -369,31 +360,27 @@ impl<N: NormalForce> FollowPairs<'_, N> {
 
     /// Follows the pairs from `lane` of a block on. Returns which of them touch.
     #[inline(always)]
-    fn follow<V: Lanes>(
+    fn follow<V: Lanes, const ONE_LAW: bool>(
         &mut self,
         lane: usize,
         geometry: &Geometry,
-        only: Option<&PairLaw<V>>,
+        only: &PairLaw<V>,
         pushes: &mut Pushes,
         lost: &mut PartialLosses,
     ) -> u8 {
         let block = geometry.block;
-        let place = BLOCK * block + lane;
         let phases = self.list.phases[block];
         let among = V::mask(geometry.among >> lane);
         let (loading, unloading) = (V::mask(phases.loading >> lane), V::mask(phases.unloading >> lane));
-        let mut law = match only {
-            Some(law) => *law,
-            None => self.laws.lanes(&self.list.law[place..]),
-        };
+        let mut law = if ONE_LAW { *only } else { self.laws.lanes(&self.list.law[block][lane..]) };
         let normal = (V::load(&geometry.normal[0][lane..]), V::load(&geometry.normal[1][lane..]));
         let mut approach = Approach { parting: V::splat(0.0), mobility: V::splat(0.0) };
         if N::DEPENDS_ON_VELOCITY {
             approach.parting = V::load(&geometry.parting[lane..]);
             if !self.list.damping.is_empty() {
-                law.damping = Damping::Coefficient(V::load(&self.list.damping[place..]));
+                law.damping = Damping::Coefficient(V::load(&self.list.damping[block][lane..]));
             } else if law.damping.depends_on_mobility() {
-                approach.mobility = self.mobility((&geometry.a[lane..], &geometry.b[lane..]), normal);
+                approach.mobility = self.mobility(block, lane, normal);
             }
         }
         let radius = (V::load(&geometry.radius[0][lane..]), V::load(&geometry.radius[1][lane..]));
@@ -406,11 +393,12 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             rolled_a: (radius.0, V::load(&geometry.turn[0][lane..])),
             rolled_b: (radius.1, V::load(&geometry.turn[1][lane..])),
         };
+        let history = &mut self.list.histories[block];
         let mut contacts = Followed::<V> {
-            overlap: V::load(&self.list.overlap[place..]),
-            normal_force: V::load(&self.list.normal_force[place..]),
-            elongation: V::load(&self.list.elongation[place..]),
-            held: if phases.slides == 0 { V::splat(0.0) } else { V::load(&self.list.held[place..]) },
+            overlap: V::load(&history.overlap[lane..]),
+            normal_force: V::load(&history.normal_force[lane..]),
+            elongation: V::load(&history.elongation[lane..]),
+            held: if phases.slides == 0 { V::splat(0.0) } else { V::load(&self.list.held[block][lane..]) },
             loading,
             unloading,
             slips: V::mask(phases.slips >> lane),
@@ -419,12 +407,12 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         let losses = contacts.follow::<N>(&law, &touch, self.moment.elapsed, among);
         add(&mut lost.friction[lane..], losses.friction);
         add(&mut lost.inelasticity[lane..], losses.inelasticity);
-        contacts.overlap.store(&mut self.list.overlap[place..]);
-        contacts.normal_force.store(&mut self.list.normal_force[place..]);
-        contacts.elongation.store(&mut self.list.elongation[place..]);
+        contacts.overlap.store(&mut history.overlap[lane..]);
+        contacts.normal_force.store(&mut history.normal_force[lane..]);
+        contacts.elongation.store(&mut history.elongation[lane..]);
         // What is held counts only where something slides.
         if phases.slides != 0 {
-            contacts.held.store(&mut self.list.held[place..]);
+            contacts.held.store(&mut self.list.held[block][lane..]);
         }
         self.list.phases[block] = Phases {
             loading: written::<V>(phases.loading, contacts.loading, lane),
@@ -440,39 +428,41 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         let arm_a = radius.0 - law.share_a * contacts.overlap;
         let arm_b = radius.1 - law.share_b * contacts.overlap;
         let (x, y) = (normal.0 * normal_force + normal.1 * tangential, normal.1 * normal_force - normal.0 * tangential);
-        x.only(pushing).store(&mut pushes.force[0][lane..]);
-        y.only(pushing).store(&mut pushes.force[1][lane..]);
-        (arm_a * tangential).only(pushing).store(&mut pushes.torque_a[lane..]);
-        (arm_b * tangential).only(pushing).store(&mut pushes.torque_b[lane..]);
+        V::store_pairs(x.only(pushing), y.only(pushing), &mut pushes.force[lane..]);
+        (arm_a * tangential).only(pushing).store(&mut pushes.torque_first[lane..]);
+        (arm_b * tangential).only(pushing).store(&mut pushes.torque_second[lane..]);
         if deeper != 0 {
-            self.note_deepest(place, deeper, (&geometry.a[lane..], &geometry.b[lane..]));
+            self.note_deepest(block, deeper << lane);
         }
         touching
     }
 
     /// Relative velocity along the normal that an impulse of one newton second makes, in 1/kg.
     #[inline(always)]
-    fn mobility<V: Lanes>(&self, (a, b): (&[u32], &[u32]), normal: (V, V)) -> V {
-        let bodies = self.bodies;
+    fn mobility<V: Lanes>(&self, block: usize, first: usize, normal: (V, V)) -> V {
+        let (bodies, pairs) = (self.bodies, self.sides.pairs(self.list.first + block));
         let (mut x, mut y, mut mobility) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         normal.0.store(&mut x);
         normal.1.store(&mut y);
         for lane in 0..V::COUNT {
             let along = DVec2::new(x[lane], y[lane]);
             let of = |atom: u32| End::of(bodies, atom).mobility(bodies, along);
-            mobility[lane] = of(a[lane]) + of(b[lane]);
+            let (a, b) = pairs.get(first + lane);
+            mobility[lane] = of(a) + of(b);
         }
         V::load(&mobility)
     }
 
     #[cold]
-    fn note_deepest(&mut self, place: usize, deeper: u8, (a, b): (&[u32], &[u32])) {
+    fn note_deepest(&mut self, block: usize, deeper: u8) {
+        let pairs = self.sides.pairs(self.list.first + block);
         for lane in lanes(deeper) {
-            let (a, b) = (End::of(self.bodies, a[lane]), End::of(self.bodies, b[lane]));
-            let entity = &self.bodies.entity;
-            self.found.deepest.note(self.list.overlap[place + lane], a.radius.min(b.radius), self.moment.time, || {
-                (entity[a.body], entity[b.body])
-            });
+            let (a, b) = pairs.get(lane);
+            let (a, b) = (End::of(self.bodies, a), End::of(self.bodies, b));
+            let (entity, overlap) = (&self.bodies.entity, self.list.histories[block].overlap[lane]);
+            self.found
+                .deepest
+                .note(overlap, a.radius.min(b.radius), self.moment.time, || (entity[a.body], entity[b.body]));
         }
     }
 
@@ -482,20 +472,25 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         if !self.plain {
             return self.push_and_account(geometry, touching, pushes);
         }
-        let (a, b) = (&geometry.a, &geometry.b);
         // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
-        let mut left = if touching.count_ones() >= FULL { u8::MAX } else { touching };
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let force = DVec2::new(pushes.force[0][lane], pushes.force[1][lane]);
-            self.give(a[lane], -force, pushes.torque_a[lane]);
-            self.give(b[lane], force, pushes.torque_b[lane]);
+        let lanes = if touching.count_ones() >= FULL { u8::MAX } else { touching };
+        let Share { first, force, torque } = &mut self.share;
+        if !pushes.give(&self.sides, self.list.first + geometry.block, lanes, (*first, force, torque)) {
+            self.push_among_parts(geometry.block, touching, pushes);
+        }
+    }
+
+    /// The same where some side stands in another part.
+    #[cold]
+    fn push_among_parts(&mut self, block: usize, touching: u8, pushes: &Pushes) {
+        for lane in lanes(touching) {
+            let ((a, b), force) = (self.sides.pairs(self.list.first + block).get(lane), pushes.force[lane]);
+            self.give(a, -force, pushes.torque_first[lane]);
+            self.give(b, force, pushes.torque_second[lane]);
         }
     }
 
     /// A body of the part gets a force and a torque at once, one of another part later.
-    #[inline(always)]
     fn give(&mut self, body: u32, force: DVec2, torque: f64) {
         let own = (body as usize).wrapping_sub(self.share.first);
         if let (Some(forces), Some(torques)) = (self.share.force.get_mut(own), self.share.torque.get_mut(own)) {
@@ -508,20 +503,20 @@ impl<N: NormalForce> FollowPairs<'_, N> {
 
     /// The same where bodies have several atoms, where some do not move by forces, or where somebody asks for forces.
     fn push_and_account(&mut self, geometry: &Geometry, touching: u8, pushes: &Pushes) {
-        let (first, a, b, bodies) = (BLOCK * geometry.block, &geometry.a, &geometry.b, self.bodies);
+        let (block, bodies) = (geometry.block, self.bodies);
         for lane in lanes(touching) {
-            let force = DVec2::new(pushes.force[0][lane], pushes.force[1][lane]);
-            let (a, b) = (a[lane] as usize, b[lane] as usize);
+            let (force, (a, b)) = (pushes.force[lane], self.sides.pairs(self.list.first + block).get(lane));
+            let (a, b) = (a as usize, b as usize);
             let (body_a, body_b) = (bodies.atom_body[a] as usize, bodies.atom_body[b] as usize);
             let (arm_a, arm_b) =
-                (bodies.atom_position[a] - bodies.position[body_a], bodies.atom_position[b] - bodies.position[body_b]);
-            self.give(body_a as u32, -force, pushes.torque_a[lane] - arm_a.perp_dot(force));
-            self.give(body_b as u32, force, pushes.torque_b[lane] + arm_b.perp_dot(force));
+                (bodies.atom_place(a) - bodies.position[body_a], bodies.atom_place(b) - bodies.position[body_b]);
+            self.give(body_a as u32, -force, pushes.torque_first[lane] - arm_a.perp_dot(force));
+            self.give(body_b as u32, force, pushes.torque_second[lane] + arm_b.perp_dot(force));
             if self.forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
                 let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
                 let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
-                let law = self.laws.get(self.list.law[first + lane]);
-                let arms = arms(ends, normal, self.list.overlap[first + lane], law);
+                let law = self.laws.get(self.list.law[block][lane]);
+                let arms = arms(ends, normal, self.list.histories[block].overlap[lane], law);
                 account(bodies, (&mut self.found.balance, self.forces.as_deref_mut()), ends, arms, force);
             }
         }

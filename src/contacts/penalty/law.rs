@@ -116,11 +116,6 @@ impl LawTable {
         }
     }
 
-    /// Whether all pairs so far are of one kind.
-    pub fn is_uniform(&self) -> bool {
-        self.laws.len() == 1
-    }
-
     /// Place of the law between two sides.
     pub fn place<N: NormalForce>(&mut self, a: Side, b: Side, materials: &Materials, settings: &Penalty) -> u32 {
         let key = (a.key(), b.key());

@@ -9,7 +9,7 @@ use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
 use super::normal::Mode;
 use crate::contacts::search::NEW;
-use crate::simd::BLOCK;
+use crate::simd::{BLOCK, PairBlocks};
 
 /// The modes of eight contacts: a bit each in every byte.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -58,17 +58,29 @@ impl Phases {
     }
 }
 
+/// Numbers of eight contacts, each quantity side by side.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Histories {
+    pub overlap: [f64; BLOCK],
+    pub normal_force: [f64; BLOCK],
+    pub elongation: [f64; BLOCK],
+}
+
 /// Contacts of candidate pairs, in the order of the pairs. Lists are as long as whole blocks of eight.
 #[derive(Debug, Default)]
 pub struct ContactList {
     len: usize,
-    pub(super) law: Vec<u32>,
-    pub(super) overlap: Vec<f64>,
-    pub(super) normal_force: Vec<f64>,
-    pub(super) elongation: Vec<f64>,
-    pub(super) held: Vec<f64>,
+    /// The pairs of atoms; none in a list of walls.
+    pub(super) pairs: PairBlocks,
+    pub(super) law: Vec<[u32; BLOCK]>,
+    /// The law of all of them, if there is one.
+    pub(super) only_law: Option<u32>,
+    histories: Vec<Histories>,
+    /// Forces that are held.
+    held: Vec<[f64; BLOCK]>,
     /// Damping in N s/m, where it is the same as long as the pairs are; else empty.
-    pub(super) damping: Vec<f64>,
+    pub(super) damping: Vec<[f64; BLOCK]>,
     pub(super) phases: Vec<Phases>,
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
@@ -95,13 +107,15 @@ impl ContactList {
     #[inline]
     pub fn get(&self, place: usize) -> Contact {
         assert!(place < self.len, "no contact {place} among {}", self.len);
-        let (phases, lane) = (self.phases[place / BLOCK], place % BLOCK);
+        let (block, lane) = (place / BLOCK, place % BLOCK);
+        let (phases, history) = (self.phases[block], &self.histories[block]);
+        let (elongation, held) = (history.elongation[lane], self.held[block][lane]);
         Contact {
-            law: self.law[place],
+            law: self.law[block][lane],
             mode: phases.mode(lane),
-            overlap: self.overlap[place],
-            normal_force: self.normal_force[place],
-            tangential: Slider { elongation: self.elongation[place], held: self.held[place], grip: phases.grip(lane) },
+            overlap: history.overlap[lane],
+            normal_force: history.normal_force[lane],
+            tangential: Slider { elongation, held, grip: phases.grip(lane) },
         }
     }
 
@@ -110,12 +124,14 @@ impl ContactList {
     pub fn set(&mut self, place: usize, contact: &Contact) {
         assert!(place < self.len, "no contact {place} among {}", self.len);
         let Contact { law, mode, overlap, normal_force, tangential: Slider { elongation, held, grip } } = *contact;
-        self.law[place] = law;
-        self.overlap[place] = overlap;
-        self.normal_force[place] = normal_force;
-        self.elongation[place] = elongation;
-        self.held[place] = held;
-        self.phases[place / BLOCK].set(place % BLOCK, mode, grip);
+        let (block, lane) = (place / BLOCK, place % BLOCK);
+        let history = &mut self.histories[block];
+        history.overlap[lane] = overlap;
+        history.normal_force[lane] = normal_force;
+        history.elongation[lane] = elongation;
+        self.law[block][lane] = law;
+        self.held[block][lane] = held;
+        self.phases[block].set(lane, mode, grip);
     }
 
     /// The contact at a place, to be changed: it goes back when the loan ends.
@@ -148,17 +164,21 @@ impl ContactList {
 
     /// How many touch of those that are not asleep.
     pub(super) fn awake_touching_count(&self) -> usize {
-        let mut count = 0;
-        for number in 0..self.awake_blocks() {
-            let block = self.awake_block(number);
-            count += (self.phases[block].touching() & !self.asleep_in(block)).count_ones() as usize;
+        if self.asleep.is_empty() {
+            // Bits of several blocks are counted at once.
+            let bits = |blocks: &[Phases]| {
+                blocks.iter().fold(0_u64, |bits, phases| bits << BLOCK | u64::from(phases.touching()))
+            };
+            return self.phases.chunks(BLOCK).map(|blocks| bits(blocks).count_ones() as usize).sum();
         }
-        count
+        let awake = |block: u32| self.phases[block as usize].touching() & !self.asleep_in(block as usize);
+        self.awake.iter().map(|&block| awake(block).count_ones() as usize).sum()
     }
 
     /// Places of those that touch and are not asleep, in order.
     pub(super) fn awake_touching(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.awake_blocks()).map(|number| self.awake_block(number)).flat_map(|block| {
+        let blocks = (0..self.awake_blocks()).map(|number| self.awake_block(number));
+        blocks.filter(|block| self.phases[*block].touching() != 0).flat_map(|block| {
             lanes(self.phases[block].touching() & !self.asleep_in(block)).map(move |lane| BLOCK * block + lane)
         })
     }
@@ -189,11 +209,11 @@ impl ContactList {
 
     /// Places of those that are held along their normal and are not asleep, in order.
     pub(super) fn awake_held(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.awake_blocks()).map(|number| self.awake_block(number)).flat_map(|block| {
-            let phases = self.phases[block];
-            let held = phases.loading & phases.unloading & !self.asleep_in(block);
-            lanes(held).map(move |lane| BLOCK * block + lane)
-        })
+        let held = |block: &usize| self.phases[*block].loading & self.phases[*block].unloading;
+        let blocks = (0..self.awake_blocks()).map(|number| self.awake_block(number));
+        blocks
+            .filter(move |block| held(block) != 0)
+            .flat_map(move |block| lanes(held(&block) & !self.asleep_in(block)).map(move |lane| BLOCK * block + lane))
     }
 
     /// Whether the contact at a place is asleep.
@@ -235,16 +255,18 @@ impl ContactList {
             let history = if before == NEW { Contact::default() } else { old.get(before as usize) };
             self.set(place, &Contact { law: law(place), ..history });
         }
+        let first = self.law.first().map(|laws| laws[0]);
+        self.only_law =
+            first.filter(|first| (0..self.len).all(|place| self.law[place / BLOCK][place % BLOCK] == *first));
     }
 
     /// Makes it as long as whole blocks, filled with open contacts.
     pub(super) fn resize(&mut self, len: usize) {
         let blocks = len.div_ceil(BLOCK);
         self.len = len;
-        self.law.resize(BLOCK * blocks, 0);
-        for list in [&mut self.overlap, &mut self.normal_force, &mut self.elongation, &mut self.held] {
-            list.resize(BLOCK * blocks, 0.0);
-        }
+        self.law.resize(blocks, [0; BLOCK]);
+        self.histories.resize(blocks, Histories::default());
+        self.held.resize(blocks, [0.0; BLOCK]);
         self.phases.resize(blocks, Phases::default());
         self.due.resize(blocks, f64::NEG_INFINITY);
     }
@@ -254,12 +276,15 @@ impl ContactList {
 pub(super) struct ListPart<'a> {
     /// The first block, counted in the whole list.
     pub first: usize,
-    pub law: &'a [u32],
-    pub damping: &'a [f64],
-    pub overlap: &'a mut [f64],
-    pub normal_force: &'a mut [f64],
-    pub elongation: &'a mut [f64],
-    pub held: &'a mut [f64],
+    /// Of the whole list.
+    pub pairs: &'a PairBlocks,
+    /// How many there are in the whole list.
+    len: usize,
+    pub law: &'a [[u32; BLOCK]],
+    pub only_law: Option<u32>,
+    pub damping: &'a [[f64; BLOCK]],
+    pub histories: &'a mut [Histories],
+    pub held: &'a mut [[f64; BLOCK]],
     pub phases: &'a mut [Phases],
     pub due: &'a mut [f64],
     asleep: &'a [u8],
@@ -286,10 +311,16 @@ impl ListPart<'_> {
         path < self.due[block]
     }
 
-    /// Which contacts of a block are asleep.
+    /// How many contacts a block has.
     #[inline(always)]
-    pub fn asleep_in(&self, block: usize) -> u8 {
-        self.asleep.get(block).copied().unwrap_or(0)
+    pub fn count_in(&self, block: usize) -> usize {
+        BLOCK.min(self.len - BLOCK * (self.first + block))
+    }
+
+    /// Which contacts of a block are there and not asleep.
+    #[inline(always)]
+    pub fn awake_in(&self, block: usize) -> u8 {
+        (u16::MAX >> (2 * BLOCK - self.count_in(block))) as u8 & !self.asleep.get(block).copied().unwrap_or(0)
     }
 }
 
@@ -298,11 +329,12 @@ impl ContactList {
     pub(super) fn whole(&mut self) -> ListPart<'_> {
         ListPart {
             first: 0,
+            pairs: &self.pairs,
+            len: self.len,
             law: &self.law,
+            only_law: self.only_law,
             damping: &self.damping,
-            overlap: &mut self.overlap,
-            normal_force: &mut self.normal_force,
-            elongation: &mut self.elongation,
+            histories: &mut self.histories,
             held: &mut self.held,
             phases: &mut self.phases,
             due: &mut self.due,
@@ -313,27 +345,26 @@ impl ContactList {
 
     /// The list in parts of so many blocks; the last may have fewer.
     pub(super) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = ListPart<'_>> {
-        let (count, each) = (self.phases.len().div_ceil(blocks), BLOCK * blocks);
-        let (mut law, mut damping) = (self.law.chunks(each), self.damping.chunks(each));
-        let mut overlap = self.overlap.chunks_mut(each);
-        let mut normal_force = self.normal_force.chunks_mut(each);
-        let mut elongation = self.elongation.chunks_mut(each);
-        let mut held = self.held.chunks_mut(each);
+        let count = self.phases.len().div_ceil(blocks);
+        let (mut law, mut damping) = (self.law.chunks(blocks), self.damping.chunks(blocks));
+        let mut histories = self.histories.chunks_mut(blocks);
+        let mut held = self.held.chunks_mut(blocks);
         let mut phases = self.phases.chunks_mut(blocks);
         let mut due = self.due.chunks_mut(blocks);
         let mut asleep = self.asleep.chunks(blocks);
         let some_asleep = !self.asleep.is_empty();
-        let awake = &self.awake;
+        let (awake, pairs, len, only_law) = (&self.awake, &self.pairs, self.len, self.only_law);
         (0..count).map(move |number| {
             let first = number * blocks;
             let place = |block: usize| awake.partition_point(|&awake| (awake as usize) < block);
             ListPart {
                 first,
+                pairs,
+                len,
                 law: law.next().unwrap_or_default(),
+                only_law,
                 damping: damping.next().unwrap_or_default(),
-                overlap: overlap.next().unwrap_or_default(),
-                normal_force: normal_force.next().unwrap_or_default(),
-                elongation: elongation.next().unwrap_or_default(),
+                histories: histories.next().unwrap_or_default(),
                 held: held.next().unwrap_or_default(),
                 phases: phases.next().unwrap_or_default(),
                 due: due.next().unwrap_or_default(),

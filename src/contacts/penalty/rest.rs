@@ -67,8 +67,7 @@ impl Rest {
         }
         bodies.force[body] = DVec2::ZERO;
         bodies.torque[body] = 0.0;
-        bodies.drift[body] = DVec2::ZERO;
-        bodies.turn[body] = 0.0;
+        bodies.stays(body);
         self.changed = true;
         let (position, angle) = (bodies.position[body], bodies.angle[body]);
         self.resting.push(Resting { body, position, angle, load, left_over: None });

@@ -123,7 +123,8 @@ impl Follow<'_> {
             *slider = Slider::default();
             return;
         }
-        let turn = self.bodies.turn[b.body] - a.map_or(0.0, |a| self.bodies.turn[a.body]);
+        let turn_of = |end: &End| self.bodies.displacement(end.body).1;
+        let turn = turn_of(b) - a.map_or(0.0, turn_of);
         let turn = (self.elapsed > 0.0).then_some(turn);
         self.losses.friction += slider.follow(law, turn, contact.normal_force);
         twist(self.bodies, self.balance, a, b, slider.force(law));

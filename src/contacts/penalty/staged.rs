@@ -36,7 +36,7 @@ pub(super) struct Look {
 impl Look {
     pub fn atoms(bodies: &Bodies, place: usize, pair: AtomPair) -> Self {
         let (AtomPair { a, b }, reach) = (pair, pair.reach(bodies));
-        let between = bodies.atom_position[b as usize] - bodies.atom_position[a as usize];
+        let between = bodies.atom_place(b as usize) - bodies.atom_place(a as usize);
         let distance = between.length();
         let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
         let (a, b) = (End::of(bodies, a), End::of(bodies, b));
@@ -51,7 +51,7 @@ impl Look {
 
     pub fn wall(bodies: &Bodies, place: usize, WallPair { wall, atom }: WallPair) -> Self {
         let (packed, end) = (bodies.walls[wall as usize], End::of(bodies, atom));
-        let height = (bodies.atom_position[atom as usize] - packed.point).dot(packed.normal);
+        let height = (bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
         let belt = bodies.belts.get(wall as usize).copied().unwrap_or(DVec2::ZERO);
         Self {
             overlap: end.radius - height,

@@ -46,7 +46,7 @@ impl Overlaps {
         let mut found = Self::default();
         let complete = cells::overlapping(bodies, MOST_LOOKS, |pair| {
             let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
-            let overlap = pair.reach(bodies) - bodies.atom_position[a].distance(bodies.atom_position[b]);
+            let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
             let whose = Pair::Bodies(bodies.atom_body[a], bodies.atom_body[b]);
             found.add(overlap, bodies.atom_radius[a].min(bodies.atom_radius[b]), whose)
         });
@@ -58,7 +58,7 @@ impl Overlaps {
             for atom in near.flat_map(|&body| bodies.atoms_of(body)) {
                 let radius = bodies.atom_radius[atom];
                 let whose = Pair::Wall(bodies.atom_body[atom], place as u32);
-                found.add(radius - height(bodies.atom_position[atom]), radius, whose);
+                found.add(radius - height(bodies.atom_place(atom)), radius, whose);
             }
         }
         found.more = !complete || bodies.walls.len() > looked_at && !touching.is_empty();

@@ -44,13 +44,13 @@ struct Sorted {
 impl Sorted {
     fn of(bodies: &Bodies, margin: f64) -> Self {
         let entry = |atom: usize| Entry {
-            center: bodies.atom_position[atom],
+            center: bodies.atom_place(atom),
             reach: bodies.atom_radius[atom] + margin / 2.0,
             atom: atom as u32,
             body: bodies.atom_body[atom],
         };
         let touching =
-            |atom: &usize| bodies.collides[bodies.atom_body[*atom] as usize] && bodies.atom_position[*atom].is_finite();
+            |atom: &usize| bodies.collides[bodies.atom_body[*atom] as usize] && bodies.atom_place(*atom).is_finite();
         let mut all: Vec<Entry> = (0..bodies.atom_count()).filter(touching).map(entry).collect();
         let limit = LARGE * usual_reach(&all);
         let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();

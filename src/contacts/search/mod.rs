@@ -36,7 +36,7 @@ impl AtomPair {
     /// Unit vector from the centre of the first atom to that of the second; up if they are in one place.
     #[inline]
     pub fn normal(self, bodies: &Bodies) -> DVec2 {
-        let between = bodies.atom_position[self.b as usize] - bodies.atom_position[self.a as usize];
+        let between = bodies.atom_place(self.b as usize) - bodies.atom_place(self.a as usize);
         let distance = between.length();
         if distance > 0.0 { between * (1.0 / distance) } else { DVec2::Y }
     }
@@ -195,7 +195,7 @@ fn wall_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<WallPair> {
                 continue;
             }
             for atom in bodies.atoms_of(body) {
-                let height = (bodies.atom_position[atom] - wall.point).dot(wall.normal);
+                let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
                 if height < bodies.atom_radius[atom] + bounds.margin {
                     pairs.push(WallPair { wall: place as u32, atom: atom as u32 });
                 }

@@ -42,7 +42,7 @@ fn wider_axis(bounds: &Bounds, bodies: &[usize]) -> usize {
 
 fn compare_atoms(bodies: &Bodies, bounds: &Bounds, first: usize, second: usize, pairs: &mut Vec<AtomPair>) {
     for a in bodies.atoms_of(first) {
-        let (position, radius) = (bodies.atom_position[a], bodies.atom_radius[a] + bounds.margin / 2.0);
+        let (position, radius) = (bodies.atom_place(a), bodies.atom_radius[a] + bounds.margin / 2.0);
         let outside = position.x + radius < bounds.low[second].x
             || position.x - radius > bounds.high[second].x
             || position.y + radius < bounds.low[second].y
@@ -52,7 +52,7 @@ fn compare_atoms(bodies: &Bodies, bounds: &Bounds, first: usize, second: usize, 
         }
         for b in bodies.atoms_of(second) {
             let reach = bodies.atom_radius[a] + bodies.atom_radius[b] + bounds.margin;
-            if bodies.atom_position[b].distance_squared(position) < reach * reach {
+            if bodies.atom_place(b).distance_squared(position) < reach * reach {
                 pairs.push(AtomPair { a: a as u32, b: b as u32 });
             }
         }

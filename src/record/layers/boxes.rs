@@ -41,7 +41,7 @@ impl OfBodies for Boxes {
 /// Lower left and upper right corner of the box around a body's atoms, in metres; none without atoms.
 pub(super) fn bounding_box(bodies: &Bodies, body: usize) -> Option<(DVec2, DVec2)> {
     let atom = |atom: usize| {
-        let (center, radius) = (bodies.atom_position[atom], DVec2::splat(bodies.atom_radius[atom]));
+        let (center, radius) = (bodies.atom_place(atom), DVec2::splat(bodies.atom_radius[atom]));
         (center - radius, center + radius)
     };
     bodies.atoms_of(body).map(atom).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))

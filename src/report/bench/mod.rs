@@ -206,12 +206,12 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
 fn pairs(simulation: &Simulation) -> (usize, usize) {
     let bodies = simulation.bodies();
     let Some(pairs) = simulation.world().get_resource::<CandidatePairs>() else { return (0, 0) };
-    let (place, radius) = (&bodies.atom_position, &bodies.atom_radius);
-    let touch = |a: usize, b: usize| DVec2::distance(place[a], place[b]) < radius[a] + radius[b];
+    let (place, radius) = (|atom| bodies.atom_place(atom), &bodies.atom_radius);
+    let touch = |a: usize, b: usize| DVec2::distance(place(a), place(b)) < radius[a] + radius[b];
     let atoms = pairs.atoms.iter().filter(|pair| touch(pair.a as usize, pair.b as usize)).count();
     let meets = |wall: usize, atom: usize| {
         let wall = &bodies.walls[wall];
-        (place[atom] - wall.point).dot(wall.normal) < radius[atom]
+        (place(atom) - wall.point).dot(wall.normal) < radius[atom]
     };
     let walls = pairs.walls.iter().filter(|pair| meets(pair.wall as usize, pair.atom as usize)).count();
     (pairs.atoms.len() + pairs.walls.len(), atoms + walls)

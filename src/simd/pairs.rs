@@ -1,0 +1,158 @@
+//! Pairs of places in lists: the records of both sides are loaded together, and both sides are pushed.
+//!
+//! Places are looked at once, when the pairs are listed, and not at each access.
+
+use glam::DVec2;
+
+use super::{BLOCK, Lanes, Record};
+
+/// Eight pairs: the first place of each, then the second. A line of the cache.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(64))]
+pub struct PairBlock {
+    first: [u32; BLOCK],
+    second: [u32; BLOCK],
+}
+
+impl PairBlock {
+    /// The two places of a pair.
+    #[inline(always)]
+    pub fn get(&self, lane: usize) -> (u32, u32) {
+        (self.first[lane], self.second[lane])
+    }
+}
+
+/// Pairs of places in blocks; the last is filled up with pairs of the place 0 with itself.
+#[derive(Clone, Debug, Default)]
+pub struct PairBlocks {
+    blocks: Vec<PairBlock>,
+    /// The places are below that.
+    bound: usize,
+}
+
+impl PairBlocks {
+    /// Lists pairs anew.
+    pub fn list(&mut self, pairs: impl ExactSizeIterator<Item = (u32, u32)>) {
+        self.blocks.clear();
+        self.blocks.resize(pairs.len().div_ceil(BLOCK), PairBlock::default());
+        self.bound = 0;
+        for (number, (first, second)) in pairs.enumerate() {
+            let block = &mut self.blocks[number / BLOCK];
+            (block.first[number % BLOCK], block.second[number % BLOCK]) = (first, second);
+            self.bound = self.bound.max(first as usize + 1).max(second as usize + 1);
+        }
+    }
+
+    /// The records of both sides of all pairs.
+    ///
+    /// # Panics
+    /// If there are fewer records than that.
+    pub fn records<'a>(&'a self, records: &'a [Record]) -> PairedRecords<'a> {
+        assert!(self.blocks.is_empty() || self.bound.max(1) <= records.len(), "a pair of what is not there");
+        PairedRecords { pairs: self, records }
+    }
+}
+
+/// Records, and pairs of which both sides are among them.
+#[derive(Clone, Copy)]
+pub struct PairedRecords<'a> {
+    pairs: &'a PairBlocks,
+    records: &'a [Record],
+}
+
+impl PairedRecords<'_> {
+    /// One of the blocks of pairs.
+    #[inline(always)]
+    pub fn pairs(&self, block: usize) -> &PairBlock {
+        &self.pairs.blocks[block]
+    }
+
+    /// Both sides of some pairs of a block, from `lane` on; see [`Lanes::record_pairs`].
+    #[inline(always)]
+    pub fn load<V: Lanes>(&self, block: usize, lane: usize) -> ([V; BLOCK], [V; 2]) {
+        let PairBlock { first, second } = self.pairs(block);
+        // SAFETY: all places were below the bound when they were listed, and there are as many records.
+        unsafe { V::record_pairs(self.records, &first[lane..], &second[lane..]) }
+    }
+
+    /// Whether both sides of the pairs of a block are among `len` bodies from place `first` on.
+    #[inline(always)]
+    fn are_among(&self, pairs: &PairBlock, first: usize, len: usize) -> bool {
+        if first == 0 && self.pairs.bound.max(1) <= len {
+            return true;
+        }
+        let mut farthest = 0;
+        for lane in 0..BLOCK {
+            // Whoever stands before the first is far behind it.
+            let (a, b) = (pairs.first[lane].wrapping_sub(first as u32), pairs.second[lane].wrapping_sub(first as u32));
+            farthest = farthest.max(a).max(b);
+        }
+        (farthest as usize) < len
+    }
+}
+
+/// What the pairs of a block give to their sides: a force to the second, the opposite to the first, a torque to each.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub struct Pushes {
+    /// Forces on the second sides.
+    pub force: [DVec2; BLOCK],
+    /// Torques on the first sides.
+    pub torque_first: [f64; BLOCK],
+    /// Torques on the second sides.
+    pub torque_second: [f64; BLOCK],
+}
+
+impl Pushes {
+    /// Nothing.
+    pub const NONE: Self =
+        Self { force: [DVec2::ZERO; BLOCK], torque_first: [0.0; BLOCK], torque_second: [0.0; BLOCK] };
+
+    /// Adds the pushes of some pairs of a block, one after the other, to forces and torques of bodies in a row from place
+    /// `first` on. Nothing is done unless both sides of all pairs are among them, which is returned.
+    #[inline(always)]
+    pub fn give(
+        &self,
+        pairs: &PairedRecords,
+        block: usize,
+        lanes: u8,
+        (first, force, torque): (usize, &mut [DVec2], &mut [f64]),
+    ) -> bool {
+        let block = pairs.pairs(block);
+        if !pairs.are_among(block, first, force.len().min(torque.len())) {
+            return false;
+        }
+        let bodies = (first, force.as_mut_ptr(), torque.as_mut_ptr());
+        if lanes == u8::MAX {
+            let mut lane = 0;
+            while lane < BLOCK {
+                // SAFETY: both sides of all pairs are there, as was looked at.
+                unsafe { self.give_one(block, lane, bodies) };
+                lane += 1;
+            }
+            return true;
+        }
+        let mut left = lanes;
+        while left != 0 {
+            // SAFETY: likewise.
+            unsafe { self.give_one(block, left.trailing_zeros() as usize, bodies) };
+            left &= left - 1;
+        }
+        true
+    }
+
+    /// # Safety
+    /// Both sides of the pair are among the bodies, which begin with `first`.
+    #[inline(always)]
+    unsafe fn give_one(&self, block: &PairBlock, lane: usize, (first, force, torque): (usize, *mut DVec2, *mut f64)) {
+        let (a, b) = block.get(lane);
+        let (a, b) = (a as usize - first, b as usize - first);
+        // SAFETY: as the caller promises. Both may be the same body: one is done after the other.
+        unsafe {
+            *force.add(a) -= self.force[lane];
+            *torque.add(a) += self.torque_first[lane];
+            *force.add(b) += self.force[lane];
+            *torque.add(b) += self.torque_second[lane];
+        }
+    }
+}

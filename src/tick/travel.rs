@@ -1,0 +1,84 @@
+//! How far bodies travel in a tick: who may have passed through others unseen.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::drive::Drive;
+use super::{Balance, Clock, Tick};
+use crate::world::Bodies;
+use crate::world::motion::Travel;
+
+/// A body that travelled farther in one tick than the smallest radius: it may have passed through others unseen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FarTravel {
+    /// The body.
+    pub body: Entity,
+    /// How far any of its points travelled, in metres.
+    pub travel: f64,
+    /// The end of that tick in seconds.
+    pub time: f64,
+}
+
+/// Greatest distance that any point of a body travelled in one tick so far, in metres.
+pub fn largest_travel(world: &World) -> f64 {
+    world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)
+}
+
+/// The first body that travelled farther in one tick than the smallest radius.
+pub fn far_travel(world: &World) -> Option<FarTravel> {
+    world.get_resource::<Drive>().and_then(|drive| drive.far)
+}
+
+impl Tick<'_> {
+    /// Books how far bodies have travelled in the tick: `from` are positions and angles at its beginning.
+    pub fn book_travel(&mut self, from: &[(DVec2, f64)]) {
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        bodies.list_displacements();
+        let (mut greatest, mut sum) = (0.0_f64, 0.0);
+        for (body, &(position, angle)) in from.iter().enumerate() {
+            (bodies.drift[body], bodies.turn[body]) = (bodies.position[body] - position, bodies.angle[body] - angle);
+            let travel = bodies.travel(body);
+            greatest = greatest.max(travel);
+            sum += travel;
+        }
+        let smallest = bodies.smallest_radius;
+        let alert = self.world.resource::<Balance>().alert;
+        self.alert |= alert;
+        self.note_travel(Travel { greatest, sum }, smallest);
+    }
+
+    /// Notes how far bodies travelled in the tick, and who went too far if it is time to look. `smallest` is the smallest radius.
+    #[inline]
+    pub(super) fn note_travel(&mut self, Travel { greatest, sum }: Travel, smallest: f64) {
+        let mut drive = self.world.resource_mut::<Drive>();
+        drive.travel = drive.travel.max(greatest);
+        drive.travelled = sum;
+        drive.farthest = greatest;
+        if greatest > smallest && drive.far.is_none() {
+            self.look_for_far();
+        }
+    }
+
+    #[cold]
+    fn look_for_far(&mut self) {
+        let (bodies, clock) = (self.world.resource::<Bodies>(), self.world.resource::<Clock>());
+        let drive = self.world.resource::<Drive>();
+        if !drive.energy.is_due(clock.ticks + 1, drive.travel) {
+            return;
+        }
+        let far = |body: &usize| {
+            bodies.collides[*body] && bodies.moves[*body] && bodies.travel(*body) > bodies.smallest_radius
+        };
+        let far = (0..bodies.len()).find(far).map(|body| FarTravel {
+            body: bodies.entity[body],
+            travel: bodies.travel(body),
+            time: clock.time_of(clock.ticks + 1),
+        });
+        self.world.resource_mut::<Drive>().far = far;
+    }
+
+    /// The greatest way in metres that any point of a body made in the tick so far.
+    pub fn farthest(&self) -> f64 {
+        self.world.resource::<Drive>().farthest
+    }
+}
