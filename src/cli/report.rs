@@ -1,4 +1,4 @@
-//! `jostle report`: speed against error on problems whose answer is known.
+//! `jostle report`: speed against error on problems whose answer is known, and hard cases.
 
 use std::path::{Path, PathBuf};
 
@@ -7,23 +7,29 @@ use clap::Args;
 use super::Exit;
 use super::progress::Progress;
 use super::say::{count, say};
+use crate::output::flat_picture;
+use crate::problems::hard::{self, Case, Verdict};
 use crate::problems::{ALL, Problem};
-use crate::report::survey::{self, Order, Sheet};
+use crate::raster::{Theme, draw_diagram};
+use crate::report::survey::{self, Judged, Made, Order, Peers, Picture, Sheet};
 use crate::scene::nearest_name;
 
 /// The command `report`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Report {
-    /// Problems, by name. Default: all
+    /// Problems and hard cases, by name. Default: all
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// Folder for the report: report.md, report.html, and for each problem a table (CSV) and a diagram (SVG)
+    /// Folder for the report: report.md, report.html, for each problem a table (CSV) and a diagram (PNG), and hard_cases.csv
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer methods and ticks: a first look, in less than a minute
+    /// Fewer methods, ticks and hard cases: a first look, in less than a minute
     #[arg(long)]
     quick: bool,
+    /// Curves of other engines for the diagrams: the table that tools/peers/peers writes
+    #[arg(long, value_name = "FILE.csv")]
+    peers: Option<PathBuf>,
     /// No progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
@@ -31,18 +37,27 @@ pub(super) struct Report {
 
 const EXAMPLES: &str = "\
 Examples:
-  jostle report -o report              all problems, all methods: some minutes
-  jostle report -o report --quick      a first look
-  jostle report kepler cradle -o two   two problems
+  jostle report -o report                    all problems and hard cases, all methods: some minutes
+  jostle report -o report --quick            a first look
+  jostle report kepler cradle gas -o three   two problems and a hard case
+  jostle report -o report --peers peers.csv  with the curves of other engines
 
 Each problem has an exact answer. It is run by each method at several ticks; the report says what error that leaves and what it
-costs, and how an error of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold) is reached at the least cost. Errors and times come from
-runs of their own, times are the least of several. What does not run is listed with its reason.";
+costs, how an error of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold) is reached at the least cost, and which grade each method \
+reaches. Errors are found on all cores, times apart from them, one run after the other; they are the least of several. What does not \
+run is listed with its reason. Hard cases are scenes that break engines; each value stands beside its threshold and where that comes from. \
+With --quick the expensive ones are left out, and the report says which.
+
+Exit codes: 0 good, 1 a hard case fails (the report is complete all the same), 2 usage or a file cannot be read or written.";
+
+/// The size of diagrams in pixels.
+const SIZE: (u32, u32) = (960, 600);
 
 impl Report {
     pub(super) fn execute(self) -> Exit {
-        let problems = match self.problems() {
-            Ok(problems) => problems,
+        let chosen = self.chosen().and_then(|chosen| Ok((chosen, self.read_peers()?)));
+        let ((problems, cases), peers) = match chosen {
+            Ok(chosen) => chosen,
             Err(message) => {
                 say(&message);
                 return Exit::Usage;
@@ -53,62 +68,94 @@ impl Report {
             return Exit::Usage;
         }
         let order = Order { quick: self.quick };
-        let steps = problems.iter().map(|problem| order.courses(problem).len() as u64).sum();
-        let progress = Progress::new(steps, "curves", self.quiet);
-        let mut sheets = Vec::new();
-        for problem in &problems {
-            sheets.push(order.measure(problem, || progress.step()));
-            // What there is so far is kept whatever happens.
-            if let Err(message) = write(&self.output, &sheets) {
-                drop(progress);
-                say(&message);
-                return Exit::Usage;
+        let progress = Progress::new((2 * problems.len() + cases.len()) as u64, "runs of problems", self.quiet);
+        let (mut sheets, cases) = order.errors(&problems, &cases, &|| progress.step());
+        // What there is so far is kept whatever happens.
+        let mut written = self.write(&sheets, &cases, &peers);
+        if written.is_ok() {
+            for sheet in &mut sheets {
+                sheet.time();
+                progress.step();
             }
+            written = self.write(&sheets, &cases, &peers);
         }
         drop(progress);
+        match written {
+            Ok(()) => self.tell(&sheets, &cases),
+            Err(message) => {
+                say(&message);
+                Exit::Usage
+            }
+        }
+    }
+
+    fn tell(&self, sheets: &[Sheet], cases: &[Judged]) -> Exit {
+        let failed: usize = cases.iter().map(|judged| judged.count(Verdict::Failed)).sum();
+        if failed > 0 {
+            say(&format!("{} of hard cases beyond their thresholds", count(failed, "reading", "readings")));
+        }
         if !self.quiet {
-            say(&format!(
-                "{} in {}",
-                count(sheets.len(), "problem", "problems"),
-                self.output.join("report.html").display()
+            let run = cases.iter().filter(|judged| judged.readings.is_some()).count();
+            let (problems, cases) = (count(sheets.len(), "problem", "problems"), count(run, "hard case", "hard cases"));
+            say(&format!("{problems} and {cases} in {}", self.output.join("report.html").display()));
+        }
+        if failed > 0 { Exit::SceneWrong } else { Exit::Good }
+    }
+
+    /// The problems and cases that are asked for.
+    fn chosen(&self) -> Result<(Vec<Problem>, Vec<Case>), String> {
+        if self.names.is_empty() {
+            return Ok((ALL.to_vec(), hard::ALL.to_vec()));
+        }
+        let names = || ALL.iter().map(|problem| problem.name).chain(hard::ALL.iter().map(|case| case.name));
+        if let Some(name) = self.names.iter().find(|name| !names().any(|known| known == *name)) {
+            let near = nearest_name(name, names()).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+            let listed: Vec<&str> = names().collect();
+            return Err(format!(
+                "error: there is no problem `{name}`{near}\nproblems and hard cases: {}",
+                listed.join(", ")
             ));
         }
-        Exit::Good
+        let asked = |name: &str| self.names.iter().any(|asked| asked == name);
+        let problems = ALL.iter().filter(|problem| asked(problem.name)).copied().collect();
+        Ok((problems, hard::ALL.iter().filter(|case| asked(case.name)).copied().collect()))
     }
 
-    fn problems(&self) -> Result<Vec<Problem>, String> {
-        if self.names.is_empty() {
-            return Ok(ALL.to_vec());
-        }
-        let known = |name: &String| {
-            ALL.iter().find(|problem| problem.name == name).copied().ok_or_else(|| {
-                let names = ALL.iter().map(|problem| problem.name);
-                let near = nearest_name(name, names.clone()).map(|near| format!("; did you mean `{near}`?"));
-                let names: Vec<&str> = names.collect();
-                format!(
-                    "error: there is no problem `{name}`{}\nproblems: {}",
-                    near.unwrap_or_default(),
-                    names.join(", ")
-                )
-            })
+    fn read_peers(&self) -> Result<Peers, String> {
+        let Some(path) = &self.peers else { return Ok(Peers::default()) };
+        let name = path.display();
+        let text = std::fs::read_to_string(path).map_err(|error| format!("error: `{name}` cannot be read: {error}"))?;
+        Peers::read(&text).map_err(|wrong| format!("error: {name}: {wrong}"))
+    }
+
+    fn write(&self, sheets: &[Sheet], cases: &[Judged], peers: &Peers) -> Result<(), String> {
+        let theme = Theme::named("paper").expect("it comes with the program");
+        let picture = |sheet: &Sheet| {
+            let name = sheet.problem.name;
+            // Before anything is timed there is nothing to be drawn.
+            sheet.settings.all.iter().find(|setting| setting.error().is_some() && setting.seconds.is_some())?;
+            let drawn = draw_diagram(&sheet.diagram(&peers.curves(name)), &theme, SIZE).ok()?;
+            let (file, shows) = (format!("{name}.png"), format!("Cost against error of {name}"));
+            Some(Picture { file, shows, bytes: flat_picture(&drawn).ok()? })
         };
-        self.names.iter().map(known).collect()
+        let page = survey::page(&Made::here(), sheets, cases, peers, &picture);
+        for block in &page {
+            if let survey::Block::Picture(picture) = block {
+                self.put(&picture.file, &picture.bytes)?;
+            }
+        }
+        for sheet in sheets {
+            self.put(&format!("{}.csv", sheet.problem.name), sheet.csv().as_bytes())?;
+        }
+        if !cases.is_empty() {
+            self.put("hard_cases.csv", survey::cases_csv(cases).as_bytes())?;
+        }
+        self.put("report.md", survey::markdown(&page).as_bytes())?;
+        self.put("report.html", survey::html(&page).as_bytes())
     }
-}
 
-/// Writes the table and diagram of the last sheet, and the pages of all.
-fn write(folder: &Path, sheets: &[Sheet]) -> Result<(), String> {
-    let Some(last) = sheets.last() else { return Ok(()) };
-    let name = last.problem.name;
-    for (file, text) in [
-        (format!("{name}.csv"), last.csv()),
-        (format!("{name}.svg"), survey::diagram(last)),
-        ("report.md".to_owned(), survey::markdown(sheets)),
-        ("report.html".to_owned(), survey::html(sheets)),
-    ] {
-        let path = folder.join(file);
-        std::fs::write(&path, text)
-            .map_err(|error| format!("error: `{}` cannot be written: {error}", path.display()))?;
+    fn put(&self, file: &str, bytes: &[u8]) -> Result<(), String> {
+        let path: &Path = &self.output.join(file);
+        std::fs::write(path, bytes).map_err(|error| format!("error: `{}` cannot be written: {error}", path.display()))
     }
-    Ok(())
 }

@@ -23,7 +23,7 @@ mod whole;
 
 use std::path::{Path, PathBuf};
 
-pub use self::png::write_picture;
+pub use self::png::{flat_picture, write_picture};
 pub use error::OutputError;
 pub use whole::write_whole;
 

@@ -175,6 +175,24 @@ pub fn write_picture(path: &Path, picture: &Pixmap) -> Result<u64, OutputError> 
     file.complete()
 }
 
+/// A picture of few colours, such as a diagram, as the bytes of a PNG file: small, and slower than a frame of a film could bear.
+///
+/// # Errors
+/// When there is no such picture.
+pub fn flat_picture(picture: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    let rgb: Vec<u8> = picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    let mut packed = Vec::new();
+    let mut encoder = png::Encoder::new(&mut packed, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_filter(png::Filter::NoFilter);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&rgb)?;
+    writer.finish()?;
+    Ok(packed)
+}
+
 /// A picture as the bytes of a PNG file. `rgb` is room for its pixels, kept to spare allocations.
 ///
 /// Fast compression wants the Paeth filter: without a filter it would store the picture nearly as it is.

@@ -24,6 +24,7 @@ pub mod figure_eight;
 pub mod firing;
 pub mod free_flight;
 pub mod frictional_collision;
+pub mod hard;
 pub mod incline;
 pub mod inelastic_impact;
 pub mod kepler;
@@ -46,6 +47,7 @@ use crate::Simulation;
 use crate::integrate::{Description, Methods};
 use crate::scene::Source;
 use crate::scene::sections::ClockSection;
+use crate::tick::Failure;
 
 pub use crate::scene::sections::clock::EventTiming;
 pub use truth::Truth;
@@ -250,14 +252,21 @@ impl Problem {
     /// # Errors
     /// When the scene is refused or a number stops being finite.
     pub fn measure(&self, setting: &Setting) -> Result<f64, Box<dyn Error>> {
-        let mut simulation = self.load(setting)?;
+        self.run(&mut self.load(setting)?, setting).map_err(Into::into)
+    }
+
+    /// The same of a scene that is loaded already.
+    ///
+    /// # Errors
+    /// When a number stops being finite.
+    pub fn run(&self, simulation: &mut Simulation, setting: &Setting) -> Result<f64, Failure> {
         let mut greatest = 0.0_f64;
         for &time in self.samples {
             simulation.run_to_tick((time / setting.tick).round() as u64)?;
             // Where a sample is not a whole number of ticks, the tick nearest to it counts.
             let reached = simulation.clock().time();
             let time = if (reached - time).abs() > 1e-9 * time { reached } else { time };
-            let error = (self.error)(&simulation, time, setting.shift);
+            let error = (self.error)(simulation, time, setting.shift);
             greatest = if error.is_nan() { f64::NAN } else { greatest.max(error) };
         }
         Ok(greatest)

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub use camera::{Bounds, Camera};
-pub use plots::{Diagram, Panel, Sign, Spot, draw_diagram, figure};
+pub use plots::{Diagram, Look, Panel, Sign, Spot, draw_diagram, figure};
 pub use theme::{COLOR_NAMES, Swatch, Theme, Tint};
 
 use crate::record::frame::{BodyLook, Cast, Frame, Rgb};

@@ -6,6 +6,7 @@ pub mod bench;
 pub mod card;
 pub mod energy;
 pub mod estimate;
+pub mod ladder;
 pub mod measure;
 pub mod reversal;
 pub mod survey;

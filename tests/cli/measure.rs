@@ -156,3 +156,28 @@ fn examples_of_the_help_can_be_pasted() {
     }
     assert!(seen >= 5, "{help}");
 }
+
+/// Elastic discs in a box are chaotic, and keep their energy: what is compared beyond the horizon is the mean speed, which differs by
+/// what contacts hold of the energy in the moments that are looked at, and the mean place, which chaos carries about.
+#[test]
+fn beyond_the_horizon_means_are_compared() {
+    let scene = r#"Scene(format: 1, clock: (duration: 30), materials: { "m": (stiffness: 1e5, restitution: 1) },
+        walls: [(name: "south", left: (1, 0), right: (0, 0), material: "m"), (name: "north", left: (0, 2), right: (1, 2), material: "m"),
+                (name: "west", left: (0, 0), right: (0, 1), material: "m"), (name: "east", left: (2, 1), right: (2, 0), material: "m")],
+        bodies: [(name: "a", at: (0.5, 0.5), velocity: (2, 1), material: "m", atoms: Disc(radius: 0.2, mass: 1)),
+                 (name: "b", at: (1.3, 0.7), velocity: (-1, 2), material: "m", atoms: Disc(radius: 0.2, mass: 1)),
+                 (name: "c", at: (0.7, 1.4), velocity: (1, -2), material: "m", atoms: Disc(radius: 0.2, mass: 1))])"#;
+    let folder = Folder::new("measure_beyond").with("box.ron", scene);
+    let measured =
+        folder.jostle("measure box.ron --json --methods Dop853 --rungs 3 --budget 60").code(0).json().remove(0);
+    let reference = &measured["reference"];
+    assert!(reference["compared_until"].as_f64().unwrap() < 30.0, "{reference}");
+    let scatter = &reference["scatter_beyond"];
+    assert!(scatter["speed"].as_f64().unwrap().abs() < 0.1 && scatter["place"].as_f64().unwrap() < 0.5, "{scatter}");
+    let told = |setting: &serde_json::Value| setting["note"].as_str().unwrap().contains("beyond: ");
+    assert!(
+        measured["settings"].as_array().unwrap().iter().filter(|setting| setting["outcome"] == "measured").all(told)
+    );
+    let told = folder.jostle("measure box.ron --methods Dop853 --rungs 3 --budget 60").code(0).out;
+    assert!(told.contains("Beyond, means over time and all bodies"), "{told}");
+}

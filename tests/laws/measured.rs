@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use jostle::Simulation;
 use jostle::problems::{Setting, kepler};
-use jostle::report::measure::{Cost, Order, Outcome, Way, measure};
+use jostle::report::ladder::{Cost, Outcome};
+use jostle::report::measure::{Order, Way, measure};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 
@@ -56,15 +57,21 @@ fn measured_errors_are_those_against_the_exact_answer() {
     let reference = measured.reference.as_ref().unwrap_or_else(|why| panic!("{why:?}"));
     assert!(reference.floor < 1e-8 && reference.until == measured.duration, "{reference:?}");
     let (mut compared, mut smallest) = (0, f64::INFINITY);
-    for setting in &measured.settings {
+    for setting in &measured.settings.all {
         // Coarse ticks may give the planet energy out of nowhere beside the sun.
         let Outcome::Measured(deviation) = setting.outcome else { continue };
-        if deviation.share < reference.claim() {
+        if deviation.error < reference.claim() {
             continue;
         }
-        let exact = true_error(&source, setting.method, setting.tick);
-        let ratio = deviation.share / exact;
-        assert!((0.5..=2.0).contains(&ratio), "{} {}: {} {exact}", setting.method, setting.tick, deviation.share);
+        let exact = true_error(&source, setting.course.method, setting.tick);
+        let ratio = deviation.error / exact;
+        assert!(
+            (0.5..=2.0).contains(&ratio),
+            "{} {}: {} {exact}",
+            setting.course.method,
+            setting.tick,
+            deviation.error
+        );
         compared += 1;
         smallest = smallest.min(exact);
     }

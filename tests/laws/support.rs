@@ -6,7 +6,8 @@ use glam::DVec2;
 use jostle::Simulation;
 use jostle::contacts::ContactForces;
 use jostle::integrate::Description;
-use jostle::problems::{EventTiming, Problem, Setting};
+pub use jostle::problems::hard::kinetic;
+use jostle::problems::{EventTiming, Problem, Setting, hard};
 use jostle::scene::Source;
 use jostle::world::Bodies;
 use jostle::world::hash::state_hash;
@@ -28,7 +29,7 @@ pub fn run(text: &str) -> Simulation {
 
 /// `count` phases between 0 and 1 that no tick falls on twice: multiples of the golden section.
 pub fn phases(count: u32) -> impl Iterator<Item = f64> {
-    (1..=count).map(|number| (f64::from(number) * 0.618_033_988_749_894_9).fract())
+    hard::golden().take(count as usize)
 }
 
 /// Phases over which errors are averaged.
@@ -102,15 +103,6 @@ pub fn momenta(bodies: &Bodies) -> ((DVec2, f64), (f64, f64)) {
         scales.1 += position.length() * momentum.length() + own.abs();
     }
     (totals, scales)
-}
-
-/// Kinetic energy in J, summed here and not by the engine.
-pub fn kinetic(bodies: &Bodies) -> f64 {
-    let of = |body: usize| {
-        0.5 * bodies.mass[body] * bodies.velocity[body].length_squared()
-            + 0.5 * bodies.inertia[body] * bodies.spin[body].powi(2)
-    };
-    (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
 }
 
 /// Runs on to `time` seconds.

@@ -15,7 +15,8 @@ use super::say::{number, print_line, say};
 use super::target::{is_directory, takes_no_file};
 use crate::output::{OutputError, write_picture, write_whole};
 use crate::raster::{Theme, draw_diagram};
-use crate::report::measure::{self, Cost, Measured, NoReference, Order, Way, diagram};
+use crate::report::ladder::Cost;
+use crate::report::measure::{self, Measured, NoReference, Order, Way};
 use crate::simulation::{Overrides, Simulation};
 
 /// The command `measure`.
@@ -77,7 +78,7 @@ until its error is that of the reference or the budget is used up. An error is a
 any point of a body is from the reference, at the worst of up to a hundred moments, over how far the body goes, and of how \
 much its velocity differs, as a root mean square over the moments, over how fast it is. No error below three times that of \
 the reference run is claimed: such are written with `<`. Where the motion is chaotic, runs are compared as long as the \
-reference knows it, and the output says until when. Cost is the time of the fastest of three runs that do nothing else. A star \
+reference knows it, and the output says until when; beyond, means over the rest of the run and all bodies are (`beyond`). Cost is the time of the fastest of three to nine runs that do nothing else. A star \
 marks settings that nothing else beats: none is more exact for less.
 
 Exit codes: 0 good, 1 the scene is wrong or nothing in it moves, 2 usage or the budget is too short for the reference run, \
@@ -168,7 +169,7 @@ impl Measure {
     fn draw(&self, request: Request, measured: &Measured, path: &Path) -> Result<(), OutputError> {
         let theme = self.theme.as_deref().or(Theme::names().first().copied()).and_then(Theme::named);
         let theme = theme.expect("a program without a theme fails its tests");
-        let picture = draw_diagram(&diagram(measured, &request.stem()), &theme, self.size)?;
+        let picture = draw_diagram(&measured.diagram(&request.stem()), &theme, self.size)?;
         write_picture(path, &picture).map(|_| ())
     }
 

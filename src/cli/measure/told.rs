@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use crate::cli::columns::{aligned, quoted};
 use crate::cli::say::number;
 use crate::output::csv;
-use crate::report::measure::{Advice, Cost, Measured, NORM, NoReference, Outcome, Setting, is_best};
+use crate::report::ladder::{Advice, Cost, Course, Deviation, Outcome, Setting};
+use crate::report::measure::{Measured, NORM, NoReference};
 use crate::tick::Wrong;
 
 /// Three digits are enough of what was measured.
@@ -17,11 +18,16 @@ fn rounded(value: f64) -> String {
 
 /// An error is known to two digits at the best.
 fn error_in_words(measured: &Measured, setting: &Setting) -> String {
-    match (setting.error(), measured.claimed(setting)) {
+    match (setting.error(), measured.settings.claimed(setting)) {
         (Some(error), Some(claimed)) if error < claimed => format!("< {claimed:.1e}"),
         (Some(error), _) => format!("{error:.1e}"),
         (None, _) => String::new(),
     }
+}
+
+/// How far it is from the reference, in m and m/s.
+fn apart(setting: &Setting) -> Option<(f64, f64)> {
+    if let Outcome::Measured(Deviation { apart, .. }) = setting.outcome { apart } else { None }
 }
 
 /// How it came out, in a word.
@@ -57,18 +63,18 @@ fn note(setting: &Setting) -> String {
 
 /// The command that runs a scene with a setting.
 fn command(run: &str, setting: &Setting) -> String {
-    format!("{run} --method {} --tick {}", setting.method, csv::number(setting.tick))
+    format!("{run} --method {} --tick {}", setting.course.method, csv::number(setting.tick))
 }
 
 /// Table, reference run and advice; `run` is the command that runs the scene.
 pub(super) fn text(measured: &Measured, run: &str) -> String {
     let mut text = aligned(
         &["method", "tick in s", "error", "s/s", "evaluations/s", ""],
-        measured.settings.iter().map(|setting| {
-            let star = if is_best(measured, setting) { " *" } else { "" };
+        measured.settings.all.iter().map(|setting| {
+            let star = if measured.settings.is_best(setting) { " *" } else { "" };
             let runs = setting.evaluations > 0.0;
             vec![
-                format!("{}{star}", setting.method),
+                format!("{}{star}", setting.course.method),
                 rounded(setting.tick),
                 error_in_words(measured, setting),
                 setting.seconds.map_or_else(String::new, rounded),
@@ -78,7 +84,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
         }),
     );
     text.push_str("\nWhere the ladder of ticks ends:\n");
-    let ends = measured.ends.iter().map(|(method, why)| vec![(*method).to_owned(), why.clone()]);
+    let ends = measured.settings.ends.iter().map(|(course, why)| vec![course.method.to_owned(), why.clone()]);
     let ends = aligned(&["method", ""], ends);
     text.push_str(ends.split_once('\n').map_or("", |(_, rest)| rest));
     text.push('\n');
@@ -106,13 +112,20 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
                     number(measured.duration)
                 );
             }
+            if let Some(scatter) = &reference.scatter {
+                let _ = writeln!(
+                    text,
+                    "Beyond, means over time and all bodies are compared. Reference runs differ there by {}: chaos, not error.",
+                    scatter.words()
+                );
+            }
             if let Some(warning) = &reference.warning {
                 let _ = writeln!(text, "warning: {warning}");
             }
         }
         Err(_) => text.push_str("Reference: none; no errors are known.\n"),
     }
-    let advice = measured.advice();
+    let advice = measured.settings.advice();
     if measured.reference.is_ok() {
         let parts: Vec<String> = advice.iter().map(|advice| sentence(measured, advice)).collect();
         let told = |error: f64| measured.reference.as_ref().is_ok_and(|reference| reference.claim() <= error);
@@ -137,7 +150,7 @@ fn rough(value: f64) -> f64 {
 }
 
 fn cost(measured: &Measured) -> &'static str {
-    match measured.cost {
+    match measured.settings.cost {
         Cost::Time => "time",
         Cost::Evaluations => "evaluations",
     }
@@ -147,14 +160,14 @@ fn cost(measured: &Measured) -> &'static str {
 fn sentence(measured: &Measured, advice: &Advice) -> String {
     let target = format!("{:.0e}", advice.target);
     let price = |setting: &Setting| {
-        let spent = match measured.cost {
+        let spent = match measured.settings.cost {
             Cost::Time => setting.seconds.map(|seconds| format!("{} s", rounded(seconds))),
             Cost::Evaluations => Some(format!("{} evaluations", rounded(setting.evaluations))),
         };
         let spent = spent.map_or_else(String::new, |spent| format!(", {spent} per second"));
         format!(
             "{} with ticks of {} s (error {}{spent})",
-            setting.method,
+            setting.course.method,
             rounded(setting.tick),
             error_in_words(measured, setting)
         )
@@ -177,20 +190,20 @@ pub(super) fn csv(measured: &Measured) -> String {
                     evaluations_per_second [1/s],best,note\n"
         .to_owned();
     let or_empty = |value: Option<f64>| value.map_or_else(String::new, csv::number);
-    for setting in &measured.settings {
-        let deviation = if let Outcome::Measured(deviation) = setting.outcome { Some(deviation) } else { None };
+    for setting in &measured.settings.all {
+        let apart = apart(setting);
         let cells = [
-            setting.method.to_owned(),
+            setting.course.method.to_owned(),
             csv::number(setting.tick),
             setting.located.to_string(),
             word(setting).to_owned(),
             or_empty(setting.error()),
-            or_empty(measured.claimed(setting)),
-            or_empty(deviation.map(|deviation| deviation.position)),
-            or_empty(deviation.map(|deviation| deviation.velocity)),
+            or_empty(measured.settings.claimed(setting)),
+            or_empty(apart.map(|(distance, _)| distance)),
+            or_empty(apart.map(|(_, speed)| speed)),
             or_empty(setting.seconds),
             csv::number(setting.evaluations),
-            is_best(measured, setting).to_string(),
+            measured.settings.is_best(setting).to_string(),
             quoted(&note(setting)),
         ];
         text.push_str(&cells.join(","));
@@ -202,20 +215,20 @@ pub(super) fn csv(measured: &Measured) -> String {
 /// What was measured, for programs.
 pub(super) fn json(scene: &str, measured: &Measured, run: &str) -> Value {
     let setting = |setting: &Setting| {
-        let deviation = if let Outcome::Measured(deviation) = setting.outcome { Some(deviation) } else { None };
+        let apart = apart(setting);
         let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
         json!({
-            "method": setting.method,
+            "method": setting.course.method,
             "tick": setting.tick,
             "located": setting.located,
             "outcome": word(setting),
             "error": finite(setting.error()),
-            "error_claimed": finite(measured.claimed(setting)),
-            "position_error": finite(deviation.map(|deviation| deviation.position)),
-            "velocity_error": finite(deviation.map(|deviation| deviation.velocity)),
+            "error_claimed": finite(measured.settings.claimed(setting)),
+            "position_error": finite(apart.map(|(distance, _)| distance)),
+            "velocity_error": finite(apart.map(|(_, speed)| speed)),
             "seconds_per_second": setting.seconds,
             "evaluations_per_second": setting.evaluations,
-            "best": is_best(measured, setting),
+            "best": measured.settings.is_best(setting),
             "note": note(setting),
         })
     };
@@ -224,9 +237,9 @@ pub(super) fn json(scene: &str, measured: &Measured, run: &str) -> Value {
         json!({
             "target": advice.target,
             "reached": advice.reached.is_some(),
-            "method": taken.map(|setting| setting.method),
+            "method": taken.map(|setting| setting.course.method),
             "tick": taken.map(|setting| setting.tick),
-            "error_claimed": taken.and_then(|setting| measured.claimed(setting)),
+            "error_claimed": taken.and_then(|setting| measured.settings.claimed(setting)),
             "command": taken.map(|setting| command(run, setting)),
         })
     };
@@ -238,21 +251,22 @@ pub(super) fn json(scene: &str, measured: &Measured, run: &str) -> Value {
             "horizon": reference.horizon,
             "compared_until": reference.until,
             "why_until": reference.why_until,
+            "scatter_beyond": reference.scatter.map(|apart| json!({ "speed": apart.speed, "place": apart.place })),
             "warning": reference.warning,
         }),
         Err(NoReference::Failed(failure)) => json!({ "missing": failure.to_string() }),
         Err(_) => json!({ "missing": "there is none" }),
     };
-    let end = |(method, why): &(&str, String)| json!({ "method": method, "why": why });
+    let end = |(course, why): &(Course, String)| json!({ "method": course.method, "why": why });
     json!({
         "scene": scene,
         "time": measured.duration,
         "norm": NORM,
         "cost": cost(measured),
         "reference": reference,
-        "settings": measured.settings.iter().map(setting).collect::<Vec<_>>(),
-        "ends": measured.ends.iter().map(end).collect::<Vec<_>>(),
-        "advice": if measured.reference.is_ok() { measured.advice().iter().map(advice).collect() } else { Vec::new() },
+        "settings": measured.settings.all.iter().map(setting).collect::<Vec<_>>(),
+        "ends": measured.settings.ends.iter().map(end).collect::<Vec<_>>(),
+        "advice": if measured.reference.is_ok() { measured.settings.advice().iter().map(advice).collect() } else { Vec::new() },
         "seconds_spent": measured.spent,
     })
 }

@@ -2,12 +2,13 @@
 
 use tiny_skia::Pixmap;
 
+use super::diagram::Look;
 use super::pen::Align;
 use super::scale::{Scale, range_of};
 use super::stroke::{Area, Point, Sheet};
 use super::style::{Sizes, Tones};
 use super::ticks::{self, Ticks};
-use crate::raster::canvas::{self, Canvas, Ink, blend};
+use crate::raster::canvas::{Canvas, Ink, blend};
 use crate::record::frame::Rgb;
 use crate::record::plot::{Bars, Content, Decimator, Plot, Sample, with_unit};
 
@@ -175,6 +176,14 @@ impl Chart {
         self
     }
 
+    /// The same with curves that look as they are told to.
+    pub(super) fn with_looks(mut self, looks: &[Look]) -> Chart {
+        for (trace, look) in self.traces.iter_mut().zip(looks) {
+            (trace.color, trace.dash) = self.tones.look(*look, self.sizes.line);
+        }
+        self
+    }
+
     /// The part between the axes.
     pub(super) fn inner(&self) -> &Area {
         &self.inner
@@ -296,7 +305,7 @@ impl Chart {
         lines.sort_by_key(|(_, color)| *color == self.tones.axis);
         let mut canvas = Canvas::new(picture);
         for (area, color) in lines {
-            fill(&mut canvas, &area, color);
+            area.fill(&mut canvas, color);
         }
     }
 
@@ -374,7 +383,7 @@ impl Chart {
                 right: (left + width).round(),
                 bottom: self.inner.bottom,
             };
-            fill(canvas, &area, color);
+            area.fill(canvas, color);
             // The row that a bar reaches into.
             let share = top.ceil() - top;
             if share > 0.0 && top >= 1.0 && (top as usize) < canvas.height() {
@@ -463,16 +472,6 @@ fn nested(heads: &[(Point, Rgb)], radius: f32) -> Vec<(Point, f32, Rgb)> {
         (head, radius * (1.0 + RING * behind), color)
     };
     (0..heads.len()).map(grown).collect()
-}
-
-/// Fills an area.
-pub(super) fn fill(canvas: &mut Canvas, area: &Area, color: Rgb) {
-    let (width, height) = (canvas.width(), canvas.height());
-    let side = |from: f32, to: f32, end: usize| (from.max(0.0) as usize).min(end)..(to.max(0.0) as usize).min(end);
-    let columns = side(area.left, area.right, width);
-    for row in side(area.top, area.bottom, height) {
-        canvas::fill(&mut canvas.row(row)[4 * columns.start..4 * columns.end.max(columns.start)], color);
-    }
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 
 use tiny_skia::Pixmap;
 
+use super::LETTERS;
 use super::chart::{Chart, Naming, Tools};
 use super::pen::Align;
 use super::stroke::{Area, Point, Sheet};
 use super::style::{Sizes, Tones};
-use super::{LETTERS, fill_area};
 use crate::raster::canvas::{Canvas, Ink, fill};
 use crate::raster::theme::{Theme, Tint};
 use crate::raster::{SizeError, canvas};
@@ -37,6 +37,20 @@ pub struct Spot {
     pub sign: Sign,
 }
 
+/// How a curve looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// In a colour and with dashes, by their places among colours and dashes.
+    Main {
+        /// Curves of one kind have one colour.
+        color: usize,
+        /// They differ in their dashes.
+        dash: usize,
+    },
+    /// In grey, by its place among such.
+    Aside(usize),
+}
+
 /// A diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagram {
@@ -44,6 +58,8 @@ pub struct Diagram {
     pub plot: Plot,
     /// What is said beside the title.
     pub aside: String,
+    /// How its curves look.
+    pub looks: Vec<Look>,
     /// Its points, from back to front.
     pub spots: Vec<Spot>,
     /// An upright line, and what is written along it.
@@ -74,11 +90,13 @@ pub fn draw_diagram(diagram: &Diagram, theme: &Theme, (width, height): (u32, u32
         right: (width as f32 - 1.4 * pad).round(),
         bottom: (height as f32 - 0.7 * pad).round(),
     };
-    let chart = Chart::new(&diagram.plot, area, Naming::Full, &sizes, &tones).with_aside(&diagram.aside);
+    let chart = Chart::new(&diagram.plot, area, Naming::Full, &sizes, &tones)
+        .with_aside(&diagram.aside)
+        .with_looks(&diagram.looks);
     let inner = *chart.inner();
     let shade = Tint { toward: theme.ink, share: SHADE }.of(tones.card);
     let from = chart.spot(diagram.useless.0, 1.0).0.clamp(inner.left, inner.right);
-    fill_area(&mut Canvas::new(&mut picture), &Area { left: from, ..inner }, shade);
+    Area { left: from, ..inner }.fill(&mut Canvas::new(&mut picture), shade);
     chart.draw_furniture(&mut picture);
     let small = tones.small(&sizes);
     let beside = 0.8 * sizes.text;

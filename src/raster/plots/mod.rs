@@ -16,14 +16,14 @@ use std::sync::Arc;
 use tiny_skia::Pixmap;
 
 pub(super) use chart::Tools;
-pub use diagram::{Diagram, Sign, Spot, draw_diagram};
+pub use diagram::{Diagram, Look, Sign, Spot, draw_diagram};
 pub use figure::figure;
 
 use super::canvas::{Canvas, fill};
 use super::theme::Theme;
 use crate::record::frame::Rgb;
 use crate::record::plot::Board;
-use chart::{Chart, Naming, fill as fill_area};
+use chart::{Chart, Naming};
 use figure::LETTERS;
 use legend::Key;
 use stroke::Area;

@@ -3,7 +3,7 @@
 //! So a curve has no seams, however many segments it is made of, and what is drawn depends on nothing but the segments.
 //! Additions, products, quotients and square roots of `f32`: the same bytes on every machine.
 
-use crate::raster::canvas::{Canvas, blend};
+use crate::raster::canvas::{self, Canvas, blend};
 use crate::record::frame::Rgb;
 
 /// A rectangle of a picture, in pixels.
@@ -22,6 +22,16 @@ impl Area {
 
     pub(in crate::raster) fn height(&self) -> f32 {
         self.bottom - self.top
+    }
+
+    /// Fills its pixels with a colour.
+    pub(super) fn fill(&self, canvas: &mut Canvas, color: Rgb) {
+        let (width, height) = (canvas.width(), canvas.height());
+        let side = |from: f32, to: f32, end: usize| (from.max(0.0) as usize).min(end)..(to.max(0.0) as usize).min(end);
+        let columns = side(self.left, self.right, width);
+        for row in side(self.top, self.bottom, height) {
+            canvas::fill(&mut canvas.row(row)[4 * columns.start..4 * columns.end.max(columns.start)], color);
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Sizes and colours of what stands beside the film.
 
+use super::diagram::Look;
 use super::pen::Ink;
 use crate::raster::text::Weight;
 use crate::raster::theme::{Theme, Tint};
@@ -108,9 +109,19 @@ impl Tones {
     /// goes with the others, not beside them.
     pub(super) fn curve(&self, place: usize, label: &str, width: f32) -> (Rgb, Vec<f32>) {
         let total = label == "total" || label.ends_with(".total");
-        let color = place.checked_rem(self.curves.len()).map_or(self.ink, |turn| self.curves[turn]);
-        let dashes = if total { DASHES[2] } else { DASHES[place % DASHES.len()] };
-        (if total { self.quiet } else { color }, dashes.iter().map(|length| length * width).collect())
+        self.look(if total { Look::Aside(2) } else { Look::Main { color: place, dash: place } }, width)
+    }
+
+    /// The colour of a curve that looks so, and its dashes for a line of some width. Of those in grey the first two are unbroken: they
+    /// differ in their greys.
+    pub(super) fn look(&self, look: Look, width: f32) -> (Rgb, Vec<f32>) {
+        let (color, dash) = match look {
+            Look::Main { color, dash } => {
+                (color.checked_rem(self.curves.len()).map_or(self.ink, |turn| self.curves[turn]), dash)
+            }
+            Look::Aside(place) => (if place % DASHES.len() == 0 { self.axis } else { self.quiet }, place),
+        };
+        (color, DASHES[dash % DASHES.len()].iter().map(|length| length * width).collect())
     }
 
     /// The flat colours.

@@ -147,6 +147,12 @@ impl Trajectory {
         Self { moments, extents: self.extents.clone(), failure: self.failure.clone(), ..*self }
     }
 
+    /// Places in m and velocities in m/s of all bodies at all moments after a time in s.
+    pub fn states_after(&self, time: f64) -> impl Iterator<Item = (DVec2, DVec2)> {
+        let after = self.moments.iter().filter(move |(at, _)| *at > time);
+        after.flat_map(|(_, poses)| poses.iter().map(|pose| (pose.position, pose.velocity)))
+    }
+
     /// How many moments were looked at after the beginning.
     pub fn moments(&self) -> usize {
         self.moments.len().saturating_sub(1)

@@ -1,27 +1,24 @@
 //! What a run of a scene costs and how wrong it is, method by method and tick by tick, on this very scene.
 //!
 //! A run whose error is far smaller is the truth (`reference.rs`); every method climbs a ladder of ticks from coarse to fine
-//! (`ladder.rs`); its runs are timed apart from those that are compared (`timing.rs`); of what came out, the settings that nothing
-//! else beats are marked and the cheapest for each wanted error named (`advice.rs`). `diagram.rs` draws it.
+//! (`report/ladder`), and `scene.rs` says which ticks, and compares.
 
-mod advice;
-mod diagram;
-mod ladder;
+mod beyond;
 mod reference;
-mod timing;
+mod scene;
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-pub use advice::{Advice, TARGETS, is_best};
-pub use diagram::diagram;
-pub use ladder::{Outcome, Setting};
+pub use beyond::Apart;
 pub use reference::{NoReference, Reference};
 
-use crate::integrate::{Methods, Pace};
+use super::ladder::{Budget, Cost, Course, Legend, Outcome, Rules, Setting, Settings, USELESS, climb, timed};
+use crate::integrate::Pace;
+use crate::raster::Diagram;
 use crate::scene::SceneErrors;
 use crate::scene::sections::clock::EventTiming;
 use crate::simulation::{Plan, Simulation};
-use crate::tick::Stability;
+use scene::{Compared, Scene};
 
 /// How errors are measured, in words.
 pub const NORM: &str = "the greater of two shares: how far any point of a body is from the reference, at the worst of all moments, \
@@ -38,16 +35,6 @@ pub struct Order {
     pub methods: Vec<String>,
     /// What counts as cost.
     pub cost: Cost,
-}
-
-/// What a setting costs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Cost {
-    /// Seconds of this computer.
-    #[default]
-    Time,
-    /// Evaluations of all forces: the same on every computer.
-    Evaluations,
 }
 
 /// How a scene is to be loaded for one of many runs.
@@ -70,11 +57,7 @@ pub struct Measured {
     /// The reference run; or why there is none: then settings tell only whether they reach the end.
     pub reference: Result<Reference, NoReference>,
     /// All settings, method by method, from coarse to fine.
-    pub settings: Vec<Setting>,
-    /// Why methods did not go on to finer ticks.
-    pub ends: Vec<(&'static str, String)>,
-    /// What counts as cost.
-    pub cost: Cost,
+    pub settings: Settings,
     /// Seconds that it took.
     pub spent: f64,
 }
@@ -83,60 +66,22 @@ impl Measured {
     /// Whether no setting came to its end.
     pub fn all_fail(&self) -> bool {
         let ended = |setting: &Setting| matches!(setting.outcome, Outcome::Measured(_) | Outcome::Unknown);
-        !self.settings.iter().any(ended)
-    }
-}
-
-/// The budget, and how much of it is used.
-pub(super) struct Budget<'a> {
-    start: Instant,
-    whole: f64,
-    tell: &'a dyn Fn(f64),
-}
-
-impl Budget<'_> {
-    /// Seconds used.
-    fn used(&self) -> f64 {
-        self.start.elapsed().as_secs_f64()
+        !self.settings.all.iter().any(ended)
     }
 
-    /// Seconds left.
-    fn left(&self) -> f64 {
-        self.whole - self.used()
-    }
-
-    /// Whether less than a share of it is used; says so.
-    fn within(&self, share: f64) -> bool {
-        (self.tell)((self.used() / self.whole).min(1.0));
-        self.used() < share * self.whole
-    }
-}
-
-/// What is known of the scene before anything runs.
-struct Scene {
-    duration: f64,
-    /// The fastest of contacts and springs in rad/s, if there are any.
-    fastest: Option<f64>,
-    /// Moments at which runs are compared.
-    moments: u64,
-    methods: Methods,
-}
-
-/// Beyond so many bodies fewer moments are kept.
-const MANY_BODIES: usize = 6000;
-
-impl Scene {
-    /// Looks at the scene. Its own tick does not matter, so one that divides whatever run it has is tried.
-    fn look(load: Load) -> Result<Self, SceneErrors> {
-        let probe = |tick| load(Way::Plan(&reference::located(tick, 1.0, tick)));
-        let simulation = probe(1e-3).or_else(|wrong| probe(1e-9).or_else(|_| probe(1e3)).map_err(|_| wrong))?;
-        let world = simulation.world();
-        Ok(Self {
-            duration: simulation.duration(),
-            fastest: world.resource::<Stability>().fastest_foreseen().map(|fastest| fastest.angular_frequency),
-            moments: if simulation.bodies().len() > MANY_BODIES { 10 } else { 100 },
-            methods: Methods(world.resource::<Methods>().0.clone()),
-        })
+    /// The work-precision diagram of a scene called `name`.
+    pub fn diagram(&self, name: &str) -> Diagram {
+        let reference = self.reference.as_ref().ok();
+        let until = reference.filter(|reference| reference.until < self.duration);
+        let until = until.map_or_else(String::new, |reference| format!(", until t = {:.3} s", reference.until));
+        let claim = self.settings.claim.unwrap_or_default();
+        let legend = Legend {
+            title: format!("{name}: cost against error"),
+            error: format!("error as a share of the motion{until}"),
+            floor: format!("what the reference leaves unknown, {claim:.0e}"),
+            useless: (USELESS, "failed, or useless".to_owned()),
+        };
+        super::ladder::diagram(&self.settings, legend, &[])
     }
 }
 
@@ -159,20 +104,18 @@ pub fn measure(load: Load, order: &Order, tell: &dyn Fn(f64)) -> Result<Measured
         Err(failed @ NoReference::Failed(_)) => Err(failed),
         Err(other) => return Err(other),
     };
-    let (settings, ends) = ladder::climb(load, &scene, order, truth.as_ref().ok(), &budget)?;
+    let known = truth.as_ref().ok();
+    let wanted = |name: &str| order.methods.is_empty() || order.methods.iter().any(|wanted| wanted == name);
+    let methods = scene.methods.0.iter().filter(|method| wanted(method.name));
+    let courses = methods.map(|method| (Course::of(method.name), scene.ticks(method, known)));
+    let rules = Rules { rungs: order.rungs, leaves_behind: true };
+    let subject = Compared { load, scene: &scene, truth: known, budget: &budget };
+    let (all, ends) = climb(&subject, courses, &rules, &budget)?;
+    let claim = known.map(|truth| truth.about.claim());
     Ok(Measured {
         duration: scene.duration,
+        settings: Settings { all, ends, cost: order.cost, claim },
         reference: truth.map(|truth| truth.about),
-        settings,
-        ends,
-        cost: order.cost,
         spent: budget.used(),
     })
-}
-
-/// How long something takes.
-fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
-    let start = Instant::now();
-    let done = work();
-    (start.elapsed(), done)
 }

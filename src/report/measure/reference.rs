@@ -5,7 +5,9 @@
 //! chaos. Where contacts are too many to be located one by one, or that takes too long, runs of velocity Verlet with finer and
 //! finer ticks take their place.
 
-use super::{Budget, Load, Scene, Way, plan, timed};
+use super::beyond::{Apart, Beyond};
+use super::scene::Scene;
+use super::{Budget, Load, Way, plan, timed};
 use crate::Simulation;
 use crate::integrate::{Allowance, Pace};
 use crate::report::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
@@ -42,6 +44,8 @@ pub struct Reference {
     pub until: f64,
     /// Why that is not the whole run.
     pub why_until: Option<String>,
+    /// How far means over the rest of the run differ between reference runs, where there is a rest.
+    pub scatter: Option<Apart>,
     /// What weakens it.
     pub warning: Option<String>,
 }
@@ -80,6 +84,8 @@ pub(super) struct Truth {
     /// How far and how fast each body goes in it.
     pub measures: Vec<(f64, f64)>,
     pub about: Reference,
+    /// What is known of the time after it.
+    pub beyond: Option<Beyond>,
 }
 
 /// The plan of a run of `duration` seconds with located events, whose steps may err by a share of the motion.
@@ -170,12 +176,12 @@ fn by_located(load: Load, scene: &Scene, budget: &Budget) -> Result<Attempt, Sce
     if coarse.bounded && fine.bounded {
         warning = Some("rounding bounds its steps: the floor is that of rounding alone".to_owned());
     }
-    let about = Reference { words, floor: 0.0, horizon, until: before, why_until: None, warning };
+    let about = Reference { words, floor: 0.0, horizon, until: before, why_until: None, scatter: None, warning };
     let most = |until: f64| {
         let before = growths.iter().filter(|(time, _)| *time <= until);
         before.fold(1.0, |most: f64, (_, growth)| most.max(*growth))
     };
-    Ok(Ok(compared(&coarse, fine, about, scene.duration, &most)))
+    Ok(Ok(compared((&coarse, Some(&beside)), fine, about, scene.duration, &most)))
 }
 
 fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Truth, NoReference> {
@@ -230,16 +236,17 @@ fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Tru
         horizon: None,
         until: f64::INFINITY,
         why_until: None,
+        scatter: None,
         warning: Some(format!(
             "{why}: the reference is a run of velocity Verlet with fine ticks, and the floor what one with twice the tick differs by"
         )),
     };
-    compared(&coarse, fine, about, scene.duration, &|_| 1.0)
+    compared((&coarse, None), fine, about, scene.duration, &|_| 1.0)
 }
 
-/// Compares two reference runs as long as they tell the truth. `growth` says by how much a disturbance has grown until a time.
+/// Compares two reference runs, and one that begins beside them, as long as they tell the truth. `growth` says by how much a disturbance has grown until a time.
 fn compared(
-    coarse: &Trajectory,
+    (coarse, beside): (&Trajectory, Option<&Trajectory>),
     fine: Trajectory,
     mut about: Reference,
     duration: f64,
@@ -280,5 +287,8 @@ fn compared(
     if about.floor > TELLS_NOTHING {
         return Err(NoReference::Parts);
     }
-    Ok(Truth { measures: own.measures(), run: own, about })
+    let runs: Vec<&Trajectory> = [&fine, coarse].into_iter().chain(beside).collect();
+    let beyond = (about.until < duration).then(|| Beyond::of(&runs, about.until)).flatten();
+    about.scatter = beyond.as_ref().map(|beyond| beyond.scatter);
+    Ok(Truth { measures: own.measures(), run: own, about, beyond })
 }

@@ -1,84 +1,49 @@
-//! The report of speed against error: problems whose answer is known, run by each method at a ladder of ticks.
+//! The report of speed against error: problems whose answer is known, run by each method at a ladder of ticks, and hard cases.
 //!
-//! Errors and times come from runs of their own. The error is the greatest at the samples of a [`Problem`], against its exact
-//! answer and in its unit; where it depends on where in a tick an event falls, the greatest of several such phases. The
-//! time is the least of several runs, without reading the scene. A setting that does not run is kept, with its reason.
+//! Errors and times come from runs of their own: errors first, on all cores, then times, one after the other with nothing else going
+//! on. The error is the greatest at the samples of a [`Problem`], against its exact
+//! answer and in its unit; where it depends on where in a tick an event falls, the greatest of several such phases. A setting that does not run is kept, with its reason; so is what a hard case fails.
 
-mod diagram;
 mod html;
+mod made;
 mod markdown;
+mod page;
+mod peers;
+mod subject;
 
-use std::time::Instant;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-pub use diagram::diagram;
 pub use html::page as html;
+pub use made::Made;
 pub use markdown::page as markdown;
+pub use page::{Block, Cell, Picture, page};
+pub use peers::Peers;
 
-use crate::problems::{Problem, Setting, methods};
+use super::estimate::check::{Checked, check};
+use super::ladder::{Budget, Course, Legend, Outcome, Peer, Rules, Setting, Settings, TARGETS, climb, least};
+use crate::problems::hard::{Case, Extent, Reading, Verdict, rounded};
+use crate::problems::{self, Problem, methods};
+use crate::raster::Diagram;
 use crate::scene::sections::ClockSection;
-use crate::scene::sections::clock::EventTiming;
+use subject::Asked;
 
 /// Ticks of the ladder over that of the problem.
-const LADDER: [f64; 7] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
+const LADDER: [f64; 8] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
 const QUICK_LADDER: [f64; 3] = [4.0, 1.0, 0.25];
 /// Methods where it has to be quick.
 const QUICK: [&str; 4] = [ClockSection::AUTO, "VelocityVerlet", "RungeKutta4", "Dop853"];
 /// Ticks of a run, at most.
 const MOST_TICKS: f64 = 1e6;
 const QUICK_MOST_TICKS: f64 = 3e4;
-/// Where in a tick events fall, as shares of it.
-const PHASES: [f64; 3] = [0.0, 0.37, 0.71];
-/// Timed runs, at least and at most, and seconds after which there are no more.
-const RUNS: [u32; 2] = [2, 9];
-const PATIENCE: f64 = 0.2;
-
-/// Errors that grades are given for, with their names.
-pub const GRADES: [(&str, f64); 3] = [("bronze", 1e-2), ("silver", 1e-4), ("gold", 1e-8)];
+/// Errors below this count as this: rounding, and exact zeros.
+const LEAST_ERROR: f64 = 1e-16;
 
 /// What is to be measured.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Order {
-    /// Fewer methods and ticks: a first look.
+    /// Fewer methods, ticks and hard cases: a first look.
     pub quick: bool,
-}
-
-/// A method, and how it goes through events.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Course {
-    /// Name of the method; `Auto`: the engine chooses.
-    pub method: &'static str,
-    /// When jumps of the forces take place.
-    pub events: EventTiming,
-}
-
-impl Course {
-    /// In words: `located` where events are, else they happen at the ends of ticks. `Auto` is what the engine chooses.
-    pub fn name(&self) -> String {
-        match self.events {
-            EventTiming::Auto | EventTiming::PerTick => self.method.to_owned(),
-            EventTiming::Located => format!("{}, located", self.method),
-        }
-    }
-}
-
-/// What came of a setting that ran.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reached {
-    /// The greatest error, in the unit of the problem.
-    pub error: f64,
-    /// Seconds of computing for each second of physics.
-    pub cost: f64,
-}
-
-/// A setting.
-#[derive(Clone, Debug)]
-pub struct Cell {
-    /// The method.
-    pub course: Course,
-    /// Length of a tick in seconds.
-    pub tick: f64,
-    /// What came of it, or why nothing did.
-    pub outcome: Result<Reached, String>,
 }
 
 /// What was measured of a problem.
@@ -87,198 +52,272 @@ pub struct Sheet {
     /// The problem.
     pub problem: Problem,
     /// All settings, course by course, from long ticks to short ones.
-    pub cells: Vec<Cell>,
+    pub settings: Settings,
     /// State hash of the run that the engine chooses at the tick of the problem.
     pub hash: Option<String>,
+    /// What runs say of their own error, beside the truth.
+    pub estimates: Vec<Checked>,
+}
+
+/// What was measured of a hard case.
+#[derive(Clone)]
+pub struct Judged {
+    /// The case.
+    pub case: Case,
+    /// Its readings; nothing: it was left out.
+    pub readings: Option<Vec<Reading>>,
+}
+
+impl Judged {
+    /// How many readings came out so.
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.readings.iter().flatten().filter(|reading| reading.verdict() == verdict).count()
+    }
+}
+
+/// Work that one core does at a time.
+enum Job {
+    Case(Case),
+    Problem(Problem),
+}
+
+/// What came of it.
+enum Done {
+    Case(Judged),
+    Problem(Box<Sheet>),
 }
 
 impl Order {
+    /// How much of a hard case is run; nothing: it is left out.
+    fn extent(&self, case: &Case) -> Option<Extent> {
+        if self.quick { case.cheap.then_some(Extent::Short) } else { Some(Extent::Full) }
+    }
+
     /// The ways in which a problem is run.
     pub fn courses(&self, problem: &Problem) -> Vec<Course> {
-        let auto = Course { method: ClockSection::AUTO, events: EventTiming::Auto };
         let wanted = |name: &str| !self.quick || QUICK.contains(&name);
         let methods = methods().into_iter().filter(|method| wanted(method.name));
         let all = methods.flat_map(|method| {
             let timings = problem.timings(&method);
             timings.into_iter().map(move |events| Course { method: method.name, events })
         });
-        std::iter::once(auto).chain(all).collect()
+        std::iter::once(Course::of(ClockSection::AUTO)).chain(all).collect()
     }
 
-    /// Measures a problem. `step` is told each time a course is done.
-    pub fn measure(&self, problem: &Problem, mut step: impl FnMut()) -> Sheet {
+    /// Errors of problems, and hard cases, on all cores; `step` is told each time one is done. Costs are not known yet.
+    pub fn errors(&self, problems: &[Problem], cases: &[Case], step: &(dyn Fn() + Sync)) -> (Vec<Sheet>, Vec<Judged>) {
+        let jobs: Vec<Job> =
+            cases.iter().copied().map(Job::Case).chain(problems.iter().copied().map(Job::Problem)).collect();
+        let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+        let work = || {
+            while let Some((place, job)) =
+                Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|place| Some((place, jobs.get(place)?)))
+            {
+                let found = match job {
+                    Job::Case(case) => {
+                        let readings = self.extent(case).map(|extent| case.measure(extent));
+                        Done::Case(Judged { case: *case, readings })
+                    }
+                    Job::Problem(problem) => Done::Problem(Box::new(self.errors_of(problem))),
+                };
+                done.lock().unwrap_or_else(PoisonError::into_inner).push((place, found));
+                step();
+            }
+        };
+        let cores = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len());
+        std::thread::scope(|scope| (0..cores).for_each(|_| drop(scope.spawn(work))));
+        let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+        done.sort_by_key(|(place, _)| *place);
+        let (mut sheets, mut judged) = (Vec::new(), Vec::new());
+        for (_, found) in done {
+            match found {
+                Done::Case(case) => judged.push(case),
+                Done::Problem(sheet) => sheets.push(*sheet),
+            }
+        }
+        (sheets, judged)
+    }
+
+    fn errors_of(&self, problem: &Problem) -> Sheet {
         let (ladder, most) = if self.quick { (&QUICK_LADDER[..], QUICK_MOST_TICKS) } else { (&LADDER[..], MOST_TICKS) };
-        let mut cells = Vec::new();
-        for course in self.courses(problem) {
-            let ticks = ladder.iter().map(|share| share * problem.tick);
-            for tick in ticks.filter(|tick| problem.duration() / tick <= most) {
-                cells.push(Cell { course, tick, outcome: self.outcome(problem, course, tick) });
-            }
-            step();
-        }
-        let hash =
-            problem.load(&Setting { tick: problem.tick, ..Setting::default() }).ok().and_then(|mut simulation| {
-                simulation.run_to_end().ok()?;
-                Some(simulation.card().hash)
-            });
-        Sheet { problem: *problem, cells, hash }
+        let ticks: Vec<f64> =
+            ladder.iter().map(|share| share * problem.tick).filter(|tick| problem.duration() / tick <= most).collect();
+        let floor = ticks.iter().map(|tick| (problem.rounding)(*tick)).fold(f64::INFINITY, f64::min);
+        let subject = Asked { problem, phases: !self.quick };
+        let courses = self.courses(problem).into_iter().map(|course| (course, ticks.clone().into_iter()));
+        let rules = Rules { rungs: usize::MAX, leaves_behind: !self.quick };
+        let Ok((all, ends)) = climb(&subject, courses, &rules, &Budget::endless());
+        let hash = problem.load(&problems::Setting { tick: problem.tick, ..Default::default() }).ok();
+        let hash = hash.and_then(|mut simulation| {
+            simulation.run_to_end().ok()?;
+            Some(simulation.card().hash)
+        });
+        let settings = Settings { all, ends, cost: Default::default(), claim: Some(floor.max(LEAST_ERROR)) };
+        let estimates = if self.quick { Vec::new() } else { check(problem).unwrap_or_default() };
+        Sheet { problem: *problem, settings, hash, estimates }
     }
-
-    fn outcome(&self, problem: &Problem, Course { method, events }: Course, tick: f64) -> Result<Reached, String> {
-        let phases = if problem.class.depends_on_phase() && !self.quick { &PHASES[..] } else { &PHASES[..1] };
-        let mut error = 0.0_f64;
-        for phase in phases {
-            let setting = Setting { method, tick, shift: phase * tick, events };
-            let found = problem.measure(&setting).map_err(|error| first_line(&error.to_string()))?;
-            if !found.is_finite() {
-                return Err("the error is no number".to_owned());
-            }
-            error = error.max(found);
-        }
-        let setting = Setting { method, tick, shift: 0.0, events };
-        Ok(Reached { error, cost: cost(problem, &setting).map_err(|error| first_line(&error))? })
-    }
-}
-
-/// Seconds of computing for each second of physics: the least of several runs.
-fn cost(problem: &Problem, setting: &Setting) -> Result<f64, String> {
-    let (mut least, mut spent, mut runs) = (f64::INFINITY, 0.0, 0);
-    while runs < RUNS[0] || runs < RUNS[1] && spent < PATIENCE {
-        let mut simulation = problem.load(setting).map_err(|error| error.to_string())?;
-        let begin = Instant::now();
-        simulation.run_to_end().map_err(|failure| failure.to_string())?;
-        let seconds = begin.elapsed().as_secs_f64();
-        least = least.min(seconds);
-        spent += seconds;
-        runs += 1;
-    }
-    Ok(least / problem.duration())
-}
-
-fn first_line(text: &str) -> String {
-    let text = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("it does not run");
-    text.trim_start_matches("error: ").to_owned()
 }
 
 impl Sheet {
-    /// The settings of a course.
-    pub fn of(&self, course: Course) -> impl Iterator<Item = &Cell> {
-        self.cells.iter().filter(move |cell| cell.course == course)
-    }
-
-    /// All courses, in order.
-    pub fn courses(&self) -> Vec<Course> {
-        let mut courses: Vec<Course> = Vec::new();
-        for cell in &self.cells {
-            if courses.last() != Some(&cell.course) {
-                courses.push(cell.course);
+    /// Times what was measured, one run after the other.
+    pub fn time(&mut self) {
+        let problem = self.problem;
+        for setting in &mut self.settings.all {
+            if let Outcome::Measured(_) = setting.outcome {
+                let Course { method, events } = setting.course;
+                let run = problems::Setting { method, tick: setting.tick, shift: 0.0, events };
+                let seconds = least(|| problem.load(&run), f64::INFINITY, 0.0);
+                setting.seconds = seconds.ok().flatten().map(|seconds| seconds / problem.duration());
             }
         }
-        courses
     }
 
-    /// The cheapest setting whose error is at most `error`.
-    pub fn cheapest(&self, error: f64) -> Option<(&Cell, Reached)> {
-        let good = self.cells.iter().filter_map(|cell| Some((cell, cell.outcome.as_ref().ok().copied()?)));
-        let good = good.filter(|(_, reached)| reached.error <= error);
-        good.min_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost))
-    }
-
-    /// The least error of a course.
-    pub fn least(&self, course: Course) -> Option<f64> {
-        let errors = self.of(course).filter_map(|cell| cell.outcome.as_ref().ok().map(|reached| reached.error));
-        errors.min_by(f64::total_cmp)
-    }
-
-    /// What rounding alone may do, at the shortest tick that was run.
+    /// What rounding, or how well the answer is known, leaves open at the longest tick.
     pub fn floor(&self) -> f64 {
-        let shortest = self.cells.iter().map(|cell| cell.tick).fold(self.problem.tick, f64::min);
-        (self.problem.rounding)(shortest)
+        self.settings.claim.unwrap_or(LEAST_ERROR)
     }
 
-    /// The grade for an error: `reference` where it is rounding.
-    pub fn grade(&self, error: f64) -> Option<&'static str> {
-        if error <= self.floor() {
+    /// The grade of a setting: `reference` where its error is what rounding or the answer leaves open at its tick.
+    pub fn grade(&self, setting: &Setting) -> Option<&'static str> {
+        let error = setting.error()?;
+        if error <= (self.problem.rounding)(setting.tick) {
             return Some("reference");
         }
-        GRADES.iter().rev().find(|(_, bound)| error <= *bound).map(|(name, _)| *name)
+        TARGETS.iter().rev().find(|(_, bound)| error <= *bound).map(|(name, _)| *name)
     }
 
-    /// The cells as comma-separated values.
+    /// The best grade of the settings of a method.
+    fn best_grade(&self, method: &str) -> Option<&'static str> {
+        let own = self.settings.all.iter().filter(|setting| setting.course.method == method);
+        let rank = |grade: &&str| TARGETS.iter().position(|(name, _)| name == grade).unwrap_or(TARGETS.len());
+        own.filter_map(|setting| self.grade(setting)).max_by_key(rank)
+    }
+
+    /// The work-precision diagram.
+    pub fn diagram(&self, peers: &[Peer]) -> Diagram {
+        let problem = &self.problem;
+        let unit = if problem.unit == "1" { String::new() } else { format!(" in {}", problem.unit) };
+        // Where errors have a unit, what is useless depends on the scene: then only what failed stands aside.
+        let errors = self.settings.all.iter().filter_map(Setting::error);
+        let errors = errors.chain(peers.iter().flat_map(|peer| peer.points.iter().map(|(error, _)| *error)));
+        let greatest = errors.filter(|error| error.is_finite()).fold(1.0, f64::max);
+        let useless = match problem.unit {
+            "1" => (1.0, "failed, or useless".to_owned()),
+            _ => (libm::exp10(libm::ceil(libm::log10(greatest))), "failed".to_owned()),
+        };
+        let legend = Legend {
+            title: format!("{}: cost against error", problem.name),
+            error: format!("error{unit}"),
+            floor: format!("what rounding or the answer leaves open, {:.0e}", self.floor()),
+            useless,
+        };
+        super::ladder::diagram(&self.settings, legend, peers)
+    }
+
+    /// The settings as comma-separated values.
     pub fn csv(&self) -> String {
-        let mut text = "method,events,tick,error,cost,failure\n".to_owned();
-        for Cell { course: Course { method, events }, tick, outcome } in &self.cells {
-            let row = match outcome {
-                Ok(Reached { error, cost }) => format!("{method},{events:?},{tick:e},{error:e},{cost:e},\n"),
-                Err(reason) => format!("{method},{events:?},{tick:e},,,\"{}\"\n", reason.replace('"', "\"\"")),
-            };
-            text.push_str(&row);
+        let mut text =
+            "method,events,tick [s],error,seconds_per_second,evaluations_per_second [1/s],failure\n".to_owned();
+        let or_empty = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
+        for setting in &self.settings.all {
+            let Course { method, events } = setting.course;
+            let failure = failure(setting).map_or_else(String::new, |why| format!("\"{}\"", why.replace('"', "\"\"")));
+            text.push_str(&format!(
+                "{method},{events:?},{:e},{},{},{:e},{failure}\n",
+                setting.tick,
+                or_empty(setting.error()),
+                or_empty(setting.seconds),
+                setting.evaluations
+            ));
         }
         text
     }
 }
 
-/// What the report was made with: version, processor, cores, vector instructions.
-pub fn machine() -> String {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let (version, level) = (env!("CARGO_PKG_VERSION"), crate::simd::Level::best());
-    format!("jostle {version}, {}, one of {cores} cores, {level}", std::env::consts::ARCH)
+/// Why a setting has no error.
+fn failure(setting: &Setting) -> Option<String> {
+    match &setting.outcome {
+        Outcome::Measured(_) => None,
+        Outcome::Failed(failure) => Some(failure.to_string()),
+        Outcome::Refused(why) => Some(why.clone()),
+        Outcome::Unknown | Outcome::Stopped(_) => Some("the error is no number".to_owned()),
+    }
+}
+
+/// The readings of hard cases as comma-separated values.
+pub fn cases_csv(cases: &[Judged]) -> String {
+    let mut text = "case,quantity,value,threshold,verdict,why,told\n".to_owned();
+    let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+    for judged in cases {
+        for reading in judged.readings.iter().flatten() {
+            text.push_str(&format!(
+                "{},{},{:e},{},{},{},{}\n",
+                judged.case.name,
+                quoted(&reading.what),
+                reading.value,
+                quoted(&reading.threshold.to_string()),
+                word(reading.verdict()),
+                quoted(reading.why),
+                quoted(reading.told.as_deref().unwrap_or_default())
+            ));
+        }
+    }
+    text
+}
+
+/// A verdict in a word.
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Passed => "passed",
+        Verdict::Told => "told",
+        Verdict::Failed => "FAILED",
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problems::{elastic_bounce, spring_mass};
-
-    fn sheet() -> Sheet {
-        let course = |method| Course { method, events: EventTiming::Auto };
-        let cell =
-            |method, tick, error, cost| Cell { course: course(method), tick, outcome: Ok(Reached { error, cost }) };
-        let failed = Cell { course: course("B"), tick: 1.0, outcome: Err("a \"b\"".to_owned()) };
-        let cells = vec![cell("A", 0.1, 5e-3, 1e-4), cell("A", 0.01, 5e-5, 1e-3), failed, cell("B", 0.1, 1e-9, 5e-4)];
-        Sheet { problem: spring_mass::PROBLEM, cells, hash: None }
-    }
-
-    #[test]
-    fn the_cheapest_that_is_good_enough_is_found() {
-        let sheet = sheet();
-        let cheapest = |error| sheet.cheapest(error).map(|(cell, _)| (cell.course.method, cell.tick));
-        assert_eq!(cheapest(1e-2), Some(("A", 0.1)));
-        assert_eq!(cheapest(1e-4), Some(("B", 0.1)));
-        assert_eq!(cheapest(1e-10), None);
-        assert_eq!(sheet.courses().len(), 2);
-        assert_eq!(sheet.least(sheet.cells[0].course), Some(5e-5));
-    }
-
-    #[test]
-    fn grades_follow_errors_and_failures_stay() {
-        let sheet = sheet();
-        assert_eq!(
-            [1.0, 1e-2, 1e-5, 1e-9].map(|e| sheet.grade(e)),
-            [None, Some("bronze"), Some("silver"), Some("gold")]
-        );
-        assert_eq!(sheet.grade(0.0), Some("reference"));
-        assert!(sheet.csv().contains("B,Auto,1e0,,,\"a \"\"b\"\"\"\n"), "{}", sheet.csv());
-    }
+    use crate::problems::{EventTiming, elastic_bounce};
 
     #[test]
     fn errors_of_a_sheet_are_those_of_the_problem() {
         let problem = elastic_bounce::PROBLEM;
-        let sheet = Order { quick: true }.measure(&problem, || ());
-        assert!(sheet.hash.is_some());
-        let [verlet] = &sheet
-            .cells
-            .iter()
-            .filter(|cell| {
-                cell.course == Course { method: "VelocityVerlet", events: EventTiming::PerTick }
-                    && cell.tick == problem.tick
-            })
-            .collect::<Vec<_>>()[..]
-        else {
-            panic!("there is one such cell")
+        let (mut sheets, cases) = Order { quick: true }.errors(&[problem], &[], &|| ());
+        assert!(cases.is_empty() && sheets[0].hash.is_some());
+        let course = Course { method: "VelocityVerlet", events: EventTiming::PerTick };
+        let at =
+            |sheet: &Sheet| sheet.settings.of(course).find(|setting| setting.tick == problem.tick).cloned().unwrap();
+        let run = problems::Setting { method: course.method, tick: problem.tick, shift: 0.0, events: course.events };
+        assert_eq!(at(&sheets[0]).error().unwrap(), problem.measure(&run).unwrap());
+        assert_eq!(at(&sheets[0]).seconds, None);
+        sheets[0].time();
+        assert!(at(&sheets[0]).seconds.unwrap() > 0.0);
+    }
+
+    #[test]
+    fn grades_follow_errors() {
+        let mut sheet = Sheet {
+            problem: elastic_bounce::PROBLEM,
+            settings: Settings { all: Vec::new(), ends: Vec::new(), cost: Default::default(), claim: Some(1e-16) },
+            hash: None,
+            estimates: Vec::new(),
         };
-        let setting =
-            Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, events: EventTiming::PerTick };
-        assert_eq!(verlet.outcome.as_ref().unwrap().error, problem.measure(&setting).unwrap());
+        let tick = 1e-3;
+        let rounding = (elastic_bounce::PROBLEM.rounding)(tick);
+        for (error, grade) in [
+            (1.0, None),
+            (1e-2, Some("bronze")),
+            (1e-5, Some("silver")),
+            (1e-9, Some("gold")),
+            (rounding, Some("reference")),
+        ] {
+            let outcome = Outcome::Measured(crate::report::ladder::Deviation { error, apart: None });
+            let setting = Setting { outcome, ..Setting::new(Course::of("A"), tick) };
+            assert_eq!(sheet.grade(&setting), grade);
+            // Each is better than all before.
+            sheet.settings.all.push(setting);
+            assert_eq!(sheet.best_grade("A"), grade);
+        }
+        assert_eq!(sheet.best_grade("B"), None);
     }
 }

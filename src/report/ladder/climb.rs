@@ -1,0 +1,150 @@
+//! Going up: every course with ticks from coarse to fine, all courses by turns, until errors are no larger than what is known of them,
+//! or time is up.
+
+use super::{Budget, Course, Outcome, Setting};
+use crate::report::card::number;
+
+/// Courses that fail so many times one after the other are left.
+const MOST_FAILURES: u32 = 6;
+/// Errors below this that fall no more are rounding.
+const ROUNDING: f64 = 1e-7;
+/// A course is left behind where another one has no more than its error for this share of its evaluations.
+const BEHIND: f64 = 1.0 / 64.0;
+/// ... but not before so many of its settings are measured.
+const SEEN: usize = 4;
+
+/// What is run on the ladder.
+pub(in crate::report) trait Subject {
+    /// Why it cannot go on.
+    type Wrong;
+
+    /// Runs it with a tick; the setting, with its time if that is known, and the seconds that it took.
+    fn run(&self, course: Course, tick: f64) -> Result<(Setting, f64), Self::Wrong>;
+
+    /// Why an error so small, at a tick, tells nothing more, if so.
+    fn is_floor(&self, error: f64, tick: f64) -> Option<String>;
+}
+
+/// When to go no further.
+pub(in crate::report) struct Rules {
+    /// Ticks that each course tries at the most.
+    pub rungs: usize,
+    /// Whether courses that others leave far behind go on.
+    pub leaves_behind: bool,
+}
+
+/// A course on the ladder.
+struct Climber<I: Iterator<Item = f64>> {
+    course: Course,
+    ticks: std::iter::Peekable<I>,
+    settings: Vec<Setting>,
+    /// Seconds and tick of the last one.
+    last: Option<(f64, f64)>,
+    failures: u32,
+    /// Why it goes no further.
+    end: Option<String>,
+}
+
+/// Climbs; returns what came out, and why courses went no further. Each comes with its ticks, from coarse to fine.
+#[expect(clippy::type_complexity, reason = "two lists")]
+pub(in crate::report) fn climb<S: Subject, I: Iterator<Item = f64>>(
+    subject: &S,
+    courses: impl Iterator<Item = (Course, I)>,
+    rules: &Rules,
+    budget: &Budget,
+) -> Result<(Vec<Setting>, Vec<(Course, String)>), S::Wrong> {
+    let climber = |(course, ticks): (Course, I)| Climber {
+        course,
+        ticks: ticks.peekable(),
+        settings: Vec::new(),
+        last: None,
+        failures: 0,
+        end: None,
+    };
+    let mut climbers: Vec<Climber<I>> = courses.map(climber).collect();
+    while climbers.iter().any(|climber| climber.end.is_none()) {
+        for climber in &mut climbers {
+            // The others have used of the budget meanwhile.
+            climber.end = climber.end.take().or_else(|| climber.reason_to_end(subject, rules, budget));
+            if climber.end.is_none() {
+                climber.step(subject)?;
+                climber.end = climber.reason_to_end(subject, rules, budget);
+            }
+        }
+        for place in 0..climbers.len() {
+            if rules.leaves_behind && climbers[place].end.is_none() && behind(&climbers, place) {
+                climbers[place].end =
+                    Some("finer ticks were not tried: others have this error for a 64th of the evaluations".to_owned());
+            }
+        }
+    }
+    let ends = climbers.iter().map(|climber| (climber.course, climber.end.clone().unwrap_or_default())).collect();
+    Ok((climbers.into_iter().flat_map(|climber| climber.settings).collect(), ends))
+}
+
+/// Whether another course is as good as the last setting of this one for far fewer evaluations.
+fn behind<I: Iterator<Item = f64>>(climbers: &[Climber<I>], place: usize) -> bool {
+    let own = &climbers[place].settings;
+    let measured = own.iter().filter(|setting| setting.error().is_some()).count();
+    let Some((last, error)) = own.last().and_then(|last| Some((last, last.error()?))) else { return false };
+    let others = climbers.iter().flat_map(|climber| &climber.settings);
+    let better = |other: &Setting| {
+        other.error().is_some_and(|share| share <= error) && other.evaluations <= BEHIND * last.evaluations
+    };
+    measured >= SEEN && others.into_iter().any(better)
+}
+
+impl<I: Iterator<Item = f64>> Climber<I> {
+    /// Tries the next tick.
+    fn step<S: Subject>(&mut self, subject: &S) -> Result<(), S::Wrong> {
+        let Some(tick) = self.ticks.next() else { return Ok(()) };
+        let (setting, spent) = subject.run(self.course, tick)?;
+        match setting.outcome {
+            Outcome::Failed(_) => self.failures += 1,
+            _ => self.failures = 0,
+        }
+        self.last = Some((spent, tick));
+        self.settings.push(setting);
+        Ok(())
+    }
+
+    /// Why it should go no further.
+    fn reason_to_end<S: Subject>(&mut self, subject: &S, rules: &Rules, budget: &Budget) -> Option<String> {
+        let Some(next) = self.ticks.peek().copied() else { return Some("no finer ticks are on its ladder".to_owned()) };
+        let last = self.settings.last()?;
+        let error = match &last.outcome {
+            Outcome::Refused(_) => return Some("it cannot run this scene".to_owned()),
+            Outcome::Stopped(_) => return Some("the budget is used up".to_owned()),
+            Outcome::Failed(_) if self.failures >= MOST_FAILURES => return Some("all its runs go wrong".to_owned()),
+            Outcome::Failed(_) => f64::INFINITY,
+            Outcome::Unknown if self.settings.len() >= SEEN => return Some("there is no reference run".to_owned()),
+            Outcome::Unknown => f64::INFINITY,
+            Outcome::Measured(deviation) => deviation.error,
+        };
+        if let Some(why) = subject.is_floor(error, last.tick) {
+            return Some(why);
+        }
+        let before = self.settings.iter().rev().map_while(Setting::error).take(3).collect::<Vec<_>>();
+        if let [now, once, twice] = before[..]
+            && twice < ROUNDING
+            && now > 0.5 * once
+            && once > 0.5 * twice
+        {
+            return Some("its errors fall no more: rounding".to_owned());
+        }
+        if self.settings.len() >= rules.rungs {
+            return Some(format!("{} ticks were tried, as many as asked for", rules.rungs));
+        }
+        let (spent, tick) = self.last?;
+        // It is run once to be compared, and timed.
+        let runs = if last.seconds.is_some() && self.failures == 0 { 2.0 } else { 1.0 };
+        let needed = spent * tick / next;
+        (needed * runs > budget.left())
+            .then(|| format!("the next finer tick would take {} s a run", number(rounded(needed))))
+    }
+}
+
+/// Two digits are enough of what is foretold.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}

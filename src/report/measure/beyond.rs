@@ -1,0 +1,82 @@
+//! Beyond the time until which places are known: means over the rest of the run and over all bodies, which chaos leaves as they are.
+//!
+//! What reference runs differ by there is the scatter of one run; a setting within it is as good as they are, for all that a
+//! single run can tell (ensembles tell more: `jostle sweep`).
+
+use glam::DVec2;
+
+use crate::report::accuracy::trajectory::Trajectory;
+
+/// Means of a run over time and bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Means {
+    /// Root of the mean square of speeds, in m/s.
+    speed: f64,
+    /// Mean place in m.
+    place: DVec2,
+}
+
+/// How far means are from those of the reference: of speeds as a share of them, of places as a share of how far bodies go.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Apart {
+    /// Root of the mean square of speeds, over that of the reference, less one.
+    pub speed: f64,
+    /// Distance of the mean places, over how far bodies go.
+    pub place: f64,
+}
+
+impl Apart {
+    /// The greater of each, without signs.
+    fn or_greater(self, other: Self) -> Self {
+        Self { speed: self.speed.abs().max(other.speed.abs()), place: self.place.max(other.place) }
+    }
+
+    /// In words.
+    pub fn words(&self) -> String {
+        format!(
+            "{:+.1} % in the mean speed, {:.1} % of the motion in the mean place",
+            100.0 * self.speed,
+            100.0 * self.place
+        )
+    }
+}
+
+/// What reference runs say of the time beyond.
+pub(super) struct Beyond {
+    from: f64,
+    means: Means,
+    /// How far bodies go, in m.
+    motion: f64,
+    /// How far reference runs are from each other.
+    pub scatter: Apart,
+}
+
+fn means(run: &Trajectory, from: f64) -> Option<Means> {
+    let (mut squares, mut place, mut many) = (0.0, DVec2::ZERO, 0.0);
+    for (position, velocity) in run.states_after(from) {
+        squares += velocity.length_squared();
+        place += position;
+        many += 1.0;
+    }
+    (many > 0.0).then(|| Means { speed: (squares / many).sqrt(), place: place / many })
+}
+
+impl Beyond {
+    /// What these runs have in common after `from` seconds; the first is the one that settings are compared with.
+    pub fn of(runs: &[&Trajectory], from: f64) -> Option<Self> {
+        let first = runs.first()?;
+        let beyond = Self { from, means: means(first, from)?, motion: first.sizes().0, scatter: Apart::default() };
+        let others = runs[1..].iter().filter_map(|run| beyond.compare(run));
+        let scatter = others.fold(Apart::default(), Apart::or_greater);
+        Some(Self { scatter, ..beyond })
+    }
+
+    /// How far a run is from them.
+    pub fn compare(&self, run: &Trajectory) -> Option<Apart> {
+        let means = means(run, self.from)?;
+        let (speed, motion) = (self.means.speed, self.motion);
+        let apart =
+            Apart { speed: means.speed / speed - 1.0, place: (means.place - self.means.place).length() / motion };
+        (apart.speed.is_finite() && apart.place.is_finite()).then_some(apart)
+    }
+}

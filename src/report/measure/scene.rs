@@ -1,0 +1,138 @@
+//! A scene on the ladder: what is known of it before anything runs, its ticks, and how a run of it is compared with the reference.
+
+use super::reference::{self, Truth};
+use super::{Load, Way};
+use crate::integrate::{Description, LocatedEvents, Methods};
+use crate::report::accuracy::trajectory::Trajectory;
+use crate::report::card::{ChosenMethod, number};
+use crate::report::ladder::{Budget, Course, Deviation, Outcome, Setting, Subject, least, timed};
+use crate::scene::SceneErrors;
+use crate::tick::Stability;
+
+/// The coarsest tick is so many times the critical one, where there is one: what lies beyond is seen to fail.
+const BEYOND_CRITICAL: f64 = 2.0;
+/// What stands for the limit of methods that have none, or are never stable without losses.
+const USUAL_LIMIT: f64 = 2.0;
+/// The run has at least so many ticks.
+const FEWEST_TICKS: f64 = 5.0;
+/// Parts of a hundred moments, each about twice as fine as the one before.
+const COARSE: [u64; 6] = [1, 2, 5, 10, 20, 50];
+/// How often ticks are halved at the most.
+const HALVINGS: u32 = 40;
+/// Beyond so many bodies fewer moments are kept.
+const MANY_BODIES: usize = 6000;
+
+/// What is known of the scene before anything runs.
+pub(super) struct Scene {
+    pub duration: f64,
+    /// The fastest of contacts and springs in rad/s, if there are any.
+    pub fastest: Option<f64>,
+    /// Moments at which runs are compared.
+    pub moments: u64,
+    pub methods: Methods,
+}
+
+impl Scene {
+    /// Looks at the scene. Its own tick does not matter, so one that divides whatever run it has is tried.
+    pub fn look(load: Load) -> Result<Self, SceneErrors> {
+        let probe = |tick| load(Way::Plan(&reference::located(tick, 1.0, tick)));
+        let simulation = probe(1e-3).or_else(|wrong| probe(1e-9).or_else(|_| probe(1e3)).map_err(|_| wrong))?;
+        let world = simulation.world();
+        Ok(Self {
+            duration: simulation.duration(),
+            fastest: world.resource::<Stability>().fastest_foreseen().map(|fastest| fastest.angular_frequency),
+            moments: if simulation.bodies().len() > MANY_BODIES { 10 } else { 100 },
+            methods: Methods(world.resource::<Methods>().0.clone()),
+        })
+    }
+
+    /// The ticks of a method, from coarse to fine: the run over a part or a multiple by a power of two of the moments.
+    pub fn ticks(&self, method: &Description, truth: Option<&Truth>) -> impl Iterator<Item = f64> {
+        let limit = method.stability_limit;
+        let limit = if limit.is_finite() && limit > 0.0 { limit } else { USUAL_LIMIT };
+        let critical = self.fastest.map_or(f64::INFINITY, |fastest| BEYOND_CRITICAL * limit / fastest);
+        // A tick longer than the time that is compared would be seen nowhere.
+        let until = truth.map_or(f64::INFINITY, |truth| truth.about.until);
+        let fewest = (self.duration / critical.min(until)).max(FEWEST_TICKS);
+        let (moments, duration) = (self.moments, self.duration);
+        let coarse = COARSE.into_iter().filter(move |count| moments.is_multiple_of(*count) && *count < moments);
+        let fine = (0..HALVINGS).map(move |power| moments << power);
+        let counts = coarse.chain(fine).skip_while(move |count| (*count as f64) < fewest * (1.0 - 1e-9));
+        counts.map(move |count| duration / count as f64)
+    }
+}
+
+/// A scene with its reference run, if there is one.
+pub(super) struct Compared<'a> {
+    pub load: Load<'a>,
+    pub scene: &'a Scene,
+    pub truth: Option<&'a Truth>,
+    pub budget: &'a Budget<'a>,
+}
+
+impl Subject for Compared<'_> {
+    type Wrong = SceneErrors;
+
+    fn run(&self, course: Course, tick: f64) -> Result<(Setting, f64), SceneErrors> {
+        let Self { load, scene, truth, budget } = self;
+        let count = (scene.duration / tick).round() as u64;
+        let mut setting = Setting::new(course, tick);
+        let mut simulation = match load(Way::Flags(course.method, tick)) {
+            Ok(simulation) => simulation,
+            Err(errors) => {
+                let why = errors.errors().first().map_or_else(String::new, |error| error.message.clone());
+                setting.outcome = Outcome::Refused(why);
+                return Ok((setting, 0.0));
+            }
+        };
+        setting.located = simulation.world().get_resource::<ChosenMethod>().is_some_and(|method| method.located);
+        let stride = (count / scene.moments).max(1);
+        let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, stride, &|| budget.within(1.0)));
+        let spent = spent.as_secs_f64();
+        let card = simulation.card();
+        if let Some(critical) = card.critical_tick.filter(|critical| *critical < tick) {
+            setting.notes.push(if critical > 0.0 {
+                format!("tick beyond the critical one of {} s", number(critical))
+            } else {
+                "never stable without losses".to_owned()
+            });
+        }
+        if let Some(given_up) = simulation.world().get_resource::<LocatedEvents>().map(|events| events.given_up)
+            && given_up > 0
+        {
+            setting.notes.push(format!("{given_up} of {count} ticks with too many events to locate them"));
+        }
+        match seen {
+            Err(share) => setting.outcome = Outcome::Stopped(share),
+            Ok(Trajectory { failure: Some(failure), evaluations, .. }) => {
+                setting.evaluations = evaluations as f64 / failure.time.max(tick);
+                setting.seconds = Some(spent / failure.time.max(tick));
+                setting.outcome = Outcome::Failed(failure);
+            }
+            Ok(run) => {
+                setting.evaluations = run.evaluations as f64 / scene.duration;
+                if let Some(truth) = truth {
+                    let every = (scene.moments / count).max(1) as usize;
+                    let apart = run
+                        .part(truth.about.until, 1)
+                        .apart_by(&truth.run.part(truth.about.until, every), &truth.measures);
+                    let deviation = Deviation { error: apart.share, apart: Some((apart.distance, apart.speed)) };
+                    setting.outcome = Outcome::Measured(deviation);
+                    let beyond = truth.beyond.as_ref().and_then(|beyond| beyond.compare(&run));
+                    setting.notes.extend(beyond.map(|apart| format!("beyond: {}", apart.words())));
+                }
+                let least = least(|| load(Way::Flags(course.method, tick)), budget.left(), spent)?;
+                if least.is_none() {
+                    setting.notes.push("timed while it was compared".to_owned());
+                }
+                setting.seconds = Some(least.unwrap_or(spent) / scene.duration);
+            }
+        }
+        Ok((setting, spent))
+    }
+
+    fn is_floor(&self, error: f64, _: f64) -> Option<String> {
+        let truth = self.truth.filter(|truth| error <= truth.about.claim())?;
+        Some(format!("its error is that of the reference run, {:.0e}, or less", truth.about.floor))
+    }
+}

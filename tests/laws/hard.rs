@@ -1,0 +1,57 @@
+//! Law: each of the hard cases of `jostle::problems::hard`, its own, in the short form. Source and tolerances: each case's file, where
+//! every threshold stands beside what it is derived from.
+//!
+//! A value beyond its threshold of which the engine tells is no failure here: only the sweep of ticks has such, above the critical tick.
+//!
+//! Not tested: what the short forms leave out; `jostle report` runs all.
+
+use jostle::problems::hard::{ALL, Case, Extent, Threshold, Verdict};
+
+/// Runs a case and shows its readings.
+fn assert_holds(case: &Case) {
+    let readings = case.measure(Extent::Short);
+    assert!(!readings.is_empty(), "{}: nothing was measured", case.name);
+    let mut failed = Vec::new();
+    for reading in &readings {
+        let told = reading.told.as_ref().map_or_else(String::new, |told| format!(" ({told})"));
+        let line =
+            format!("{:?}: {}: {:e} {}{told}", reading.verdict(), reading.what, reading.value, reading.threshold);
+        println!("{line}");
+        if reading.verdict() == Verdict::Failed {
+            failed.push(format!("{line}: {}", reading.why));
+        }
+        let (Threshold::AtMost(bound) | Threshold::AtLeast(bound)) = reading.threshold;
+        assert!(bound.is_finite() && !reading.why.is_empty(), "{line}");
+    }
+    assert!(failed.is_empty(), "{}:\n{}", case.name, failed.join("\n"));
+}
+
+/// A test for each case, and one that there are no others.
+macro_rules! cases {
+    ($($name:ident),+ $(,)?) => {
+        $(#[test]
+        fn $name() {
+            assert_holds(&jostle::problems::hard::$name::CASE);
+        })+
+
+        #[test]
+        fn every_case_has_its_test_under_its_name() {
+            assert_eq!(ALL.iter().map(|case| case.name).collect::<Vec<_>>(), [$(stringify!($name)),+]);
+        }
+    };
+}
+
+cases!(
+    mass_ratio,
+    stiffness,
+    tick_limit,
+    spin,
+    far_away,
+    sizes,
+    deep_overlap,
+    million_ticks,
+    gas,
+    column,
+    pile,
+    tick_sweep,
+);
