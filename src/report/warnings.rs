@@ -4,6 +4,7 @@ use bevy_ecs::prelude::*;
 
 use super::advice::Remedy;
 use super::card::{ChosenMethod, KnownError, name, number};
+use super::estimate::EstimatedError;
 use crate::contacts::ContactLaw;
 use crate::integrate::LocatedEvents;
 use crate::tick::{Clock, Models, Responses, Style, far_travel};
@@ -23,6 +24,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
     // Where steps are as long as their error allows, ticks are only moments at which the run is looked at.
     let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
+    let by_ticks = by_ticks && !EstimatedError::is_small(world);
     let responses = if by_ticks { responses } else { Responses::default() };
     let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
     if let Some(fastest) = beyond {

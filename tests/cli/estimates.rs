@@ -59,3 +59,14 @@ fn a_tolerance_needs_no_estimate() {
     assert_eq!(with["card"]["error"], without["card"]["error"]);
     assert!(with["card"]["error"]["position"]["discretisation"].is_f64(), "{with}");
 }
+
+/// Of a long run only the beginning is made again: the verdict trusts no more than that.
+#[test]
+fn what_is_extrapolated_is_not_trusted_to_the_end() {
+    let spring = r#"Scene(format: 1, clock: (duration: 100, tick: 1e-4, method: VelocityVerlet),
+        bodies: [(name: "mass", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
+        forces: [Spring(a: "mass", b: World, stiffness: 100, length: 0)])"#;
+    let folder = Folder::new("estimate_long").with("spring.ron", spring);
+    folder.jostle("run spring.ron").code(0).says("Trust its beginning: ").says("`--estimate` runs it all again");
+    folder.jostle("run spring.ron --estimate").code(0).says("Trust it: places to about ");
+}

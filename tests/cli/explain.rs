@@ -46,7 +46,7 @@ fn names_and_words_are_explained() {
         ("tolerance", "`clock.tolerance` is a field of the section `clock`"),
         ("duration", "Length of the run"),
         ("events", "When jumps of the forces take place"),
-        ("horizon", "up to which a run can be told at all"),
+        ("horizon", "up to which places can be told"),
         ("Reference", "the smallest error there is"),
         ("events located", "how often a step ended where forces jump"),
         ("packing", "`packings` is a section of the scene"),

@@ -52,19 +52,14 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "horizon",
-        "the time in seconds up to which a run can be told at all: in chaotic motion each disturbance grows exponentially, and \
-         from then on even rounding has become as large as a thousandth of the motion. `Reference` runs find it; `null` in \
-         `--json` where there is no chaos.",
+        "the time in seconds up to which places can be told: from then on runs with a finer tick are elsewhere by a tenth of the \
+         motion. `Reference` runs tell when rounding alone has grown to a thousandth of it, which no engine can tell beyond. `null` in \
+         `--json` where there is none.",
     ),
     word(
         "chaos",
         "motion in which a disturbance of the beginning grows exponentially, so that no engine can tell places beyond the \
          horizon; see `jostle explain horizon`.",
-    ),
-    word(
-        "error",
-        "how wrong places and velocities are, as several runs tell (`--json`): `discretisation` from the finite steps, \
-         `rounding` from finite digits. Runs under a `tolerance` and `Reference` know it, others do not.",
     ),
     word(
         "what went round",
@@ -137,7 +132,8 @@ pub(super) const WORDS: &[Word] = &[
         "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with half the tick, \
          as far as that takes 3 % of the work or a tenth of a second (`--estimate` takes all it needs, `--no-estimate` none); \
          `rounding` by runs with wrong last bits (`--rounding`); `model` by a run with contacts four times as stiff \
-         (`--model`). Places: the greatest distance of any point of a body, in m; velocities: the root of its mean square \
+         (`--model`). In `--json` these are `discretisation`, `rounding` and `model`; under a `tolerance` and `Reference` the runs that find \
+         the steps tell the first. Places: the greatest distance of any point of a body, in m; velocities: the root of its mean square \
          over time, in m/s. `until t = ..`: finer runs go elsewhere from then on, as chaotic ones do, and the error is \
          that until then.",
     ),

@@ -9,6 +9,8 @@ mod growth;
 mod model;
 mod rounding;
 
+use std::time::{Duration, Instant};
+
 use bevy_ecs::prelude::*;
 
 use super::accuracy::trajectory::Trajectory;
@@ -36,6 +38,8 @@ const EVEN: u64 = 64;
 const MOST_NUMBERS: u64 = 6_000_000;
 /// Share of the motion from which on two runs have parted.
 const PARTED: f64 = 1e-2;
+/// Parts of a run between which it is seen whether it takes too long.
+const CHUNKS: u64 = 64;
 /// Fewer tell no growth.
 const FEWEST_MOMENTS: usize = 4;
 
@@ -74,8 +78,23 @@ pub struct EstimatedError {
     pub began: Option<(String, f64)>,
     /// Whether the error grew exponentially.
     pub chaotic: bool,
+    /// Until when the run was made again, in s, if not to its end: what is said of the rest is extrapolated.
+    pub known_until: Option<f64>,
     /// What else is to be known of it.
     pub notes: Vec<String>,
+}
+
+/// An error, as a share of how far bodies go, with which nothing is wrong with a tick whose events are located.
+const SMALL: f64 = 1e-2;
+
+impl EstimatedError {
+    /// Whether events are located and the error of the whole run is known to be small: then no rule of thumb says that its tick is
+    /// too long.
+    pub fn is_small(world: &World) -> bool {
+        let located = world.get_resource::<ChosenMethod>().is_some_and(|method| method.located);
+        let small = |found: &Self| found.known_until.is_none() && found.share.is_some_and(|share| share < SMALL);
+        located && world.get_resource::<Self>().is_some_and(small)
+    }
 }
 
 /// A scene that can be run again.
@@ -182,10 +201,12 @@ fn expected_order(simulation: &Simulation) -> f64 {
     world.resource::<Methods>().named(chosen.name).map_or(1.0, |method| f64::from(method.order))
 }
 
-/// Runs a twin with the tick divided by `parts` until the end of tick `until` of the first.
+/// Runs a twin with the tick divided by `parts` until the end of tick `until` of the first; nothing, if it has no such tick or takes
+/// longer than there is patience.
 fn twin(
     first: &Simulation,
     (parts, until): (u32, u64),
+    patience: Option<Duration>,
     scene: &Repeated,
 ) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
     let Some(plan) = finer(first, parts) else { return Ok(None) };
@@ -194,7 +215,14 @@ fn twin(
     let parts = u64::from(parts);
     let all = moments(first.ticks(), first.bodies().len() as u64);
     Trajectory::watch(&mut twin, all.into_iter().filter(|tick| *tick <= until).map(|tick| tick * parts).collect());
-    let failure = twin.run_to_tick(until * parts).err();
+    let (begin, chunk) = (Instant::now(), (until * parts / CHUNKS).max(1));
+    let mut failure = None;
+    while failure.is_none() && twin.clock().ticks < until * parts {
+        if patience.is_some_and(|patience| begin.elapsed() > patience) {
+            return Ok(None);
+        }
+        failure = twin.run_to_tick((twin.clock().ticks + chunk).min(until * parts)).err();
+    }
     Ok(Some((Trajectory::watched(&mut twin, failure), twin)))
 }
 
@@ -218,7 +246,11 @@ fn discretisation(
         ));
         return Ok(());
     }
-    let Some((half, second)) = twin(simulation, (2, until), scene)? else { return Ok(()) };
+    let patience = (effort != Effort::Full).then(|| Duration::from_secs_f64(1.0 + 0.1 * simulation.seconds_spent()));
+    let Some((half, second)) = twin(simulation, (2, until), patience, scene)? else {
+        found.notes.push("the error is not estimated: that takes long; --estimate takes the time".to_owned());
+        return Ok(());
+    };
     if let Some(failure) = &half.failure {
         found.notes.push(format!("the error is not estimated: with half the tick {failure}"));
         return Ok(());
@@ -241,6 +273,7 @@ fn discretisation(
             return Ok(());
         }
         growth.extrapolate(simulation.clock().time());
+        found.known_until = Some(second.clock().time());
         found.notes.push(format!(
             "the error is extrapolated from the first {told} s of {all} s, which were run again with half the tick; --estimate \
              runs it all again"
@@ -250,7 +283,7 @@ fn discretisation(
     let mut order = expected_order(simulation);
     let mut observed = None;
     if effort == Effort::Full
-        && let Some((quarter, _)) = twin(simulation, (4, until), scene)?
+        && let Some((quarter, _)) = twin(simulation, (4, until), None, scene)?
         && quarter.failure.is_none()
     {
         let finer = Growth::of(Seen::between(&half, &quarter), run.sizes().0);

@@ -8,7 +8,7 @@
 use super::growth::{Growth, Seen};
 use super::{EstimatedError, Repeated, finer, moments};
 use crate::Simulation;
-use crate::contacts::ContactLaw;
+use crate::contacts::{ContactLaw, DeepestOverlap};
 use crate::report::accuracy::trajectory::Trajectory;
 use crate::report::card::ErrorEstimate;
 use crate::scene::SceneErrors;
@@ -26,7 +26,10 @@ pub(super) fn estimate(
     found: &mut EstimatedError,
 ) -> Result<(), SceneErrors> {
     let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
-    if !simulation.world().contains_resource::<ContactLaw>() {
+    let touches = |simulation: &Simulation| {
+        simulation.world().get_resource::<DeepestOverlap>().is_some_and(|deepest| deepest.overlap > 0.0)
+    };
+    if !simulation.world().contains_resource::<ContactLaw>() || !touches(simulation) {
         (estimate.position.model, estimate.velocity.model) = (Some(0.0), Some(0.0));
         return Ok(());
     }

@@ -5,13 +5,16 @@ use super::{Budget, Course, Outcome, Setting};
 use crate::report::card::number;
 
 /// Courses that fail so many times one after the other are left.
-const MOST_FAILURES: u32 = 6;
+const MOST_FAILURES: u32 = 12;
 /// Errors below this that fall no more are rounding.
 const ROUNDING: f64 = 1e-7;
 /// A course is left behind where another one has no more than its error for this share of its evaluations.
 const BEHIND: f64 = 1.0 / 64.0;
-/// ... but not before so many of its settings are measured.
+/// ... but not before so many of its settings are measured, not while its errors are above this, nor while the last one is so many
+/// times below the one before: that of order 3 with half the tick.
 const SEEN: usize = 4;
+const TELLS: f64 = 0.1;
+const STEEP: f64 = 8.0;
 
 /// What is run on the ladder.
 pub(in crate::report) trait Subject {
@@ -91,7 +94,9 @@ fn behind<I: Iterator<Item = f64>>(climbers: &[Climber<I>], place: usize) -> boo
     let better = |other: &Setting| {
         other.error().is_some_and(|share| share <= error) && other.evaluations <= BEHIND * last.evaluations
     };
-    measured >= SEEN && others.into_iter().any(better)
+    // Whose errors are useless still, or fall steeply, may overtake all others.
+    let before = own.iter().rev().skip(1).find_map(Setting::error).unwrap_or(f64::INFINITY);
+    measured >= SEEN && error < TELLS && before < STEEP * error && others.into_iter().any(better)
 }
 
 impl<I: Iterator<Item = f64>> Climber<I> {

@@ -94,11 +94,19 @@ pub(super) fn good(evidence: &Evidence) -> String {
     let energy = energy::accounted(evidence);
     match places(card) {
         Some(places) => {
-            let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
-            let share = share
-                .filter(|share| *share > 0.0)
-                .map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
-            format!("Trust it: {places}{share}, as a run with half the tick tells; {energy}.")
+            match evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.known_until) {
+                Some(until) => format!(
+                    "Trust its beginning: it was run again with half the tick until {} only. If it went on so, {places} in the end, but what \
+                 begins later, chaos above all, is not foreseen: `--estimate` runs it all again; {energy}.",
+                    at(until)
+                ),
+                None => {
+                    let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
+                    let share = share.filter(|share| *share > 0.0);
+                    let share = share.map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
+                    format!("Trust it: {places}{share}, as a run with half the tick tells; {energy}.")
+                }
+            }
         }
         None => {
             let advice = evidence.advice("; ", " would show whether anything changes");

@@ -3,6 +3,7 @@
 use super::{Cause, Evidence, Trust, at};
 use crate::contacts::ContactLaw;
 use crate::report::card::number;
+use crate::report::estimate::EstimatedError;
 use crate::report::warnings::FEWEST_TICKS;
 use crate::tick::{Holder, Responses, far_travel};
 
@@ -10,6 +11,9 @@ use crate::tick::{Holder, Responses, far_travel};
 pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let critical = card.critical_tick.filter(|critical| card.by_ticks() && *critical < card.tick)?;
+    if EstimatedError::is_small(world) {
+        return None;
+    }
     let fastest = Responses::of(world).fastest;
     let holder = fastest.map_or(Holder::Contacts, |fastest| fastest.holder);
     let seen = fastest
@@ -25,6 +29,9 @@ pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let ticks = card.shortest_contact.filter(|_| card.by_ticks())? / card.tick;
     let brief = Responses::of(world).briefest;
+    if EstimatedError::is_small(world) || brief.is_none() && card.located {
+        return None;
+    }
     if brief.is_none() && far_travel_unseen(evidence).is_some() {
         return None;
     }
