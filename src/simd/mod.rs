@@ -6,7 +6,7 @@
 //!
 //! This is the one place of the project where `unsafe` stands: vector instructions may be called only where the
 //! processor has them, and [`run`] looks before it calls.
-#![allow(
+#![expect(
     unsafe_code,
     reason = "vector instructions, and an allocator that aligns, cannot be called otherwise; each call says why it is sound"
 )]

@@ -201,6 +201,17 @@ fn expected_order(simulation: &Simulation) -> f64 {
     world.resource::<Methods>().named(chosen.name).map_or(1.0, |method| f64::from(method.order))
 }
 
+/// Looks at another run at the moments of the first, until the end of its tick `until`; its ticks are divided by `parts`.
+fn watch_beside(other: &mut Simulation, first: &Simulation, parts: u64, until: u64) {
+    let all = moments(first.ticks(), first.bodies().len() as u64);
+    Trajectory::watch(other, all.into_iter().filter(|tick| *tick <= until).map(|tick| tick * parts).collect());
+}
+
+/// Whether anything has touched in a run.
+fn touches(simulation: &Simulation) -> bool {
+    simulation.world().get_resource::<DeepestOverlap>().is_some_and(|deepest| deepest.overlap > 0.0)
+}
+
 /// Runs a twin with the tick divided by `parts` until the end of tick `until` of the first; nothing, if it has no such tick or takes
 /// longer than there is patience.
 fn twin(
@@ -213,8 +224,7 @@ fn twin(
     let what = format!("once more with a tick of {} s, for its error", number(plan.tick));
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     let parts = u64::from(parts);
-    let all = moments(first.ticks(), first.bodies().len() as u64);
-    Trajectory::watch(&mut twin, all.into_iter().filter(|tick| *tick <= until).map(|tick| tick * parts).collect());
+    watch_beside(&mut twin, first, parts, until);
     let (begin, chunk) = (Instant::now(), (until * parts / CHUNKS).max(1));
     let mut failure = None;
     while failure.is_none() && twin.clock().ticks < until * parts {
@@ -260,9 +270,6 @@ fn discretisation(
     let seen = Seen::between(run, &half);
     let mut growth = Growth::of(seen, run.sizes().0);
     if until < ticks {
-        let touches = |simulation: &Simulation| {
-            simulation.world().get_resource::<DeepestOverlap>().is_some_and(|deepest| deepest.overlap > 0.0)
-        };
         let (told, all) = (number(second.clock().time()), number(simulation.clock().time()));
         if touches(simulation) && !touches(&second) {
             found.notes.push(format!(

@@ -6,9 +6,9 @@
 //! slower fall counts, for it leaves the larger error: twice the difference of the two runs.
 
 use super::growth::{Growth, Seen};
-use super::{EstimatedError, Repeated, finer, moments};
+use super::{EstimatedError, Repeated, finer, touches, watch_beside};
 use crate::Simulation;
-use crate::contacts::{ContactLaw, DeepestOverlap};
+use crate::contacts::ContactLaw;
 use crate::report::accuracy::trajectory::Trajectory;
 use crate::report::card::ErrorEstimate;
 use crate::scene::SceneErrors;
@@ -26,9 +26,6 @@ pub(super) fn estimate(
     found: &mut EstimatedError,
 ) -> Result<(), SceneErrors> {
     let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
-    let touches = |simulation: &Simulation| {
-        simulation.world().get_resource::<DeepestOverlap>().is_some_and(|deepest| deepest.overlap > 0.0)
-    };
     if !simulation.world().contains_resource::<ContactLaw>() || !touches(simulation) {
         (estimate.position.model, estimate.velocity.model) = (Some(0.0), Some(0.0));
         return Ok(());
@@ -37,8 +34,7 @@ pub(super) fn estimate(
     let (plan, parts) = finer(simulation, 2).map_or((plan.clone(), 1), |plan| (plan, 2));
     let mut stiffer = scene.again(simulation, plan, STIFFER, "with contacts four times as stiff")?;
     let ticks = simulation.clock().ticks;
-    let all = moments(simulation.ticks(), simulation.bodies().len() as u64);
-    Trajectory::watch(&mut stiffer, all.into_iter().filter(|tick| *tick <= ticks).map(|tick| tick * parts).collect());
+    watch_beside(&mut stiffer, simulation, parts, ticks);
     if let Err(failure) = stiffer.run_to_tick(ticks * parts) {
         found.notes.push(format!("with contacts four times as stiff the run goes wrong: {failure}"));
         return Ok(());

@@ -9,7 +9,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::growth::{Growth, Seen};
-use super::{EstimatedError, Repeated, finer, moments};
+use super::{EstimatedError, Repeated, finer, watch_beside};
 use crate::Simulation;
 use crate::report::accuracy::trajectory::Trajectory;
 use crate::report::card::ErrorEstimate;
@@ -63,8 +63,7 @@ pub(super) fn estimate(
         let what = format!("with wrong last bits, {} of {SAMPLES}", sample + 1);
         let mut other = scene.again(simulation, plan.clone(), 1.0, &what)?;
         let ticks = simulation.clock().ticks;
-        let all = moments(simulation.ticks(), simulation.bodies().len() as u64);
-        Trajectory::watch(&mut other, all.into_iter().filter(|tick| *tick <= ticks).collect());
+        watch_beside(&mut other, simulation, 1, ticks);
         other.world_mut().insert_resource(LastBits(ChaCha8Rng::seed_from_u64(sample)));
         add_packed_observer(other.world_mut(), disturb);
         let failure = other.run_to_tick(ticks).err();
