@@ -117,8 +117,15 @@ impl Report {
             ));
         }
         let asked = |name: &str| self.names.iter().any(|asked| asked == name);
-        let problems = ALL.iter().filter(|problem| asked(problem.name)).copied().collect();
-        Ok((problems, hard::ALL.iter().filter(|case| asked(case.name)).copied().collect()))
+        let problems: Vec<Problem> = ALL.iter().filter(|problem| asked(problem.name)).copied().collect();
+        let cases: Vec<Case> = hard::ALL.iter().filter(|case| asked(case.name)).copied().collect();
+        if problems.is_empty() && self.quick && cases.iter().all(|case| !case.cheap) {
+            return Err(format!(
+                "error: --quick leaves out {}: they take longer; run them without it",
+                self.names.join(", ")
+            ));
+        }
+        Ok((problems, cases))
     }
 
     fn read_peers(&self) -> Result<Peers, String> {

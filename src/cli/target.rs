@@ -106,7 +106,7 @@ impl Wish<'_> {
                 None => Ok(()),
             };
         }
-        if let Some(message) = takes_no_file(path) {
+        if let Some(message) = is_special(path) {
             return Err(message);
         }
         let directory = is_directory(path);
@@ -131,8 +131,18 @@ impl Wish<'_> {
     }
 }
 
-/// What speaks against giving a finished file this name: it would take the place of a device or a pipe.
+/// What speaks against giving a finished file this name: it would take the place of a device or a pipe, or has no directory to be in.
 pub(super) fn takes_no_file(path: &Path) -> Option<String> {
+    let directory = path.parent().filter(|directory| !directory.as_os_str().is_empty() && !directory.is_dir());
+    let missing = directory.map(|directory| {
+        let (path, directory) = (path.display(), directory.display());
+        format!("`{path}` could not be written: there is no directory `{directory}`; create it first")
+    });
+    missing.or_else(|| is_special(path))
+}
+
+/// What speaks against a name of a device or a pipe.
+fn is_special(path: &Path) -> Option<String> {
     let kind = std::fs::metadata(path).ok()?.file_type();
     let special = !kind.is_file() && !kind.is_dir();
     special.then(|| format!("`{}` is a device or a pipe: name a file", path.display()))

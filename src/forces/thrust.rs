@@ -12,7 +12,6 @@ use serde::{Deserialize, Serialize};
 
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
 use super::{Targets, check_targets};
-use crate::report::card::number;
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
@@ -171,9 +170,11 @@ impl ThrustForce {
         let (begin, end) = (clock.time_of(first(self.from)), clock.time_of(first(self.to)));
         let asked = self.to.min(clock.time()) - self.from.max(0.0);
         let share = (end - begin) / asked - 1.0;
+        // To the nanosecond: rounded further, both might read the same.
+        let at = |time: f64| (time * 1e9).round() / 1e9;
         let times = match self.to {
-            f64::INFINITY => format!("from {} s on", number(self.from)),
-            to => format!("from {} s to {} s", number(self.from), number(to)),
+            f64::INFINITY => format!("from {} s on", at(self.from)),
+            to => format!("from {} s to {} s", at(self.from), at(to)),
         };
         let came = match share {
             -1.0 => "does not act at all: its whole impulse is lost".to_owned(),
@@ -183,7 +184,7 @@ impl ThrustForce {
                     share if share >= 5e-4 => format!("its impulse is {} too large", percent(share)),
                     _ => "its impulse is right, but not its time".to_owned(),
                 };
-                format!("acts from {} s to {} s: {impulse}", number(begin), number(end))
+                format!("acts from {} s to {} s: {impulse}", at(begin), at(end))
             }
         };
         Some(format!("`{}` is to act {times}, but acts in whole ticks and {came}; {REMEDY}", self.path))

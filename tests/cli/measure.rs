@@ -112,6 +112,49 @@ fn what_cannot_run_stays_in_the_table() {
     assert!(rows.iter().any(|row| row[0] == "VelocityVerlet" && row[3] == "measured"), "{rows:?}");
 }
 
+/// Advice is looked for between the ticks of the ladder too, which goes by twos: at the tick whose error should be just the one that
+/// is wanted, as errors of the ticks about it tell.
+#[test]
+fn advice_is_looked_for_between_the_ticks_of_the_ladder() {
+    let folder = Folder::new("measure_between");
+    let flags = "--methods Dop853,RungeKutta4 --budget 600 --cost evaluations -o table.csv --json";
+    let ended = folder.jostle(&format!("measure example:kepler --duration 10 {flags}")).code(0);
+    let ticks = |method: &str| -> Vec<f64> {
+        let rows = rows(&folder, "table.csv").into_iter().filter(|row| row[0] == method);
+        rows.map(|row| row[1].parse().unwrap()).collect()
+    };
+    let steps = |method: &str| ticks(method).windows(2).map(|pair| pair[0] / pair[1]).collect::<Vec<f64>>();
+    let all: Vec<f64> = ["Dop853", "RungeKutta4"].into_iter().flat_map(steps).collect();
+    assert!(all.iter().all(|step| *step > 1.0), "from coarse to fine: {all:?}");
+    assert!(all.iter().any(|step| *step < 1.9), "{all:?}");
+    for advice in ended.json()[0]["advice"].as_array().unwrap() {
+        assert!(advice["error_claimed"].as_f64().unwrap() <= advice["target"].as_f64().unwrap(), "{advice}");
+    }
+}
+
+/// A method that goes from event to event solves a sled on a slope whatever the tick: the advice is a tick far beyond the critical
+/// one, and says so. What is of no use there is not told: Verlet begins at about twice its critical tick.
+#[test]
+fn ticks_beyond_the_critical_one_are_told_where_they_do() {
+    let folder = Folder::new("measure_beyond_critical");
+    let flags = "--methods VelocityVerlet,RungeKutta4 --rungs 2 --budget 600 --cost evaluations";
+    let ended = folder.jostle(&format!("measure example:incline {flags} -o table.csv")).code(0);
+    let of = |method: &str| -> Vec<Vec<String>> {
+        rows(&folder, "table.csv").into_iter().filter(|row| row[0] == method).collect()
+    };
+    let (located, whole) = (of("RungeKutta4"), of("VelocityVerlet"));
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    assert!(number(&located[0][1]) > 0.1 && number(&located[0][4]) < 1e-9, "{located:?}");
+    assert_eq!(whole.len(), 2);
+    assert!(whole[0].last().unwrap().contains("tick beyond the critical one"), "{whole:?}");
+    assert!(!whole[1].last().unwrap().contains("tick beyond the critical one"), "{whole:?}");
+    let advice = ended.out.lines().find(|line| line.starts_with("Advice: ")).unwrap();
+    assert!(
+        advice.contains("for an error of 1e-2, 1e-4, 1e-8 RungeKutta4") && advice.contains("beyond the critical one"),
+        "{advice}"
+    );
+}
+
 #[test]
 fn what_cannot_be_measured_is_told() {
     let still = FALL.replace("gravity: (0, -9.81),", "");
@@ -121,6 +164,10 @@ fn what_cannot_be_measured_is_told() {
     folder.jostle("measure nowhere.ron").code(2).says("there is no file `nowhere.ron`");
     folder.jostle("measure still.ron -o still.gif").code(2).says("a table to a .csv and a diagram to a .png");
     folder.jostle("measure still.ron -o still.ron").code(2);
+    folder
+        .jostle("measure still.ron -o nowhere/table.csv")
+        .code(2)
+        .says("there is no directory `nowhere`; create it first");
     folder.jostle("measure still.ron --methods Auto").code(2).says("VelocityVerlet");
     folder
         .jostle("measure example:tetris --budget 0.01")

@@ -47,6 +47,7 @@ fn what_cannot_be_reported_is_refused() {
     folder.jostle("report keplr -o out").code(2).says("there is no problem `keplr`; did you mean `kepler`?");
     std::fs::write(folder.path("file"), "").unwrap();
     folder.jostle("report kepler -o file/out").code(2).says("cannot be made");
+    folder.jostle("report gas -o out --quick").code(2).says("--quick leaves out gas");
     folder.jostle("report kepler -o out --peers nowhere.csv").code(2).says("`nowhere.csv` cannot be read");
     folder.jostle("report kepler -o out --peers table.csv").code(2).says("table.csv: line 1: the columns of");
 }

@@ -78,7 +78,7 @@ const BROKEN: [Broken; 22] = [
            materials: { "m": (stiffness: 50, restitution: 0.3) },
            bodies: [(name: "ball", at: (0, 0.1), material: "m", atoms: Disc(radius: 0.1, mass: 1))]"#,
         "",
-        &["Trust the numbers, not the model", "`ball`", "a higher `stiffness`"],
+        &["Trust the numbers, not the model", "`ball`", "a `stiffness` ", "times as high"],
     ),
     (
         "an anvil on a ball",
@@ -95,7 +95,7 @@ const BROKEN: [Broken; 22] = [
            materials: { "m": (stiffness: 1e3, restitution: 0.8) },
            bodies: [(name: "ball", at: (0, 0.5), velocity: (0, -50), material: "m", atoms: Disc(radius: 0.1, mass: 1))]"#,
         "",
-        &["Trust the numbers, not the model", "bodies overlap by", "a higher `stiffness`"],
+        &["Trust the numbers, not the model", "bodies overlap by", "a `stiffness` ", "times as high"],
     ),
     (
         "billiards: chaos",
@@ -204,6 +204,32 @@ fn the_verdict_names_the_cause() {
         }
     }
     assert!(wrong.is_empty(), "{} of {}: {}", wrong.len(), BROKEN.len(), wrong.join("\n"));
+}
+
+/// The stiffness and tick that the verdict asks for do what it says: overlaps of linear springs fall with the root of the stiffness
+/// in impacts, `d = v sqrt(m/k)`, and faster at rest; a tenth of that is what gravity may add to an impact.
+#[test]
+fn a_stiffness_as_high_as_advised_makes_overlaps_small() {
+    let folder = Folder::new("verdict_stiffness");
+    let soft: Vec<&Broken> = BROKEN.iter().filter(|broken| broken.3.contains(&"times as high")).collect();
+    assert_eq!(soft.len(), 2);
+    for (_, scene, ..) in soft {
+        let scene = format!("Scene(format: 1, {})", scene.replace("FLOOR", FLOOR));
+        std::fs::write(folder.path("soft.ron"), &scene).unwrap();
+        let card = folder.jostle("run soft.ron --json").json().remove(0)["card"].clone();
+        let verdict = card["verdict"].as_str().unwrap();
+        let after = |words: &str| verdict.split_once(words).unwrap().1.split([' ', ':']).next().unwrap();
+        let (times, tick): (f64, &str) = (after("a `stiffness` ").parse().unwrap(), after("--tick "));
+        let begin = scene.find("stiffness: ").unwrap() + "stiffness: ".len();
+        let end = begin + scene[begin..].find(',').unwrap();
+        let stiffness: f64 = scene[begin..end].parse().unwrap();
+        std::fs::write(folder.path("hard.ron"), format!("{}{}{}", &scene[..begin], times * stiffness, &scene[end..]))
+            .unwrap();
+        let card = folder.jostle(&format!("run hard.ron --json --tick {tick}")).json().remove(0)["card"].clone();
+        let share = card["largest_overlap"]["share_of_radius"].as_f64().unwrap();
+        assert!(share <= 0.11, "{verdict}: {share}");
+        assert!(!card["verdict"].as_str().unwrap().contains("not the model"), "{}", card["verdict"]);
+    }
 }
 
 /// A scene with nothing wrong is not blamed.

@@ -32,7 +32,7 @@ pub(super) struct Measure {
     /// Seconds that it may take in all, about
     #[arg(long, value_name = "SECONDS", value_parser = flags::above_zero, default_value = "20", allow_negative_numbers = true)]
     budget: f64,
-    /// Ticks that each method tries at the most. Default: as many as the budget allows
+    /// Ticks that each method tries at the most, longer ones than the first apart. Default: as many as the budget allows
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     rungs: Option<u16>,
     /// Methods to measure, separated by commas. Default: all
@@ -74,7 +74,8 @@ Examples:
 
 A reference run comes first: Dop853 with located events, whose own error is known from a coarser run and one that begins a \
 hair beside. Then each method runs the scene with ticks from about twice the critical one down by factors of two, by turns, \
-until its error is that of the reference or the budget is used up. An error is a share of the motion: the greater of how far \
+until its error is that of the reference or the budget is used up. Where the first does well, longer ones are \
+tried too. An error is a share of the motion: the greater of how far \
 any point of a body is from the reference, at the worst of up to a hundred moments, over how far the body goes, and of how \
 much its velocity differs, as a root mean square over the moments, over how fast it is. No error below three times that of \
 the reference run is claimed: such are written with `<`. Where the motion is chaotic, runs are compared as long as the \

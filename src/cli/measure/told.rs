@@ -127,9 +127,18 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
     }
     let advice = measured.settings.advice();
     if measured.reference.is_ok() {
-        let parts: Vec<String> = advice.iter().map(|advice| sentence(measured, advice)).collect();
-        let told = |error: f64| measured.reference.as_ref().is_ok_and(|reference| reference.claim() <= error);
-        let missed = advice.iter().any(|advice| advice.reached.is_none() && told(advice.target));
+        // What is advised for several errors is said once.
+        let mut parts: Vec<(String, String)> = Vec::new();
+        for advice in &advice {
+            let (target, (lead, what)) = (format!("{:.0e}", advice.target), told(measured, advice));
+            match parts.last_mut().filter(|(_, said)| *said == what) {
+                Some((targets, _)) => *targets = format!("{}, {target}", targets),
+                None => parts.push((format!("{lead} {target}"), what)),
+            }
+        }
+        let parts: Vec<String> = parts.into_iter().map(|(targets, what)| format!("{targets} {what}")).collect();
+        let known = |error: f64| measured.reference.as_ref().is_ok_and(|reference| reference.claim() <= error);
+        let missed = advice.iter().any(|advice| advice.reached.is_none() && known(advice.target));
         let more = if missed { "; a larger --budget tries finer ticks" } else { "" };
         let _ = writeln!(text, "\nAdvice: {}{more}.", parts.join("; "));
         let mut lines: Vec<String> = Vec::new();
@@ -156,31 +165,31 @@ fn cost(measured: &Measured) -> &'static str {
     }
 }
 
-/// What to take for an error, as a part of a sentence.
-fn sentence(measured: &Measured, advice: &Advice) -> String {
-    let target = format!("{:.0e}", advice.target);
+/// What to take for an error, as two parts of a sentence between which the error stands.
+fn told(measured: &Measured, advice: &Advice) -> (&'static str, String) {
     let price = |setting: &Setting| {
         let spent = match measured.settings.cost {
             Cost::Time => setting.seconds.map(|seconds| format!("{} s", rounded(seconds))),
             Cost::Evaluations => Some(format!("{} evaluations", rounded(setting.evaluations))),
         };
         let spent = spent.map_or_else(String::new, |spent| format!(", {spent} per second"));
+        let limits: String = setting.notes.iter().map(|note| format!("; {note}")).collect();
         format!(
-            "{} with ticks of {} s (error {}{spent})",
+            "{} with ticks of {} s (error {}{spent}{limits})",
             setting.course.method,
             rounded(setting.tick),
             error_in_words(measured, setting)
         )
     };
     match (advice.reached, advice.nearest) {
-        (Some(setting), _) => format!("for an error of {target} {}", price(setting)),
+        (Some(setting), _) => ("for an error of", price(setting)),
         (None, Some(setting)) => {
             let below = measured.reference.as_ref().is_ok_and(|reference| reference.claim() > advice.target);
             let why =
                 if below { "the reference run does not tell so small errors" } else { "nothing tried reaches it" };
-            format!("for {target} {why}, nearest comes {}", price(setting))
+            ("for", format!("{why}, nearest comes {}", price(setting)))
         }
-        (None, None) => format!("for {target} nothing tried is of any use"),
+        (None, None) => ("for", "nothing tried is of any use".to_owned()),
     }
 }
 

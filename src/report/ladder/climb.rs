@@ -1,7 +1,7 @@
 //! Going up: every course with ticks from coarse to fine, all courses by turns, until errors are no larger than what is known of them,
 //! or time is up.
 
-use super::{Budget, Course, Outcome, Setting};
+use super::{Budget, Course, Outcome, Setting, USELESS};
 use crate::report::card::number;
 
 /// Courses that fail so many times one after the other are left.
@@ -15,6 +15,21 @@ const BEHIND: f64 = 1.0 / 64.0;
 const SEEN: usize = 4;
 const TELLS: f64 = 0.1;
 const STEEP: f64 = 8.0;
+
+/// The ticks of a course in seconds.
+pub(in crate::report) struct Rungs<I: Iterator<Item = f64>> {
+    /// From coarse to fine.
+    pub ticks: I,
+    /// Longer ones, from fine to coarse: they are tried, after the first of the others, as long as each is of use and costs less than
+    /// the one before.
+    pub trials: Vec<f64>,
+}
+
+impl<I: Iterator<Item = f64>> From<I> for Rungs<I> {
+    fn from(ticks: I) -> Self {
+        Self { ticks, trials: Vec::new() }
+    }
+}
 
 /// What is run on the ladder.
 pub(in crate::report) trait Subject {
@@ -30,7 +45,7 @@ pub(in crate::report) trait Subject {
 
 /// When to go no further.
 pub(in crate::report) struct Rules {
-    /// Ticks that each course tries at the most.
+    /// Ticks that each course tries at the most, trials apart.
     pub rungs: usize,
     /// Whether courses that others leave far behind go on.
     pub leaves_behind: bool,
@@ -40,7 +55,10 @@ pub(in crate::report) struct Rules {
 struct Climber<I: Iterator<Item = f64>> {
     course: Course,
     ticks: std::iter::Peekable<I>,
+    trials: Vec<f64>,
     settings: Vec<Setting>,
+    /// How many of the settings are trials; they come first.
+    trials_of_use: usize,
     /// Seconds and tick of the last one.
     last: Option<(f64, f64)>,
     failures: u32,
@@ -48,18 +66,20 @@ struct Climber<I: Iterator<Item = f64>> {
     end: Option<String>,
 }
 
-/// Climbs; returns what came out, and why courses went no further. Each comes with its ticks, from coarse to fine.
+/// Climbs; returns what came out, and why courses went no further. Each comes with its rungs.
 #[expect(clippy::type_complexity, reason = "two lists")]
 pub(in crate::report) fn climb<S: Subject, I: Iterator<Item = f64>>(
     subject: &S,
-    courses: impl Iterator<Item = (Course, I)>,
+    courses: impl Iterator<Item = (Course, Rungs<I>)>,
     rules: &Rules,
     budget: &Budget,
 ) -> Result<(Vec<Setting>, Vec<(Course, String)>), S::Wrong> {
-    let climber = |(course, ticks): (Course, I)| Climber {
+    let climber = |(course, rungs): (Course, Rungs<I>)| Climber {
         course,
-        ticks: ticks.peekable(),
+        ticks: rungs.ticks.peekable(),
+        trials: rungs.trials,
         settings: Vec::new(),
+        trials_of_use: 0,
         last: None,
         failures: 0,
         end: None,
@@ -100,7 +120,7 @@ fn behind<I: Iterator<Item = f64>>(climbers: &[Climber<I>], place: usize) -> boo
 }
 
 impl<I: Iterator<Item = f64>> Climber<I> {
-    /// Tries the next tick.
+    /// Tries the next tick, and after the first one longer ones.
     fn step<S: Subject>(&mut self, subject: &S) -> Result<(), S::Wrong> {
         let Some(tick) = self.ticks.next() else { return Ok(()) };
         let (setting, spent) = subject.run(self.course, tick)?;
@@ -110,12 +130,24 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         }
         self.last = Some((spent, tick));
         self.settings.push(setting);
+        for tick in std::mem::take(&mut self.trials) {
+            let cost = |setting: &Setting| setting.error().filter(|error| *error < USELESS).and(setting.seconds);
+            let Some(before) = cost(&self.settings[0]) else { break };
+            let (trial, _) = subject.run(self.course, tick)?;
+            if cost(&trial).is_none_or(|cost| cost > before) {
+                break;
+            }
+            self.settings.insert(0, trial);
+            self.trials_of_use += 1;
+        }
         Ok(())
     }
 
     /// Why it should go no further.
     fn reason_to_end<S: Subject>(&mut self, subject: &S, rules: &Rules, budget: &Budget) -> Option<String> {
-        let Some(next) = self.ticks.peek().copied() else { return Some("no finer ticks are on its ladder".to_owned()) };
+        let Some(next) = self.ticks.peek().copied() else {
+            return Some("no finer ticks are on its ladder".to_owned());
+        };
         let last = self.settings.last()?;
         let error = match &last.outcome {
             Outcome::Refused(_) => return Some("it cannot run this scene".to_owned()),
@@ -137,7 +169,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         {
             return Some("its errors fall no more: rounding".to_owned());
         }
-        if self.settings.len() >= rules.rungs {
+        if self.settings.len() - self.trials_of_use >= rules.rungs {
             return Some(format!("{} ticks were tried, as many as asked for", rules.rungs));
         }
         let (spent, tick) = self.last?;

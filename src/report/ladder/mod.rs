@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 pub(super) use advice::USELESS;
 pub use advice::{Advice, TARGETS};
-pub(super) use climb::{Rules, Subject, climb};
+pub(super) use climb::{Rules, Rungs, Subject, climb};
 pub use diagram::{Legend, Peer, diagram};
 pub(super) use timing::least;
 

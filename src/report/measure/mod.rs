@@ -1,10 +1,11 @@
 //! What a run of a scene costs and how wrong it is, method by method and tick by tick, on this very scene.
 //!
 //! A run whose error is far smaller is the truth (`reference.rs`); every method climbs a ladder of ticks from coarse to fine
-//! (`report/ladder`), and `scene.rs` says which ticks, and compares.
+//! (`report/ladder`), and `scene.rs` says which ticks, and compares; `refine.rs` looks between those that are advised and the next coarser.
 
 mod beyond;
 mod reference;
+mod refine;
 mod scene;
 
 use std::time::Instant;
@@ -107,15 +108,14 @@ pub fn measure(load: Load, order: &Order, tell: &dyn Fn(f64)) -> Result<Measured
     let known = truth.as_ref().ok();
     let wanted = |name: &str| order.methods.is_empty() || order.methods.iter().any(|wanted| wanted == name);
     let methods = scene.methods.0.iter().filter(|method| wanted(method.name));
-    let courses = methods.map(|method| (Course::of(method.name), scene.ticks(method, known)));
+    let courses = methods.map(|method| (Course::of(method.name), scene.rungs(method, known)));
     let rules = Rules { rungs: order.rungs, leaves_behind: true };
     let subject = Compared { load, scene: &scene, truth: known, budget: &budget };
     let (all, ends) = climb(&subject, courses, &rules, &budget)?;
     let claim = known.map(|truth| truth.about.claim());
-    Ok(Measured {
-        duration: scene.duration,
-        settings: Settings { all, ends, cost: order.cost, claim },
-        reference: truth.map(|truth| truth.about),
-        spent: budget.used(),
-    })
+    let mut settings = Settings { all, ends, cost: order.cost, claim };
+    if order.rungs == usize::MAX {
+        refine::refine(&mut settings, &subject)?;
+    }
+    Ok(Measured { duration: scene.duration, settings, reference: truth.map(|truth| truth.about), spent: budget.used() })
 }

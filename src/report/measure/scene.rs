@@ -5,11 +5,12 @@ use super::{Load, Way};
 use crate::integrate::{Description, LocatedEvents, Methods};
 use crate::report::accuracy::trajectory::Trajectory;
 use crate::report::card::{ChosenMethod, number};
-use crate::report::ladder::{Budget, Course, Deviation, Outcome, Setting, Subject, least, timed};
+use crate::report::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
 use crate::scene::SceneErrors;
 use crate::tick::Stability;
 
-/// The coarsest tick is so many times the critical one, where there is one: what lies beyond is seen to fail.
+/// The ladder begins at so many times the critical tick, where there is one: what lies beyond is seen to fail. Where it does not, as
+/// contacts are brief or their forces hardly change, longer ones are tried.
 const BEYOND_CRITICAL: f64 = 2.0;
 /// What stands for the limit of methods that have none, or are never stable without losses.
 const USUAL_LIMIT: f64 = 2.0;
@@ -46,19 +47,43 @@ impl Scene {
         })
     }
 
-    /// The ticks of a method, from coarse to fine: the run over a part or a multiple by a power of two of the moments.
-    pub fn ticks(&self, method: &Description, truth: Option<&Truth>) -> impl Iterator<Item = f64> {
+    /// The ticks of a method: the run over a part or a multiple by a power of two of the moments.
+    pub fn rungs(&self, method: &Description, truth: Option<&Truth>) -> Rungs<impl Iterator<Item = f64> + use<>> {
         let limit = method.stability_limit;
         let limit = if limit.is_finite() && limit > 0.0 { limit } else { USUAL_LIMIT };
         let critical = self.fastest.map_or(f64::INFINITY, |fastest| BEYOND_CRITICAL * limit / fastest);
         // A tick longer than the time that is compared would be seen nowhere.
         let until = truth.map_or(f64::INFINITY, |truth| truth.about.until);
-        let fewest = (self.duration / critical.min(until)).max(FEWEST_TICKS);
         let (moments, duration) = (self.moments, self.duration);
         let coarse = COARSE.into_iter().filter(move |count| moments.is_multiple_of(*count) && *count < moments);
         let fine = (0..HALVINGS).map(move |power| moments << power);
-        let counts = coarse.chain(fine).skip_while(move |count| (*count as f64) < fewest * (1.0 - 1e-9));
-        counts.map(move |count| duration / count as f64)
+        let least = |longest: f64| (duration / longest).max(FEWEST_TICKS) * (1.0 - 1e-9);
+        let (fewest, stable) = (least(until), least(critical.min(until)));
+        let tick = move |count: u64| duration / count as f64;
+        let counts = coarse.chain(fine);
+        let trials =
+            counts.clone().filter(|count| *count as f64 >= fewest).take_while(|count| (*count as f64) < stable);
+        // Without a reference nothing tells whether they are of use.
+        let mut trials: Vec<f64> = trials.filter(|_| truth.is_some()).map(tick).collect();
+        trials.reverse();
+        Rungs { ticks: counts.skip_while(move |count| (*count as f64) < stable).map(tick), trials }
+    }
+}
+
+impl Scene {
+    /// A count of ticks that is not less, and has enough moments in common with the reference.
+    pub fn comparable(&self, count: u64) -> u64 {
+        let common = if count >= self.moments { self.moments / 4 } else { self.moments / 20 };
+        count.next_multiple_of(common.max(1))
+    }
+
+    /// How many ticks of a run of `count`, and how many moments, lie between two that both have.
+    fn strides(&self, count: u64) -> (u64, u64) {
+        let (mut common, mut rest) = (count, self.moments);
+        while rest > 0 {
+            (common, rest) = (rest, common % rest);
+        }
+        (count / common, self.moments / common)
     }
 }
 
@@ -86,7 +111,7 @@ impl Subject for Compared<'_> {
             }
         };
         setting.located = simulation.world().get_resource::<ChosenMethod>().is_some_and(|method| method.located);
-        let stride = (count / scene.moments).max(1);
+        let (stride, every) = scene.strides(count);
         let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, stride, &|| budget.within(1.0)));
         let spent = spent.as_secs_f64();
         let card = simulation.card();
@@ -112,10 +137,9 @@ impl Subject for Compared<'_> {
             Ok(run) => {
                 setting.evaluations = run.evaluations as f64 / scene.duration;
                 if let Some(truth) = truth {
-                    let every = (scene.moments / count).max(1) as usize;
                     let apart = run
                         .part(truth.about.until, 1)
-                        .apart_by(&truth.run.part(truth.about.until, every), &truth.measures);
+                        .apart_by(&truth.run.part(truth.about.until, every as usize), &truth.measures);
                     let deviation = Deviation { error: apart.share, apart: Some((apart.distance, apart.speed)) };
                     setting.outcome = Outcome::Measured(deviation);
                     let beyond = truth.beyond.as_ref().and_then(|beyond| beyond.compare(&run));

@@ -144,7 +144,7 @@ impl Order {
             ladder.iter().map(|share| share * problem.tick).filter(|tick| problem.duration() / tick <= most).collect();
         let floor = ticks.iter().map(|tick| (problem.rounding)(*tick)).fold(f64::INFINITY, f64::min);
         let subject = Asked { problem, phases: !self.quick };
-        let courses = self.courses(problem).into_iter().map(|course| (course, ticks.clone().into_iter()));
+        let courses = self.courses(problem).into_iter().map(|course| (course, ticks.clone().into_iter().into()));
         let rules = Rules { rungs: usize::MAX, leaves_behind: !self.quick };
         let Ok((all, ends)) = climb(&subject, courses, &rules, &Budget::endless());
         let hash = problem.load(&problems::Setting { tick: problem.tick, ..Default::default() }).ok();

@@ -230,7 +230,7 @@ fn problem(sheet: &Sheet, peers: &Peers, picture: Option<Picture>, blocks: &mut 
     if !peers.curves(problem.name).is_empty() {
         blocks.push(Block::Text(Peers::caption(problem.name).to_owned()));
     }
-    let unit = if problem.unit == "1" { String::new() } else { format!(" in {}", problem.unit) };
+    let unit = if problem.unit == "1" { ", no unit".to_owned() } else { format!(" in {}", problem.unit) };
     let error = format!("error{unit}");
     let heads = ["method", "tick in s", &error, "grade", "s per s", "evaluations per s"].map(str::to_owned).to_vec();
     let row = |setting: &Setting| {

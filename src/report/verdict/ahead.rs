@@ -3,6 +3,7 @@
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust};
 use crate::contacts::search::OverlapAtStart;
+use crate::report::Remedy;
 use crate::report::card::{number, percent};
 use crate::tick::Ledger;
 
@@ -35,5 +36,7 @@ pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
     let taken = card.energy.drag / card.energy_scale;
     let mad = card.energy.drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
     let what = "drag takes more than the whole velocity of a body in a tick, and turns it round".to_owned();
-    mad.then(|| Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+    // How far anything travelled came of that: it says nothing of the tick that would do.
+    let finer = Remedy::Tick(card.tick_for(1.0, 0.1, 1.0));
+    mad.then(|| Cause { trust: Trust::Not, what, remedy: Some(finer.or_finer()) })
 }

@@ -29,7 +29,8 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
         |why| format!(": {why}"),
     );
     let what = format!("{:.1} % of the energy is unaccounted for{why}", error * 100.0);
-    Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`")) })
+    let tolerance = evidence.or_tolerance();
+    Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`{tolerance}")) })
 }
 
 /// What may have happened where nothing is known.

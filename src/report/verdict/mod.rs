@@ -14,6 +14,7 @@ mod ticks;
 use bevy_ecs::prelude::*;
 
 use super::card::{Card, ErrorEstimate, name, number, percent, rough};
+use crate::world::Bodies;
 
 /// What a verdict is found from.
 pub(super) struct Evidence<'a> {
@@ -44,6 +45,9 @@ pub(super) struct Cause {
     pub remedy: Option<String>,
 }
 
+/// More bodies are not run with a tolerance in a time that anybody waits.
+const FEW: usize = 30;
+
 /// What may be to blame, in the order in which one explains the others.
 const CAUSES: [fn(&Evidence) -> Option<Cause>; 12] = [
     ticks::unstable,
@@ -73,6 +77,12 @@ impl Evidence<'_> {
     /// The same as a remedy.
     pub fn finer(&self) -> Option<String> {
         self.card.remedy().map(|remedy| remedy.or_finer())
+    }
+
+    /// A tolerance to be advised beside a tick, where few bodies go by ticks.
+    pub fn or_tolerance(&self) -> &'static str {
+        let few = self.world.resource::<Bodies>().len() <= FEW;
+        if few && self.card.by_ticks() { ", or `--tolerance 0.001`" } else { "" }
     }
 
     /// The energy that is missing, as a warning.

@@ -5,16 +5,11 @@ use super::{Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
 use crate::contacts::ContactLaw;
 use crate::report::card::{ErrorEstimate, number, percent};
 use crate::report::estimate::EstimatedError;
-use crate::world::Bodies;
 
 /// Share of how far bodies go by which places may be wrong without a cause.
 const INEXACT: f64 = 1e-2;
 /// Share of the energy that may be missing without a word.
 const MISSING: f64 = 1e-3;
-/// Where a tolerance is advised in place of a tick.
-const TOLERANCE: &str = "`--tolerance 0.001`";
-/// More bodies are not run with a tolerance in a time that anybody waits.
-const FEW: usize = 30;
 
 /// The tolerance that was asked for is not reached.
 pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
@@ -38,8 +33,8 @@ pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     let horizon = evidence.card.error.filter(|_| evidence.card.by_ticks())?.horizon?;
     let body = estimated.began.as_ref().map_or_else(|| "places".to_owned(), |(body, _)| format!("`{body}` first"));
     let what = format!(
-        "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}. A finer tick moves that on by \
-         little; statistics last, and {}",
+        "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}. What a finer tick \
+         gains grows as the logarithm of its cost; statistics last, and {}",
         energy::accounted(evidence)
     );
     estimated.chaotic.then(|| Cause { trust: until(horizon), what, remedy: None })
@@ -72,8 +67,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
         (None, Some(places)) => Trust::Partly(format!("Trust {places} ({})", of_the_way(share))),
         (None, None) => Trust::Roughly,
     };
-    let few = world.resource::<Bodies>().len() <= FEW;
-    let tolerance = if few { format!(", or {TOLERANCE}") } else { String::new() };
+    let tolerance = evidence.or_tolerance();
     // Beyond a horizon nothing says how errors fall.
     let order = if unseen { 1.0 } else { 2.0 };
     let tick = if error.horizon.is_some() { card.tick / 10.0 } else { card.tick_for(share, INEXACT / 10.0, order) };

@@ -2,13 +2,17 @@
 
 use super::{Cause, Evidence, Trust};
 use crate::contacts::DeepestOverlap;
-use crate::report::card::percent;
+use crate::report::card::{number, percent};
 use crate::world::{Bodies, Slot};
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
 const HEAVY: f64 = 100.0;
 
-/// Something was pressed in by more than a radius.
+/// Overlaps that hardly change what a scene means, as a share of a radius.
+const HARDLY: f64 = 0.1;
+
+/// Something was pressed in by more than a radius. Where that is an impact, overlaps fall with the root of the stiffness, `d = v
+/// sqrt(m/k)`, and so do critical ticks.
 pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = &card.largest_overlap;
@@ -35,11 +39,23 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
         None => format!("bodies overlap by {by:.0} % of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
     };
     let error = card.energy_error();
-    let with = if card.by_ticks() { evidence.advice(" with ", "") } else { String::new() };
+    let softer = overlap.share_of_radius / HARDLY;
+    let times = number(rounded_up(softer * softer));
+    let tick = number(card.tick_for(softer, 1.0, 1.0));
+    let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
+    let remedy = format!(
+        "a `stiffness` {times} times as high{with}: overlaps then are a tenth of a radius at the most, or little more"
+    );
     let what = if card.by_ticks() && error > 0.0 {
         format!("{what}; energy is accounted for to {}", percent(error))
     } else {
         what
     };
-    Some(Cause { trust: Trust::NotTheModel, what, remedy: Some(format!("a higher `stiffness`{with}")) })
+    Some(Cause { trust: Trust::NotTheModel, what, remedy: Some(remedy) })
+}
+
+/// One digit, not less than it was.
+fn rounded_up(value: f64) -> f64 {
+    let digit = libm::exp10(value.log10().floor());
+    (value / digit).ceil() * digit
 }

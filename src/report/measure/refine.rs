@@ -1,0 +1,54 @@
+//! Between two ticks of a ladder that goes by twos: the cheapest setting that is exact enough may be nearly twice as fine as it need be.
+
+use super::scene::Compared;
+use crate::report::ladder::{Course, Setting, Settings, Subject, TARGETS};
+use crate::scene::SceneErrors;
+
+/// So often a tick between two is tried for each error.
+const TIMES: usize = 2;
+/// Errors between two ticks are no better known than to this factor: the tick that is tried aims as much lower.
+const AIM: f64 = 0.7;
+/// Ticks that are not longer by this factor are not worth a run.
+const LONGER: f64 = 1.1;
+
+/// Tries ticks between the one that is advised for each error and the next longer, where errors between the two tell of one.
+///
+/// # Errors
+/// When the scene is wrong.
+pub(super) fn refine(settings: &mut Settings, subject: &Compared) -> Result<(), SceneErrors> {
+    for which in (0..TARGETS.len()).flat_map(|which| [which; TIMES]) {
+        let advice = settings.advice()[which];
+        let advised = advice.reached.map(|setting| (setting.course, setting.tick, advice.target));
+        let Some((course, place, count)) = advised.and_then(|advised| between(settings, subject, advised)) else {
+            continue;
+        };
+        let (setting, _) = subject.run(course, subject.scene.duration / count as f64)?;
+        settings.all.insert(place, setting);
+    }
+    Ok(())
+}
+
+/// The ticks of a run whose error may just be the one that is wanted, and where it belongs; nothing if there is none to be tried.
+fn between(
+    settings: &Settings,
+    subject: &Compared,
+    (course, tick, target): (Course, f64, f64),
+) -> Option<(Course, usize, u64)> {
+    let is_it = |setting: &Setting| setting.course == course && setting.tick == tick;
+    let place = settings.all.iter().position(is_it)?;
+    let coarser = settings.all[..place].last().filter(|coarser| coarser.course == course)?;
+    let (low, high) = (settings.claimed(&settings.all[place])?, coarser.error()?);
+    if high <= target {
+        return None;
+    }
+    // As a power of the tick: exact where both are small.
+    let part = ((AIM * target / low).ln() / (high / low).ln()).clamp(0.0, 1.0);
+    let longer = tick * (coarser.tick / tick).powf(part);
+    let duration = subject.scene.duration;
+    let count = subject.scene.comparable((duration / longer).ceil() as u64);
+    // It is run once to be compared, and timed.
+    let needed = 2.0 * duration * settings.all[place].seconds?;
+    let tried = duration / count as f64;
+    let wanted = tried > LONGER * tick && coarser.tick > LONGER * tried && needed < subject.budget.left();
+    wanted.then_some((course, place, count))
+}
