@@ -136,7 +136,7 @@ pub(super) fn takes_no_file(path: &Path) -> Option<String> {
     let directory = path.parent().filter(|directory| !directory.as_os_str().is_empty() && !directory.is_dir());
     let missing = directory.map(|directory| {
         let (path, directory) = (path.display(), directory.display());
-        format!("`{path}` could not be written: there is no directory `{directory}`; create it first")
+        format!("`{path}` could not be written: there is no `{directory}`; create its directory first")
     });
     missing.or_else(|| is_special(path))
 }

@@ -167,7 +167,7 @@ fn what_cannot_be_measured_is_told() {
     folder
         .jostle("measure still.ron -o nowhere/table.csv")
         .code(2)
-        .says("there is no directory `nowhere`; create it first");
+        .says("there is no `nowhere`; create its directory first");
     folder.jostle("measure still.ron --methods Auto").code(2).says("VelocityVerlet");
     folder
         .jostle("measure example:tetris --budget 0.01")
