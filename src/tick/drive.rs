@@ -67,6 +67,9 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let has_modes = !modes.graph().systems.is_empty();
     let mut running = Box::new(Running { method, evaluate, modes, has_modes });
     keep_components_current(world, &mut sim, &mut running.evaluate);
+    for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
+        apply_only_what_is_deferred(world, schedule);
+    }
     let mut drive = world.resource_mut::<Drive>();
     drive.stepped = false;
     drive.running = Some(running);
@@ -103,6 +106,15 @@ fn take(world: &mut World, label: impl ScheduleLabel) -> Schedule {
 fn run_once<M>(world: &mut World, system: impl IntoSystem<(), (), M> + 'static) {
     // The system has no parameters that could be missing.
     let _ = world.run_system_cached(system);
+}
+
+/// Where no system has anything to be applied later, nobody looks for it after each run.
+fn apply_only_what_is_deferred(world: &mut World, schedule: &mut Schedule) {
+    // What is wrong with a schedule is told when it runs.
+    if schedule.initialize(world).is_ok() {
+        let deferred = schedule.systems().is_ok_and(|mut systems| systems.any(|(_, system)| system.has_deferred()));
+        schedule.set_apply_final_deferred(deferred);
+    }
 }
 
 /// Sees whether systems were added that work on components, and puts the copying around them.
@@ -179,7 +191,7 @@ pub(super) fn integrate(world: &mut World) {
         Ledger::book_exchange(tick.world, before);
     }
     // Where all bodies are asleep the end of the tick is its beginning.
-    if !tick.bodies().all_asleep() {
+    if !tick.world.resource::<Bodies>().all_asleep() {
         if !style.is_staged() {
             tick.choose_modes(tick.begin, tick.end);
         }
@@ -335,6 +347,7 @@ impl Tick<'_> {
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
         let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
         bodies.swap_estimate();
+        bodies.pose();
         if let Some(driven) = driven {
             let smallest = bodies.smallest_radius;
             let Drive { farthest, travelled, .. } = *self.world.resource::<Drive>();
@@ -344,6 +357,7 @@ impl Tick<'_> {
         let mut bodies = self.world.resource_mut::<Bodies>();
         if std::mem::take(&mut bodies.disturbed) {
             bodies.wake_all();
+            bodies.pose();
             // No time has passed since: histories stay as they are.
             self.run_evaluation(time, 0.0);
             bodies = self.world.resource_mut::<Bodies>();
@@ -351,8 +365,8 @@ impl Tick<'_> {
         bodies.swap_estimate();
     }
 
+    /// Bodies are posed.
     fn run_evaluation(&mut self, time: f64, elapsed: f64) {
-        self.world.resource_mut::<Bodies>().pose();
         *self.world.resource_mut::<Balance>() = Balance::default();
         self.announce(time, elapsed, self.style);
         self.evaluate.run(self.world);
@@ -370,8 +384,8 @@ impl Tick<'_> {
 
     /// Lets forces and contacts choose their modes from `begin` to `end`.
     pub fn choose_modes(&mut self, begin: f64, end: f64) {
-        let mut bodies = self.bodies();
-        if !bodies.prescribed.motions.is_empty() {
+        if !self.world.resource::<Bodies>().prescribed.motions.is_empty() {
+            let mut bodies = self.bodies();
             let middle = 0.5 * (begin + end);
             let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
             // On another piece of a path what rides on it has other forces from its first moment on.
@@ -401,6 +415,7 @@ impl Tick<'_> {
         if !bodies.prescribed.motions.is_empty() {
             bodies.prescribe(self.begin, time);
         }
+        bodies.pose();
         self.run_evaluation(time, 0.0);
     }
 
