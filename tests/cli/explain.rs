@@ -79,4 +79,5 @@ fn every_row_of_the_card_is_explained() {
     for row in rows {
         folder.jostle(&format!("explain {row}")).code(0);
     }
+    folder.jostle("explain verdict").code(0);
 }

@@ -128,6 +128,15 @@ pub(super) const WORDS: &[Word] = &[
          says; the results are the same to the bit at all of them. A level that the processor lacks is refused.",
     ),
     word(
+        "verdict",
+        "the last sentences of the card: how far the run can be trusted, what most likely spoils it, with body and time where that \
+         began, and what would mend it. `Do not trust it`: what was computed is not the scene. `Trust the numbers, not the \
+         model`: it is, but the scene is not what it is meant to be. `Trust it roughly`, `Trust places until ..`: in part. `Trust it`: \
+         nothing that the engine looks for was found. Causes come before what they bring about: a tick above the critical one, overlaps at the \
+         start, drag, places too far from the origin, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
+         travel beyond a radius, chaos, a tick too long for the motion.",
+    ),
+    word(
         "error",
         "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with half the tick, \
          as far as that takes 3 % of the work or a tenth of a second (`--estimate` takes all it needs, `--no-estimate` none); \
