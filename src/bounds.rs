@@ -30,6 +30,9 @@ const CHANGE: f64 = 1.5;
 /// A margin so many times as wide as is needed is given up: a long step needed it, and lists are long ever since.
 const WASTEFUL: f64 = 16.0;
 
+/// With more atoms no boxes are made: pairs are then searched without them.
+pub(crate) const MOST_ATOMS: usize = 191;
+
 /// Axis-aligned bounding boxes of all bodies, each grown by half the margin.
 #[derive(Resource, Debug, Default)]
 pub struct Bounds {
@@ -37,9 +40,9 @@ pub struct Bounds {
     pub version: u64,
     /// Distance in metres below which two atoms are candidates.
     pub margin: f64,
-    /// Lower left corner of each body's box in metres.
+    /// Lower left corner of each body's box in metres; empty where many atoms are sorted into cells instead.
     pub low: Vec<DVec2>,
-    /// Upper right corner of each body's box in metres.
+    /// Upper right corner of each body's box in metres; likewise.
     pub high: Vec<DVec2>,
     /// Somebody moved farther than the boxes allow in a stage of a step.
     pub outgrown: bool,
@@ -104,6 +107,9 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, ev
     bounds.angle.clone_from(&bodies.angle);
     bounds.low.clear();
     bounds.high.clear();
+    if bodies.atom_count() > MOST_ATOMS {
+        return;
+    }
     for body in 0..bodies.len() {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for atom in bodies.atoms_of(body) {

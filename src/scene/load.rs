@@ -382,7 +382,7 @@ impl Loading<'_> {
                 }
             }
         }
-        if outline.complete && report.is_clean() && outline.names(Kind::BODY).is_empty() {
+        if outline.complete && report.is_clean() && outline.count(Kind::BODY) == 0 {
             report.error("", "the scene has no bodies").help(SMALLEST);
         }
         report

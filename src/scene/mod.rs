@@ -62,6 +62,7 @@ mod expand;
 mod explain;
 mod layout;
 mod load;
+pub(crate) mod names;
 mod number;
 mod outline;
 mod registry;

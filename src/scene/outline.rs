@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::expand::Tables;
+use super::names::{self, Names};
 use super::report::Report;
 use super::sections::packing::PackingTable;
 use super::suggest;
@@ -87,12 +88,6 @@ pub enum Obstacle {
 /// Open lists of words; each word with whether it is available yet.
 pub(crate) type Words = BTreeMap<&'static str, BTreeMap<&'static str, bool>>;
 
-#[derive(Clone, Debug, Default)]
-struct Names {
-    ordered: Vec<String>,
-    by_name: BTreeMap<String, (usize, String)>,
-}
-
 /// The names a scene brings, by kind, in the order of the file, which is the canonical order; and which sections and
 /// entries it has.
 #[derive(Clone, Debug, Default)]
@@ -120,8 +115,32 @@ impl Outline {
     /// taken, empty, or holds one of `* . , "` or a control character is reported. Returns whether the name is good.
     pub fn declare(&mut self, kind: Kind, name: &str, path: &str) -> bool {
         let path = join(&self.scope, path);
+        let good = self.is_good(kind, name, &path);
+        if good {
+            self.kinds.entry(kind).or_default().add(name, path);
+        }
+        good
+    }
+
+    /// Adds `count` names that begin alike: `gas_0`, `gas_1` and so on for `gas`. The first of them that would be no good is
+    /// reported as by [`Outline::declare`], and none is added from there on. Returns whether all are good.
+    pub fn declare_series(&mut self, kind: Kind, prefix: &str, count: u64, path: &str) -> bool {
+        let path = join(&self.scope, path);
+        let taken = self.rivals(kind).filter_map(|(_, names)| names.first_taken(prefix, count)).min();
+        // All are made of the same letters and digits.
+        let odd = (count > 0 && !self.is_good(kind, &names::of_series(prefix, 0), &path)).then_some(0);
+        let good = odd.or(taken).unwrap_or(count);
+        if odd.is_none() && good < count {
+            self.is_good(kind, &names::of_series(prefix, good), &path);
+        }
+        self.kinds.entry(kind).or_default().add_series(prefix, good, path);
+        good == count
+    }
+
+    /// Whether a name may be added; if not, that is reported.
+    fn is_good(&mut self, kind: Kind, name: &str, path: &str) -> bool {
         if name.is_empty() {
-            self.report.error_at(path, "a name must not be empty".into());
+            self.report.error_at(path.to_owned(), "a name must not be empty".into());
             return false;
         }
         if let Some(bad) = name.chars().find(|&c| matches!(c, '*' | '.' | ',' | '"') || c.is_control()) {
@@ -131,34 +150,24 @@ impl Outline {
                 _ => "names become column headers of the CSV file",
             };
             let message = format!("the name {name:?} must not contain {bad:?}");
-            self.report.error_at(path, message).help(format!("{why}; use letters, digits and `_`"));
+            self.report.error_at(path.to_owned(), message).help(format!("{why}; use letters, digits and `_`"));
             return false;
         }
-        if let Some((other, first)) = self.taken(kind, name) {
+        let taken = self.rivals(kind).find_map(|(other, names)| Some((other, names.find(name)?.1.to_owned())));
+        if let Some((other, first)) = taken {
             let which = if other == kind { "another" } else { "a" };
             let message = format!("the name \"{name}\" is taken by {which} {}", other.noun);
-            let (first, label) = (first.to_owned(), format!("this {} has the name too", other.noun));
-            self.report.error_at(path, message).also(first, label).help("give every thing its own name");
+            let label = format!("this {} has the name too", other.noun);
+            self.report.error_at(path.to_owned(), message).also(first, label).help("give every thing its own name");
             return false;
         }
-        self.add(kind, name, path);
         true
     }
 
-    fn add(&mut self, kind: Kind, name: &str, path: String) {
-        let names = self.kinds.entry(kind).or_default();
-        names.by_name.insert(name.to_owned(), (names.ordered.len(), path));
-        names.ordered.push(name.to_owned());
-    }
-
-    fn taken(&self, kind: Kind, name: &str) -> Option<(Kind, &str)> {
-        let rivals = self.kinds.iter().filter(|(other, _)| **other == kind || (kind.shared && other.shared));
-        for (other, names) in rivals {
-            if let Some((_, path)) = names.by_name.get(name) {
-                return Some((*other, path));
-            }
-        }
-        None
+    /// The kinds whose names must differ from those of a kind.
+    fn rivals(&self, kind: Kind) -> impl Iterator<Item = (Kind, &Names)> {
+        let rival = move |other: Kind| other == kind || (kind.shared && other.shared);
+        self.kinds.iter().map(|(other, names)| (*other, names)).filter(move |(other, _)| rival(*other))
     }
 
     /// Marks a place as taken at the start of the run.
@@ -171,14 +180,19 @@ impl Outline {
         &self.obstacles
     }
 
-    /// All names of a kind in canonical order.
+    /// All names of a kind in canonical order. The list is made when it is asked for first, and kept.
     pub fn names(&self, kind: Kind) -> &[String] {
-        self.kinds.get(&kind).map_or(&[], |names| &names.ordered)
+        self.kinds.get(&kind).map_or(&[], Names::list)
+    }
+
+    /// How many names of a kind there are.
+    pub fn count(&self, kind: Kind) -> usize {
+        self.kinds.get(&kind).map_or(0, Names::len)
     }
 
     /// The place of a name in the canonical order of its kind.
     pub fn position(&self, kind: Kind, name: &str) -> Option<usize> {
-        self.kinds.get(&kind)?.by_name.get(name).map(|(position, _)| *position)
+        self.kinds.get(&kind)?.find(name).map(|(position, _)| position)
     }
 
     /// The places of all names that fit a pattern, in canonical order; `*` stands for any run of characters, also
@@ -187,8 +201,7 @@ impl Outline {
         if !pattern.contains('*') {
             return self.position(kind, pattern).into_iter().collect();
         }
-        let names = self.names(kind).iter().enumerate();
-        names.filter(|(_, name)| fits(pattern, name)).map(|(position, _)| position).collect()
+        self.kinds.get(&kind).map_or_else(Vec::new, |names| names.matching(pattern))
     }
 
     /// The place of a name; an unknown one is reported at `path` with the nearest known name.

@@ -19,7 +19,7 @@ use crate::scene::sections::FilmSection;
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::simd::Level;
 use crate::threads::Threads;
-use crate::tick::{Clock, Failure, TickAppExt, step};
+use crate::tick::{Clock, Failure, TickAppExt, foresee_components, step};
 use crate::world::{Bodies, Name, packed};
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
@@ -249,6 +249,7 @@ pub(crate) fn read(app: &mut App, source: &Source, plugins: impl Fn(&mut App)) -
     app.add_tick();
     app.init_resource::<Notes>().init_resource::<Finishers>();
     plugins(app);
+    foresee_components(app.world_mut());
     let header = scene::load(app, source)?;
     contacts::install_default(&header.outline, app);
     layers::install_wanted(&header.outline, app);

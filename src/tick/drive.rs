@@ -98,6 +98,16 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     failure.map_or(Ok(()), Err)
 }
 
+/// Before bodies are spawned: sees whether systems that work on components are there already, so that bodies are
+/// spawned with all that those need.
+pub(crate) fn foresee_components(world: &mut World) {
+    let (census, schedules) = (world.resource::<Census>(), world.resource::<Schedules>());
+    let count = |schedule: Option<&Schedule>| schedule.map_or(0, |schedule| schedule.graph().systems.len());
+    let ordinary = count(schedules.get(SimTick)) > census.packed_in_tick
+        || count(schedules.get(Evaluate)) > census.packed_in_evaluate;
+    world.resource_mut::<Bodies>().pushed |= ordinary;
+}
+
 fn take(world: &mut World, label: impl ScheduleLabel) -> Schedule {
     let missing = "the tick was added with `TickAppExt::add_tick`";
     world.resource_mut::<Schedules>().remove(label).expect(missing)
@@ -122,6 +132,9 @@ fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut
     let counted = (sim.graph().systems.len(), evaluate.graph().systems.len());
     let census = world.resource::<Census>();
     let ordinary = (counted.0 > census.packed_in_tick, counted.1 > census.packed_in_evaluate);
+    if (ordinary.0 || ordinary.1) && !world.resource::<Bodies>().pushed {
+        packed::make_pushable(world);
+    }
     let mut drive = world.resource_mut::<Drive>();
     if ordinary.0 && !drive.ordinary_tick {
         drive.ordinary_tick = true;

@@ -44,6 +44,7 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
+pub(crate) use drive::foresee_components;
 pub use drive::{Tick, energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use flow::{Reach, WorldFlow};

@@ -65,6 +65,9 @@ pub struct Springs {
 
 const NOBODY: u32 = u32::MAX;
 
+/// Memory of so many springs is kept for the next time.
+const KEPT: usize = 4096;
+
 /// What is known of the springs without solving anything.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bound {
@@ -79,6 +82,21 @@ pub struct Bound {
 }
 
 impl Springs {
+    /// Makes room for so many springs and no more.
+    pub fn make_room(&mut self, count: usize) {
+        self.list.clear();
+        self.list.reserve_exact(count);
+        self.slots.clear();
+        self.slots.reserve_exact(count);
+    }
+
+    /// Gives back the memory of many springs, which are rarely asked for.
+    pub fn put_away(&mut self) {
+        if self.list.len() > KEPT {
+            *self = Self::default();
+        }
+    }
+
     /// Takes up the springs of one moment: those of contacts, and the others.
     pub fn gather(
         &mut self,

@@ -25,7 +25,7 @@ pub enum Motion {
 /// A body. Its key is its identity: the order of keys is the order of every sum.
 #[derive(Component, Clone, Debug, Default)]
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
-#[require(Position, Rotation, Velocity, Spin, Force, Torque, Mass)]
+#[require(Position, Rotation, Velocity, Spin, Mass)]
 pub struct Body {
     /// Place in the canonical order: the order of the scene, later spawns after it. Two bodies never share a key.
     pub key: u64,
@@ -55,11 +55,13 @@ pub struct Velocity(pub DVec2);
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spin(pub f64);
 
-/// Force on the centre of mass in newtons, summed by the force systems of one evaluation. Cleared before each.
+/// Force on the centre of mass in newtons, summed by the force systems of one evaluation. Cleared before each. Bodies have it as
+/// soon as some system that works on components is in the schedules of the tick.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Force(pub DVec2);
 
-/// Torque about the centre of mass in N m, summed by the force systems of one evaluation. Cleared before each.
+/// Torque about the centre of mass in N m, summed by the force systems of one evaluation. Cleared before each. Bodies have it when
+/// they have a [`Force`].
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Torque(pub f64);
 

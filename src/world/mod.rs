@@ -15,7 +15,7 @@ pub mod sections;
 pub mod spawn;
 pub mod wall;
 
-pub use atom::{Atom, AtomOf, Atoms};
+pub use atom::{Atom, AtomOf, Atoms, atoms_of};
 pub use body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
 pub use kinematic::Kinematic;
 pub(crate) use lend::lend;

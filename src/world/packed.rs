@@ -7,7 +7,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::atom::{Atom, Atoms};
+use super::atom::{Atom, atoms_of};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 use super::kinematic::{Kinematic, Prescribed};
 use super::material::MaterialIndex;
@@ -55,6 +55,8 @@ pub struct Bodies {
     pub touched: bool,
     /// Instructions for work on many bodies at once. Default: the best there are.
     pub level: Level,
+    /// Entities have a [`Force`] and a [`Torque`], for systems that work on components.
+    pub(crate) pushed: bool,
     /// Threads for work on many bodies or contacts. Default: one.
     pub threads: Threads,
     /// Counts the rebuilds: whoever keeps indices compares it.
@@ -391,6 +393,15 @@ pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut>) {
     }
 }
 
+/// Gives a [`Force`] and a [`Torque`] to bodies that have none, now and when bodies come later.
+pub fn make_pushable(world: &mut World) {
+    world.resource_mut::<Bodies>().pushed = true;
+    let mut without = world.query_filtered::<Entity, (With<Body>, Without<Force>)>();
+    for body in without.iter(world).collect::<Vec<_>>() {
+        world.entity_mut(body).insert((Force::default(), Torque::default()));
+    }
+}
+
 /// Clears the components that force systems add to.
 pub fn clear_forces(mut forces: Query<(&mut Force, &mut Torque)>) {
     for (mut force, mut torque) in &mut forces {
@@ -399,8 +410,36 @@ pub fn clear_forces(mut forces: Query<(&mut Force, &mut Torque)>) {
     }
 }
 
+impl Bodies {
+    /// Makes room for so many bodies and atoms and no more: lists that grow end up to twice as long.
+    fn make_room(&mut self, bodies: usize, atoms: usize) {
+        self.entity.reserve_exact(bodies);
+        self.key.reserve_exact(bodies);
+        for list in [&mut self.dynamic, &mut self.moves, &mut self.collides] {
+            list.reserve_exact(bodies);
+        }
+        let Self { mass, inertia, inverse_mass, inverse_inertia, extent, angle, angle_rest, spin, torque, .. } = self;
+        for list in [mass, inertia, inverse_mass, inverse_inertia, extent, angle, angle_rest, spin, torque] {
+            list.reserve_exact(bodies);
+        }
+        for list in [&mut self.position, &mut self.position_rest, &mut self.velocity, &mut self.force] {
+            list.reserve_exact(bodies);
+        }
+        self.first_atom.reserve_exact(bodies + 1);
+        self.atom_offset.reserve_exact(atoms);
+        for list in [&mut self.atom_radius, &mut self.atom_mass, &mut self.atom_stiffness] {
+            list.reserve_exact(atoms);
+        }
+        self.atom_material.reserve_exact(atoms);
+        self.atom_body.reserve_exact(atoms);
+    }
+}
+
 /// Fills the arrays anew from the entities, in the order of keys, and tells every body its place.
 pub fn rebuild(world: &mut World) {
+    if world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed) {
+        make_pushable(world);
+    }
     let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
     found.sort_unstable();
     let previous = world.remove_resource::<Bodies>().unwrap_or_default();
@@ -409,11 +448,17 @@ pub fn rebuild(world: &mut World) {
         level: previous.level,
         threads: previous.threads,
         field: previous.field,
+        pushed: previous.pushed,
         ..Default::default()
     };
+    bodies.make_room(found.len(), world.query::<&Atom>().iter(world).len());
     bodies.first_atom.push(0);
     for (place, &(key, entity)) in found.iter().enumerate() {
-        world.entity_mut(entity).insert(Slot(place as u32));
+        let mut body = world.entity_mut(entity);
+        match body.get_mut::<Slot>() {
+            Some(mut slot) => slot.0 = place as u32,
+            None => _ = body.insert(Slot(place as u32)),
+        }
         let body = world.entity(entity);
         let &Body { motion, collides, .. } = body.get::<Body>().expect("queried with Body");
         let &Mass { mass, inertia } = body.get::<Mass>().expect("Body requires Mass");
@@ -451,11 +496,9 @@ pub fn rebuild(world: &mut World) {
         bodies.force.push(DVec2::ZERO);
         bodies.torque.push(0.0);
         let mut extent = 0.0_f64;
-        for &atom in body.get::<Atoms>().map_or(&[][..], Atoms::entities) {
-            let Some(atom) = world.entity(atom).get::<Atom>() else { continue };
+        for atom in atoms_of(world, entity) {
             extent = extent.max(atom.offset.length() + atom.radius);
             bodies.atom_offset.push(atom.offset);
-            bodies.atom_position.push(DVec2::ZERO);
             bodies.atom_radius.push(atom.radius);
             bodies.atom_mass.push(atom.mass);
             bodies.atom_stiffness.push(atom.stiffness);
@@ -464,13 +507,15 @@ pub fn rebuild(world: &mut World) {
         }
         bodies.extent.push(extent);
         bodies.first_atom.push(bodies.atom_offset.len() as u32);
-        let atoms = bodies.atoms_of(place);
-        place_atoms((position, angle), &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
     }
     let lone = |body: usize| bodies.atoms_of(body).len() == 1 && bodies.atom_offset[body] == DVec2::ZERO;
     bodies.lone_discs = (0..bodies.len()).all(lone);
-    if bodies.lone_discs {
-        bodies.atom_position = Vec::new();
+    if !bodies.lone_discs {
+        bodies.atom_position = vec![DVec2::ZERO; bodies.atom_count()];
+        for body in 0..bodies.len() {
+            let (pose, atoms) = ((bodies.position[body], bodies.angle[body]), bodies.atoms_of(body));
+            place_atoms(pose, &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
+        }
     }
     bodies.moved =
         if bodies.lone_discs && bodies.prescribed.motions.is_empty() { Moved::For(0.0) } else { Moved::Listed };

@@ -4,7 +4,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
-use super::spawn::NextKey;
+use super::spawn::{NextKey, after_others, spawn_series};
 use super::{Atom, Motion, Name, NewBody, Wall};
 use crate::scene::sections::{BodiesSection, FillSection, PackingsSection, WallsSection};
 use crate::scene::{Kind, Outline, SceneAppExt};
@@ -37,6 +37,10 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
 
 /// Spawns the bodies of a scene.
 pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World) {
+    after_others(world, section.0.len(), |world| spawn_entries(section, outline, world));
+}
+
+fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
     for entry in section.0 {
         let made_of = MadeOf::named(world, entry.material.as_deref());
         let properties = entry.mass_properties(made_of.density);
@@ -53,7 +57,8 @@ pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World
             name: entry.name,
             ..made_of.body(&properties)
         };
-        spawn(body, outline, world);
+        let (key, body) = keyed(body, outline);
+        body.spawn_keyed(world, key);
     }
 }
 
@@ -62,18 +67,19 @@ pub fn spawn_packings(section: PackingsSection, outline: &Outline, world: &mut W
     for entry in section.0 {
         let Some(table) = entry.read(outline) else { continue };
         let made_of = MadeOf::named(world, entry.material.as_deref());
-        for number in 0..table.body_count() {
+        let body = |number| {
             let start = table.body(number, made_of.density);
-            let body = NewBody {
+            NewBody {
                 name: entry.body_name(number as u64),
                 position: start.position,
                 angle: start.angle,
                 velocity: start.velocity,
                 spin: start.spin,
                 ..made_of.body(&start.properties)
-            };
-            spawn(body, outline, world);
-        }
+            }
+        };
+        let one_atom = table.atom_count() == table.body_count();
+        spawn_series(world, table.body_count(), one_atom, |number| keyed(body(number), outline));
     }
 }
 
@@ -82,16 +88,15 @@ pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
     for (entry, placed) in section.0.iter().zip(section.place(outline)) {
         let made_of = MadeOf::named(world, entry.material.as_deref());
         let properties = mass_properties::of(&entry.atoms.specs(), None, entry.atoms.own_rule(), made_of.density);
-        for (number, place) in placed.into_iter().enumerate() {
-            let body = NewBody {
-                name: entry.body_name(number as u64),
-                position: place.position,
-                angle: place.angle,
-                velocity: place.velocity,
-                ..made_of.body(&properties)
-            };
-            spawn(body, outline, world);
-        }
+        let body = |number: usize| NewBody {
+            name: entry.body_name(number as u64),
+            position: placed[number].position,
+            angle: placed[number].angle,
+            velocity: placed[number].velocity,
+            ..made_of.body(&properties)
+        };
+        let one_atom = properties.atoms.len() == 1;
+        spawn_series(world, placed.len(), one_atom, |number| keyed(body(number), outline));
     }
 }
 
@@ -99,12 +104,9 @@ fn material(world: &World, name: Option<&str>) -> MaterialIndex {
     MaterialIndex::new(world.resource::<Materials>().index(name))
 }
 
-/// Spawns a body at its place in the outline: names are looked up there, and its keys are the canonical order.
-fn spawn(body: NewBody, outline: &Outline, world: &mut World) {
-    match outline.position(Kind::BODY, &body.name) {
-        Some(place) => body.spawn_with_key(world, place as u64),
-        None => body.spawn(world),
-    };
+/// The key of a body, its place in the outline: names are looked up there, and keys are the canonical order.
+fn keyed(body: NewBody, outline: &Outline) -> (Option<u64>, NewBody) {
+    (outline.position(Kind::BODY, &body.name).map(|place| place as u64), body)
 }
 
 /// What bodies of one material share.

@@ -1,11 +1,12 @@
 //! Spawning bodies and walls, at the beginning or in mid-run.
 
+use bevy_ecs::bundle::NoBundleEffect;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::Kinematic;
-use super::atom::{Atom, AtomOf};
-use super::body::{Body, Mass, Motion, Name, Position, Rotation, Spin, Velocity};
+use super::atom::{Atom, AtomOf, Atoms};
+use super::body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
+use super::{Bodies, Kinematic, Slot};
 
 /// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.
 #[derive(Resource, Debug, Default)]
@@ -27,7 +28,7 @@ pub struct NextKey {
 /// let atom = Atom { offset: DVec2::ZERO, radius: 0.1, mass: 2.0, stiffness: 1e4, material: MaterialIndex::default() };
 /// let ball = NewBody { name: "ball".into(), mass: 2.0, inertia: 0.01, atoms: vec![atom], ..Default::default() };
 /// let entity = ball.spawn(&mut world);
-/// assert!(world.get::<jostle::world::Atoms>(entity).is_some());
+/// assert_eq!(jostle::world::atoms_of(&world, entity).count(), 1);
 /// ```
 #[derive(Clone, Debug)]
 pub struct NewBody {
@@ -75,7 +76,83 @@ impl Default for NewBody {
     }
 }
 
+/// Numbers of entities that are kept from the bodies of a scene.
+const KEPT: usize = 256;
+
+/// Spawns so many bodies, and keeps smaller numbers than theirs for entities to come: what the ECS keeps for a resource begins with a
+/// list as long as the resource's own entity has a number, and most resources come after the bodies.
+pub(super) fn after_others(world: &mut World, count: usize, spawn: impl FnOnce(&mut World)) {
+    if count <= KEPT {
+        return spawn(world);
+    }
+    let kept: Vec<Entity> = world.entity_allocator().alloc_many(KEPT as u32).collect();
+    spawn(world);
+    world.entity_allocator_mut().free_many(&kept);
+}
+
+/// Spawns an entity with these components, and with those that force systems add to if there are any.
+fn spawn_one(world: &mut World, pushed: bool, components: impl Bundle) -> Entity {
+    if pushed {
+        world.spawn((components, Force::default(), Torque::default())).id()
+    } else {
+        world.spawn(components).id()
+    }
+}
+
+/// Spawns the bodies of a series, with keys of the caller's choice or the next ones. Where each has one atom, the ECS makes room for
+/// all of them at once.
+pub(super) fn spawn_series(
+    world: &mut World,
+    count: usize,
+    one_atom: bool,
+    body: impl Fn(usize) -> (Option<u64>, NewBody),
+) {
+    let bodies = (0..count).map(body);
+    if !one_atom {
+        return after_others(world, count, |world| {
+            bodies.for_each(|(key, body)| _ = body.spawn_keyed(world, key));
+        });
+    }
+    let mut next = world.get_resource_or_init::<NextKey>().body;
+    let discs = bodies.map(|(key, mut body)| {
+        let key = key.unwrap_or(next);
+        next = next.max(key + 1);
+        let atom = body.atoms.pop().expect("each has one atom");
+        (body.components(key), atom, Slot::default())
+    });
+    let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
+    after_others(world, count, |world| {
+        if pushed {
+            world.spawn_batch(discs.map(|disc| (disc, Force::default(), Torque::default())));
+        } else {
+            world.spawn_batch(discs);
+        }
+    });
+    world.resource_mut::<NextKey>().body = next;
+}
+
 impl NewBody {
+    /// What it is but for its atoms.
+    fn components(self, key: u64) -> impl Bundle<Effect: NoBundleEffect> {
+        (
+            Body { key, motion: self.motion, collides: self.collides },
+            Name(self.name),
+            Position(self.position),
+            Rotation(self.angle),
+            Velocity(self.velocity),
+            Spin(self.spin),
+            Mass { mass: self.mass, inertia: self.inertia },
+        )
+    }
+
+    /// Spawns the body with a key, or behind all others.
+    pub(super) fn spawn_keyed(self, world: &mut World, key: Option<u64>) -> Entity {
+        match key {
+            Some(key) => self.spawn_with_key(world, key),
+            None => self.spawn(world),
+        }
+    }
+
     /// Spawns the body behind all others in the canonical order and returns its entity.
     pub fn spawn(self, world: &mut World) -> Entity {
         let mut next = world.get_resource_or_init::<NextKey>();
@@ -85,25 +162,30 @@ impl NewBody {
     }
 
     /// Spawns the body with a key of the caller's choice. No two bodies may share a key.
-    pub fn spawn_with_key(self, world: &mut World, key: u64) -> Entity {
+    pub fn spawn_with_key(mut self, world: &mut World, key: u64) -> Entity {
         let mut next = world.get_resource_or_init::<NextKey>();
         next.body = next.body.max(key + 1);
-        let motion = if self.kinematic.is_some() { Motion::Kinematic } else { self.motion };
-        let body = world
-            .spawn((
-                Body { key, motion, collides: self.collides },
-                Name(self.name),
-                Position(self.position),
-                Rotation(self.angle),
-                Velocity(self.velocity),
-                Spin(self.spin),
-                Mass { mass: self.mass, inertia: self.inertia },
-            ))
-            .id();
-        if let Some(kinematic) = self.kinematic {
+        let (kinematic, mut atoms) = (self.kinematic.take(), std::mem::take(&mut self.atoms));
+        if kinematic.is_some() {
+            self.motion = Motion::Kinematic;
+        }
+        let components = self.components(key);
+        // With all it ever has from the beginning: a component that comes later moves the body to another table, and the one it
+        // leaves keeps its memory. What is not packed yet will be before anybody looks for its place.
+        let bodies = world.get_resource::<Bodies>();
+        let pushed = bodies.is_some_and(|bodies| bodies.pushed);
+        let unpacked = bodies.is_none_or(|bodies| bodies.generation == 0);
+        let only = if atoms.len() == 1 { atoms.pop() } else { None };
+        let body = match (unpacked, only) {
+            (true, Some(only)) => spawn_one(world, pushed, (components, only, Slot::default())),
+            (false, Some(only)) => spawn_one(world, pushed, (components, only)),
+            (true, None) => spawn_one(world, pushed, (components, Slot::default(), Atoms::with_room(atoms.len()))),
+            (false, None) => spawn_one(world, pushed, components),
+        };
+        if let Some(kinematic) = kinematic {
             world.entity_mut(body).insert(kinematic);
         }
-        for atom in self.atoms {
+        for atom in atoms {
             world.spawn((atom, AtomOf(body)));
         }
         body

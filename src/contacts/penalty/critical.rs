@@ -88,8 +88,9 @@ impl PenaltyContacts {
             let others = steady.into_iter().flat_map(|steady| steady.rows(weight));
             springs.gather(self.springs::<N>(bodies, pairs, weight), others, bodies);
         };
-        gather(&mut watch.springs, weight(stability.limit / clock.dt));
         watch.pairs = self.atoms.touching_count() + self.walls.touching_count();
+        watch.springs.make_room(watch.pairs);
+        gather(&mut watch.springs, weight(stability.limit / clock.dt));
         watch.earliest = clock.ticks + watch.pairs as u64;
         watch.next = clock.ticks + PATIENCE;
         let found = &mut watch.found;
@@ -130,6 +131,7 @@ impl PenaltyContacts {
                     Some(Fastest { angular_frequency: squared.sqrt(), body, holder: Holder::Contacts, time });
             }
         }
+        watch.springs.put_away();
         self.watch = watch;
     }
 

@@ -7,6 +7,7 @@
 
 mod at_start;
 mod cells;
+mod identity;
 mod sweep;
 
 pub use at_start::OverlapAtStart;
@@ -15,6 +16,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use self::identity::Identities;
 use crate::bounds::{self, Bounds};
 use crate::simulation::Finishers;
 use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
@@ -74,8 +76,8 @@ pub struct CandidatePairs {
     pub search: Search,
     bounds_version: u64,
     generation: u64,
-    /// Body key and number within the body of each atom: what stays the same when places change.
-    identity: Vec<(u64, u32)>,
+    /// What stays the same when places change.
+    identities: Identities,
     wall_count: usize,
 }
 
@@ -108,7 +110,7 @@ pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: Re
     pairs.walls = wall_pairs(&bodies, &bounds);
     bounds.candidates = pairs.atoms.len() + pairs.walls.len();
     let same = pairs.generation == bodies.generation;
-    let places = if same { None } else { Some(new_places(&pairs.identity, &bodies)) };
+    let places = if same { None } else { Some(pairs.identities.places_in(&Identities::of(&bodies))) };
     let place = |old: u32| {
         places.as_ref().map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
     };
@@ -121,22 +123,8 @@ pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: Re
     if !same {
         pairs.generation = bodies.generation;
         pairs.wall_count = bodies.walls.len();
-        pairs.identity = identities(&bodies);
+        pairs.identities = Identities::of(&bodies);
     }
-}
-
-fn identities(bodies: &Bodies) -> Vec<(u64, u32)> {
-    let of_body = |body: usize| {
-        let first = bodies.first_atom[body];
-        bodies.atoms_of(body).map(move |atom| (bodies.key[body], atom as u32 - first))
-    };
-    (0..bodies.len()).flat_map(of_body).collect()
-}
-
-/// For each atom of the old list its new place, or [`NEW`] if it is gone.
-fn new_places(old: &[(u64, u32)], bodies: &Bodies) -> Vec<u32> {
-    let new = identities(bodies);
-    old.iter().map(|identity| new.binary_search(identity).map_or(NEW, |place| place as u32)).collect()
 }
 
 /// For each new pair the place of the same pair in the old list. Both lists are sorted, and stay so when old pairs
@@ -161,13 +149,10 @@ pub enum Search {
     Cells,
 }
 
-/// Atoms from which on cells are faster.
-const MANY: usize = 192;
-
 impl Search {
-    /// The one that suits so many atoms.
+    /// The one that suits so many atoms: from some two hundred on cells are faster.
     fn suiting(bodies: &Bodies) -> Self {
-        if bodies.atom_count() < MANY { Self::Sweep } else { Self::Cells }
+        if bodies.atom_count() <= bounds::MOST_ATOMS { Self::Sweep } else { Self::Cells }
     }
 
     fn pairs(self, bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {

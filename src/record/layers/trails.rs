@@ -54,7 +54,7 @@ impl OfBodies for Trails {
     }
 
     fn layer(self, shown: Shown, outline: &Outline) -> impl Layer {
-        let count = shown.0.as_ref().map_or(outline.names(Kind::BODY).len(), Vec::len);
+        let count = shown.0.as_ref().map_or(outline.count(Kind::BODY), Vec::len);
         let points = (ALL_POINTS / count.max(1)).clamp(POINTS.0, POINTS.1);
         Tracks { shown, seconds: self.seconds.si(), points, looked: None, tracks: BTreeMap::new() }
     }

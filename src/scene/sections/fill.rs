@@ -8,6 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::Region;
+use crate::scene::names;
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
@@ -15,7 +16,7 @@ use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
 use crate::world::{material, sections};
 
-/// The largest number of bodies of all entries together. A body takes some 1.3 kB while a scene is read, and a film reads its
+/// The largest number of bodies of all entries together. A body of one atom takes some 0.7 kB while a scene is read, and a film reads its
 /// scene twice.
 pub const LARGEST_COUNT: u64 = 1_000_000;
 /// How often a place is tried for one body before the region counts as full.
@@ -98,12 +99,8 @@ impl Section for FillSection {
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {
         for (index, entry) in self.0.iter().enumerate() {
-            for number in 0..entry.count.0.min(LARGEST_COUNT) {
-                // One message about a bad name is enough.
-                if !outline.declare(Kind::BODY, &entry.body_name(number), &format!("[{index}].name")) {
-                    break;
-                }
-            }
+            let count = entry.count.0.min(LARGEST_COUNT);
+            outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
         }
     }
 
@@ -155,7 +152,7 @@ impl Section for FillSection {
 impl FillEntry {
     /// The name of one of the bodies, counted from zero.
     pub fn body_name(&self, number: u64) -> String {
-        format!("{}_{number}", self.name)
+        names::of_series(&self.name, number)
     }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
@@ -204,7 +201,8 @@ impl FillEntry {
     }
 }
 
-/// Square cells over the box; each knows what is near enough to touch a body whose centre lies in it.
+/// Square cells over the box; each knows which discs are near enough to touch a body whose centre lies in it. A few long lists, and
+/// none for each cell: memory in many small pieces stays with the program.
 struct Grid {
     low: DVec2,
     high: DVec2,
@@ -213,9 +211,24 @@ struct Grid {
     rows: usize,
     radius: f64,
     gap: f64,
-    near: Vec<Vec<Obstacle>>,
-    /// What concerns every cell.
-    walls: Vec<Obstacle>,
+    /// Discs of cells, those of each cell in bunches.
+    near: Vec<Bunch>,
+    /// For each cell the place of its last bunch.
+    last: Vec<u32>,
+    /// What concerns every cell: two points each.
+    walls: Vec<(DVec2, DVec2)>,
+}
+
+/// No bunch.
+const NONE: u32 = u32::MAX;
+
+/// A few discs of one cell side by side, so that they are found in one place of memory: centre and radius of each.
+#[derive(Default)]
+struct Bunch {
+    discs: [(DVec2, f64); 4],
+    count: usize,
+    /// The place of the next bunch of the cell.
+    next: u32,
 }
 
 impl Grid {
@@ -227,8 +240,9 @@ impl Grid {
         let count = |length: f64| ((length / (2.0 * radius + gap)) as usize).clamp(1, most);
         let (columns, rows) = (count(size.x), count(size.y));
         let cell = size / DVec2::new(columns as f64, rows as f64);
-        let near = vec![Vec::new(); columns * rows];
-        Self { low, high, cell, columns, rows, radius, gap, near, walls: Vec::new() }
+        let last = vec![NONE; columns * rows];
+        let (near, walls) = Default::default();
+        Self { low, high, cell, columns, rows, radius, gap, near, last, walls }
     }
 
     fn column_and_row(&self, at: DVec2) -> (usize, usize) {
@@ -237,16 +251,12 @@ impl Grid {
     }
 
     fn insert(&mut self, obstacle: Obstacle) {
-        let (low, high) = match obstacle {
-            Obstacle::Disc { center, radius } => {
-                let reach = radius + self.radius + self.gap;
-                (center - reach, center + reach)
-            }
-            Obstacle::Wall { .. } => {
-                self.walls.push(obstacle);
-                return;
-            }
+        let (center, radius) = match obstacle {
+            Obstacle::Disc { center, radius } => (center, radius),
+            Obstacle::Wall { left, right } => return self.walls.push((left, right)),
         };
+        let reach = radius + self.radius + self.gap;
+        let (low, high) = (center - reach, center + reach);
         // A body far outside the box concerns none of its cells.
         if low.x > self.high.x || low.y > self.high.y || high.x < self.low.x || high.y < self.low.y {
             return;
@@ -255,22 +265,36 @@ impl Grid {
             (self.column_and_row(low), self.column_and_row(high));
         for row in first_row..=last_row {
             for column in first_column..=last_column {
-                self.near[row * self.columns + column].push(obstacle);
+                let last = &mut self.last[row * self.columns + column];
+                if self.near.get(*last as usize).is_none_or(|bunch| bunch.count == bunch.discs.len()) {
+                    self.near.push(Bunch { next: *last, ..Bunch::default() });
+                    *last = self.near.len() as u32 - 1;
+                }
+                let bunch = &mut self.near[*last as usize];
+                bunch.discs[bunch.count] = (center, radius);
+                bunch.count += 1;
             }
         }
     }
 
     fn is_free(&self, at: DVec2) -> bool {
         let (column, row) = self.column_and_row(at);
-        self.walls.iter().chain(&self.near[row * self.columns + column]).all(|obstacle| match *obstacle {
-            Obstacle::Disc { center, radius } => center.distance(at) >= radius + self.radius + self.gap,
-            Obstacle::Wall { left, right } => {
-                // The open side is to the left of one who goes from the right point to the left point.
-                let along = left - right;
-                // A wall without length is reported by its own check; here it stops nobody.
-                along.perp().dot(at - right) >= self.radius * along.length()
-            }
-        })
+        let clear_of_wall = |&(left, right): &(DVec2, DVec2)| {
+            // The open side is to the left of one who goes from the right point to the left point.
+            let along = left - right;
+            // A wall without length is reported by its own check; here it stops nobody.
+            along.perp().dot(at - right) >= self.radius * along.length()
+        };
+        self.walls.iter().all(clear_of_wall)
+            && self
+                .discs_of(row * self.columns + column)
+                .all(|(center, radius)| center.distance(at) >= radius + self.radius + self.gap)
+    }
+
+    fn discs_of(&self, cell: usize) -> impl Iterator<Item = (DVec2, f64)> {
+        let first = self.near.get(self.last[cell] as usize);
+        let bunches = std::iter::successors(first, |bunch| self.near.get(bunch.next as usize));
+        bunches.flat_map(|bunch| bunch.discs[..bunch.count].iter().copied())
     }
 }
 
@@ -330,11 +354,11 @@ mod tests {
     #[test]
     fn a_grid_is_not_much_larger_than_what_stands_in_it() {
         let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 0.0, 10);
-        assert_eq!(grid.near.len(), 36);
+        assert_eq!(grid.last.len(), 36);
         for _ in 0..1000 {
             grid.insert(Obstacle::Wall { left: DVec2::X, right: DVec2::ZERO });
         }
-        assert!(grid.near.iter().all(Vec::is_empty));
+        assert!(grid.near.is_empty());
         assert!(grid.is_free(DVec2::new(5.0, 1e-3)) && !grid.is_free(DVec2::new(5.0, 0.9e-3)));
     }
 

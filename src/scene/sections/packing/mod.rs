@@ -8,6 +8,7 @@ use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
+use crate::scene::names;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
@@ -59,10 +60,8 @@ impl Section for PackingsSection {
     fn declare(&self, outline: &mut Outline) {
         for (index, entry) in self.0.iter().enumerate() {
             let Some(table) = entry.read(outline) else { continue };
-            let path = format!("[{index}].name");
-            // One message about a bad name is enough.
-            let mut numbers = 0..table.body_count() as u64;
-            numbers.all(|number| outline.declare(Kind::BODY, &entry.body_name(number), &path));
+            let count = table.body_count() as u64;
+            outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
             for (center, radius) in table.discs() {
                 outline.occupy(Obstacle::Disc { center, radius });
             }
@@ -105,7 +104,7 @@ impl Section for PackingsSection {
 impl PackingEntry {
     /// The name of one of the bodies, counted from zero.
     pub fn body_name(&self, number: u64) -> String {
-        format!("{}_{number}", self.name)
+        names::of_series(&self.name, number)
     }
 
     /// Its table, as it was read.
