@@ -33,6 +33,18 @@ pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
 #[repr(C, align(64))]
 pub struct Record(pub [f64; BLOCK]);
 
+/// Has a line of the cache brought near that will be read soon. It may be any place: nothing is read from what is not there.
+#[inline(always)]
+pub(crate) fn fetch<T>(place: *const T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: each x86-64 processor has the instruction, which does nothing but a hint.
+    unsafe {
+        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(place.cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
+}
+
 /// Numbers in a block. Partial sums are as many, whatever the number of lanes.
 pub const BLOCK: usize = 8;
 

@@ -70,6 +70,12 @@ struct Kick {
 
 impl PerBody for Kick {
     #[inline(always)]
+    fn fetch(part: &Part, first: usize) {
+        Part::fetch_pairs([part.velocity, part.force], first);
+        Part::fetch_numbers([part.inverse_mass, part.inverse_inertia, part.spin, part.torque], first);
+    }
+
+    #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let dt = V::splat(self.dt);
         let (x, y) = V::load_pairs(&part.velocity[first..]);
@@ -101,6 +107,14 @@ fn compensated<V: Lanes>(before: V, rest: V, step: V) -> (V, V) {
 }
 
 impl PerBody for Advance {
+    #[inline(always)]
+    fn fetch(part: &Part, first: usize) {
+        Part::fetch_pairs([part.velocity, part.force, part.position, part.position_rest], first);
+        Part::fetch_pairs([part.estimated_velocity], first);
+        Part::fetch_numbers([part.inverse_mass, part.inverse_inertia, part.spin, part.torque], first);
+        Part::fetch_numbers([part.angle, part.angle_rest, part.extent, part.mass, part.estimated_spin], first);
+    }
+
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let (force_x, force_y) = V::load_pairs(&part.force[first..]);

@@ -235,14 +235,24 @@ impl Bodies {
     /// Displacement of a body since the last accepted state in metres, and its turn in radians. Tangential springs follow them.
     #[inline(always)]
     pub fn displacement(&self, body: usize) -> (DVec2, f64) {
-        let Moved::For(time) = self.moved else { return (self.drift[body], self.turn[body]) };
-        let (velocity, spin) = if self.estimating {
-            (self.estimated_velocity[body], self.estimated_spin[body])
-        } else {
-            (self.velocity[body], self.spin[body])
+        let Some((velocity, spin, time)) = self.drift_of(body..body + 1) else {
+            return (self.drift[body], self.turn[body]);
         };
         let time = if self.inverse_mass[body] > 0.0 { time } else { 0.0 };
-        (velocity * time, spin * time)
+        (velocity[0] * time, spin[0] * time)
+    }
+
+    /// The velocities and spins with which bodies in a row moved since the last accepted state, and for how many seconds;
+    /// `None` where displacements are listed. Those without mass did not move.
+    #[inline]
+    pub(crate) fn drift_of(&self, bodies: std::ops::Range<usize>) -> Option<(&[DVec2], &[f64], f64)> {
+        let Moved::For(time) = self.moved else { return None };
+        let (velocity, spin) = if self.estimating {
+            (&self.estimated_velocity, &self.estimated_spin)
+        } else {
+            (&self.velocity, &self.spin)
+        };
+        Some((&velocity[bodies.clone()], &spin[bodies], time))
     }
 
     /// The way in metres that some point of a body made at most since the last accepted state.

@@ -12,6 +12,10 @@ const FEWEST: usize = 16384;
 /// Parts at most.
 const MOST: usize = 16;
 
+/// How many bodies before they are worked on their numbers are fetched. The processor does that of itself only where lists are
+/// few.
+const FETCHED: usize = 6 * BLOCK;
+
 /// Some bodies in a row, with what they have: lists begin at the first of them and are as long as there are bodies.
 pub(crate) struct Part<'a> {
     /// Place of the first body.
@@ -141,6 +145,23 @@ impl<'a> Part<'a> {
         first..self.mass.len().min(first + BLOCK)
     }
 
+    /// Has the numbers of a block of bodies brought near; there need not be such bodies.
+    #[inline(always)]
+    pub fn fetch_numbers<const COUNT: usize>(lists: [&[f64]; COUNT], first: usize) {
+        for list in lists {
+            simd::fetch(list.as_ptr().wrapping_add(first));
+        }
+    }
+
+    /// Likewise pairs of numbers, two lines of the cache.
+    #[inline(always)]
+    pub fn fetch_pairs<const COUNT: usize>(lists: [&[DVec2]; COUNT], first: usize) {
+        for list in lists {
+            simd::fetch(list.as_ptr().wrapping_add(first));
+            simd::fetch(list.as_ptr().wrapping_add(first + BLOCK / 2));
+        }
+    }
+
     /// Puts the atoms of a body where it is, unless it stands.
     #[inline(always)]
     pub fn place_atoms(&mut self, body: usize) {
@@ -157,6 +178,10 @@ impl<'a> Part<'a> {
 pub(crate) trait PerBody: Clone + Send {
     /// Does it for the bodies from place `first` of a part on.
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize);
+
+    /// Has what a block of bodies needs brought near, from place `first` of a part on; there need not be such bodies.
+    #[inline(always)]
+    fn fetch(_: &Part, _: usize) {}
 }
 
 struct All<'a, W> {
@@ -175,6 +200,7 @@ impl<W: PerBody> Kernel for All<'_, W> {
         while number < part.blocks() {
             let bodies = part.block(number);
             let mut first = bodies.start;
+            W::fetch(&part, first + FETCHED);
             if bodies.len() == BLOCK {
                 while first < bodies.end {
                     work.bodies::<V>(&mut part, first);

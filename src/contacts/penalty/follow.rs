@@ -137,21 +137,36 @@ impl<V: Lanes> Followed<V> {
             let stays = if elapsed > 0.0 { beyond } else { beyond | slips };
             slips = (springs & stays) | (!springs & slips);
         }
-        let parts = among & !zero.lt(touch.overlap) & touch.overlap.lt(V::splat(f64::INFINITY));
-        let half = V::splat(0.5);
-        friction = friction + (half * law.tangential_stiffness * elongation * elongation).only(parts);
-        let stays = among & !parts;
         *self = Self {
-            overlap: V::select(among, overlap.only(stays), self.overlap),
-            normal_force: V::select(among, normal_force.only(stays), self.normal_force),
-            elongation: V::select(among, elongation.only(stays), self.elongation),
-            held: V::select(among, self.held.only(stays), self.held),
-            loading: loading & !parts,
+            overlap: V::select(among, overlap, self.overlap),
+            normal_force: V::select(among, normal_force, self.normal_force),
+            elongation,
+            loading,
+            slips,
+            ..*self
+        };
+        let gone = among & !zero.lt(touch.overlap);
+        if V::bits(gone) != 0 {
+            friction = friction + self.part(law, gone & touch.overlap.lt(V::splat(f64::INFINITY)));
+        }
+        Lost { friction, inelasticity }
+    }
+
+    /// Contacts come to an end. Returns the energy in J that their tangential springs had.
+    #[inline(always)]
+    fn part(&mut self, law: &PairLaw<V>, parts: V::Mask) -> V {
+        let energy = V::splat(0.5) * law.tangential_stiffness * self.elongation * self.elongation;
+        *self = Self {
+            overlap: self.overlap.only(!parts),
+            normal_force: self.normal_force.only(!parts),
+            elongation: self.elongation.only(!parts),
+            held: self.held.only(!parts),
+            loading: self.loading & !parts,
             unloading: self.unloading & !parts,
-            slips: slips & !parts,
+            slips: self.slips & !parts,
             slides: self.slides & !parts,
         };
-        Lost { friction, inelasticity }
+        energy.only(parts)
     }
 
     /// Tangential force in newtons: positive pulls side B back along the tangent.

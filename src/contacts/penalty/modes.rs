@@ -188,7 +188,7 @@ impl Choice<'_> {
         self.change(case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
     }
 
-    /// How many contacts touch of bodies that are not at rest.
+    /// How many contacts touch of bodies that are not at rest. Where some rest, counting ends with one more than [`MANY`].
     fn restless(&self, pairs: &CandidatePairs) -> usize {
         let PenaltyContacts { atoms, walls, rest, .. } = &*self.contacts;
         if rest.is_empty() {
@@ -198,7 +198,8 @@ impl Choice<'_> {
         let moves = |atom: u32| !self.stands(bodies.atom_body[atom as usize] as usize);
         let of_atoms =
             atoms.awake_touching().filter(|&place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
-        of_atoms.count() + walls.awake_touching().filter(|&place| moves(pairs.walls[place].atom)).count()
+        let of_walls = walls.awake_touching().filter(|&place| moves(pairs.walls[place].atom));
+        of_atoms.chain(of_walls).take(MANY + 1).count()
     }
 
     /// What is held follows its law again, but for what holds bodies at rest.
