@@ -19,7 +19,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Clock, Dependence, Evaluation, Models, Style, TickAppExt};
+use crate::tick::{Balance, Clock, Dependence, Evaluation, Models, Rhythm, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
@@ -146,10 +146,7 @@ impl Course {
     /// The value at `time` seconds.
     pub fn at(&self, time: f64) -> f64 {
         match self {
-            Self::Sine { amplitude, frequency, angular_frequency, phase } => {
-                let rate = frequency.map_or(0.0, |rate| TAU * rate.si()) + angular_frequency.map_or(0.0, Spin::si);
-                amplitude.si() * libm::sin(rate * time + phase.si())
-            }
+            Self::Sine { amplitude, phase, .. } => amplitude.si() * libm::sin(self.rhythm() * time + phase.si()),
             Self::Piecewise(points) => {
                 let next = points.partition_point(|point| point.0.si() <= time);
                 let point = |place: usize| (points[place].0.si(), points[place].1.si());
@@ -166,6 +163,12 @@ impl Course {
             // A check refuses it.
             Self::Csv(_) => 0.0,
         }
+    }
+
+    /// The angular frequency of a sine in rad/s; zero, if it is none.
+    fn rhythm(&self) -> f64 {
+        let Self::Sine { frequency, angular_frequency, .. } = self else { return 0.0 };
+        frequency.map_or(0.0, |rate| TAU * rate.si()) + angular_frequency.map_or(0.0, Spin::si)
     }
 
     /// What a table loses and gains of its area where it is seen at ticks only and has points between them, as shares of its
@@ -229,12 +232,15 @@ struct Drives(Vec<DriveForce>);
 
 /// Installs drives.
 pub fn install(drives: Vec<DriveForce>, app: &mut App) {
+    let rhythm = |drive: &DriveForce| Rhythm { path: drive.path.clone(), angular_frequency: drive.course.rhythm() };
+    let rhythms: Vec<Rhythm> = drives.iter().map(rhythm).collect();
     app.insert_resource(Drives(drives));
     // The force does not depend on velocities, its power does.
     app.add_packed_force(Dependence::Velocity, apply_drives);
     let mut models = app.world_mut().get_resource_or_init::<Models>();
     models.edges.push(next_point);
     models.departures.push(departures);
+    models.rhythms.extend(rhythms);
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -316,6 +322,15 @@ mod tests {
         let mut simulation = Simulation::load(&Source::new("drive.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
         simulation.run_to_end().unwrap();
         simulation
+    }
+
+    /// A tick that the scene does not name follows the drive: 1/80 of a period of 0.5 ms, rounded down to 1, 2 or 5 times a power of
+    /// ten, is 5e-6 s. A named one stays.
+    #[test]
+    fn the_chosen_tick_follows_the_fastest_drive() {
+        let course = "Sine(frequency: 2000)";
+        assert_eq!(driven_by(course, "method: VelocityVerlet").clock().dt, 5e-6);
+        assert_eq!(driven_by(course, "tick: 0.01").clock().dt, 0.01);
     }
 
     /// `v = F/m integral of s`: of `sin(w t)` it is `(1 - cos w t)/w`. Tolerance: the trapezoidal rule of order 2 errs by

@@ -64,6 +64,13 @@ pub struct ErrorParts {
     pub model: Option<f64>,
 }
 
+impl ErrorParts {
+    /// All parts that are known; nothing without that of the tick.
+    pub fn sum(&self) -> Option<f64> {
+        Some(self.discretisation? + self.rounding.unwrap_or(0.0) + self.model.unwrap_or(0.0))
+    }
+}
+
 /// The estimated error of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorEstimate {
@@ -73,7 +80,7 @@ pub struct ErrorEstimate {
     pub velocity: ErrorParts,
     /// Order of accuracy that was seen.
     pub observed_order: Option<f64>,
-    /// Time in seconds after which chaos has eaten all digits.
+    /// Time in seconds until which the error is that: after it chaos has eaten all digits, or nothing was run again.
     pub horizon: Option<f64>,
 }
 

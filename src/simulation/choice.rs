@@ -9,7 +9,7 @@ use crate::report::card::{ChosenMethod, ErrorEstimate, ErrorParts, KnownError, N
 use crate::scene::SceneError;
 use crate::scene::sections::clock::EventTiming;
 use crate::scene::sections::{ClockSection, FilmSection};
-use crate::tick::{Census, Clock, Foreseen, Holder, Models, Stability};
+use crate::tick::{Census, Clock, Holder, Models, Stability};
 
 /// Ticks per half period of the fastest contact or spring when the engine chooses the tick.
 const TICKS_PER_HALF_PERIOD: f64 = 40.0;
@@ -135,7 +135,7 @@ pub(super) fn order(world: &World, plan: &Plan) -> u32 {
 
 /// How many steps of a tick suit the fastest contact or spring.
 pub(super) fn steps_per_tick(world: &World, plan: &Plan) -> u32 {
-    let wanted = chosen_tick(world.resource()).map_or(plan.tick, |(tick, _)| tick);
+    let wanted = chosen_tick(world).map_or(plan.tick, |(tick, _)| tick);
     (plan.tick / wanted).ceil().clamp(1.0, f64::from(u32::MAX)) as u32
 }
 
@@ -149,7 +149,7 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
         }
         (None, Some(tick)) => tick.si(),
         (None, None) => {
-            let (tick, why) = chosen_tick(world.resource())?;
+            let (tick, why) = chosen_tick(world)?;
             let tick = tick.min(duration);
             notes.push(format!("tick {tick} s chosen: {why}"));
             tick
@@ -313,9 +313,21 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
 }
 
 /// Forty ticks per half period of whatever responds fastest, rounded down to 1, 2 or 5 times a power of ten.
-fn chosen_tick(stability: &Stability) -> Result<(f64, &'static str), Box<SceneError>> {
+fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
-    let Some(Foreseen { angular_frequency: omega, holder }) = stability.fastest_foreseen() else { return Ok(coarsest) };
+    // What, and why a tick is short enough for it.
+    let foreseen = world.resource::<Stability>().fastest_foreseen().map(|foreseen| match foreseen.holder {
+        Holder::Contacts => (foreseen.angular_frequency, "contact", "the stiffest contact lasts at least 40 of them"),
+        Holder::Springs => {
+            (foreseen.angular_frequency, "spring", "half a swing of the fastest springs lasts at least 40 of them")
+        }
+    });
+    let rhythms = world.resource::<Models>().rhythms.iter();
+    let driven = rhythms.filter(|rhythm| rhythm.angular_frequency > 0.0).map(|rhythm| {
+        (rhythm.angular_frequency, "drive", "half a swing of the fastest drive lasts at least 40 of them")
+    });
+    let all = foreseen.into_iter().chain(driven);
+    let Some((omega, what, why)) = all.max_by(|(a, ..), (b, ..)| a.total_cmp(b)) else { return Ok(coarsest) };
     let wanted = std::f64::consts::PI / (TICKS_PER_HALF_PERIOD * omega);
     if wanted >= COARSEST_TICK {
         return Ok(coarsest);
@@ -323,13 +335,7 @@ fn chosen_tick(stability: &Stability) -> Result<(f64, &'static str), Box<SceneEr
     if !wanted.is_normal() {
         let error = SceneError::new(
             "clock",
-            format!(
-                "no tick is short enough for the stiffest {}, which vibrates at {omega:?} rad/s",
-                match holder {
-                    Holder::Contacts => "contact",
-                    Holder::Springs => "spring",
-                }
-            ),
+            format!("no tick is short enough for the fastest {what}, which vibrates at {omega:?} rad/s"),
         );
         return Err(Box::new(error.with_help("give the bodies less `stiffness` or more mass, or give a `tick`")));
     }
@@ -337,9 +343,5 @@ fn chosen_tick(stability: &Stability) -> Result<(f64, &'static str), Box<SceneEr
     let decade = libm::exp10(f64::from(exponent));
     let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= wanted).unwrap_or(1.0);
     // Read back from decimal digits, so that 2e-4 is the same number as in a scene.
-    let why = match holder {
-        Holder::Contacts => "the stiffest contact lasts at least 40 of them",
-        Holder::Springs => "half a swing of the fastest springs lasts at least 40 of them",
-    };
     Ok((format!("{step}e{exponent}").parse().unwrap_or(step * decade), why))
 }

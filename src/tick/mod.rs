@@ -49,7 +49,7 @@ pub use drive::{Tick, energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
-pub use models::{Indicator, Models, Objection, StateBlock, Watch};
+pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use travel::{FarTravel, far_travel, largest_travel};
 pub use undo::Undo;

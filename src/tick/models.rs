@@ -22,8 +22,19 @@ pub struct Models {
     pub objections: Vec<fn(&World, Style) -> Option<Objection>>,
     /// What models did otherwise in a style than the scene asks: sentences for the card, each with the entry and a remedy.
     pub departures: Vec<fn(&World, Style) -> Vec<String>>,
+    /// What swings by the clock: a tick that the scene does not name is short enough for it.
+    pub rhythms: Vec<Rhythm>,
     /// What models have to say of a run at its end: a sentence each for the notes of the card.
     pub remarks: Vec<fn(&World) -> Option<String>>,
+}
+
+/// A force that swings by the clock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rhythm {
+    /// Where it stands in the scene, such as `forces[0]`.
+    pub path: String,
+    /// How fast it swings, in rad/s; zero if it does not.
+    pub angular_frequency: f64,
 }
 
 /// Why a model cannot be evaluated in a style.

@@ -62,11 +62,13 @@ fn a_tolerance_needs_no_estimate() {
 
 /// Of a long run only the beginning is made again: the verdict trusts no more than that.
 #[test]
-fn what_is_extrapolated_is_not_trusted_to_the_end() {
+fn what_was_not_run_again_is_not_trusted() {
     let spring = r#"Scene(format: 1, clock: (duration: 100, tick: 1e-4, method: VelocityVerlet),
         bodies: [(name: "mass", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
         forces: [Spring(a: "mass", b: World, stiffness: 100, length: 0)])"#;
     let folder = Folder::new("estimate_long").with("spring.ron", spring);
     folder.jostle("run spring.ron").code(0).says("Trust its beginning: ").says("`--estimate` runs it all again");
+    let card = folder.jostle("run spring.ron --json").code(0).json().remove(0)["card"].clone();
+    assert!(card["error"]["horizon"].as_f64().is_some_and(|until| until < 50.0), "{card}");
     folder.jostle("run spring.ron --estimate").code(0).says("Trust it: places to about ");
 }

@@ -8,7 +8,7 @@ type Broken = (&'static str, &'static str, &'static str, &'static [&'static str]
 
 const FLOOR: &str = r#"walls: [(name: "floor", left: (1, 0), right: (0, 0), material: "m")]"#;
 
-const BROKEN: [Broken; 22] = [
+const BROKEN: [Broken; 24] = [
     (
         "a tick above the critical one of a contact",
         r#"clock: (duration: 1, tick: 0.02, method: VelocityVerlet), gravity: (0, -10), FLOOR,
@@ -124,6 +124,21 @@ const BROKEN: [Broken; 22] = [
                     (name: "planet", at: (-1.8, 0), velocity: (0, -0.3333), collides: false, atoms: Disc(radius: 0.01, mass: 0.001))]"#,
         "",
         &["too long for the motion", "`planet` first", "--tick"],
+    ),
+    (
+        "a planet that a method gives energy, which is no chaos",
+        r#"clock: (duration: 20, tick: 0.001, method: ExplicitEuler), forces: [Attraction(constant: 1)],
+           bodies: [(name: "sun", at: (0, 0), fixed: true, collides: false, atoms: Disc(radius: 0.01, mass: 1)),
+                    (name: "planet", at: (1, 0), velocity: (0, 0.7), collides: false, atoms: Disc(radius: 0.01, mass: 0.001))]"#,
+        "",
+        &["too long for the motion", "`planet` first", "--tick"],
+    ),
+    (
+        "a force that swings twice in a tick",
+        r#"clock: (duration: 1, tick: 0.01), forces: [Drive(of: "ball", force: (5000, 0), course: Sine(frequency: 200))],
+           bodies: [(name: "ball", at: (0, 0), collides: false, atoms: Disc(radius: 0.1, mass: 1))]"#,
+        "",
+        &["Do not trust it", "`forces[0]` swings with 0.5 ticks a period", "--tick 5e-5"],
     ),
     (
         "a scene that lies far from the origin",

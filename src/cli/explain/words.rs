@@ -53,7 +53,7 @@ pub(super) const WORDS: &[Word] = &[
     word(
         "horizon",
         "the time in seconds up to which places can be told: from then on runs with a finer tick are elsewhere by a tenth of the \
-         motion. `Reference` runs tell when rounding alone has grown to a thousandth of it, which no engine can tell beyond. `null` in \
+         motion, or were not made, as a note says. `Reference` runs tell when rounding alone has grown to a thousandth of it, which no engine can tell beyond. `null` in \
          `--json` where there is none.",
     ),
     word(
@@ -133,7 +133,7 @@ pub(super) const WORDS: &[Word] = &[
          began, and what would mend it. `Do not trust it`: what was computed is not the scene. `Trust the numbers, not the \
          model`: it is, but the scene is not what it is meant to be. `Trust it roughly`, `Trust places until ..`: in part. `Trust it`: \
          nothing that the engine looks for was found. Causes come before what they bring about: a tick above the critical one, overlaps at the \
-         start, drag, places too far from the origin, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
+         start, drag, places too far from the origin, forces that swing too fast, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
          travel beyond a radius, chaos, a tick too long for the motion.",
     ),
     word(
@@ -143,8 +143,8 @@ pub(super) const WORDS: &[Word] = &[
          `rounding` by runs with wrong last bits (`--rounding`); `model` by a run with contacts four times as stiff \
          (`--model`). In `--json` these are `discretisation`, `rounding` and `model`; under a `tolerance` and `Reference` the runs that find \
          the steps tell the first. Places: the greatest distance of any point of a body, in m; velocities: the root of its mean square \
-         over time, in m/s. `until t = ..`: finer runs go elsewhere from then on, as chaotic ones do, and the error is \
-         that until then.",
+         over time, in m/s. `until t = ..`: the error is that until then; finer runs go elsewhere from then on, as chaotic ones \
+         do, or were not made for longer, as a note says.",
     ),
     word(
         "state hash",

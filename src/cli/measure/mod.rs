@@ -73,7 +73,7 @@ Examples:
   jostle measure example:kepler --cost evaluations --json    what does not depend on the computer, for a program
 
 A reference run comes first: Dop853 with located events, whose own error is known from a coarser run and one that begins a \
-hair beside. Then each method runs the scene with ticks from about twice the critical one down by factors of two, by turns, \
+hair beside. Then each method runs the scene with ticks from about twice the critical one down by factors of two, the cheapest of all next, \
 until its error is that of the reference or the budget is used up. Where the first does well, longer ones are \
 tried too. An error is a share of the motion: the greater of how far \
 any point of a body is from the reference, at the worst of up to a hundred moments, over how far the body goes, and of how \

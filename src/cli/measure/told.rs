@@ -63,7 +63,9 @@ fn note(setting: &Setting) -> String {
 
 /// The command that runs a scene with a setting.
 fn command(run: &str, setting: &Setting) -> String {
-    format!("{run} --method {} --tick {}", setting.course.method, csv::number(setting.tick))
+    // Fifteen digits are enough, and leave out what rounding makes of a sixteenth.
+    let tick = format!("{:.14e}", setting.tick).parse().unwrap_or(setting.tick);
+    format!("{run} --method {} --tick {}", setting.course.method, csv::number(tick))
 }
 
 /// Table, reference run and advice; `run` is the command that runs the scene.

@@ -45,12 +45,12 @@ impl Checked {
     }
 }
 
-/// A run of a problem: its trajectory, and the estimate of its error.
+/// A run of a problem: its trajectory, the estimate of its error, and until when in s it is one.
 fn run(
     problem: &Problem,
     (setting, stride): (&Setting, u64),
     overrides: &Overrides,
-) -> Result<(Trajectory, Option<f64>), Box<dyn Error>> {
+) -> Result<(Trajectory, Option<(f64, f64)>), Box<dyn Error>> {
     let source = Source::new(problem.name, (problem.scene)(setting, problem.duration()));
     let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
     let (mut seen, mut told) = (load(overrides)?, load(overrides)?);
@@ -62,7 +62,8 @@ fn run(
     watch(&mut told, wanted);
     told.run_to_end()?;
     estimate(&mut told, wanted, &Repeated { overrides, load: &load, tell: None })?;
-    let error = told.card().error.and_then(|error| error.position.discretisation);
+    let error = told.card().error;
+    let error = error.and_then(|error| Some((error.position.discretisation?, error.horizon.unwrap_or(f64::INFINITY))));
     Ok((trajectory, error))
 }
 
@@ -91,8 +92,11 @@ pub fn check(problem: &Problem) -> Result<Vec<Checked>, Box<dyn Error>> {
                 continue;
             }
             let stride = stride * (coarsest / tick).round() as u64;
-            let Ok((own, Some(estimated))) = run(problem, (&setting, stride), &Overrides::default()) else { continue };
-            let apart = own.differences(&truth).map(|(_, far)| far).fold(0.0, f64::max);
+            let Ok((own, Some((estimated, until)))) = run(problem, (&setting, stride), &Overrides::default()) else {
+                continue;
+            };
+            let told = own.differences(&truth).filter(|(time, _)| *time <= until);
+            let apart = told.map(|(_, far)| far).fold(0.0, f64::max);
             let this =
                 (Checked { problem: problem.name, method, tick, estimated, truth: apart }, apart / truth.sizes().0);
             let rounding = this.1 < USEFUL.0;

@@ -72,43 +72,6 @@ impl Growth {
         let before = self.seen.iter().filter(|(at, ..)| *at <= time);
         before.fold(0.0_f64, |most, (_, far, _)| most.max(*far))
     }
-
-    /// Goes on as it began until `end` seconds: by the power of time by which the later half of what was seen is above the quarter before
-    /// it, or exponentially where that power is higher than any of smooth motion. What only began in the later half goes on
-    /// evenly.
-    pub fn extrapolate(&mut self, end: f64) {
-        let Some(&(last, ..)) = self.seen.last().filter(|_| self.horizon.is_none()) else { return };
-        let (whole, early, late) =
-            (self.until(last), self.level(0.25 * last, 0.5 * last), self.level(0.5 * last, last));
-        if whole == 0.0 {
-            return;
-        }
-        let begun = early > ROUNDING * self.motion;
-        // Errors stay, walk at random, drift, or drift ever faster: by whole and half powers of time.
-        let power = if begun { (2.0 * libm::log2(late / early)).round().max(0.0) / 2.0 } else { 1.0 };
-        let useless = USELESS * self.motion / whole;
-        let (factor, reaches) = if power <= HIGHEST_POWER {
-            (libm::pow(end / last, power), last * libm::pow(useless, 1.0 / power.max(f64::MIN_POSITIVE)))
-        } else {
-            // What grows so fast is seen at the ends of the two parts, half of the time apart.
-            let rate = (late / early).ln() / (0.5 * last);
-            (libm::exp((end - last) * rate), last + useless.ln() / rate)
-        };
-        if reaches < end {
-            (self.horizon, self.distance) = (Some(reaches), USELESS * self.motion);
-            self.speed *= useless;
-        } else {
-            self.distance *= factor;
-            self.speed *= factor;
-        }
-    }
-
-    /// Root of the mean square of the differences of places in a part of the time, in m.
-    fn level(&self, from: f64, until: f64) -> f64 {
-        let inside = self.seen.iter().filter(|(at, ..)| *at > from && *at <= until);
-        let (sum, many) = inside.fold((0.0, 0.0), |(sum, many), (_, far, _)| (sum + far * far, many + 1.0));
-        if many > 0.0 { (sum / many).sqrt() } else { 0.0 }
-    }
 }
 
 /// Root of the mean square over time, by the rule of trapezoids.
@@ -127,30 +90,6 @@ mod tests {
     fn grown(law: impl Fn(f64) -> f64, until: u32) -> Growth {
         let seen = (0..=until).map(|time| (f64::from(time), law(f64::from(time)), 2.0 * law(f64::from(time))));
         Growth::of(Seen(seen.collect()), 1.0)
-    }
-
-    /// `c t^p` seen for a time goes on four times as long as `4^p` times as much. Tolerance: rounding.
-    #[test]
-    fn powers_of_time_go_on() {
-        for power in [0, 1, 2] {
-            let mut growth = grown(|time| 1e-12 * time.powi(power), 1024);
-            growth.extrapolate(4096.0);
-            let exact = 1e-12 * 4096.0_f64.powi(power);
-            assert!((growth.distance / exact - 1.0).abs() < 1e-12, "power {power}: {} {exact}", growth.distance);
-            assert_eq!(growth.horizon, None);
-        }
-    }
-
-    /// `e^(t/32) 1e-15` reaches a tenth after `32 ln 1e14` = 1031.6 s. Tolerance: mean squares over parts
-    /// of 160 s and 320 s differ by the root of 2 beside the factor of e^10: `ln sqrt(2)/10` of the rate, and
-    /// the square of that.
-    #[test]
-    fn exponential_growth_has_a_horizon() {
-        let mut growth = grown(|time| 1e-15 * (time / 32.0).exp(), 640);
-        growth.extrapolate(3000.0);
-        let (horizon, exact) = (growth.horizon.expect("it grows exponentially"), 32.0 * 1e14_f64.ln());
-        assert!((horizon - exact).abs() < (exact - 640.0) / 25.0, "{horizon} {exact}");
-        assert_eq!(growth.distance, USELESS);
     }
 
     /// The last moment at which runs agree counts, and what is larger later does not.

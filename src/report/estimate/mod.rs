@@ -1,6 +1,6 @@
 //! The error of a run, estimated by the engine itself: the run is made again with half the tick, and what the two differ by
 //! tells how far the first is from the exact solution (Richardson 1911; Hairer, Norsett, Wanner, *Solving Ordinary Differential
-//! Equations I*, 1993, II.4). Where that is dear only the beginning is made again, and extrapolated.
+//! Equations I*, 1993, II.4). Where that is dear only the beginning is made again, and nothing is said of the rest.
 //!
 //! Rounding is estimated by runs whose last bits are wrong, the error of soft contacts by a run with stiffer ones.
 
@@ -78,7 +78,7 @@ pub struct EstimatedError {
     pub began: Option<(String, f64)>,
     /// Whether the error grew exponentially.
     pub chaotic: bool,
-    /// Until when the run was made again, in s, if not to its end: what is said of the rest is extrapolated.
+    /// Until when the run was made again, in s, if not to its end: nothing is known of the rest.
     pub known_until: Option<f64>,
     /// What else is to be known of it.
     pub notes: Vec<String>,
@@ -268,7 +268,7 @@ fn discretisation(
     found.began =
         run.first_apart(&half, PARTED * run.sizes().0).map(|(body, time)| (simulation.name(body).to_owned(), time));
     let seen = Seen::between(run, &half);
-    let mut growth = Growth::of(seen, run.sizes().0);
+    let growth = Growth::of(seen, run.sizes().0);
     if until < ticks {
         let (told, all) = (number(second.clock().time()), number(simulation.clock().time()));
         if touches(simulation) && !touches(&second) {
@@ -279,11 +279,10 @@ fn discretisation(
             ));
             return Ok(());
         }
-        growth.extrapolate(simulation.clock().time());
         found.known_until = Some(second.clock().time());
         found.notes.push(format!(
-            "the error is extrapolated from the first {told} s of {all} s, which were run again with half the tick; --estimate \
-             runs it all again"
+            "the error is that of the first {told} s of {all} s, which were run again with half the tick; --estimate runs it all \
+             again"
         ));
     }
     found.chaotic = growth.is_exponential();
@@ -306,7 +305,7 @@ fn discretisation(
         position: part(Some(growth.distance).filter(|_| !useless)),
         velocity: part(Some(growth.speed).filter(|_| !useless)),
         observed_order: observed,
-        horizon: growth.horizon,
+        horizon: growth.horizon.or(found.known_until),
     });
     Ok(())
 }

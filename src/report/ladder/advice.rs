@@ -7,6 +7,8 @@ pub const TARGETS: [(&str, f64); 3] = [("bronze", 1e-2), ("silver", 1e-4), ("gol
 
 /// Errors beyond this share of the motion are of no use.
 pub(in crate::report) const USELESS: f64 = 1.0;
+/// ... and nobody is advised to take a larger one than this.
+const ADVISED: f64 = 0.1;
 
 /// What to take for a wanted error.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +35,7 @@ impl Settings {
     fn advice_for(&self, target: f64) -> Advice<'_> {
         let good = self.known().filter(|(_, error, _)| *error <= target);
         let reached = good.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(setting, ..)| setting);
-        let nearest = self.known().filter(|(_, error, _)| *error < USELESS);
+        let nearest = self.known().filter(|(_, error, _)| *error < ADVISED);
         let nearest = nearest.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
         Advice { target, reached, nearest: nearest.map(|(setting, ..)| setting).filter(|_| reached.is_none()) }
     }

@@ -1,4 +1,4 @@
-//! Going up: every course with ticks from coarse to fine, all courses by turns, until errors are no larger than what is known of them,
+//! Going up: every course with ticks from coarse to fine, the cheapest tick of all courses next, until errors are no larger than what is known of them,
 //! or time is up.
 
 use super::{Budget, Course, Outcome, Setting, USELESS};
@@ -85,15 +85,17 @@ pub(in crate::report) fn climb<S: Subject, I: Iterator<Item = f64>>(
         end: None,
     };
     let mut climbers: Vec<Climber<I>> = courses.map(climber).collect();
-    while climbers.iter().any(|climber| climber.end.is_none()) {
+    loop {
         for climber in &mut climbers {
             // The others have used of the budget meanwhile.
             climber.end = climber.end.take().or_else(|| climber.reason_to_end(subject, rules, budget));
-            if climber.end.is_none() {
-                climber.step(subject)?;
-                climber.end = climber.reason_to_end(subject, rules, budget);
-            }
         }
+        // The cheapest first, by what does not depend on the computer: a dear course leaves the others their time.
+        let climbing = climbers.iter_mut().filter(|climber| climber.end.is_none());
+        let foreseen = climbing.map(|climber| (climber.foreseen(), climber));
+        let Some((_, next)) = foreseen.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { break };
+        next.step(subject)?;
+        next.end = next.reason_to_end(subject, rules, budget);
         for place in 0..climbers.len() {
             if rules.leaves_behind && climbers[place].end.is_none() && behind(&climbers, place) {
                 climbers[place].end =
@@ -120,6 +122,12 @@ fn behind<I: Iterator<Item = f64>>(climbers: &[Climber<I>], place: usize) -> boo
 }
 
 impl<I: Iterator<Item = f64>> Climber<I> {
+    /// Evaluations of all forces per second of physics that the next tick takes, about; none, if nothing was run.
+    fn foreseen(&mut self) -> f64 {
+        let last = self.settings.last().map(|last| (last.evaluations, last.tick));
+        last.zip(self.ticks.peek()).map_or(0.0, |((evaluations, tick), next)| evaluations * tick / next)
+    }
+
     /// Tries the next tick, and after the first one longer ones.
     fn step<S: Subject>(&mut self, subject: &S) -> Result<(), S::Wrong> {
         let Some(tick) = self.ticks.next() else { return Ok(()) };

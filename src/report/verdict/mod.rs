@@ -49,12 +49,13 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// What may be to blame, in the order in which one explains the others.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 12] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 13] = [
     ticks::unstable,
     ahead::overlaps_at_the_start,
     ahead::drag,
     place::rounding,
     energy::numbers_that_are_none,
+    ticks::unseen_swing,
     energy::unaccounted,
     motion::tolerance_not_reached,
     soft::deep,
@@ -135,7 +136,7 @@ fn places(card: &Card) -> Option<String> {
 }
 
 fn places_of(error: &ErrorEstimate) -> Option<String> {
-    let (position, velocity) = error.position.discretisation.zip(error.velocity.discretisation)?;
+    let (position, velocity) = error.position.sum().zip(error.velocity.sum())?;
     Some(format!("places to about {} m, velocities to about {} m/s", rough(position), rough(velocity)))
 }
 

@@ -31,6 +31,10 @@ pub(super) fn began(evidence: &Evidence) -> Option<String> {
 pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let horizon = evidence.card.error.filter(|_| evidence.card.by_ticks())?.horizon?;
+    // Where energy is lost or gained the tick makes bodies go elsewhere, chaos or not.
+    if evidence.card.energy_error() > INEXACT {
+        return None;
+    }
     let body = estimated.began.as_ref().map_or_else(|| "places".to_owned(), |(body, _)| format!("`{body}` first"));
     let what = format!(
         "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}. What a finer tick \
@@ -90,8 +94,8 @@ pub(super) fn good(evidence: &Evidence) -> String {
         Some(places) => {
             match evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.known_until) {
                 Some(until) => format!(
-                    "Trust its beginning: it was run again with half the tick until {} only. If it went on so, {places} in the end, but what \
-                 begins later, chaos above all, is not foreseen: `--estimate` runs it all again; {energy}.",
+                    "Trust its beginning: {places} until {}, as far as it was run again with half the tick. Nothing is known of the \
+                     rest; `--estimate` runs it all again; {energy}.",
                     at(until)
                 ),
                 None => {

@@ -1,11 +1,15 @@
 //! Ticks that are too long for what they have to resolve.
 
+use std::f64::consts::TAU;
+
 use super::{Cause, Evidence, Trust, at};
 use crate::contacts::ContactLaw;
+use crate::report::Remedy;
+use crate::report::advice::rounded_down;
 use crate::report::card::number;
 use crate::report::estimate::EstimatedError;
 use crate::report::warnings::FEWEST_TICKS;
-use crate::tick::{Holder, Responses, far_travel};
+use crate::tick::{Holder, Models, Responses, far_travel};
 
 /// The tick is above the critical one: springs gain energy at each.
 pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
@@ -22,6 +26,25 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
         if critical > 0.0 { format!("{} s", number(critical)) } else { "none at all under this method".to_owned() };
     let what = format!("the tick of {} s is longer than the {holder} can bear, {most}{seen}", number(card.tick));
     Some(Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+}
+
+/// Ticks of a period below which a swing is not followed: with two and less it is seen as a slower one, or not at all, and a run
+/// with half the tick may see the same.
+const FEWEST_A_PERIOD: f64 = 5.0;
+/// Ticks of a period that follow it well.
+const GOOD_A_PERIOD: f64 = 80.0;
+
+/// A force swings by the clock faster than ticks of one length can see.
+pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let rhythms = world.get_resource::<Models>().map_or(&[][..], |models| &models.rhythms);
+    let fastest = rhythms.iter().max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))?;
+    let period = TAU / fastest.angular_frequency;
+    let ticks = period / card.tick;
+    let what =
+        format!("`{}` swings with {ticks:.1} ticks a period, which see it as another force than it is", fastest.path);
+    let remedy = Some(Remedy::Tick(rounded_down(period / GOOD_A_PERIOD)).or_finer());
+    (card.by_ticks() && ticks < FEWEST_A_PERIOD).then_some(Cause { trust: Trust::Not, what, remedy })
 }
 
 /// Contacts come and go within few ticks.
