@@ -45,12 +45,18 @@ impl Checked {
     }
 }
 
-/// A run of a problem: its trajectory, the estimate of its error, and until when in s it is one.
+/// What a run says of the error of its places in m, and until when in s.
+struct Told {
+    error: f64,
+    until: f64,
+}
+
+/// A run of a problem: its trajectory, and the estimate of its error.
 fn run(
     problem: &Problem,
     (setting, stride): (&Setting, u64),
     overrides: &Overrides,
-) -> Result<(Trajectory, Option<(f64, f64)>), Box<dyn Error>> {
+) -> Result<(Trajectory, Option<Told>), Box<dyn Error>> {
     let source = Source::new(problem.name, (problem.scene)(setting, problem.duration()));
     let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
     let (mut seen, mut told) = (load(overrides)?, load(overrides)?);
@@ -63,7 +69,10 @@ fn run(
     told.run_to_end()?;
     estimate(&mut told, wanted, &Repeated { overrides, load: &load, tell: None })?;
     let error = told.card().error;
-    let error = error.and_then(|error| Some((error.position.discretisation?, error.horizon.unwrap_or(f64::INFINITY))));
+    let error = error.and_then(|error| {
+        let until = error.horizon.unwrap_or(f64::INFINITY);
+        error.position.discretisation.map(|error| Told { error, until })
+    });
     Ok((trajectory, error))
 }
 
@@ -92,13 +101,15 @@ pub fn check(problem: &Problem) -> Result<Vec<Checked>, Box<dyn Error>> {
                 continue;
             }
             let stride = stride * (coarsest / tick).round() as u64;
-            let Ok((own, Some((estimated, until)))) = run(problem, (&setting, stride), &Overrides::default()) else {
+            let Ok((own, Some(told))) = run(problem, (&setting, stride), &Overrides::default()) else {
                 continue;
             };
-            let told = own.differences(&truth).filter(|(time, _)| *time <= until);
-            let apart = told.map(|(_, far)| far).fold(0.0, f64::max);
-            let this =
-                (Checked { problem: problem.name, method, tick, estimated, truth: apart }, apart / truth.sizes().0);
+            let seen = own.differences(&truth).filter(|(time, _)| *time <= told.until);
+            let apart = seen.map(|(_, far)| far).fold(0.0, f64::max);
+            let this = (
+                Checked { problem: problem.name, method, tick, estimated: told.error, truth: apart },
+                apart / truth.sizes().0,
+            );
             let rounding = this.1 < USEFUL.0;
             if let Some((before, share)) = coarser.replace(this)
                 && (USEFUL.0..USEFUL.1).contains(&share)
