@@ -44,7 +44,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let tick = number(card.tick_for(softer, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
     let remedy = format!(
-        "a `stiffness` {times} times as high{with}: overlaps then are a tenth of a radius at the most, or little more"
+        "a `stiffness` some {times} times as high{with}: the overlap of such an impact is about a tenth of a radius then"
     );
     let what = if card.by_ticks() && error > 0.0 {
         format!("{what}; energy is accounted for to {}", percent(error))

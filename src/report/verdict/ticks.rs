@@ -20,6 +20,10 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     }
     let fastest = Responses::of(world).fastest;
     let holder = fastest.map_or(Holder::Contacts, |fastest| fastest.holder);
+    // Contacts that nothing came to did nothing.
+    if holder == Holder::Contacts && card.largest_overlap.meters == 0.0 && critical > 0.0 {
+        return None;
+    }
     let seen = fastest
         .map_or_else(String::new, |fastest| format!(", as `{}` at {}", evidence.name(fastest.body), at(fastest.time)));
     let most =
