@@ -143,7 +143,8 @@ fn estimates(sheets: &[Sheet], blocks: &mut Vec<Block>) {
     blocks.push(Block::Text(format!(
         "Each run estimates how far its places are from the exact solution (`error` on its card). Here the estimate stands beside the truth, the \
          distance from a reference run, for three methods at the three longest ticks at which errors fall with the tick: {} of {} are within \
-         a factor of {FACTOR}; the estimate is {least:.2} to {most:.2} times the truth.",
+         a factor of {FACTOR}; the estimate is {least:.2} to {most:.2} times the truth. Of runs that were made again only in part (`until t = ..` on \
+         their card) both are those of that part.",
         all.len() - all.iter().copied().filter(outside).count(),
         all.len(),
     )));
