@@ -24,6 +24,9 @@ const SEARCH_PER_PAIR: f64 = 3.0;
 /// Searches may cost this share of what pairs do; the margin shrinks where they cost less than a sixteenth of that.
 const SEARCH_SHARE: f64 = 1.0;
 const FEW_SEARCHES: f64 = 16.0;
+/// Where most bodies fly: what a search costs for each atom, with landing and taking off, against what a pair costs in the time
+/// that its list lasts.
+const FLIGHT_SEARCH: f64 = 0.3;
 /// By how much the margin changes at once.
 const CHANGE: f64 = 1.5;
 
@@ -65,22 +68,27 @@ pub struct Bounds {
 pub fn plugin(app: &mut App) {
     if !app.world().contains_resource::<Bounds>() {
         app.init_resource::<Bounds>();
-        app.add_packed_systems(Evaluate, 1, update_bounding_boxes.in_set(EvaluateStage::Bounds));
+        app.add_flight_systems(Evaluate, 1, update_bounding_boxes.in_set(EvaluateStage::Bounds));
     }
 }
 
 /// Makes the boxes anew when a body has moved by half the margin since they were made.
-pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, evaluation: Res<Evaluation>) {
+pub fn update_bounding_boxes(mut bodies: ResMut<Bodies>, mut bounds: ResMut<Bounds>, evaluation: Res<Evaluation>) {
     let known = bounds.generation == bodies.generation && !bounds.stale;
     let follows = !evaluation.style.is_staged();
     bounds.age += 1;
     // Between two looks nobody can have gone farther than all ways together.
     let moved_by_step = follows && evaluation.elapsed > 0.0;
-    if known && moved_by_step && bodies.path < bounds.path && !bounds.age.is_power_of_two() {
+    let flying = bodies.flights.some();
+    if known && moved_by_step && bodies.path < bounds.path && (flying || !bounds.age.is_power_of_two()) {
         return;
     }
+    if flying {
+        bodies.end_flights();
+    }
+    let bodies = &*bodies;
     bounds.path = f64::NAN;
-    if known && !bounds.left_behind(&bodies) && !(follows && bounds.could_shrink(&bodies)) {
+    if known && !flying && !bounds.left_behind(bodies) && !(follows && bounds.could_shrink(bodies)) {
         // Whoever is nearer than a quarter has as much left.
         if follows && bodies.stayed_near(bounds.margin / 4.0, &bounds.position, &bounds.angle) {
             bounds.path = bodies.path + bounds.margin / 4.0;
@@ -94,9 +102,11 @@ pub fn update_bounding_boxes(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, ev
     }
     (bounds.stale, bounds.outgrown) = (false, false);
     if bounds.generation != bodies.generation {
-        bounds.margin = if follows { FIRST_SHARE / MARGIN_SHARE } else { 1.0 } * least_margin(&bodies);
+        bounds.margin = if follows { FIRST_SHARE / MARGIN_SHARE } else { 1.0 } * least_margin(bodies);
+    } else if flying {
+        bounds.adapt_to_flights(bodies);
     } else if follows {
-        bounds.adapt(&bodies);
+        bounds.adapt(bodies);
     }
     bounds.age = 0;
     bounds.path = bodies.path + bounds.margin / 2.0;
@@ -159,6 +169,20 @@ impl Bounds {
         if age < 1.0 && share < MOST_SHARE {
             self.margin *= CHANGE;
         } else if age > FEW_SEARCHES && share > LEAST_SHARE {
+            self.margin /= CHANGE;
+        }
+    }
+
+    /// The margin that suits where most bodies fly: the time that lists last grows with it, and so do the pairs, as the square of
+    /// diameter and margin together. What costs least is where those that would be there for the square of the margin alone cost
+    /// as much as the search.
+    fn adapt_to_flights(&mut self, bodies: &Bodies) {
+        let margin = self.margin / (2.0 * bodies.smallest_radius);
+        let own = self.candidates as f64 * margin / (2.0 + margin);
+        let wanted = FLIGHT_SEARCH * bodies.atom_count() as f64;
+        if own < wanted / (CHANGE * CHANGE) {
+            self.margin *= CHANGE;
+        } else if own > wanted * CHANGE * CHANGE {
             self.margin /= CHANGE;
         }
     }

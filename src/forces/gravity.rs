@@ -37,7 +37,7 @@ pub struct Gravity(pub DVec2);
 /// Installs the field.
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
-    app.add_packed_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
+    app.add_flight_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
 }
 

@@ -36,6 +36,12 @@ pub trait Integrator: Send + Sync + 'static {
     fn style(&self) -> Style {
         Style::Following
     }
+
+    /// Whether each tick is one step of velocity Verlet, so that a body moves along a parabola as long as nothing but its weight
+    /// acts on it.
+    fn flies(&self) -> bool {
+        false
+    }
 }
 
 /// The integrator of a run.

@@ -6,13 +6,14 @@ use glam::DVec2;
 
 use super::balance::Totals;
 use super::failure::{Failure, Wrong};
+use super::flight;
 use super::guard::EnergyGuard;
 use super::travel::FarTravel;
 use super::{
     Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Indicator, Ledger, Models, Modes, SimTick, Span,
     Stage, Style, Watch,
 };
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, update_bounding_boxes};
 use crate::integrate::Method;
 use crate::world::motion::Travel;
 use crate::world::{Bodies, Force, Name, Slot, Torque, finite, lend, packed};
@@ -38,6 +39,8 @@ pub(super) struct Drive {
     ordinary_tick: bool,
     /// Ordinary systems live in the evaluation: components are kept up to date around it.
     ordinary_evaluate: bool,
+    /// Systems in the tick look at all bodies.
+    pub(super) looked_at: bool,
     /// Forces are those of the present state.
     current: bool,
     /// Ticks were run since the components were last brought up to date.
@@ -67,6 +70,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let has_modes = !modes.graph().systems.is_empty();
     let mut running = Box::new(Running { method, evaluate, modes, has_modes });
     keep_components_current(world, &mut sim, &mut running.evaluate);
+    flight::allow(world, running.method.0.flies(), &sim, [&running.evaluate, &running.modes]);
     for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
         apply_only_what_is_deferred(world, schedule);
     }
@@ -86,6 +90,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     if world.resource::<Drive>().failure.is_none() {
         note_failure(world);
     }
+    flight::land(world);
     run_once(world, packed::store_state);
     let mut drive = world.resource_mut::<Drive>();
     let running = drive.running.take().expect("put there above");
@@ -142,7 +147,8 @@ fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut
     }
     if ordinary.1 && !drive.ordinary_evaluate {
         drive.ordinary_evaluate = true;
-        evaluate.add_systems((packed::store_state, packed::clear_forces).chain().in_set(EvaluateStage::Bounds));
+        let current = (packed::store_state, packed::clear_forces).chain().in_set(EvaluateStage::Bounds);
+        evaluate.add_systems(current.after(update_bounding_boxes));
         evaluate.add_systems(collect_forces.after(EvaluateStage::Forces).before(EvaluateStage::Contacts));
     }
 }
@@ -218,6 +224,9 @@ pub(super) fn integrate(world: &mut World) {
     drive.stepped = true;
     drive.energy.alert |= alert;
     let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
+    if drive.looked_at {
+        flight::land(world);
+    }
     if !travelled.is_finite() {
         note_failure(world);
     } else if energy.is_due(clock.ticks + 1, travel) {
@@ -242,6 +251,7 @@ fn refresh(world: &mut World) {
 /// Looks at the energy.
 #[cold]
 fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
+    flight::land(world);
     let created = energy.look(world, travel);
     let clock = *world.resource::<Clock>();
     let bodies = world.resource::<Bodies>();
@@ -267,6 +277,7 @@ fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
     if !differs {
         return None;
     }
+    world.resource_mut::<Bodies>().end_flights();
     let before = Totals::of(world);
     if changed {
         let stale = !first_of_batch && !world.resource::<Drive>().ordinary_tick;
@@ -281,6 +292,7 @@ fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
 }
 
 fn note_failure(world: &mut World) {
+    flight::land(world);
     let bodies = world.resource::<Bodies>();
     let Some((body, quantity)) = finite::first_not_finite(bodies) else { return };
     let name = world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default();

@@ -26,6 +26,7 @@ pub mod balance;
 pub mod clock;
 mod drive;
 mod failure;
+mod flight;
 pub mod flow;
 mod following;
 mod guard;
@@ -114,6 +115,8 @@ pub struct ForceSlot(pub u32);
 pub(crate) struct Census {
     pub packed_in_tick: usize,
     pub packed_in_evaluate: usize,
+    /// Systems that are right while bodies fly: in the tick, and in evaluations and choices of modes.
+    pub of_flights: [usize; 2],
     pub ordinary_forces: usize,
     pub force_slots: u32,
     pub velocity_dependent: bool,
@@ -132,6 +135,16 @@ pub trait TickAppExt {
     ///
     /// `count` is the number of systems given; it lets the engine tell them from ordinary ones.
     fn add_packed_systems<M>(
+        &mut self,
+        schedule: impl ScheduleLabel,
+        count: usize,
+        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self;
+
+    /// Likewise systems that are right while bodies fly: they do not go by the places and velocities of bodies that touch
+    /// nothing, nor by forces on them. No body flies where others make forces or choose modes; where others are in the
+    /// tick, places and velocities are filled in for them.
+    fn add_flight_systems<M>(
         &mut self,
         schedule: impl ScheduleLabel,
         count: usize,
@@ -179,7 +192,7 @@ impl TickAppExt for App {
             .init_resource::<Stability>()
             .init_resource::<drive::Drive>()
             .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
-        self.add_packed_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))
+        self.add_flight_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))
     }
 
     fn add_packed_systems<M>(
@@ -196,6 +209,18 @@ impl TickAppExt for App {
             census.packed_in_evaluate += count;
         }
         self.add_systems(label, systems)
+    }
+
+    fn add_flight_systems<M>(
+        &mut self,
+        schedule: impl ScheduleLabel,
+        count: usize,
+        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self {
+        let label: Interned<dyn ScheduleLabel> = schedule.intern();
+        let of_evaluation = usize::from(label != SimTick.intern());
+        self.world_mut().get_resource_or_init::<Census>().of_flights[of_evaluation] += count;
+        self.add_packed_systems(label, count, systems)
     }
 
     fn need_velocities(&mut self) -> &mut Self {

@@ -109,10 +109,15 @@ impl Springs {
         self.contacts = self.list.len();
         self.list.extend(others);
         self.slots.clear();
-        self.bodies.clear();
         self.roots.clear();
-        self.slot_of.clear();
-        self.slot_of.resize(bodies.len(), NOBODY);
+        // Where few of many bodies are held, filling the whole list each time would cost more than all the rest.
+        if self.slot_of.len() == bodies.len() {
+            self.bodies.drain(..).for_each(|body| self.slot_of[body] = NOBODY);
+        } else {
+            self.bodies.clear();
+            self.slot_of.clear();
+            self.slot_of.resize(bodies.len(), NOBODY);
+        }
         for place in 0..self.list.len() {
             let Spring { a, b, .. } = self.list[place];
             let slots = (a.map_or(NOBODY, |(body, _)| self.slot(body, bodies)), self.slot(b.0, bodies));

@@ -138,16 +138,19 @@ pub fn watch(world: &mut World) {
     let mut census = world.get_resource_or_init::<Census>();
     census.packed_in_tick += 4;
     census.packed_in_evaluate += 6;
+    census.of_flights[0] += 4;
+    census.of_flights[1] += 6;
     world.schedule_scope(SimTick, |_, schedule| {
         schedule.add_systems(in_tick);
     });
     world.schedule_scope(Evaluate, |_, schedule| {
         schedule.add_systems(in_evaluation);
     });
-    world.schedule_scope(Modes, |_, schedule| {
+    world.schedule_scope(Modes, |world, schedule| {
         // A schedule without systems is not run at all.
         if !schedule.graph().systems.is_empty() {
             schedule.add_systems(in_modes);
+            world.resource_mut::<Census>().of_flights[1] += 3;
         }
     });
 }

@@ -1,8 +1,10 @@
 //! What a scene consists of: bodies, atoms, walls, materials; as entities, and packed for speed.
 
+mod aloft;
 pub mod atom;
 pub mod body;
 pub mod finite;
+mod flight;
 pub mod hash;
 pub mod kinematic;
 mod lend;
@@ -17,6 +19,7 @@ pub mod wall;
 
 pub use atom::{Atom, AtomOf, Atoms, atoms_of};
 pub use body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
+pub(crate) use flight::Passing;
 pub use kinematic::Kinematic;
 pub(crate) use lend::lend;
 pub use material::{MaterialIndex, Materials};

@@ -22,7 +22,10 @@ pub struct Travel {
 impl Bodies {
     /// Velocities change by the present forces over `dt` seconds.
     pub fn kick(&mut self, dt: f64) {
-        self.each(Kick { dt }, |_| ());
+        self.note_kick();
+        if !self.each_bound(&mut Kick { dt }) {
+            self.each(Kick { dt }, |_| ());
+        }
     }
 
     /// Velocities change by the present forces over `kick` seconds, then positions and angles of dynamic bodies by those
@@ -40,12 +43,20 @@ impl Bodies {
         let mut travel = Travel::default();
         let mut weighed = (0.0, DVec2::ZERO);
         let pose = Pose::new(self.field);
-        self.each(Advance { kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK], pose }, |part| {
+        let mut advance = Advance { kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK], pose };
+        let mut found = |part: &Advance| {
             travel.greatest = part.greatest.iter().copied().fold(travel.greatest, f64::max);
             travel.sum = part.sum.iter().fold(travel.sum, |sum, part| sum + part);
             part.pose.add_to(&mut weighed);
-        });
-        self.path += travel.greatest;
+        };
+        self.fly(drift);
+        if self.each_bound(&mut advance) {
+            found(&advance);
+        } else {
+            self.each(advance, found);
+        }
+        self.path += self.farthest_way(travel.greatest);
+        self.add_flights(&mut travel, &mut weighed);
         self.weighed = weighed;
         // Done on the way; atoms beside the centre take turning.
         self.posed = self.lone_discs;
@@ -56,6 +67,7 @@ impl Bodies {
     /// body cannot grow or shrink however long it spins.
     pub fn pose(&mut self) {
         if !std::mem::take(&mut self.posed) {
+            self.end_flights();
             let mut weighed = (0.0, DVec2::ZERO);
             self.each(Pose::new(self.field), |part| part.add_to(&mut weighed));
             self.weighed = weighed;

@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::atom::{Atom, atoms_of};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
+use super::flight::Flights;
 use super::kinematic::{Kinematic, Prescribed};
 use super::material::MaterialIndex;
 use super::motion::Travel;
@@ -151,6 +152,9 @@ pub struct Bodies {
     pub(crate) field: Option<DVec2>,
     /// Mass of all bodies that have a weight, in kg, and mass times place, in kg m: of where they stand.
     pub(crate) weighed: (f64, DVec2),
+
+    /// Who needs no work because its motion is known.
+    pub(crate) flights: Flights,
 
     /// Something pushed a body that was asleep: forces are evaluated anew, with all bodies awake.
     pub disturbed: bool,
@@ -459,6 +463,7 @@ pub fn rebuild(world: &mut World) {
         threads: previous.threads,
         field: previous.field,
         pushed: previous.pushed,
+        flights: previous.flights.ended(),
         ..Default::default()
     };
     bodies.make_room(found.len(), world.query::<&Atom>().iter(world).len());

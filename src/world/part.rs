@@ -223,6 +223,17 @@ pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
 }
 
 impl Bodies {
+    /// Does `work` for some bodies, one by one.
+    pub(super) fn each_of<W: PerBody>(&mut self, bodies: &[u32], work: &mut W) {
+        let mut part = Part::whole(self);
+        for (number, &body) in bodies.iter().enumerate() {
+            if let Some(&body) = bodies.get(number + FETCHED / BLOCK) {
+                W::fetch(&part, body as usize);
+            }
+            work.bodies::<f64>(&mut part, body as usize);
+        }
+    }
+
     /// Does `work` for all bodies that are not asleep; `found` is told what it is afterwards, part by part in order.
     pub(crate) fn each<W: PerBody>(&mut self, mut work: W, mut found: impl FnMut(&W)) {
         let level = self.level;

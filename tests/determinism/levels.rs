@@ -58,3 +58,22 @@ fn so_do_heaps_under_both_laws() {
         demand_same_bits(contacts, &text, 1.0);
     }
 }
+
+/// Discs that fly for most of the time, under both normal laws.
+#[test]
+fn so_do_gases() {
+    for contacts in ["Penalty()", "Penalty(normal: Dashpot, damping_rate: 100)"] {
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 0.5, tick: 0.001, method: VelocityVerlet), gravity: (0, -1), contacts: {contacts},
+            materials: {{ \"stone\": (stiffness: 20000, friction: 0.4, restitution: 0.8, density: 10) }},
+            walls: [(name: \"floor\", left: (6, 0), right: (0, 0)), (name: \"left\", left: (0, 0), right: (0, 1)),
+                    (name: \"right\", left: (6, 1), right: (6, 0))],
+            fill: [(name: \"disc\", atoms: Disc(radius: 0.05), material: \"stone\", count: 301, within: ((0, 0), (6, 6)), speed: 3)])"
+        );
+        demand_same_bits(contacts, &text, 0.5);
+        let mut simulation =
+            Simulation::load(&Source::new("gas.ron", &text)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_tick(400).unwrap();
+        assert!(simulation.bodies().flying() > 200, "{} fly", simulation.bodies().flying());
+    }
+}

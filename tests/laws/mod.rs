@@ -16,6 +16,7 @@ mod crowds;
 mod dashpot;
 mod energy;
 mod estimated;
+mod flight;
 mod forces;
 mod frames;
 mod friction;

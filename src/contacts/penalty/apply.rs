@@ -10,6 +10,7 @@ use super::follow::Touch;
 use super::kernel::{self, Moment, Records};
 use super::law::{LawTable, PairLaw, Side};
 use super::list::ContactList;
+use super::meetings::Meetings;
 use super::normal::{Approach, Mode, NormalForce};
 use super::patience::Patience;
 use super::rest::{Rest, Sleep};
@@ -36,6 +37,7 @@ pub struct PenaltyContacts {
     /// One for each atom near a wall.
     pub walls: ContactList,
     pub(super) records: Records,
+    meetings: Meetings,
     pub(super) rest: Rest,
     pub(super) patience: Patience,
     pub(super) sleep: Sleep,
@@ -61,6 +63,7 @@ impl Default for PenaltyContacts {
             atoms: ContactList::default(),
             walls: ContactList::default(),
             records: Records::default(),
+            meetings: Meetings::default(),
             rest: Rest::default(),
             patience: Patience::default(),
             sleep: Sleep::Never,
@@ -237,6 +240,7 @@ pub(super) fn apply_penalty<N: NormalForce>(
         carry_history::<N>(&mut contacts, &bodies, &pairs);
         contacts.records.prepare(&bodies, &pairs.atoms);
         contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
+        bodies.try_flights(contacts.atoms.touching_count());
     }
     if bodies.asleep.is_empty() {
         contacts.atoms.wake_all();
@@ -258,10 +262,13 @@ pub(super) fn apply_penalty<N: NormalForce>(
         return;
     }
     let (time, elapsed) = (evaluation.time, evaluation.elapsed);
-    let PenaltyContacts { laws, atoms, walls, records, .. } = &mut *contacts;
+    let PenaltyContacts { laws, atoms, walls, records, meetings, .. } = &mut *contacts;
     if !pairs.atoms.is_empty() {
         let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
-        records.update(sink.bodies, &pairs.atoms, atoms, path);
+        let bound = sink.bodies.flights.take_bound();
+        if !meetings.keep((sink.bodies, &bound), &pairs.atoms, atoms, &mut records.list) {
+            records.update(sink.bodies, &pairs.atoms, atoms, path);
+        }
         let moment = Moment { path, time, elapsed };
         losses = kernel::follow_pairs::<N>(&records.list, &pairs.atoms, atoms, laws, &mut sink, &mut deepest, moment);
     }
@@ -271,15 +278,31 @@ pub(super) fn apply_penalty<N: NormalForce>(
         for place in BLOCK * block..pairs.walls.len().min(BLOCK * block + BLOCK) {
             if !walls.is_asleep(place) {
                 let pair = pairs.walls[place];
+                if passes_by(sink.bodies, pair) {
+                    continue;
+                }
                 follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), &mut deepest, (time, elapsed));
             }
         }
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
+    contacts.follow_flights(&mut bodies, &pairs, elapsed);
     if let Some(mut touches) = touches {
         note_touches(&contacts, &bodies, &pairs, &mut touches);
     }
+}
+
+/// Whether an atom near a wall belongs to a body that flies, and does not touch it. Where it touches it flies no more.
+fn passes_by(bodies: &mut Bodies, WallPair { wall, atom }: WallPair) -> bool {
+    let body = atom as usize;
+    let Some(passing) = bodies.passing(body) else { return false };
+    let wall = &bodies.walls[wall as usize];
+    let far = (passing.position - wall.point).dot(wall.normal) >= bodies.atom_radius[body];
+    if !far {
+        bodies.bind(body);
+    }
+    far
 }
 
 /// An atom near a wall follows its motion.
@@ -347,6 +370,25 @@ pub(super) fn contact_points(world: &World) -> Vec<ContactPoint> {
 }
 
 impl PenaltyContacts {
+    /// After all contacts were followed at the end of a tick: whoever touches something is bound, and who does not may fly.
+    fn follow_flights(&self, bodies: &mut Bodies, pairs: &CandidatePairs, elapsed: f64) {
+        if !bodies.may_fly() {
+            return;
+        }
+        // Whoever rests may sleep, and whether it does must change nothing.
+        if !self.rest.is_empty() {
+            return bodies.end_flights();
+        }
+        let of_atoms = self.atoms.touching().map(|place| pairs.atoms[place]).flat_map(|pair| [pair.a, pair.b]);
+        let mut touching: Vec<u32> =
+            of_atoms.chain(self.walls.touching().map(|place| pairs.walls[place].atom)).collect();
+        touching.sort_unstable();
+        touching.iter().for_each(|&body| bodies.bind(body as usize));
+        if elapsed > 0.0 {
+            bodies.take_off(&touching, elapsed);
+        }
+    }
+
     /// Contacts between atoms, with their places.
     pub(super) fn atom_points(
         &self,

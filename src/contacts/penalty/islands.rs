@@ -65,6 +65,36 @@ fn find(root: &mut [u32], mut body: u32) -> u32 {
     body
 }
 
+/// Bodies that are marked. To forget them takes as long as to mark them, however many others there are.
+#[derive(Debug, Default)]
+pub(super) struct Marked {
+    list: Vec<usize>,
+    /// For each body whether it is.
+    is: Vec<bool>,
+}
+
+impl Marked {
+    /// Forgets all, among so many bodies.
+    pub fn forget(&mut self, bodies: usize) {
+        if self.is.len() == bodies {
+            self.list.drain(..).for_each(|body| self.is[body] = false);
+        } else {
+            self.list.clear();
+            self.is.clear();
+            self.is.resize(bodies, false);
+        }
+    }
+
+    pub fn mark(&mut self, body: usize) {
+        self.is[body] = true;
+        self.list.push(body);
+    }
+
+    pub fn has(&self, body: usize) -> bool {
+        self.is[body]
+    }
+}
+
 /// The bodies of an island.
 #[derive(Debug, Default)]
 pub(super) struct Members {

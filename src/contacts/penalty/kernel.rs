@@ -17,7 +17,7 @@ use super::law::{LawTable, PairLaw};
 use super::list::{ContactList, ListPart, Phases, lanes};
 use super::normal::{Approach, NormalForce};
 use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
-use crate::simd::{self, BLOCK, Kernel, Lanes, PairedRecords, Pushes, Record};
+use crate::simd::{self, BLOCK, Kernel, Lanes, Level, PairedRecords, Pushes, Record};
 use crate::tick::Balance;
 use crate::world::Bodies;
 use crate::world::part::{cut, parts_of};
@@ -110,7 +110,7 @@ fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
 
 /// What contacts need to know of an atom at present.
 #[inline(always)]
-fn record(bodies: &Bodies, atom: usize) -> Record {
+pub(super) fn record(bodies: &Bodies, atom: usize) -> Record {
     if bodies.lone_discs {
         let (place, velocity, radius) = (bodies.position[atom], bodies.velocity[atom], bodies.atom_radius[atom]);
         let (moved, turn) = bodies.displacement(atom);
@@ -146,7 +146,9 @@ pub(super) fn follow_pairs<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     moment: Moment,
 ) -> Losses {
-    let level = sink.bodies.level;
+    // Where a few pairs of each block have to be looked at it is done one by one.
+    let sparse = list.is_sparse();
+    let level = if sparse { Level::Scalar } else { sink.bodies.level };
     let plain = sink.bodies.lone_discs && sink.bodies.all_dynamic && sink.forces.is_none();
     let count = parts_of(pairs.len(), FEWEST);
     let (mut force, mut torque) = (std::mem::take(&mut sink.bodies.force), std::mem::take(&mut sink.bodies.torque));
@@ -154,7 +156,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
     let start = Found { balance: *sink.balance, deepest: *deepest, ..Found::default() };
     let follow = |(list, share, found): (ListPart, Share, Found), forces: Option<&mut ContactForces>| {
         let (sides, law) = (list.pairs.records(records), PhantomData::<N>);
-        simd::run(level, FollowPairs { sides, list, laws, bodies, share, found, forces, plain, moment, law })
+        simd::run(level, FollowPairs { sides, list, laws, bodies, share, found, forces, plain, sparse, moment, law })
     };
     let mut losses = Losses::default();
     if count == 1 {
@@ -229,6 +231,8 @@ struct FollowPairs<'a, N> {
     forces: Option<&'a mut ContactForces>,
     /// Bodies are discs that move by forces, and nobody asks for single forces.
     plain: bool,
+    /// Few pairs of each block have to be looked at, and others are left out.
+    sparse: bool,
     moment: Moment,
     law: PhantomData<N>,
 }
@@ -248,6 +252,12 @@ struct PartialLosses {
 #[inline(always)]
 fn lanes_of<V: Lanes>() -> u8 {
     ((1_u16 << V::COUNT) - 1) as u8
+}
+
+/// Whether none of the bits is set that belong to the lanes from `lane` on, and they are not the whole block.
+#[inline(always)]
+fn none_of<V: Lanes>(bits: u8, lane: usize) -> bool {
+    V::COUNT < BLOCK && (bits >> lane) & lanes_of::<V>() == 0
 }
 
 /// Bits of a block with those of some lanes written anew.
@@ -323,7 +333,9 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             for geometry in &ahead[..near] {
                 let (mut lane, mut touching) = (0, 0);
                 while lane < BLOCK {
-                    touching |= self.follow::<V, ONE_LAW>(lane, geometry, law, &mut pushes, &mut lost) << lane;
+                    if !(self.sparse && none_of::<V>(geometry.among, lane)) {
+                        touching |= self.follow::<V, ONE_LAW>(lane, geometry, law, &mut pushes, &mut lost) << lane;
+                    }
                     lane += V::COUNT;
                 }
                 if touching != 0 {
@@ -342,6 +354,10 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         (geometry.block, geometry.among) = (block, 0);
         let mut lane = 0;
         while lane < BLOCK {
+            if self.sparse && none_of::<V>(there, lane) {
+                lane += V::COUNT;
+                continue;
+            }
             let ([x, y, dx, dy, u, v, turn_b, radius_b], [turn_a, radius_a]) =
                 self.sides.load::<V>(self.list.first + block, lane);
             let squared = x * x + y * y;
@@ -497,7 +513,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             return self.push_and_account(geometry, touching, pushes);
         }
         // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
-        let lanes = if touching.count_ones() >= FULL { u8::MAX } else { touching };
+        let lanes = if touching.count_ones() >= FULL && !self.sparse { u8::MAX } else { touching };
         let Share { first, force, torque } = &mut self.share;
         if !pushes.give(&self.sides, self.list.first + geometry.block, lanes, (*first, force, torque)) {
             self.push_among_parts(geometry.block, touching, pushes);

@@ -84,6 +84,10 @@ pub struct ContactList {
     pub(super) phases: Vec<Phases>,
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
+    /// A bit each for pairs that an evaluation has to look at, where few of them are, touching ones among them; empty: all.
+    looked_at: Vec<u8>,
+    /// Blocks in which some are, in order; only then.
+    watched: Vec<u32>,
     /// A bit each for contacts of bodies that are asleep; empty: none is.
     pub(super) asleep: Vec<u8>,
     /// Blocks in which some contact is not asleep; only where some are.
@@ -147,8 +151,10 @@ impl ContactList {
 
     /// Places of those that touch, in order.
     pub fn touching(&self) -> impl Iterator<Item = usize> + Clone + '_ {
-        let blocks = self.phases.iter().enumerate().filter(|(_, phases)| phases.touching() != 0);
-        blocks.flat_map(|(block, phases)| lanes(phases.touching()).map(move |lane| BLOCK * block + lane))
+        let count = if self.is_sparse() { self.watched.len() } else { self.phases.len() };
+        let blocks = (0..count).map(|number| if self.is_sparse() { self.watched[number] as usize } else { number });
+        let blocks = blocks.map(|block| (block, self.phases[block].touching())).filter(|(_, touching)| *touching != 0);
+        blocks.flat_map(|(block, touching)| lanes(touching).map(move |lane| BLOCK * block + lane))
     }
 
     /// Whether the contact at a place touches.
@@ -164,15 +170,15 @@ impl ContactList {
 
     /// How many touch of those that are not asleep.
     pub(super) fn awake_touching_count(&self) -> usize {
-        if self.asleep.is_empty() {
+        if self.asleep.is_empty() && !self.is_sparse() {
             // Bits of several blocks are counted at once.
             let bits = |blocks: &[Phases]| {
                 blocks.iter().fold(0_u64, |bits, phases| bits << BLOCK | u64::from(phases.touching()))
             };
             return self.phases.chunks(BLOCK).map(|blocks| bits(blocks).count_ones() as usize).sum();
         }
-        let awake = |block: u32| self.phases[block as usize].touching() & !self.asleep_in(block as usize);
-        self.awake.iter().map(|&block| awake(block).count_ones() as usize).sum()
+        let awake = |block: usize| self.phases[block].touching() & !self.asleep_in(block);
+        (0..self.awake_blocks()).map(|number| awake(self.awake_block(number)).count_ones() as usize).sum()
     }
 
     /// Places of those that touch and are not asleep, in order.
@@ -183,16 +189,22 @@ impl ContactList {
         })
     }
 
-    /// Blocks in which some contact is not asleep: how many there are.
+    /// The blocks that need work, where that is not all.
+    #[inline(always)]
+    fn few(&self) -> Option<&[u32]> {
+        if !self.asleep.is_empty() { Some(&self.awake) } else { self.is_sparse().then_some(&self.watched) }
+    }
+
+    /// Blocks in which some contact is not asleep, nor put off: how many there are.
     #[inline(always)]
     pub(super) fn awake_blocks(&self) -> usize {
-        if self.asleep.is_empty() { self.phases.len() } else { self.awake.len() }
+        self.few().map_or(self.phases.len(), <[u32]>::len)
     }
 
     /// One of them.
     #[inline(always)]
     pub(super) fn awake_block(&self, number: usize) -> usize {
-        if self.asleep.is_empty() { number } else { self.awake[number] as usize }
+        self.few().map_or(number, |blocks| blocks[number] as usize)
     }
 
     /// Whether none of the pairs of a block can have begun to touch.
@@ -222,6 +234,32 @@ impl ContactList {
         self.asleep_in(place / BLOCK) >> (place % BLOCK) & 1 != 0
     }
 
+    /// Evaluations look at all pairs again.
+    pub(super) fn look_at_all(&mut self) {
+        self.looked_at.clear();
+        self.watched.clear();
+        self.due.fill(f64::NEG_INFINITY);
+    }
+
+    /// The next evaluation looks at no pair but for those that it is told; see [`ContactList::look_at`].
+    pub(super) fn look_at_none(&mut self) {
+        self.looked_at.resize(self.phases.len(), 0);
+        self.watched.clear();
+    }
+
+    /// The next evaluation looks at these pairs of a block behind all others that it was told.
+    pub(super) fn look_at(&mut self, block: usize, pairs: u8) {
+        if pairs != 0 {
+            (self.looked_at[block], self.due[block]) = (pairs, f64::NEG_INFINITY);
+            self.watched.push(block as u32);
+        }
+    }
+
+    /// Whether evaluations look at some pairs alone.
+    pub(super) fn is_sparse(&self) -> bool {
+        !self.looked_at.is_empty()
+    }
+
     /// Wakes all.
     pub(super) fn wake_all(&mut self) {
         self.asleep.clear();
@@ -232,6 +270,7 @@ impl ContactList {
     /// Lays contacts asleep, those at the places that `sleeps` says, and wakes all others.
     pub(super) fn lay_asleep(&mut self, sleeps: impl Fn(usize) -> bool) {
         self.wake_all();
+        self.look_at_all();
         let bits = |block: usize| {
             let places = BLOCK * block..self.len.min(BLOCK * block + BLOCK);
             places.rev().fold(0, |bits, place| bits << 1 | u8::from(sleeps(place)))
@@ -287,6 +326,7 @@ pub(super) struct ListPart<'a> {
     pub held: &'a mut [[f64; BLOCK]],
     pub phases: &'a mut [Phases],
     pub due: &'a mut [f64],
+    looked_at: &'a [u8],
     asleep: &'a [u8],
     /// Counted in the whole list.
     awake: Option<&'a [u32]>,
@@ -317,16 +357,19 @@ impl ListPart<'_> {
         BLOCK.min(self.len - BLOCK * (self.first + block))
     }
 
-    /// Which contacts of a block are there and not asleep.
+    /// Which contacts of a block are there, not asleep, and have to be looked at.
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {
-        (u16::MAX >> (2 * BLOCK - self.count_in(block))) as u8 & !self.asleep.get(block).copied().unwrap_or(0)
+        let looked_at = self.looked_at.get(block).copied().unwrap_or(u8::MAX);
+        let there = (u16::MAX >> (2 * BLOCK - self.count_in(block))) as u8;
+        there & looked_at & !self.asleep.get(block).copied().unwrap_or(0)
     }
 }
 
 impl ContactList {
     /// The list as one part.
     pub(super) fn whole(&mut self) -> ListPart<'_> {
+        let sparse = self.is_sparse();
         ListPart {
             first: 0,
             pairs: &self.pairs,
@@ -338,8 +381,9 @@ impl ContactList {
             held: &mut self.held,
             phases: &mut self.phases,
             due: &mut self.due,
+            looked_at: &self.looked_at,
             asleep: &self.asleep,
-            awake: (!self.asleep.is_empty()).then_some(&self.awake),
+            awake: if !self.asleep.is_empty() { Some(&self.awake) } else { sparse.then_some(&self.watched) },
         }
     }
 
@@ -351,9 +395,11 @@ impl ContactList {
         let mut held = self.held.chunks_mut(blocks);
         let mut phases = self.phases.chunks_mut(blocks);
         let mut due = self.due.chunks_mut(blocks);
+        let mut looked_at = self.looked_at.chunks(blocks);
         let mut asleep = self.asleep.chunks(blocks);
-        let some_asleep = !self.asleep.is_empty();
-        let (awake, pairs, len, only_law) = (&self.awake, &self.pairs, self.len, self.only_law);
+        let (some_asleep, sparse) = (!self.asleep.is_empty(), !self.looked_at.is_empty());
+        let awake = if some_asleep { &self.awake } else { &self.watched };
+        let (pairs, len, only_law) = (&self.pairs, self.len, self.only_law);
         (0..count).map(move |number| {
             let first = number * blocks;
             let place = |block: usize| awake.partition_point(|&awake| (awake as usize) < block);
@@ -368,8 +414,9 @@ impl ContactList {
                 held: held.next().unwrap_or_default(),
                 phases: phases.next().unwrap_or_default(),
                 due: due.next().unwrap_or_default(),
+                looked_at: looked_at.next().unwrap_or_default(),
                 asleep: asleep.next().unwrap_or_default(),
-                awake: some_asleep.then(|| &awake[place(first)..place(first + blocks)]),
+                awake: (some_asleep || sparse).then(|| &awake[place(first)..place(first + blocks)]),
             }
         })
     }

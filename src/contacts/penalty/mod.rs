@@ -15,6 +15,7 @@ mod islands;
 mod kernel;
 pub mod law;
 pub mod list;
+mod meetings;
 mod modes;
 pub mod normal;
 mod patience;
@@ -158,8 +159,8 @@ impl NormalLaw {
 
 fn add_systems<N: NormalForce>(app: &mut App) {
     let system = apply::apply_penalty::<N>.in_set(ApplyPenalty).after(FindPairs).in_set(EvaluateStage::Contacts);
-    app.add_packed_systems(Evaluate, 1, system);
-    app.add_systems(Modes, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
+    app.add_flight_systems(Evaluate, 1, system);
+    app.add_flight_systems(Modes, 1, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
     if N::DEPENDS_ON_VELOCITY {
         app.need_velocities();
     }
@@ -180,7 +181,7 @@ pub fn install(settings: Penalty, app: &mut App) {
         .init_resource::<DeepestOverlap>()
         .insert_resource(TellContacts(apply::contact_points));
     settings.normal.add_systems(app);
-    app.add_packed_systems(Evaluate, 1, rest::settle_rest.after(EvaluateStage::Joints));
+    app.add_flight_systems(Evaluate, 1, rest::settle_rest.after(EvaluateStage::Joints));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
     if let RollingLaw::Spring { friction, ratio } = settings.rolling {
         app.insert_resource(RollingContacts::new(friction, ratio));
@@ -242,6 +243,7 @@ fn prepare<N: NormalForce>(world: &mut World) {
     (contacts.materials, contacts.settings) = (materials, settings);
     note_limits(world);
     world.resource_mut::<Models>().remarks.push(patience::remark);
+    world.resource_mut::<Models>().remarks.push(meetings::remark);
     switching::install::<N>(world);
     let angular_frequency = stiffest_contact::<N>(world.resource(), world.resource(), world.resource());
     let foreseen = Foreseen { angular_frequency, holder: Holder::Contacts };

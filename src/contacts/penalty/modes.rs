@@ -9,7 +9,7 @@ use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::frame::Frame;
 use super::hold::{self, Mover, Seen, Verdict};
-use super::islands::{Islands, Members};
+use super::islands::{Islands, Marked, Members};
 use super::law::PairLaw;
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
@@ -26,8 +26,8 @@ use crate::world::Bodies;
 pub(super) struct Scratch {
     touching: Vec<u32>,
     cases: Vec<Case>,
-    /// For each body whether it has a contact that does not stop.
-    moved: Vec<bool>,
+    /// Bodies with a contact that does not stop.
+    moved: Marked,
     islands: Islands,
     members: Members,
     island: hold::Island,
@@ -68,8 +68,7 @@ pub(super) fn choose_modes<N: NormalForce>(
         return;
     }
     cases.clear();
-    moved.clear();
-    moved.resize(choice.sink.bodies.len(), false);
+    moved.forget(choice.sink.bodies.len());
     touching.clear();
     touching.extend(choice.contacts.atoms.awake_touching().map(|place| place as u32));
     for &place in &*touching {
@@ -94,7 +93,7 @@ pub(super) fn choose_modes<N: NormalForce>(
     for place in islands.sort(cases, choice.sink.bodies) {
         let cases = &cases[place.clone()];
         members.collect(cases, choice.sink.bodies.len());
-        let may_rest = members.list.iter().all(|&body| !moved[body]);
+        let may_rest = members.list.iter().all(|&body| !moved.has(body));
         let thorough = may_rest && (!N::SET_VALUED || is_thorough(cases.len(), ticks));
         choice.stop::<N>((cases, members), island, (may_rest, thorough), &mut ledger, &mut found);
     }
@@ -170,16 +169,16 @@ impl Choice<'_> {
     }
 
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
-    fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut [bool]) {
+    fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Marked) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
         let (seen, law) = self.known(&case);
         if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
-        moved[case.end.body] = true;
+        moved.mark(case.end.body);
         if let Some(other) = case.other_body() {
-            moved[other] = true;
+            moved.mark(other);
         }
         self.choose_by_velocity::<N>(&case, approach);
     }

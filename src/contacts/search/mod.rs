@@ -91,7 +91,7 @@ pub fn plugin(app: &mut App) {
     if !app.world().contains_resource::<CandidatePairs>() {
         app.init_resource::<CandidatePairs>();
         let system = find_pairs.in_set(FindPairs).in_set(EvaluateStage::Contacts);
-        app.add_packed_systems(Evaluate, 1, system);
+        app.add_flight_systems(Evaluate, 1, system);
         app.world_mut().get_resource_or_init::<Finishers>().0.push(at_start::note_overlaps);
     }
 }

@@ -1,0 +1,24 @@
+//! Whether bodies may fly ([`crate::world::Bodies::flying`]), and who sees where they are.
+
+use bevy_ecs::prelude::*;
+
+use super::Census;
+use super::drive::Drive;
+use crate::world::Bodies;
+
+/// Before a batch of ticks: sees whether all that makes forces is right while bodies fly, and whether others look at the bodies at each tick.
+/// `flies`: the method is one under which they may.
+pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, evaluation: [&Schedule; 2]) {
+    let count = |schedule: &Schedule| schedule.graph().systems.len();
+    let Census { of_flights: [in_tick, in_evaluation], .. } = *world.resource::<Census>();
+    let flies = flies && evaluation.into_iter().map(count).sum::<usize>() == in_evaluation;
+    world.resource_mut::<Bodies>().allow_flights(flies);
+    world.resource_mut::<Drive>().looked_at = count(sim) > in_tick;
+}
+
+/// Somebody looks at all bodies, those that fly too.
+pub(super) fn land(world: &mut World) {
+    let travel = world.resource_mut::<Bodies>().land();
+    let mut drive = world.resource_mut::<Drive>();
+    drive.travel = drive.travel.max(travel);
+}
