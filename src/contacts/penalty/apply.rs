@@ -270,7 +270,15 @@ pub(super) fn apply_penalty<N: NormalForce>(
             records.update(sink.bodies, &pairs.atoms, atoms, path);
         }
         let moment = Moment { path, time, elapsed };
-        losses = kernel::follow_pairs::<N>(&records.list, &pairs.atoms, atoms, laws, &mut sink, &mut deepest, moment);
+        losses = kernel::follow_pairs::<N>(
+            &records.list,
+            (&pairs.atoms, pairs.group_ends),
+            atoms,
+            laws,
+            &mut sink,
+            &mut deepest,
+            moment,
+        );
     }
     let mut number = 0;
     while let Some(block) = (number < walls.awake_blocks()).then(|| walls.awake_block(number)) {

@@ -139,7 +139,7 @@ const FEWEST: usize = 16384;
 /// bodies that stand first in its pairs; what is for others waits until all are done, and goes to them in the order of pairs.
 pub(super) fn follow_pairs<N: NormalForce>(
     records: &[Record],
-    pairs: &[AtomPair],
+    (pairs, group_ends): (&[AtomPair], [usize; 2]),
     list: &mut ContactList,
     laws: &LawTable,
     sink: &mut Sink,
@@ -166,31 +166,40 @@ pub(super) fn follow_pairs<N: NormalForce>(
         (sink.bodies.force, sink.bodies.torque) = (force, torque);
         return losses;
     }
-    let blocks = pairs.len().div_ceil(BLOCK).div_ceil(count);
-    let (mut forces, mut torques) = (&mut force[..], &mut torque[..]);
-    let mut parts = Vec::with_capacity(count);
-    for list in list.parts(blocks) {
-        let end = (list.first + blocks) * BLOCK;
-        let first = bodies.len() - forces.len();
-        let last = pairs.get(end).map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
-        let share = Share { first, force: cut(&mut forces, last - first), torque: cut(&mut torques, last - first) };
-        let found = if list.first == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
-        parts.push((list, share, found));
-    }
-    let mut done: Vec<Option<Found>> = parts.iter().map(|_| None).collect();
-    let parts = parts.into_iter().zip(&mut done);
-    if sink.forces.is_some() {
-        parts.for_each(|(part, done)| *done = Some(follow(part, sink.forces.as_deref_mut())));
-    } else {
-        bodies.threads.each(parts.collect(), |(part, done)| *done = Some(follow(part, None)));
+    *sink.balance = Balance::default();
+    let mut found = Vec::new();
+    // Each group is sorted, so that parts of it have bodies of their own.
+    let [touching, close] = group_ends.map(|end| end.div_ceil(BLOCK));
+    for range in [0..touching, touching..close, close..pairs.len().div_ceil(BLOCK)] {
+        let blocks = range.len().div_ceil(parts_of(BLOCK * range.len(), FEWEST)).max(1);
+        let (mut forces, mut torques) = (&mut force[..], &mut torque[..]);
+        let mut parts = Vec::new();
+        for list in list.parts(range.clone(), blocks) {
+            let end = list.first + blocks;
+            let first = bodies.len() - forces.len();
+            let next = pairs.get(BLOCK * end).filter(|_| end < range.end);
+            let last = next.map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
+            let share = Share { first, force: cut(&mut forces, last - first), torque: cut(&mut torques, last - first) };
+            let found = if list.first == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
+            parts.push((list, share, found));
+        }
+        let mut done: Vec<Option<Found>> = parts.iter().map(|_| None).collect();
+        let parts = parts.into_iter().zip(&mut done);
+        if sink.forces.is_some() {
+            parts.for_each(|(part, done)| *done = Some(follow(part, sink.forces.as_deref_mut())));
+        } else {
+            bodies.threads.each(parts.collect(), |(part, done)| *done = Some(follow(part, None)));
+        }
+        for mut part in done.into_iter().flatten() {
+            for (body, own, turning) in std::mem::take(&mut part.others) {
+                force[body as usize] += own;
+                torque[body as usize] += turning;
+            }
+            found.push(part);
+        }
     }
     (sink.bodies.force, sink.bodies.torque) = (force, torque);
-    *sink.balance = Balance::default();
-    for part in done.into_iter().flatten() {
-        for (body, force, torque) in part.others {
-            sink.bodies.force[body as usize] += force;
-            sink.bodies.torque[body as usize] += torque;
-        }
+    for part in found {
         sink.balance.add(&part.balance);
         losses.friction += part.losses.friction;
         losses.inelasticity += part.losses.inelasticity;

@@ -3,7 +3,7 @@
 //!
 //! Modes are bits, a byte for eight contacts: they are masks as they stand.
 
-use std::ops::{Deref, DerefMut};
+use std::ops::{Deref, DerefMut, Range};
 
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
@@ -387,21 +387,23 @@ impl ContactList {
         }
     }
 
-    /// The list in parts of so many blocks; the last may have fewer.
-    pub(super) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = ListPart<'_>> {
-        let count = self.phases.len().div_ceil(blocks);
-        let (mut law, mut damping) = (self.law.chunks(blocks), self.damping.chunks(blocks));
-        let mut histories = self.histories.chunks_mut(blocks);
-        let mut held = self.held.chunks_mut(blocks);
-        let mut phases = self.phases.chunks_mut(blocks);
-        let mut due = self.due.chunks_mut(blocks);
-        let mut looked_at = self.looked_at.chunks(blocks);
-        let mut asleep = self.asleep.chunks(blocks);
+    /// Some blocks in a row in parts of so many; the last may have fewer.
+    pub(super) fn parts(&mut self, range: Range<usize>, blocks: usize) -> impl Iterator<Item = ListPart<'_>> {
+        let (count, begin) = (range.len().div_ceil(blocks), range.start);
+        let of = |len: usize| range.start.min(len)..range.end.min(len);
+        let (law, damping) = (&self.law[of(self.law.len())], &self.damping[of(self.damping.len())]);
+        let (looked_at, asleep) = (&self.looked_at[of(self.looked_at.len())], &self.asleep[of(self.asleep.len())]);
+        let (mut law, mut damping) = (law.chunks(blocks), damping.chunks(blocks));
+        let (mut looked_at, mut asleep) = (looked_at.chunks(blocks), asleep.chunks(blocks));
+        let mut histories = self.histories[range.clone()].chunks_mut(blocks);
+        let mut held = self.held[range.clone()].chunks_mut(blocks);
+        let mut phases = self.phases[range.clone()].chunks_mut(blocks);
+        let mut due = self.due[range.clone()].chunks_mut(blocks);
         let (some_asleep, sparse) = (!self.asleep.is_empty(), !self.looked_at.is_empty());
         let awake = if some_asleep { &self.awake } else { &self.watched };
         let (pairs, len, only_law) = (&self.pairs, self.len, self.only_law);
         (0..count).map(move |number| {
-            let first = number * blocks;
+            let first = begin + number * blocks;
             let place = |block: usize| awake.partition_point(|&awake| (awake as usize) < block);
             ListPart {
                 first,

@@ -1,9 +1,10 @@
 //! The broad phase: who may touch whom. Few atoms are found by their bodies' boxes (`sweep.rs`), many by cells (`cells.rs`);
 //! both find the same pairs.
 //!
-//! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. When the
-//! list is made anew every pair that was in the old one is told its old place, so that whoever keeps history beside
-//! the list can carry it over.
+//! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. Of many atoms the
+//! pairs that touch as the list is made stand first, then those that nearly do, then the others, each group sorted: so the
+//! work on several pairs side by side is on pairs that touch, and those that are far are passed over together. When the list is made anew every pair that was in the old one is told
+//! its old place, so that whoever keeps history beside the list can carry it over.
 
 mod at_start;
 mod cells;
@@ -66,6 +67,8 @@ pub struct CandidatePairs {
     pub version: u64,
     /// Pairs of atoms.
     pub atoms: Vec<AtomPair>,
+    /// Where the group of those ends that touched when the list was made, and that of those that nearly did. Each group is in order.
+    pub group_ends: [usize; 2],
     /// Atoms near walls.
     pub walls: Vec<WallPair>,
     /// For each item of `atoms` its place in the list before, or [`NEW`].
@@ -104,6 +107,7 @@ pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: Re
     pairs.bounds_version = bounds.version;
     pairs.version += 1;
     let old_atoms = std::mem::take(&mut pairs.atoms);
+    let [touching, close] = std::mem::take(&mut pairs.group_ends);
     let old_walls = std::mem::take(&mut pairs.walls);
     pairs.search = Search::suiting(&bodies);
     pairs.atoms = pairs.search.pairs(&bodies, &bounds);
@@ -116,10 +120,15 @@ pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: Re
     };
     // Walls do not come and go one by one: when their number changes their history starts anew.
     let same_walls = same || pairs.wall_count == bodies.walls.len();
-    pairs.atoms_before = carry(&pairs.atoms, &old_atoms, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
-    pairs.walls_before = carry(&pairs.walls, &old_walls, |old| {
+    let renamed = |old: AtomPair| Some(AtomPair { a: place(old.a)?, b: place(old.b)? });
+    let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
+    pairs.atoms_before = carry(&pairs.atoms, groups, renamed);
+    pairs.walls_before = carry(&pairs.walls, [&old_walls], |old| {
         Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
     });
+    if pairs.search == Search::Cells {
+        pairs.group(&bodies, CLOSE * bounds.margin);
+    }
     if !same {
         pairs.generation = bodies.generation;
         pairs.wall_count = bodies.walls.len();
@@ -127,16 +136,46 @@ pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: Re
     }
 }
 
-/// For each new pair the place of the same pair in the old list. Both lists are sorted, and stay so when old pairs
-/// are told their new places, because places keep the order of identities.
-fn carry<P: Ord + Copy>(new: &[P], old: &[P], renamed: impl Fn(P) -> Option<P>) -> Vec<u32> {
-    let mut rest = old.iter().enumerate().filter_map(|(place, &pair)| Some((place as u32, renamed(pair)?))).peekable();
-    new.iter()
-        .map(|pair| {
+/// Share of the margin that pairs are apart at the most that nearly touch.
+const CLOSE: f64 = 1.0 / 8.0;
+
+/// For each new pair the place of the same pair in the old list. The new list is sorted, and so is each group of the old one; they
+/// stay so when old pairs are told their new places, because places keep the order of identities.
+fn carry<P: Ord + Copy, const GROUPS: usize>(
+    new: &[P],
+    old: [&[P]; GROUPS],
+    renamed: impl Fn(P) -> Option<P>,
+) -> Vec<u32> {
+    let mut first = 0;
+    let mut groups = old.map(|group| {
+        let begin = first;
+        first += group.len() as u32;
+        (begin..).zip(group).filter_map(|(place, &pair)| Some((place, renamed(pair)?))).peekable()
+    });
+    let mut find = |pair: &P| {
+        let mut found = NEW;
+        for rest in &mut groups {
             while rest.next_if(|(_, old)| old < pair).is_some() {}
-            rest.next_if(|(_, old)| old == pair).map_or(NEW, |(place, _)| place)
-        })
-        .collect()
+            found = rest.next_if(|(_, old)| old == pair).map_or(found, |(place, _)| place);
+        }
+        found
+    };
+    new.iter().map(|pair| find(pair)).collect()
+}
+
+impl CandidatePairs {
+    /// Puts those first that touch, then those that are no farther apart than `close` metres.
+    fn group(&mut self, bodies: &Bodies, close: f64) {
+        let mut groups = [const { Vec::new() }; 3];
+        for (&pair, &before) in self.atoms.iter().zip(&self.atoms_before) {
+            let between = bodies.atom_place(pair.b as usize) - bodies.atom_place(pair.a as usize);
+            let (squared, reach) = (between.length_squared(), pair.reach(bodies));
+            let apart = |gap: f64| usize::from(squared > (reach + gap) * (reach + gap));
+            groups[apart(0.0) + apart(close)].push((pair, before));
+        }
+        self.group_ends = [groups[0].len(), groups[0].len() + groups[1].len()];
+        (self.atoms, self.atoms_before) = groups.into_iter().flatten().unzip();
+    }
 }
 
 /// How pairs of atoms are searched.
