@@ -10,12 +10,13 @@ use bevy_ecs::prelude::*;
 use serde::Serialize;
 
 use crate::scene::{Arity, SceneAppExt};
+use crate::tick::direct::{Direct, Part, State, Systems, exchange};
 use crate::tick::{Clock, SimTick, Stage, TickAppExt};
 use crate::world::Bodies;
 
 /// What an expectation sees.
 pub struct Sight<'a> {
-    /// The world, for channels.
+    /// The world, for channels; of no use to those that say that they do not need it.
     pub world: &'a World,
     /// The state.
     pub bodies: &'a Bodies,
@@ -31,6 +32,11 @@ pub trait Watch: Send + Sync + 'static {
     /// It looks at the beginning, after every so many ticks, and at the end.
     fn every(&self) -> u64 {
         1
+    }
+
+    /// Whether it looks at anything but the bodies and the time.
+    fn needs_world(&self) -> bool {
+        true
     }
 
     /// Whether it claims something of all times, which it knows only at those at which it looks.
@@ -70,6 +76,7 @@ impl Expectations {
         if !app.world().contains_resource::<Self>() {
             app.init_resource::<Self>();
             app.add_packed_systems(SimTick, 1, observe_tick.in_set(Stage::Observe));
+            Direct::add(app.world_mut(), Systems { tick: 1, ..Systems::default() }, Observer::default());
         }
         app.world_mut().resource_mut::<Self>().watches.push((text, Box::new(watch)));
     }
@@ -112,10 +119,39 @@ fn look(world: &mut World, all: bool) {
     let mut watches = std::mem::take(&mut expectations.watches);
     let clock = *world.resource::<Clock>();
     let sight = Sight { world, bodies: world.resource::<Bodies>(), time: clock.time() };
-    for (_, watch) in watches.iter_mut().filter(|(_, watch)| all || clock.ticks.is_multiple_of(watch.every())) {
+    for watch in due(&mut watches, all, clock.ticks) {
         watch.observe(&sight);
     }
     world.resource_mut::<Expectations>().watches = watches;
+}
+
+/// Those that look after so many ticks.
+fn due(watches: &mut [(String, Box<dyn Watch>)], all: bool, ticks: u64) -> impl Iterator<Item = &mut Box<dyn Watch>> {
+    watches.iter_mut().map(|(_, watch)| watch).filter(move |watch| all || ticks.is_multiple_of(watch.every()))
+}
+
+/// The direct form.
+#[derive(Default)]
+struct Observer(Expectations);
+
+impl Part for Observer {
+    fn exchange(&mut self, world: &mut World) {
+        exchange(world, &mut self.0);
+    }
+
+    fn observe(&mut self, state: &State, world: &World) -> bool {
+        let Expectations { watches, all_ticks } = &mut self.0;
+        if due(watches, *all_ticks, state.clock.ticks).any(|watch| watch.needs_world()) {
+            return false;
+        }
+        let sight = Sight { world, bodies: &state.bodies, time: state.clock.time() };
+        due(watches, *all_ticks, state.clock.ticks).for_each(|watch| watch.observe(&sight));
+        true
+    }
+
+    fn observe_world(&mut self, world: &mut World) {
+        observe_tick(world);
+    }
 }
 
 /// Registers the expectations of this folder.

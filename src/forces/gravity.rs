@@ -9,6 +9,7 @@ use serde::Deserialize;
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
 use crate::tick::balance::EnergyTerms;
+use crate::tick::direct::{Direct, Part, State, Systems};
 use crate::tick::{Balance, Evaluate, EvaluateStage, ForceSlot, TickAppExt};
 use crate::world::Bodies;
 
@@ -38,6 +39,7 @@ pub struct Gravity(pub DVec2);
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
     app.add_packed_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
+    Direct::add(app.world_mut(), Systems { evaluate: 1, ..Systems::default() }, Weight(gravity));
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
 }
 
@@ -45,9 +47,28 @@ pub(super) fn plugin(app: &mut App) {
     app.register_section::<GravitySection>();
 }
 
+fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+    weigh(*gravity, &mut bodies, &mut balance);
+}
+
+/// The direct form.
+struct Weight(Gravity);
+
+impl Part for Weight {
+    fn exchange(&mut self, world: &mut World) {
+        self.0 = *world.resource();
+    }
+
+    fn evaluate(&mut self, stage: EvaluateStage, state: &mut State) {
+        if stage == EvaluateStage::Forces {
+            weigh(self.0, &mut state.bodies, &mut state.balance);
+        }
+    }
+}
+
 /// The weight is where the sum of forces begins: bodies have it as soon as their forces are cleared. It is left to be told
 /// which, and to be booked.
-fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+fn weigh(gravity: Gravity, bodies: &mut Bodies, balance: &mut Balance) {
     if bodies.field != Some(gravity.0) {
         bodies.field = Some(gravity.0);
         bodies.posed = false;

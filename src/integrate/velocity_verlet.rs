@@ -31,4 +31,8 @@ impl Integrator for VelocityVerlet {
         tick.evaluate(dt);
         tick.kick(dt / 2.0);
     }
+
+    fn is_direct(&self) -> bool {
+        true
+    }
 }

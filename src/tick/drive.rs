@@ -5,8 +5,10 @@ use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 use glam::DVec2;
 
 use super::balance::Totals;
+use super::direct::{Direct, Held, Systems, held, held_mut};
 use super::failure::{Failure, Wrong};
 use super::guard::EnergyGuard;
+use super::stopwatch;
 use super::travel::FarTravel;
 use super::{
     Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Indicator, Ledger, Models, Modes, SimTick, Span,
@@ -27,6 +29,7 @@ struct Running {
     evaluate: Schedule,
     modes: Schedule,
     has_modes: bool,
+    velocity_dependent: bool,
 }
 
 /// State of the drive between ticks.
@@ -65,20 +68,29 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let modes = take(world, Modes);
     let method = world.resource_mut::<Drive>().method.take().unwrap_or_default();
     let has_modes = !modes.graph().systems.is_empty();
-    let mut running = Box::new(Running { method, evaluate, modes, has_modes });
+    let velocity_dependent = world.resource::<Census>().velocity_dependent;
+    let mut running = Box::new(Running { method, evaluate, modes, has_modes, velocity_dependent });
     keep_components_current(world, &mut sim, &mut running.evaluate);
+    let mut direct = std::mem::take(&mut *world.get_resource_or_init::<Direct>());
+    let all_direct = direct.stands_for_all(Systems::of(&sim, &running.evaluate, &running.modes));
+    let may_be_direct = all_direct && running.method.0.is_direct();
     for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
         apply_only_what_is_deferred(world, schedule);
     }
     let mut drive = world.resource_mut::<Drive>();
     drive.stepped = false;
     drive.running = Some(running);
-    for _ in 0..ticks {
-        sim.run(world);
-        if world.resource::<Drive>().failure.is_some() {
-            break;
+    let mut left = ticks;
+    while left > 0 && world.resource::<Drive>().failure.is_none() {
+        // The first tick takes up what others changed.
+        if may_be_direct && left < ticks {
+            direct.hold(world, |world, direct| left = run_direct(world, direct, left));
+        } else {
+            sim.run(world);
+            left -= 1;
         }
     }
+    *world.resource_mut::<Direct>() = direct;
     if world.resource::<Evaluation>().stale {
         refresh(world);
     }
@@ -169,21 +181,39 @@ fn collect_forces(
     }
 }
 
+/// Runs ticks without schedules, as many as are left or until one fails. Returns how many are left then.
+fn run_direct(world: &mut World, direct: &mut Direct, mut left: u64) -> u64 {
+    while left > 0 && direct.state.drive.failure.is_none() {
+        direct.state.turn_to(stopwatch::Part::Integrate);
+        advance(world, Some(direct));
+        direct.observe(world);
+        left -= 1;
+    }
+    left
+}
+
 /// The system of [`Stage::Integrate`].
 pub(super) fn integrate(world: &mut World) {
-    let mut drive = world.resource_mut::<Drive>();
+    advance(world, None);
+}
+
+/// A tick, without what goes before and after it. The state is in the world, unless it is held.
+fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
+    let drive: &mut Drive = held_mut(world, direct.as_deref_mut());
     let mut running = drive.running.take().expect("ticks run inside `step`");
     let (first_of_batch, ordinary) = (!drive.stepped, drive.ordinary_tick);
     let current = drive.current;
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
-    let clock = *world.resource::<Clock>();
-    let Running { method, evaluate, modes, has_modes } = &mut *running;
+    let clock: Clock = *held(world, direct.as_deref());
+    let Running { method, evaluate, modes, has_modes, velocity_dependent } = &mut *running;
     let style = method.0.style();
     let mut tick = Tick {
         world,
+        direct: direct.as_deref_mut(),
         evaluate,
         modes,
         has_modes: *has_modes,
+        velocity_dependent: *velocity_dependent,
         style,
         fresh: !current || before.is_some(),
         looked_at: ordinary,
@@ -204,24 +234,33 @@ pub(super) fn integrate(world: &mut World) {
         Ledger::book_exchange(tick.world, before);
     }
     // Where all bodies are asleep the end of the tick is its beginning.
-    if !tick.world.resource::<Bodies>().all_asleep() {
+    if !tick.bodies().all_asleep() {
         if !style.is_staged() {
             tick.choose_modes(tick.begin, tick.end);
         }
         method.0.advance(&mut tick);
     }
     let alert = tick.alert;
-    world.resource_mut::<Clock>().ticks += 1;
-    let mut drive = world.resource_mut::<Drive>();
+    held_mut::<Clock>(world, direct.as_deref_mut()).ticks += 1;
+    let drive: &mut Drive = held_mut(world, direct.as_deref_mut());
     drive.running = Some(running);
     drive.current = true;
     drive.stepped = true;
     drive.energy.alert |= alert;
     let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
     if !travelled.is_finite() {
-        note_failure(world);
+        see_all(world, direct, note_failure);
     } else if energy.is_due(clock.ticks + 1, travel) {
-        look_closer(world, energy, travel);
+        see_all(world, direct, |world| look_closer(world, energy, travel));
+    }
+}
+
+/// Shows the world with all state in its place.
+#[cold]
+fn see_all(world: &mut World, direct: Option<&mut Direct>, see: impl FnOnce(&mut World)) {
+    match direct {
+        Some(direct) => direct.show(world, see),
+        None => see(world),
     }
 }
 
@@ -229,12 +268,24 @@ pub(super) fn integrate(world: &mut World) {
 fn refresh(world: &mut World) {
     let mut running = world.resource_mut::<Drive>().running.take().expect("put there by `step`");
     let clock = *world.resource::<Clock>();
-    let Running { method, evaluate, modes, has_modes } = &mut *running;
+    let Running { method, evaluate, modes, has_modes, velocity_dependent } = &mut *running;
     let (style, now) = (method.0.style(), clock.time());
-    let (looked_at, has_modes) = (true, *has_modes);
-    let (fresh, alert) = (false, false);
-    let mut tick =
-        Tick { world, evaluate, modes, has_modes, style, fresh, looked_at, dt: clock.dt, begin: now, end: now, alert };
+    let (has_modes, velocity_dependent) = (*has_modes, *velocity_dependent);
+    let mut tick = Tick {
+        world,
+        direct: None,
+        evaluate,
+        modes,
+        has_modes,
+        velocity_dependent,
+        style,
+        fresh: false,
+        looked_at: true,
+        dt: clock.dt,
+        begin: now,
+        end: now,
+        alert: false,
+    };
     tick.evaluate_stage(now);
     world.resource_mut::<Drive>().running = Some(running);
 }
@@ -304,9 +355,12 @@ pub fn energy_seen(world: &World) -> f64 {
 pub struct Tick<'a> {
     /// The world, for state of the integrator's own.
     pub world: &'a mut World,
+    /// What holds the state in place of the world; only for integrators that said that they look for it nowhere else.
+    direct: Option<&'a mut Direct>,
     evaluate: &'a mut Schedule,
     modes: &'a mut Schedule,
     has_modes: bool,
+    velocity_dependent: bool,
     pub(super) style: Style,
     /// Whether the state was changed by others since the last tick, or is the first of all.
     pub(super) fresh: bool,
@@ -324,7 +378,7 @@ pub struct Tick<'a> {
 impl Tick<'_> {
     /// Whether some force depends on velocities.
     pub fn velocity_dependent(&self) -> bool {
-        self.world.resource::<Census>().velocity_dependent
+        self.velocity_dependent
     }
 
     /// Whether some force other than those of contacts depends on velocities.
@@ -345,49 +399,62 @@ impl Tick<'_> {
             || !self.world.resource::<Bodies>().prescribed.motions.is_empty()
     }
 
+    /// State wherever it is.
+    #[inline(always)]
+    pub(super) fn held<R: Held>(&self) -> &R {
+        held(self.world, self.direct.as_deref())
+    }
+
+    /// State wherever it is, to be changed.
+    #[inline(always)]
+    pub(super) fn held_mut<R: Held>(&mut self) -> &mut R {
+        held_mut(self.world, self.direct.as_deref_mut())
+    }
+
     /// The packed state.
-    pub fn bodies(&mut self) -> Mut<'_, Bodies> {
-        self.world.resource_mut::<Bodies>()
+    pub fn bodies(&mut self) -> &mut Bodies {
+        self.held_mut()
     }
 
     /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
     pub fn evaluate(&mut self, elapsed: f64) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
+        // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
+        let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
+        let begin = self.begin;
+        let bodies = self.bodies();
         if elapsed == 0.0 {
             bodies.accept();
         }
-        // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
-        let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
-        let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
+        let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(begin, time));
         bodies.swap_estimate();
         bodies.pose();
         if let Some(driven) = driven {
             let smallest = bodies.smallest_radius;
-            let Drive { farthest, travelled, .. } = *self.world.resource::<Drive>();
+            let Drive { farthest, travelled, .. } = *self.held();
             self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
         }
         self.run_evaluation(time, elapsed);
-        let mut bodies = self.world.resource_mut::<Bodies>();
-        if std::mem::take(&mut bodies.disturbed) {
-            bodies.wake_all();
-            bodies.pose();
-            // No time has passed since: histories stay as they are.
-            self.run_evaluation(time, 0.0);
-            bodies = self.world.resource_mut::<Bodies>();
+        let bodies = self.bodies();
+        if !std::mem::take(&mut bodies.disturbed) {
+            return bodies.swap_estimate();
         }
-        bodies.swap_estimate();
+        bodies.wake_all();
+        bodies.pose();
+        // No time has passed since: histories stay as they are.
+        self.run_evaluation(time, 0.0);
+        self.bodies().swap_estimate();
     }
 
     /// Bodies are posed.
     fn run_evaluation(&mut self, time: f64, elapsed: f64) {
-        *self.world.resource_mut::<Balance>() = Balance::default();
-        self.announce(time, elapsed, self.style);
-        self.evaluate.run(self.world);
-    }
-
-    fn announce(&mut self, time: f64, elapsed: f64, style: Style) {
-        let mut evaluation = self.world.resource_mut::<Evaluation>();
+        *self.held_mut() = Balance::default();
+        let style = self.style;
+        let evaluation: &mut Evaluation = self.held_mut();
         *evaluation = Evaluation { time, elapsed, style, count: evaluation.count + 1, stale: false };
+        match &mut self.direct {
+            Some(direct) => direct.evaluate(),
+            None => self.evaluate.run(self.world),
+        }
     }
 
     /// Whether the state is the first of all, or was changed by others since the last tick.
@@ -397,8 +464,8 @@ impl Tick<'_> {
 
     /// Lets forces and contacts choose their modes from `begin` to `end`.
     pub fn choose_modes(&mut self, begin: f64, end: f64) {
-        if !self.world.resource::<Bodies>().prescribed.motions.is_empty() {
-            let mut bodies = self.bodies();
+        let bodies = self.bodies();
+        if !bodies.prescribed.motions.is_empty() {
             let middle = 0.5 * (begin + end);
             let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
             // On another piece of a path what rides on it has other forces from its first moment on.
@@ -410,10 +477,13 @@ impl Tick<'_> {
         if self.has_modes {
             let whole = begin == self.begin && end == self.end;
             let length = if whole { self.dt } else { end - begin };
-            *self.world.resource_mut::<Span>() = Span { begin, end, length };
-            self.modes.run(self.world);
+            *self.held_mut() = Span { begin, end, length };
+            match &mut self.direct {
+                Some(direct) => direct.choose_modes(),
+                None => self.modes.run(self.world),
+            }
             // What is held by contacts depends on all other forces.
-            if self.style.is_staged() && self.world.resource::<Evaluation>().stale {
+            if self.style.is_staged() && self.held::<Evaluation>().stale {
                 self.evaluate_stage(begin);
                 self.settle();
             }
@@ -557,7 +627,7 @@ impl Tick<'_> {
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
     pub fn kick(&mut self, dt: f64) {
         self.book(dt);
-        self.world.resource_mut::<Bodies>().kick(dt);
+        self.bodies().kick(dt);
     }
 
     /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
@@ -566,14 +636,14 @@ impl Tick<'_> {
     /// place of the velocities, which stay as they are.
     pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
         self.book(kick);
-        let mut bodies = self.world.resource_mut::<Bodies>();
+        let bodies = self.bodies();
         let (travelled, smallest) = (bodies.advance(kick, drift, ahead), bodies.smallest_radius);
         self.note_travel(travelled, smallest);
     }
 
     fn book(&mut self, dt: f64) {
-        let balance = *self.world.resource::<Balance>();
+        let balance: Balance = *self.held();
         self.alert |= balance.alert;
-        self.world.resource_mut::<Ledger>().book(&balance, dt);
+        self.held_mut::<Ledger>().book(&balance, dt);
     }
 }

@@ -24,6 +24,7 @@
 
 pub mod balance;
 pub mod clock;
+pub(crate) mod direct;
 mod drive;
 mod failure;
 pub mod flow;
@@ -44,6 +45,7 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
+use direct::{Direct, Systems};
 pub(crate) use drive::foresee_components;
 pub use drive::{Tick, energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
@@ -123,6 +125,13 @@ pub(crate) struct Census {
     pub changing_forces: bool,
 }
 
+impl Census {
+    /// Whether some force may change with time in a state that does not.
+    pub fn changing_forces(&self) -> bool {
+        self.changing_forces || self.ordinary_forces > 0
+    }
+}
+
 /// How plugins add systems to the tick.
 pub trait TickAppExt {
     /// Adds the schedules and resources of the tick. Adding it twice does nothing.
@@ -179,6 +188,7 @@ impl TickAppExt for App {
             .init_resource::<Stability>()
             .init_resource::<drive::Drive>()
             .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
+        Direct::stand_for(&mut self.world_mut().get_resource_or_init(), Systems { tick: 1, ..Default::default() });
         self.add_packed_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))
     }
 

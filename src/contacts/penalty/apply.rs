@@ -220,6 +220,22 @@ impl Sink<'_> {
     }
 }
 
+/// The state that contacts act on.
+pub(super) struct Shared<'a> {
+    pub bodies: &'a mut Bodies,
+    pub balance: &'a mut Balance,
+    pub ledger: &'a mut Ledger,
+    pub evaluation: &'a Evaluation,
+}
+
+/// What contacts have beside it.
+pub(super) struct Own<'a> {
+    pub pairs: &'a CandidatePairs,
+    pub contacts: &'a mut PenaltyContacts,
+    pub rolling: Option<&'a mut RollingContacts>,
+    pub forces: Option<&'a mut ContactForces>,
+}
+
 /// The system of [`crate::tick::EvaluateStage::Contacts`].
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are its declaration of access")]
 pub(super) fn apply_penalty<N: NormalForce>(
@@ -231,39 +247,53 @@ pub(super) fn apply_penalty<N: NormalForce>(
     mut deepest: ResMut<DeepestOverlap>,
     evaluation: Res<Evaluation>,
     mut forces: Option<ResMut<ContactForces>>,
-    (touches, mut rolling): (Option<ResMut<Touches>>, Option<ResMut<RollingContacts>>),
+    (mut touches, mut rolling): (Option<ResMut<Touches>>, Option<ResMut<RollingContacts>>),
+) {
+    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
+    let (rolling, forces) = (rolling.as_deref_mut(), forces.as_deref_mut());
+    let own = Own { pairs: &pairs, contacts: &mut contacts, rolling, forces };
+    apply::<N>(shared, own, &mut deepest, touches.as_deref_mut());
+}
+
+/// All contacts follow the state, or are evaluated as in a stage of a step.
+pub(super) fn apply<N: NormalForce>(
+    Shared { bodies, balance, ledger, evaluation }: Shared,
+    Own { pairs, contacts, rolling, mut forces }: Own,
+    deepest: &mut DeepestOverlap,
+    touches: Option<&mut Touches>,
 ) {
     if contacts.version != pairs.version {
-        carry_history::<N>(&mut contacts, &bodies, &pairs);
-        contacts.records.prepare(&bodies, &pairs.atoms);
-        contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
+        carry_history::<N>(contacts, bodies, pairs);
+        contacts.records.prepare(bodies, &pairs.atoms);
+        contacts.lay_asleep(bodies, pairs, forces.as_deref_mut());
     }
     if bodies.asleep.is_empty() {
         contacts.atoms.wake_all();
         contacts.walls.wake_all();
     }
     if let Some(forces) = &mut forces {
-        forces.clear(&bodies);
+        forces.clear(bodies);
     }
     let mut losses = Losses::default();
-    let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
+    let mut sink = Sink { bodies, balance, forces };
     if evaluation.style.is_staged() {
-        if let Some(rolling) = &mut rolling {
-            rolling.carry(&pairs);
-        }
-        staged::evaluate::<N>(&mut contacts, rolling.as_deref_mut(), &pairs, evaluation.style, &mut sink);
-        if let Some(mut touches) = touches {
-            note_touches(&contacts, &bodies, &pairs, &mut touches);
+        let rolling = rolling.map(|rolling| {
+            rolling.carry(pairs);
+            rolling
+        });
+        staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, &mut sink);
+        if let Some(touches) = touches {
+            note_touches(contacts, sink.bodies, pairs, touches);
         }
         return;
     }
     let (time, elapsed) = (evaluation.time, evaluation.elapsed);
-    let PenaltyContacts { laws, atoms, walls, records, .. } = &mut *contacts;
+    let PenaltyContacts { laws, atoms, walls, records, .. } = contacts;
     if !pairs.atoms.is_empty() {
         let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
         records.update(sink.bodies, &pairs.atoms, atoms, path);
         let moment = Moment { path, time, elapsed };
-        losses = kernel::follow_pairs::<N>(&records.list, &pairs.atoms, atoms, laws, &mut sink, &mut deepest, moment);
+        losses = kernel::follow_pairs::<N>(&records.list, &pairs.atoms, atoms, laws, &mut sink, deepest, moment);
     }
     let mut number = 0;
     while let Some(block) = (number < walls.awake_blocks()).then(|| walls.awake_block(number)) {
@@ -271,14 +301,14 @@ pub(super) fn apply_penalty<N: NormalForce>(
         for place in BLOCK * block..pairs.walls.len().min(BLOCK * block + BLOCK) {
             if !walls.is_asleep(place) {
                 let pair = pairs.walls[place];
-                follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), &mut deepest, (time, elapsed));
+                follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), deepest, (time, elapsed));
             }
         }
     }
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
-    if let Some(mut touches) = touches {
-        note_touches(&contacts, &bodies, &pairs, &mut touches);
+    if let Some(touches) = touches {
+        note_touches(contacts, sink.bodies, pairs, touches);
     }
 }
 

@@ -1,0 +1,239 @@
+//! Ticks without schedules.
+//!
+//! To look a resource up takes some hundred instructions, to have a system run some hundred more: in a world of a few bodies
+//! that is nearly as much as its physics. So models of the engine have a *direct form* beside their systems: a [`Part`], which
+//! owns what it works on while ticks run. Where the parts stand for every system of the three schedules, all ticks of a batch
+//! but the first take the state out of the world once and call one part after the other. A system more, whoever wrote it,
+//! and all ticks go through the schedules.
+//!
+//! Both ways call the same functions in the same order, so not a bit of the state depends on which is taken.
+
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::Schedule;
+
+use super::drive::Drive;
+use super::stopwatch::{self, Stopwatch};
+use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Span};
+use crate::world::Bodies;
+
+/// What every part works on. While it is here, the world holds nothing of it.
+#[derive(Default)]
+pub(crate) struct State {
+    pub bodies: Bodies,
+    pub balance: Balance,
+    pub ledger: Ledger,
+    pub evaluation: Evaluation,
+    pub span: Span,
+    pub clock: Clock,
+    pub(super) drive: Drive,
+    stopwatch: Option<Stopwatch>,
+}
+
+impl State {
+    fn exchange(&mut self, world: &mut World) {
+        exchange(world, &mut self.bodies);
+        exchange(world, &mut self.balance);
+        exchange(world, &mut self.ledger);
+        exchange(world, &mut self.evaluation);
+        exchange(world, &mut self.span);
+        exchange(world, &mut self.clock);
+        exchange(world, &mut self.drive);
+    }
+
+    /// From now on the time counts for another part of the tick, if it is measured.
+    #[inline]
+    pub fn turn_to(&mut self, part: stopwatch::Part) {
+        if let Some(stopwatch) = &mut self.stopwatch {
+            stopwatch.turn_to(part);
+        }
+    }
+}
+
+/// A resource and what is held of it change places: to take it out of the world, and to give it back.
+pub(crate) fn exchange<R: Resource<Mutability = Mutable>>(world: &mut World, held: &mut R) {
+    std::mem::swap(held, &mut *world.resource_mut::<R>());
+}
+
+/// The same for a resource that may not be there.
+pub(crate) fn exchange_any<R: Resource<Mutability = Mutable> + Default>(world: &mut World, held: &mut Option<R>) {
+    *held =
+        world.get_resource_mut::<R>().map(|mut there| std::mem::replace(&mut *there, held.take().unwrap_or_default()));
+}
+
+/// The direct form of the systems of a model.
+pub(crate) trait Part: Send + Sync + 'static {
+    /// Takes resources of its own out of the world, or gives them back: each changes places with what is held of it.
+    fn exchange(&mut self, _: &mut World) {}
+
+    /// What its systems in [`Modes`](super::Modes) do.
+    fn choose_modes(&mut self, _: &mut State) {}
+
+    /// What its systems do in a stage of [`Evaluate`](super::Evaluate).
+    fn evaluate(&mut self, _: EvaluateStage, _: &mut State) {}
+
+    /// What its systems in [`Stage::Observe`](super::Stage::Observe) do. If they have to see the whole world it does nothing and
+    /// says so; then [`Part::observe_world`] is called with all state in its place.
+    fn observe(&mut self, _: &State, _: &World) -> bool {
+        true
+    }
+
+    /// What its systems in [`Stage::Observe`](super::Stage::Observe) do.
+    fn observe_world(&mut self, _: &mut World) {}
+}
+
+/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Systems {
+    pub tick: usize,
+    pub evaluate: usize,
+    pub modes: usize,
+}
+
+impl Systems {
+    /// Those of these schedules.
+    pub fn of(tick: &Schedule, evaluate: &Schedule, modes: &Schedule) -> Self {
+        let count = |schedule: &Schedule| schedule.graph().systems.len();
+        Self { tick: count(tick), evaluate: count(evaluate), modes: count(modes) }
+    }
+}
+
+/// The parts of a world, and what they work on.
+#[derive(Resource, Default)]
+pub(crate) struct Direct {
+    pub state: Box<State>,
+    parts: Vec<Box<dyn Part>>,
+    /// Systems for which the parts stand.
+    systems: Systems,
+}
+
+impl Direct {
+    /// Adds a part that stands for so many systems.
+    pub fn add(world: &mut World, systems: Systems, part: impl Part) {
+        let mut direct = world.get_resource_or_init::<Self>();
+        direct.parts.push(Box::new(part));
+        direct.stand_for(systems);
+    }
+
+    /// So many systems more are stood for.
+    pub fn stand_for(&mut self, systems: Systems) {
+        self.systems.tick += systems.tick;
+        self.systems.evaluate += systems.evaluate;
+        self.systems.modes += systems.modes;
+    }
+
+    /// Whether there is a part for each of the systems that there are.
+    pub fn stands_for_all(&self, systems: Systems) -> bool {
+        self.systems == systems
+    }
+
+    /// Takes the state out of the world while `see` goes on.
+    pub fn hold<U>(&mut self, world: &mut World, see: impl FnOnce(&mut World, &mut Self) -> U) -> U {
+        self.exchange(world);
+        self.state.stopwatch = world.remove_resource();
+        let seen = see(world, self);
+        if let Some(stopwatch) = self.state.stopwatch.take() {
+            world.insert_resource(stopwatch);
+        }
+        self.exchange(world);
+        seen
+    }
+
+    /// Shows the world with all state in its place, while it is held.
+    pub fn show<U>(&mut self, world: &mut World, see: impl FnOnce(&mut World) -> U) -> U {
+        self.exchange(world);
+        let seen = see(world);
+        self.exchange(world);
+        seen
+    }
+
+    fn exchange(&mut self, world: &mut World) {
+        self.state.exchange(world);
+        for part in &mut self.parts {
+            part.exchange(world);
+        }
+    }
+
+    /// What [`Modes`](super::Modes) does.
+    pub fn choose_modes(&mut self) {
+        use stopwatch::Part::{Integrate, ModesOfContacts};
+        self.state.turn_to(ModesOfContacts);
+        for part in &mut self.parts {
+            part.choose_modes(&mut self.state);
+        }
+        self.state.turn_to(Integrate);
+    }
+
+    /// What [`Evaluate`](super::Evaluate) does.
+    pub fn evaluate(&mut self) {
+        use stopwatch::Part as Timed;
+        let stages = [
+            (Timed::Bounds, EvaluateStage::Bounds),
+            (Timed::Forces, EvaluateStage::Forces),
+            (Timed::Search, EvaluateStage::Contacts),
+            (Timed::Joints, EvaluateStage::Joints),
+        ];
+        for (timed, stage) in stages {
+            self.state.turn_to(timed);
+            for part in &mut self.parts {
+                part.evaluate(stage, &mut self.state);
+            }
+        }
+        self.state.turn_to(Timed::Integrate);
+    }
+
+    /// What [`Stage::Observe`](super::Stage::Observe) does.
+    pub fn observe(&mut self, world: &mut World) {
+        self.state.turn_to(stopwatch::Part::Observe);
+        for number in 0..self.parts.len() {
+            if !self.parts[number].observe(&self.state, world) {
+                self.exchange(world);
+                self.parts[number].observe_world(world);
+                self.exchange(world);
+            }
+        }
+        self.state.turn_to(stopwatch::Part::Between);
+    }
+}
+
+/// State that is looked up in the world, unless a [`State`] holds it.
+pub(super) trait Held: Resource<Mutability = Mutable> {
+    fn of(state: &State) -> &Self;
+    fn of_mut(state: &mut State) -> &mut Self;
+}
+
+macro_rules! held {
+    ($($type:ty: $field:ident),*) => {
+        $(impl Held for $type {
+            #[inline(always)]
+            fn of(state: &State) -> &Self {
+                &state.$field
+            }
+
+            #[inline(always)]
+            fn of_mut(state: &mut State) -> &mut Self {
+                &mut state.$field
+            }
+        })*
+    };
+}
+
+held!(Bodies: bodies, Balance: balance, Ledger: ledger, Evaluation: evaluation, Span: span, Clock: clock, Drive: drive);
+
+/// State wherever it is.
+#[inline(always)]
+pub(super) fn held<'a, R: Held>(world: &'a World, direct: Option<&'a Direct>) -> &'a R {
+    match direct {
+        Some(direct) => R::of(&direct.state),
+        None => world.resource(),
+    }
+}
+
+/// State wherever it is, to be changed.
+#[inline(always)]
+pub(super) fn held_mut<'a, R: Held>(world: &'a mut World, direct: Option<&'a mut Direct>) -> &'a mut R {
+    match direct {
+        Some(direct) => R::of_mut(&mut direct.state),
+        None => world.resource_mut::<R>().into_inner(),
+    }
+}
