@@ -9,7 +9,7 @@ use serde::Deserialize;
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
 use crate::tick::balance::EnergyTerms;
-use crate::tick::direct::{Direct, Part, State, Systems};
+use crate::tick::direct::{Direct, Energies, Part, State, Systems};
 use crate::tick::{Balance, Evaluate, EvaluateStage, ForceSlot, TickAppExt};
 use crate::world::Bodies;
 
@@ -39,7 +39,7 @@ pub struct Gravity(pub DVec2);
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
     app.add_packed_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
-    Direct::add(app.world_mut(), Systems { evaluate: 1, ..Systems::default() }, Weight(gravity));
+    Direct::add(app.world_mut(), Systems { evaluate: 1, energies: 1, ..Systems::default() }, Weight(gravity));
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
 }
 
@@ -64,6 +64,10 @@ impl Part for Weight {
             weigh(self.0, &mut state.bodies, &mut state.balance);
         }
     }
+
+    fn energies(&self, state: &State) -> Energies {
+        Energies { potential: energy_in(self.0, &state.bodies), elastic: 0.0 }
+    }
 }
 
 /// The weight is where the sum of forces begins: bodies have it as soon as their forces are cleared. It is left to be told
@@ -80,7 +84,10 @@ fn weigh(gravity: Gravity, bodies: &mut Bodies, balance: &mut Balance) {
 }
 
 fn potential_energy(world: &World) -> f64 {
-    let (bodies, gravity) = (world.resource::<Bodies>(), world.resource::<Gravity>());
+    energy_in(*world.resource(), world.resource())
+}
+
+fn energy_in(gravity: Gravity, bodies: &Bodies) -> f64 {
     let of = |body: usize| -bodies.mass[body] * gravity.0.dot(bodies.position[body]);
     (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
 }

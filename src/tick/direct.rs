@@ -12,6 +12,7 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::Schedule;
 
+use super::balance::{EnergyTerms, Totals};
 use super::drive::Drive;
 use super::stopwatch::{self, Stopwatch};
 use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Span};
@@ -72,29 +73,83 @@ pub(crate) trait Part: Send + Sync + 'static {
     /// What its systems do in a stage of [`Evaluate`](super::Evaluate).
     fn evaluate(&mut self, _: EvaluateStage, _: &mut State) {}
 
-    /// What its systems in [`Stage::Observe`](super::Stage::Observe) do. If they have to see the whole world it does nothing and
-    /// says so; then [`Part::observe_world`] is called with all state in its place.
-    fn observe(&mut self, _: &State, _: &World) -> bool {
-        true
+    /// What it adds to [`EnergyTerms`].
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
     }
-
-    /// What its systems in [`Stage::Observe`](super::Stage::Observe) do.
-    fn observe_world(&mut self, _: &mut World) {}
 }
 
-/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes).
+/// Energies in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Energies {
+    /// In fields.
+    pub potential: f64,
+    /// In springs and contacts.
+    pub elastic: f64,
+}
+
+/// The direct form of a system in [`Stage::Observe`](super::Stage::Observe).
+pub(crate) trait Observer: Send + Sync + 'static {
+    /// See [`Part::exchange`].
+    fn exchange(&mut self, _: &mut World);
+
+    /// Looks at the new state. If it has to see the whole world it does nothing and says so; then [`Observer::observe_world`] is
+    /// called with all state in its place.
+    fn observe(&mut self, state: &State, accounts: Accounts, world: &World) -> bool;
+
+    /// Looks at the new state in the world.
+    fn observe_world(&mut self, _: &mut World);
+}
+
+/// The accounts of the present state, wherever it is.
+#[derive(Clone, Copy)]
+pub(crate) enum Accounts<'a> {
+    World(&'a World),
+    Held(&'a State, &'a [Box<dyn Part>]),
+}
+
+impl<'a> Accounts<'a> {
+    /// Energies and momenta.
+    pub fn totals(self) -> Totals {
+        let (state, parts) = match self {
+            Self::World(world) => return Totals::of(world),
+            Self::Held(state, parts) => (state, parts),
+        };
+        let mut sum = Energies::default();
+        for part in parts {
+            let Energies { potential, elastic } = part.energies(state);
+            sum.potential += potential;
+            sum.elastic += elastic;
+        }
+        Totals::with(&state.bodies, sum.potential, sum.elastic)
+    }
+
+    /// What has gone in and out.
+    pub fn ledger(self) -> &'a Ledger {
+        match self {
+            Self::World(world) => world.resource(),
+            Self::Held(state, _) => &state.ledger,
+        }
+    }
+}
+
+/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes), and how
+/// many energies in [`EnergyTerms`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Systems {
     pub tick: usize,
     pub evaluate: usize,
     pub modes: usize,
+    pub energies: usize,
 }
 
 impl Systems {
     /// Those of these schedules.
-    pub fn of(tick: &Schedule, evaluate: &Schedule, modes: &Schedule) -> Self {
+    pub fn of(world: &World, tick: &Schedule, evaluate: &Schedule, modes: &Schedule) -> Self {
         let count = |schedule: &Schedule| schedule.graph().systems.len();
-        Self { tick: count(tick), evaluate: count(evaluate), modes: count(modes) }
+        let terms = world.get_resource::<EnergyTerms>();
+        let energies = terms.map_or(0, |terms| terms.potential.len() + terms.elastic.len());
+        Self { tick: count(tick), evaluate: count(evaluate), modes: count(modes), energies }
     }
 }
 
@@ -103,6 +158,7 @@ impl Systems {
 pub(crate) struct Direct {
     pub state: Box<State>,
     parts: Vec<Box<dyn Part>>,
+    observers: Vec<Box<dyn Observer>>,
     /// Systems for which the parts stand.
     systems: Systems,
 }
@@ -115,11 +171,19 @@ impl Direct {
         direct.stand_for(systems);
     }
 
+    /// Adds the direct form of one system in [`Stage::Observe`](super::Stage::Observe).
+    pub fn add_observer(world: &mut World, observer: impl Observer) {
+        let mut direct = world.get_resource_or_init::<Self>();
+        direct.observers.push(Box::new(observer));
+        direct.stand_for(Systems { tick: 1, ..Systems::default() });
+    }
+
     /// So many systems more are stood for.
     pub fn stand_for(&mut self, systems: Systems) {
         self.systems.tick += systems.tick;
         self.systems.evaluate += systems.evaluate;
         self.systems.modes += systems.modes;
+        self.systems.energies += systems.energies;
     }
 
     /// Whether there is a part for each of the systems that there are.
@@ -151,6 +215,9 @@ impl Direct {
         self.state.exchange(world);
         for part in &mut self.parts {
             part.exchange(world);
+        }
+        for observer in &mut self.observers {
+            observer.exchange(world);
         }
     }
 
@@ -185,10 +252,11 @@ impl Direct {
     /// What [`Stage::Observe`](super::Stage::Observe) does.
     pub fn observe(&mut self, world: &mut World) {
         self.state.turn_to(stopwatch::Part::Observe);
-        for number in 0..self.parts.len() {
-            if !self.parts[number].observe(&self.state, world) {
+        for number in 0..self.observers.len() {
+            let accounts = Accounts::Held(&self.state, &self.parts);
+            if !self.observers[number].observe(&self.state, accounts, world) {
                 self.exchange(world);
-                self.parts[number].observe_world(world);
+                self.observers[number].observe_world(world);
                 self.exchange(world);
             }
         }
@@ -235,5 +303,78 @@ pub(super) fn held_mut<'a, R: Held>(world: &'a mut World, direct: Option<&'a mut
     match direct {
         Some(direct) => R::of_mut(&mut direct.state),
         None => world.resource_mut::<R>().into_inner(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy_ecs::schedule::{ScheduleLabel, Schedules};
+
+    use super::*;
+    use crate::Simulation;
+    use crate::contacts::DeepestOverlap;
+    use crate::scene::Source;
+    use crate::tick::{Evaluate, Modes, SimTick, add_packed_observer};
+    use crate::world::hash::state_hash;
+
+    /// Blocks that fall into a corner and come to rest, each kind of part beside the others.
+    fn scene(method: &str, contacts: &str) -> Source {
+        let block = |number: usize| {
+            format!(
+                "(name: \"{number}\", at: ({}, {}), spin: {number}, material: \"stone\",
+                  atoms: Picture(spacing: 0.1, mass: 0.02, rows: [\"##\", \"##\"])),",
+                0.3 + 0.25 * (number % 3) as f64,
+                0.3 + 0.3 * number as f64
+            )
+        };
+        let blocks: String = (0..6).map(block).collect();
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 2, tick: 0.0005, method: {method}),
+            gravity: (0.1, -9.81), contacts: Penalty({contacts}),
+            materials: {{ \"stone\": (stiffness: 4000, friction: 0.4, inelasticity: 0.4) }},
+            walls: [
+                (name: \"floor\", left: (1, 0), right: (0, 0), material: \"stone\"),
+                (name: \"left\", left: (0, 0), right: (0, 1), material: \"stone\"),
+                (name: \"right\", left: (1.1, 1), right: (1.1, 0), material: \"stone\"),
+            ],
+            bodies: [{blocks}],
+            sensors: [ContactForce(on: \"floor\"), Energy()],
+            expect: [Inside(of: \"*\", box: ((0, 0), (1.1, 3))), Channel(name: \"energy.residual\", below: 0.01),
+                Channel(name: \"0.position.y\", below: 1)])"
+        );
+        Source::new("direct.ron", text)
+    }
+
+    fn is_direct(simulation: &Simulation) -> bool {
+        let schedules = simulation.world().resource::<Schedules>();
+        let [tick, evaluate, modes] =
+            [SimTick.intern(), Evaluate.intern(), Modes.intern()].map(|label| schedules.get(label).unwrap());
+        let systems = Systems::of(simulation.world(), tick, evaluate, modes);
+        simulation.world().resource::<Direct>().stands_for_all(systems)
+    }
+
+    #[test]
+    fn both_ways_give_the_same_bits() {
+        let laws = ["", "normal: Dashpot, damping: 2", "tangential: None", "rolling: Spring(friction: 0.05)"];
+        for (method, contacts) in
+            laws.iter().flat_map(|law| ["VelocityVerlet", "SemiImplicitEuler"].map(|method| (method, law)))
+        {
+            let load = || Simulation::load(&scene(method, contacts)).unwrap_or_else(|errors| panic!("{errors}"));
+            let (mut direct, mut scheduled) = (load(), load());
+            // One system more is enough.
+            add_packed_observer(scheduled.world_mut(), || {});
+            for tick in [1, 2, 9, 1000, direct.ticks()] {
+                direct.run_to_tick(tick).unwrap();
+                scheduled.run_to_tick(tick).unwrap();
+                assert_eq!(state_hash(direct.bodies()), state_hash(scheduled.bodies()), "{method}, {contacts}, {tick}");
+            }
+            assert!(is_direct(&direct) && !is_direct(&scheduled));
+            assert_eq!(direct.outcomes(), scheduled.outcomes());
+            let [direct, scheduled] = [direct.world(), scheduled.world()];
+            assert_eq!(direct.resource::<Ledger>(), scheduled.resource::<Ledger>());
+            assert_eq!(direct.resource::<Balance>(), scheduled.resource::<Balance>());
+            assert_eq!(direct.resource::<Evaluation>(), scheduled.resource::<Evaluation>());
+            assert_eq!(direct.resource::<DeepestOverlap>().share, scheduled.resource::<DeepestOverlap>().share);
+        }
     }
 }

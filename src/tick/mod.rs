@@ -21,6 +21,9 @@
 //! ordinary systems pays nothing for that. A system in [`Stage::Begin`] that changes components, spawns or despawns is
 //! noticed too, and the forces are evaluated anew before the tick; one that changes anything else that forces depend on
 //! says so with [`Bodies::touched`](crate::world::Bodies::touched).
+//!
+//! **Direct forms.** Where all systems are the engine's own and have one, ticks call them without these schedules: see
+//! `direct.rs`.
 
 pub mod balance;
 pub mod clock;
@@ -30,6 +33,7 @@ mod failure;
 pub mod flow;
 mod following;
 mod guard;
+mod inside;
 pub mod models;
 pub mod response;
 pub mod stability;
@@ -47,10 +51,11 @@ pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
 use direct::{Direct, Systems};
 pub(crate) use drive::foresee_components;
-pub use drive::{Tick, energy_seen, set_method, step};
+pub use drive::{energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
+pub use inside::Tick;
 pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use travel::{FarTravel, far_travel, largest_travel};

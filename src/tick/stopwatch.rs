@@ -138,7 +138,7 @@ pub fn watch(world: &mut World) {
     );
     // Direct forms tell the time on their own.
     let mut direct = world.get_resource_or_init::<Direct>();
-    direct.stand_for(Systems { tick: 4, evaluate: 6, modes: 0 });
+    direct.stand_for(Systems { tick: 4, evaluate: 6, ..Systems::default() });
     let mut census = world.get_resource_or_init::<Census>();
     census.packed_in_tick += 4;
     census.packed_in_evaluate += 6;

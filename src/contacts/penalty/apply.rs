@@ -9,7 +9,7 @@ use super::critical::Watch;
 use super::follow::Touch;
 use super::kernel::{self, Moment, Records};
 use super::law::{LawTable, PairLaw, Side};
-use super::list::ContactList;
+use super::list::{ContactList, lanes};
 use super::normal::{Approach, Mode, NormalForce};
 use super::patience::Patience;
 use super::rest::{Rest, Sleep};
@@ -289,26 +289,53 @@ pub(super) fn apply<N: NormalForce>(
     }
     let (time, elapsed) = (evaluation.time, evaluation.elapsed);
     let PenaltyContacts { laws, atoms, walls, records, .. } = contacts;
+    let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
     if !pairs.atoms.is_empty() {
-        let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
         records.update(sink.bodies, &pairs.atoms, atoms, path);
         let moment = Moment { path, time, elapsed };
         losses = kernel::follow_pairs::<N>(&records.list, &pairs.atoms, atoms, laws, &mut sink, deepest, moment);
     }
-    let mut number = 0;
-    while let Some(block) = (number < walls.awake_blocks()).then(|| walls.awake_block(number)) {
-        number += 1;
-        for place in BLOCK * block..pairs.walls.len().min(BLOCK * block + BLOCK) {
-            if !walls.is_asleep(place) {
-                let pair = pairs.walls[place];
-                follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), deepest, (time, elapsed));
-            }
-        }
-    }
+    follow_walls::<N>((walls, &pairs.walls), laws, (&mut sink, &mut losses), deepest, Moment { path, time, elapsed });
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
     if let Some(touches) = touches {
         note_touches(contacts, sink.bodies, pairs, touches);
+    }
+}
+
+/// Atoms near walls follow their motion.
+#[inline]
+fn follow_walls<N: NormalForce>(
+    (list, pairs): (&mut ContactList, &[WallPair]),
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    Moment { path, time, elapsed }: Moment,
+) {
+    for number in 0..list.awake_blocks() {
+        let block = list.awake_block(number);
+        // Nobody can have come near since it was looked at last.
+        if list.is_early(block, path) {
+            continue;
+        }
+        let pairs = &pairs[BLOCK * block..];
+        // Those that are asleep may touch.
+        let mut near = list.asleep_in(block) != 0;
+        let mut gap = f64::INFINITY;
+        for lane in lanes(list.awake_in(block)) {
+            let WallPair { wall, atom } = pairs[lane];
+            let (wall, atom) = (&sink.bodies.walls[wall as usize], atom as usize);
+            let apart = (sink.bodies.atom_place(atom) - wall.point).dot(wall.normal) - sink.bodies.atom_radius[atom];
+            let place = BLOCK * block + lane;
+            if apart >= 0.0 && !list.is_touching(place) {
+                gap = gap.min(apart);
+            } else {
+                near = true;
+                follow_wall::<N>((list, place), pairs[lane], laws, (sink, losses), deepest, (time, elapsed));
+            }
+        }
+        // Half of it: more than rounding can take.
+        list.due[block] = if near { f64::NEG_INFINITY } else { path + 0.5 * gap };
     }
 }
 
@@ -325,9 +352,6 @@ fn follow_wall<N: NormalForce>(
     let packed = sink.bodies.walls[wall as usize];
     let end = End::of(sink.bodies, atom);
     let height = (sink.bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
-    if height >= end.radius && !list.is_touching(place) {
-        return;
-    }
     let mut contact = list.get(place);
     let law = laws.get(contact.law);
     let normal = packed.normal;

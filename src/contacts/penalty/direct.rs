@@ -11,7 +11,7 @@ use super::rolling::{self, RollingContacts};
 use crate::bounds::Bounds;
 use crate::contacts::events::Touches;
 use crate::contacts::{CandidatePairs, ContactForces, DeepestOverlap};
-use crate::tick::direct::{Part, State, exchange, exchange_any};
+use crate::tick::direct::{Energies, Part, State, exchange, exchange_any};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Census, EvaluateStage, Stability, stopwatch};
 
@@ -62,6 +62,12 @@ impl<N: NormalForce> Part for Contacts<N> {
         exchange_any(world, &mut self.touches);
         exchange_any(world, &mut self.steady);
         self.changing_forces = world.resource::<Census>().changing_forces();
+    }
+
+    fn energies(&self, state: &State) -> Energies {
+        let rolling = self.rolling.as_ref();
+        let rolling = rolling.map_or(0.0, |rolling| rolling.energy(&state.bodies, &self.pairs, &self.contacts));
+        Energies { potential: 0.0, elastic: self.contacts.energy() + rolling }
     }
 
     fn choose_modes(&mut self, state: &mut State) {

@@ -207,6 +207,12 @@ impl ContactList {
         self.asleep.get(block).copied().unwrap_or(0)
     }
 
+    /// Which contacts of a block are there and not asleep.
+    #[inline(always)]
+    pub(super) fn awake_in(&self, block: usize) -> u8 {
+        there(self.len - BLOCK * block) & !self.asleep_in(block)
+    }
+
     /// Places of those that are held along their normal and are not asleep, in order.
     pub(super) fn awake_held(&self) -> impl Iterator<Item = usize> + '_ {
         let held = |block: &usize| self.phases[*block].loading & self.phases[*block].unloading;
@@ -272,6 +278,12 @@ impl ContactList {
     }
 }
 
+/// The bits of a block from whose beginning on there are so many contacts.
+#[inline(always)]
+fn there(count: usize) -> u8 {
+    (u16::MAX >> (2 * BLOCK - count.min(BLOCK))) as u8
+}
+
 /// The contacts of some blocks in a row. Blocks are counted from the first of them.
 pub(super) struct ListPart<'a> {
     /// The first block, counted in the whole list.
@@ -320,7 +332,7 @@ impl ListPart<'_> {
     /// Which contacts of a block are there and not asleep.
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {
-        (u16::MAX >> (2 * BLOCK - self.count_in(block))) as u8 & !self.asleep.get(block).copied().unwrap_or(0)
+        there(self.count_in(block)) & !self.asleep.get(block).copied().unwrap_or(0)
     }
 }
 

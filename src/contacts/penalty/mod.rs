@@ -163,7 +163,7 @@ fn add_systems<N: NormalForce>(app: &mut App) {
     app.add_packed_systems(Evaluate, 1, system);
     app.add_systems(Modes, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
     // Bounds, search, contacts and rest.
-    let systems = Systems { evaluate: 4, modes: 1, ..Systems::default() };
+    let systems = Systems { evaluate: 4, modes: 1, energies: 1, ..Systems::default() };
     Direct::add(app.world_mut(), systems, direct::Contacts::<N>::default());
     if N::DEPENDS_ON_VELOCITY {
         app.need_velocities();
@@ -191,7 +191,7 @@ pub fn install(settings: Penalty, app: &mut App) {
         app.insert_resource(RollingContacts::new(friction, ratio));
         let system = rolling::apply_rolling.after(ApplyPenalty).in_set(EvaluateStage::Contacts);
         app.add_packed_systems(Evaluate, 1, system);
-        let systems = Systems { evaluate: 1, ..Systems::default() };
+        let systems = Systems { evaluate: 1, energies: 1, ..Systems::default() };
         app.world_mut().get_resource_or_init::<Direct>().stand_for(systems);
         app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(rolling_energy);
     }
