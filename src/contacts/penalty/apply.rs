@@ -258,7 +258,7 @@ pub(super) fn apply_penalty<N: NormalForce>(
 /// All contacts follow the state, or are evaluated as in a stage of a step.
 pub(super) fn apply<N: NormalForce>(
     Shared { bodies, balance, ledger, evaluation }: Shared,
-    Own { pairs, contacts, rolling, mut forces }: Own,
+    Own { pairs, contacts, mut rolling, mut forces }: Own,
     deepest: &mut DeepestOverlap,
     touches: Option<&mut Touches>,
 ) {
@@ -277,10 +277,9 @@ pub(super) fn apply<N: NormalForce>(
     let mut losses = Losses::default();
     let mut sink = Sink { bodies, balance, forces };
     if evaluation.style.is_staged() {
-        let rolling = rolling.map(|rolling| {
+        if let Some(rolling) = &mut rolling {
             rolling.carry(pairs);
-            rolling
-        });
+        }
         staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, &mut sink);
         if let Some(touches) = touches {
             note_touches(contacts, sink.bodies, pairs, touches);
