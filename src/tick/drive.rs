@@ -33,6 +33,8 @@ pub(super) struct Drive {
     ordinary_tick: bool,
     /// Ordinary systems live in the evaluation: components are kept up to date around it.
     ordinary_evaluate: bool,
+    /// Some stage has been given a condition.
+    conditional: bool,
     /// Forces are those of the present state.
     current: bool,
     /// Ticks were run since the components were last brought up to date.
@@ -65,7 +67,13 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     keep_components_current(world, &mut sim, &mut running.evaluate);
     let mut direct = std::mem::take(&mut *world.get_resource_or_init::<Direct>());
     let all_direct = direct.stands_for_all(Systems::of(world, &sim, &running.evaluate, &running.modes));
-    let may_be_direct = all_direct && running.method.0.is_direct();
+    let may_be_direct = all_direct && running.method.0.is_direct() && {
+        // Where others have put conditions on stages. The schedules hand them on when they are made ready.
+        let conditional = [&sim, &running.evaluate, &running.modes].into_iter().any(has_conditions);
+        let mut drive = world.resource_mut::<Drive>();
+        drive.conditional |= conditional;
+        !drive.conditional
+    };
     for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
         apply_only_what_is_deferred(world, schedule);
     }
@@ -115,6 +123,11 @@ pub(crate) fn foresee_components(world: &mut World) {
 fn take(world: &mut World, label: impl ScheduleLabel) -> Schedule {
     let missing = "the tick was added with `TickAppExt::add_tick`";
     world.resource_mut::<Schedules>().remove(label).expect(missing)
+}
+
+/// Whether stages have conditions that the schedule has not yet taken up.
+fn has_conditions(schedule: &Schedule) -> bool {
+    schedule.graph().system_sets.iter().any(|(.., conditions)| !conditions.is_empty())
 }
 
 fn run_once<M>(world: &mut World, system: impl IntoSystem<(), (), M> + 'static) {
