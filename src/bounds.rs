@@ -74,61 +74,64 @@ pub fn plugin(app: &mut App) {
 
 /// Makes the boxes anew when a body has moved by half the margin since they were made.
 pub fn update_bounding_boxes(mut bodies: ResMut<Bodies>, mut bounds: ResMut<Bounds>, evaluation: Res<Evaluation>) {
-    let known = bounds.generation == bodies.generation && !bounds.stale;
-    let follows = !evaluation.style.is_staged();
-    bounds.age += 1;
-    // Between two looks nobody can have gone farther than all ways together.
-    let moved_by_step = follows && evaluation.elapsed > 0.0;
-    let flying = bodies.flights.some();
-    if known && moved_by_step && bodies.path < bounds.path && (flying || !bounds.age.is_power_of_two()) {
-        return;
-    }
-    if flying {
+    bounds.update(&mut bodies, &evaluation);
+}
+
+impl Bounds {
+    /// Makes the boxes anew when a body has moved by half the margin since they were made.
+    pub(crate) fn update(&mut self, bodies: &mut Bodies, evaluation: &Evaluation) {
+        let known = self.generation == bodies.generation && !self.stale;
+        let follows = !evaluation.style.is_staged();
+        self.age += 1;
+        // Between two looks nobody can have gone farther than all ways together.
+        let moved_by_step = follows && evaluation.elapsed > 0.0;
+        let flying = bodies.flights.some();
+        if known && moved_by_step && bodies.path < self.path && (flying || !self.age.is_power_of_two()) {
+            return;
+        }
         bodies.end_flights();
-    }
-    let bodies = &*bodies;
-    bounds.path = f64::NAN;
-    if known && !flying && !bounds.left_behind(bodies) && !(follows && bounds.could_shrink(bodies)) {
-        // Whoever is nearer than a quarter has as much left.
-        if follows && bodies.stayed_near(bounds.margin / 4.0, &bounds.position, &bounds.angle) {
-            bounds.path = bodies.path + bounds.margin / 4.0;
+        self.path = f64::NAN;
+        if known && !flying && !self.left_behind(bodies) && !(follows && self.could_shrink(bodies)) {
+            // Whoever is nearer than a quarter has as much left.
+            if follows && bodies.stayed_near(self.margin / 4.0, &self.position, &self.angle) {
+                self.path = bodies.path + self.margin / 4.0;
+            }
+            return;
         }
-        return;
-    }
-    // Inside a step lists stay as they are: the step is made again with a wider margin.
-    if known && !follows && !bounds.renewed_in_steps {
-        bounds.outgrown = true;
-        return;
-    }
-    (bounds.stale, bounds.outgrown) = (false, false);
-    if bounds.generation != bodies.generation {
-        bounds.margin = if follows { FIRST_SHARE / MARGIN_SHARE } else { 1.0 } * least_margin(bodies);
-    } else if flying {
-        bounds.adapt_to_flights(bodies);
-    } else if follows {
-        bounds.adapt(bodies);
-    }
-    bounds.age = 0;
-    bounds.path = bodies.path + bounds.margin / 2.0;
-    bounds.generation = bodies.generation;
-    bounds.version += 1;
-    let bounds = &mut *bounds;
-    bounds.position.clone_from(&bodies.position);
-    bounds.angle.clone_from(&bodies.angle);
-    bounds.low.clear();
-    bounds.high.clear();
-    if bodies.atom_count() > MOST_ATOMS {
-        return;
-    }
-    for body in 0..bodies.len() {
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for atom in bodies.atoms_of(body) {
-            let reach = DVec2::splat(bodies.atom_radius[atom] + bounds.margin / 2.0);
-            low = low.min(bodies.atom_place(atom) - reach);
-            high = high.max(bodies.atom_place(atom) + reach);
+        // Inside a step lists stay as they are: the step is made again with a wider margin.
+        if known && !follows && !self.renewed_in_steps {
+            self.outgrown = true;
+            return;
         }
-        bounds.low.push(low);
-        bounds.high.push(high);
+        (self.stale, self.outgrown) = (false, false);
+        if self.generation != bodies.generation {
+            self.margin = if follows { FIRST_SHARE / MARGIN_SHARE } else { 1.0 } * least_margin(bodies);
+        } else if flying {
+            self.adapt_to_flights(bodies);
+        } else if follows {
+            self.adapt(bodies);
+        }
+        self.age = 0;
+        self.path = bodies.path + self.margin / 2.0;
+        self.generation = bodies.generation;
+        self.version += 1;
+        self.position.clone_from(&bodies.position);
+        self.angle.clone_from(&bodies.angle);
+        self.low.clear();
+        self.high.clear();
+        if bodies.atom_count() > MOST_ATOMS {
+            return;
+        }
+        for body in 0..bodies.len() {
+            let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+            for atom in bodies.atoms_of(body) {
+                let reach = DVec2::splat(bodies.atom_radius[atom] + self.margin / 2.0);
+                low = low.min(bodies.atom_place(atom) - reach);
+                high = high.max(bodies.atom_place(atom) + reach);
+            }
+            self.low.push(low);
+            self.high.push(high);
+        }
     }
 }
 

@@ -6,9 +6,10 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
+use crate::report::energy::EnergyLedger;
 use crate::scene::units::{Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::sensors;
+use crate::sensors::{self, energy};
 
 /// The magnitude of a channel stays below a bound; looked at every tenth tick and at the end.
 #[derive(Deserialize, JsonSchema)]
@@ -42,13 +43,16 @@ impl Entry for Channel {
         for Written { value, text } in entries {
             let channel = sensors::find(app.world_mut(), &value.name);
             let (below, from) = (value.below.si(), value.from.si());
-            Expectations::add(app, text, Watching { channel, below, from, largest: None });
+            let energy = value.name.split_once('.').and_then(|(owner, quantity)| energy::entry(owner, quantity));
+            Expectations::add(app, text, Watching { channel, energy, below, from, largest: None });
         }
     }
 }
 
 struct Watching {
     channel: Option<sensors::Channel>,
+    /// The entry of the energy ledger, if it is one.
+    energy: Option<fn(&EnergyLedger) -> f64>,
     below: f64,
     from: f64,
     largest: Option<(f64, f64)>,
@@ -57,7 +61,7 @@ struct Watching {
 impl Watch for Watching {
     fn observe(&mut self, sight: &Sight) {
         let Some(channel) = self.channel.as_ref().filter(|_| sight.time >= self.from) else { return };
-        let value = (channel.read)(sight.world).abs();
+        let value = self.energy.map_or_else(|| (channel.read)(sight.world), |entry| entry(&sight.energy())).abs();
         if self.largest.is_none_or(|(largest, _)| value > largest || value.is_nan()) {
             self.largest = Some((value, sight.time));
         }
@@ -66,6 +70,10 @@ impl Watch for Watching {
     /// Energies take a sum over all bodies and contacts: every tenth tick is enough to see where they go.
     fn every(&self) -> u64 {
         10
+    }
+
+    fn needs_world(&self) -> bool {
+        self.energy.is_none()
     }
 
     fn verdict(&self) -> (Option<bool>, String) {

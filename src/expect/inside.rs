@@ -77,6 +77,10 @@ impl Watch for Watching {
         }
     }
 
+    fn needs_world(&self) -> bool {
+        false
+    }
+
     fn verdict(&self) -> (Option<bool>, String) {
         match &self.escaped {
             None => (Some(true), "never left the box".to_owned()),

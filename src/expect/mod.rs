@@ -9,18 +9,28 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
+use crate::report::energy::EnergyLedger;
 use crate::scene::{Arity, SceneAppExt};
+use crate::tick::direct::{Accounts, Direct, Observer, State, exchange};
 use crate::tick::{Clock, SimTick, Stage, TickAppExt};
 use crate::world::Bodies;
 
 /// What an expectation sees.
 pub struct Sight<'a> {
-    /// The world, for channels.
+    /// The world, for channels; of no use to those that say that they do not need it.
     pub world: &'a World,
     /// The state.
     pub bodies: &'a Bodies,
     /// Its time in seconds.
     pub time: f64,
+    pub(crate) accounts: Accounts<'a>,
+}
+
+impl Sight<'_> {
+    /// The energy ledger.
+    pub fn energy(&self) -> EnergyLedger {
+        EnergyLedger::with(self.accounts.totals(), self.accounts.ledger())
+    }
 }
 
 /// Something that watches a run and says in the end whether it held.
@@ -31,6 +41,11 @@ pub trait Watch: Send + Sync + 'static {
     /// It looks at the beginning, after every so many ticks, and at the end.
     fn every(&self) -> u64 {
         1
+    }
+
+    /// Whether it looks at [`Sight::world`].
+    fn needs_world(&self) -> bool {
+        true
     }
 
     /// Whether it claims something of all times, which it knows only at those at which it looks.
@@ -70,6 +85,7 @@ impl Expectations {
         if !app.world().contains_resource::<Self>() {
             app.init_resource::<Self>();
             app.add_packed_systems(SimTick, 1, observe_tick.in_set(Stage::Observe));
+            Direct::add_observer(app.world_mut(), Watcher::default());
         }
         app.world_mut().resource_mut::<Self>().watches.push((text, Box::new(watch)));
     }
@@ -111,11 +127,41 @@ fn look(world: &mut World, all: bool) {
     let all = all || expectations.all_ticks;
     let mut watches = std::mem::take(&mut expectations.watches);
     let clock = *world.resource::<Clock>();
-    let sight = Sight { world, bodies: world.resource::<Bodies>(), time: clock.time() };
-    for (_, watch) in watches.iter_mut().filter(|(_, watch)| all || clock.ticks.is_multiple_of(watch.every())) {
+    let sight =
+        Sight { world, bodies: world.resource::<Bodies>(), time: clock.time(), accounts: Accounts::World(world) };
+    for watch in due(&mut watches, all, clock.ticks) {
         watch.observe(&sight);
     }
     world.resource_mut::<Expectations>().watches = watches;
+}
+
+/// Those that look after so many ticks.
+fn due(watches: &mut [(String, Box<dyn Watch>)], all: bool, ticks: u64) -> impl Iterator<Item = &mut Box<dyn Watch>> {
+    watches.iter_mut().map(|(_, watch)| watch).filter(move |watch| all || ticks.is_multiple_of(watch.every()))
+}
+
+/// The direct form.
+#[derive(Default)]
+struct Watcher(Expectations);
+
+impl Observer for Watcher {
+    fn exchange(&mut self, world: &mut World) {
+        exchange(world, &mut self.0);
+    }
+
+    fn observe(&mut self, state: &State, accounts: Accounts, world: &World) -> bool {
+        let Expectations { watches, all_ticks } = &mut self.0;
+        if due(watches, *all_ticks, state.clock.ticks).any(|watch| watch.needs_world()) {
+            return false;
+        }
+        let sight = Sight { world, bodies: &state.bodies, time: state.clock.time(), accounts };
+        due(watches, *all_ticks, state.clock.ticks).for_each(|watch| watch.observe(&sight));
+        true
+    }
+
+    fn observe_world(&mut self, world: &mut World) {
+        observe_tick(world);
+    }
 }
 
 /// Registers the expectations of this folder.
@@ -140,5 +186,9 @@ pub fn plugin(app: &mut App) {
 
 /// Places in the packed state of bodies given by their keys; the gone ones are left out.
 fn places<'a>(bodies: &'a Bodies, keys: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
-    keys.iter().filter_map(|key| bodies.key.binary_search(key).ok())
+    // As long as none has come or gone, a body stands at the place that is its key.
+    let place = |key: u64| {
+        if bodies.key.get(key as usize) == Some(&key) { Ok(key as usize) } else { bodies.key.binary_search(&key) }
+    };
+    keys.iter().filter_map(move |&key| place(key).ok())
 }

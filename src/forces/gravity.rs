@@ -9,6 +9,7 @@ use serde::Deserialize;
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
 use crate::tick::balance::EnergyTerms;
+use crate::tick::direct::{Direct, Energies, Part, State, Systems};
 use crate::tick::{Balance, Evaluate, EvaluateStage, ForceSlot, TickAppExt};
 use crate::world::Bodies;
 
@@ -38,6 +39,7 @@ pub struct Gravity(pub DVec2);
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
     app.add_flight_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
+    Direct::add(app.world_mut(), Systems { evaluate: 1, energies: 1, ..Systems::default() }, Weight(gravity));
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
 }
 
@@ -45,9 +47,32 @@ pub(super) fn plugin(app: &mut App) {
     app.register_section::<GravitySection>();
 }
 
+fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+    weigh(*gravity, &mut bodies, &mut balance);
+}
+
+/// The direct form.
+struct Weight(Gravity);
+
+impl Part for Weight {
+    fn exchange(&mut self, world: &mut World) {
+        self.0 = *world.resource();
+    }
+
+    fn evaluate(&mut self, stage: EvaluateStage, state: &mut State) {
+        if stage == EvaluateStage::Forces {
+            weigh(self.0, &mut state.bodies, &mut state.balance);
+        }
+    }
+
+    fn energies(&self, state: &State) -> Energies {
+        Energies { potential: energy_in(self.0, &state.bodies), elastic: 0.0 }
+    }
+}
+
 /// The weight is where the sum of forces begins: bodies have it as soon as their forces are cleared. It is left to be told
 /// which, and to be booked.
-fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
+fn weigh(gravity: Gravity, bodies: &mut Bodies, balance: &mut Balance) {
     if bodies.field != Some(gravity.0) {
         bodies.field = Some(gravity.0);
         bodies.posed = false;
@@ -59,7 +84,10 @@ fn apply_gravity(gravity: Res<Gravity>, mut bodies: ResMut<Bodies>, mut balance:
 }
 
 fn potential_energy(world: &World) -> f64 {
-    let (bodies, gravity) = (world.resource::<Bodies>(), world.resource::<Gravity>());
+    energy_in(*world.resource(), world.resource())
+}
+
+fn energy_in(gravity: Gravity, bodies: &Bodies) -> f64 {
     let of = |body: usize| -bodies.mass[body] * gravity.0.dot(bodies.position[body]);
     (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
 }

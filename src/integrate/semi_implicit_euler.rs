@@ -25,4 +25,8 @@ impl Integrator for SemiImplicitEuler {
         tick.advance(dt, dt, None);
         tick.evaluate(dt);
     }
+
+    fn is_direct(&self) -> bool {
+        true
+    }
 }

@@ -35,4 +35,8 @@ impl Integrator for VelocityVerlet {
     fn flies(&self) -> bool {
         true
     }
+
+    fn is_direct(&self) -> bool {
+        true
+    }
 }

@@ -71,7 +71,7 @@ impl Whole {
             return false;
         }
         if !self.lasts {
-            let mut bodies = tick.bodies();
+            let bodies = tick.bodies();
             bodies.position_rest.fill(glam::DVec2::ZERO);
             bodies.angle_rest.fill(0.0);
             self.allow_renewal(tick, true);

@@ -31,7 +31,11 @@ pub struct EnergyLedger {
 impl EnergyLedger {
     /// The ledger of the present state.
     pub fn of(world: &World) -> Self {
-        let (now, ledger) = (Totals::of(world), world.resource::<Ledger>());
+        Self::with(Totals::of(world), world.resource())
+    }
+
+    /// The ledger of a state with these totals.
+    pub(crate) fn with(now: Totals, ledger: &Ledger) -> Self {
         let start = ledger.start.unwrap_or(now);
         let (friction, inelasticity) = (ledger.friction.value(), ledger.inelasticity.value());
         let (drag, work) = (ledger.drag.value(), ledger.work.value());

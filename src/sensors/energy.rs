@@ -44,7 +44,13 @@ impl Entry for Energy {
 }
 
 fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let part: fn(&EnergyLedger) -> f64 = match (owner, quantity) {
+    let part = entry(owner, quantity)?;
+    Some(Channel::new(format!("energy.{quantity}"), "J", move |world| part(&EnergyLedger::of(world))))
+}
+
+/// The entry of the ledger that a channel reads.
+pub(crate) fn entry(owner: &str, quantity: &str) -> Option<fn(&EnergyLedger) -> f64> {
+    Some(match (owner, quantity) {
         ("energy", "kinetic") => |ledger| ledger.kinetic,
         ("energy", "potential") => |ledger| ledger.potential,
         ("energy", "elastic") => |ledger| ledger.elastic,
@@ -55,8 +61,7 @@ fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         ("energy", "work") => |ledger| ledger.work,
         ("energy", "residual") => |ledger| ledger.residual,
         _ => return None,
-    };
-    Some(Channel::new(format!("energy.{quantity}"), "J", move |world| part(&EnergyLedger::of(world))))
+    })
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -5,7 +5,7 @@
 
 mod contact_force;
 mod contacts;
-mod energy;
+pub(crate) mod energy;
 mod overlap;
 mod pose;
 mod velocity;

@@ -43,10 +43,11 @@ impl Level {
         }
     }
 
-    /// The best that this processor has.
+    /// The best that this processor has, with all below it.
     pub fn best() -> Self {
         static BEST: OnceLock<Level> = OnceLock::new();
-        *BEST.get_or_init(|| Self::ALL.into_iter().rev().find(|level| level.is_available()).unwrap_or(Self::Scalar))
+        let available = || Self::ALL.into_iter().take_while(|level| level.is_available());
+        *BEST.get_or_init(|| available().last().unwrap_or(Self::Scalar))
     }
 
     /// The word for it on the command line.
@@ -106,7 +107,7 @@ pub trait Kernel {
 /// # Panics
 /// If the processor does not have them.
 pub fn run<K: Kernel>(level: Level, kernel: K) -> K::Output {
-    assert!(level <= Level::best() && level.is_available(), "this processor has no {level}");
+    assert!(level <= Level::best(), "this processor has no {level}");
     match level {
         Level::Scalar => kernel.run::<f64>(),
         #[cfg(target_arch = "x86_64")]

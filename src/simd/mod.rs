@@ -55,6 +55,9 @@ pub trait Lanes:
     /// How many: a divisor of [`BLOCK`].
     const COUNT: usize;
 
+    /// Half as many, for what is left of a list; one stays one.
+    type Half: Lanes;
+
     /// For each lane yes or no.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 

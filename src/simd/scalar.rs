@@ -34,6 +34,7 @@ impl std::ops::Not for One {
 
 impl Lanes for f64 {
     const COUNT: usize = 1;
+    type Half = Self;
     type Mask = One;
 
     #[inline(always)]

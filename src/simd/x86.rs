@@ -171,6 +171,7 @@ impl Not for Bits8 {
 
 impl Lanes for F64x2 {
     const COUNT: usize = 2;
+    type Half = f64;
     type Mask = Self;
 
     #[inline(always)]
@@ -281,6 +282,7 @@ impl Lanes for F64x2 {
 
 impl Lanes for F64x4 {
     const COUNT: usize = 4;
+    type Half = F64x2;
     type Mask = Self;
 
     #[inline(always)]
@@ -473,6 +475,7 @@ impl F64x8 {
 
 impl Lanes for F64x8 {
     const COUNT: usize = 8;
+    type Half = F64x4;
     type Mask = Bits8;
 
     #[inline(always)]

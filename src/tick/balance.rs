@@ -162,10 +162,16 @@ impl Totals {
         let bodies = world.resource::<Bodies>();
         let sum = |terms: &[fn(&World) -> f64]| terms.iter().map(|term| term(world)).fold(0.0, |sum, term| sum + term);
         let terms = world.get_resource::<EnergyTerms>();
+        let potential = terms.map_or(0.0, |terms| sum(&terms.potential));
+        Self::with(bodies, potential, terms.map_or(0.0, |terms| sum(&terms.elastic)))
+    }
+
+    /// Those of bodies that have so much energy in fields, and in springs and contacts.
+    pub(super) fn with(bodies: &Bodies, potential: f64, elastic: f64) -> Self {
         Self {
             kinetic: kinetic_energy(bodies),
-            potential: terms.map_or(0.0, |terms| sum(&terms.potential)),
-            elastic: terms.map_or(0.0, |terms| sum(&terms.elastic)),
+            potential,
+            elastic,
             momentum: momentum(bodies),
             angular_momentum: angular_momentum(bodies),
         }

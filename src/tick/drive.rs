@@ -1,26 +1,21 @@
-//! Driving the schedules: a batch of ticks, and what an integrator may do inside one.
+//! Driving the schedules: a batch of ticks.
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 use glam::DVec2;
 
 use super::balance::Totals;
+use super::direct::{Direct, Systems, held, held_mut};
 use super::failure::{Failure, Wrong};
 use super::flight;
 use super::guard::EnergyGuard;
+use super::inside::Tick;
+use super::stopwatch;
 use super::travel::FarTravel;
-use super::{
-    Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Indicator, Ledger, Models, Modes, SimTick, Span,
-    Stage, Style, Watch,
-};
-use crate::bounds::{Bounds, update_bounding_boxes};
+use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
+use crate::bounds::update_bounding_boxes;
 use crate::integrate::Method;
-use crate::world::motion::Travel;
-use crate::world::{Bodies, Force, Name, Slot, Torque, finite, lend, packed};
-
-/// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
-/// where choices contradict each other.
-const MOST_CORRECTIONS: usize = 32;
+use crate::world::{Bodies, Force, Name, Slot, Torque, finite, packed};
 
 /// What is taken out of the world while a batch of ticks runs.
 struct Running {
@@ -28,6 +23,7 @@ struct Running {
     evaluate: Schedule,
     modes: Schedule,
     has_modes: bool,
+    velocity_dependent: bool,
 }
 
 /// State of the drive between ticks.
@@ -41,6 +37,8 @@ pub(super) struct Drive {
     ordinary_evaluate: bool,
     /// Systems in the tick look at all bodies.
     pub(super) looked_at: bool,
+    /// Some stage has been given a condition.
+    conditional: bool,
     /// Forces are those of the present state.
     current: bool,
     /// Ticks were run since the components were last brought up to date.
@@ -68,21 +66,36 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let modes = take(world, Modes);
     let method = world.resource_mut::<Drive>().method.take().unwrap_or_default();
     let has_modes = !modes.graph().systems.is_empty();
-    let mut running = Box::new(Running { method, evaluate, modes, has_modes });
+    let velocity_dependent = world.resource::<Census>().velocity_dependent;
+    let mut running = Box::new(Running { method, evaluate, modes, has_modes, velocity_dependent });
     keep_components_current(world, &mut sim, &mut running.evaluate);
     flight::allow(world, running.method.0.flies(), &sim, [&running.evaluate, &running.modes]);
+    let mut direct = std::mem::take(&mut *world.get_resource_or_init::<Direct>());
+    let all_direct = direct.stands_for_all(Systems::of(world, &sim, &running.evaluate, &running.modes));
+    let may_be_direct = all_direct && running.method.0.is_direct() && {
+        // Where others have put conditions on stages. The schedules hand them on when they are made ready.
+        let conditional = [&sim, &running.evaluate, &running.modes].into_iter().any(has_conditions);
+        let mut drive = world.resource_mut::<Drive>();
+        drive.conditional |= conditional;
+        !drive.conditional
+    };
     for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
         apply_only_what_is_deferred(world, schedule);
     }
     let mut drive = world.resource_mut::<Drive>();
     drive.stepped = false;
     drive.running = Some(running);
-    for _ in 0..ticks {
-        sim.run(world);
-        if world.resource::<Drive>().failure.is_some() {
-            break;
+    let mut left = ticks;
+    while left > 0 && world.resource::<Drive>().failure.is_none() {
+        // The first tick takes up what others changed.
+        if may_be_direct && left < ticks {
+            direct.hold(world, |world, direct| left = run_direct(world, direct, left));
+        } else {
+            sim.run(world);
+            left -= 1;
         }
     }
+    *world.resource_mut::<Direct>() = direct;
     if world.resource::<Evaluation>().stale {
         refresh(world);
     }
@@ -90,7 +103,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     if world.resource::<Drive>().failure.is_none() {
         note_failure(world);
     }
-    flight::land(world);
+    flight::land(world, None);
     run_once(world, packed::store_state);
     let mut drive = world.resource_mut::<Drive>();
     let running = drive.running.take().expect("put there above");
@@ -116,6 +129,11 @@ pub(crate) fn foresee_components(world: &mut World) {
 fn take(world: &mut World, label: impl ScheduleLabel) -> Schedule {
     let missing = "the tick was added with `TickAppExt::add_tick`";
     world.resource_mut::<Schedules>().remove(label).expect(missing)
+}
+
+/// Whether stages have conditions that the schedule has not yet taken up.
+fn has_conditions(schedule: &Schedule) -> bool {
+    schedule.graph().system_sets.iter().any(|(.., conditions)| !conditions.is_empty())
 }
 
 fn run_once<M>(world: &mut World, system: impl IntoSystem<(), (), M> + 'static) {
@@ -175,21 +193,39 @@ fn collect_forces(
     }
 }
 
+/// Runs ticks without schedules, as many as are left or until one fails. Returns how many are left then.
+fn run_direct(world: &mut World, direct: &mut Direct, mut left: u64) -> u64 {
+    while left > 0 && direct.state.drive.failure.is_none() {
+        direct.state.turn_to(stopwatch::Part::Integrate);
+        advance(world, Some(direct));
+        direct.observe(world);
+        left -= 1;
+    }
+    left
+}
+
 /// The system of [`Stage::Integrate`].
 pub(super) fn integrate(world: &mut World) {
-    let mut drive = world.resource_mut::<Drive>();
+    advance(world, None);
+}
+
+/// A tick, without what goes before and after it. The state is in the world, unless it is held.
+fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
+    let drive: &mut Drive = held_mut(world, direct.as_deref_mut());
     let mut running = drive.running.take().expect("ticks run inside `step`");
     let (first_of_batch, ordinary) = (!drive.stepped, drive.ordinary_tick);
     let current = drive.current;
     let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
-    let clock = *world.resource::<Clock>();
-    let Running { method, evaluate, modes, has_modes } = &mut *running;
+    let clock: Clock = *held(world, direct.as_deref());
+    let Running { method, evaluate, modes, has_modes, velocity_dependent } = &mut *running;
     let style = method.0.style();
     let mut tick = Tick {
         world,
+        direct: direct.as_deref_mut(),
         evaluate,
         modes,
         has_modes: *has_modes,
+        velocity_dependent: *velocity_dependent,
         style,
         fresh: !current || before.is_some(),
         looked_at: ordinary,
@@ -210,27 +246,36 @@ pub(super) fn integrate(world: &mut World) {
         Ledger::book_exchange(tick.world, before);
     }
     // Where all bodies are asleep the end of the tick is its beginning.
-    if !tick.world.resource::<Bodies>().all_asleep() {
+    if !tick.bodies().all_asleep() {
         if !style.is_staged() {
             tick.choose_modes(tick.begin, tick.end);
         }
         method.0.advance(&mut tick);
     }
     let alert = tick.alert;
-    world.resource_mut::<Clock>().ticks += 1;
-    let mut drive = world.resource_mut::<Drive>();
+    held_mut::<Clock>(world, direct.as_deref_mut()).ticks += 1;
+    let drive: &mut Drive = held_mut(world, direct.as_deref_mut());
     drive.running = Some(running);
     drive.current = true;
     drive.stepped = true;
     drive.energy.alert |= alert;
     let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
     if drive.looked_at {
-        flight::land(world);
+        flight::land(world, direct.as_deref_mut());
     }
     if !travelled.is_finite() {
-        note_failure(world);
+        see_all(world, direct, note_failure);
     } else if energy.is_due(clock.ticks + 1, travel) {
-        look_closer(world, energy, travel);
+        see_all(world, direct, |world| look_closer(world, energy, travel));
+    }
+}
+
+/// Shows the world with all state in its place.
+#[cold]
+fn see_all(world: &mut World, direct: Option<&mut Direct>, see: impl FnOnce(&mut World)) {
+    match direct {
+        Some(direct) => direct.show(world, see),
+        None => see(world),
     }
 }
 
@@ -238,12 +283,24 @@ pub(super) fn integrate(world: &mut World) {
 fn refresh(world: &mut World) {
     let mut running = world.resource_mut::<Drive>().running.take().expect("put there by `step`");
     let clock = *world.resource::<Clock>();
-    let Running { method, evaluate, modes, has_modes } = &mut *running;
+    let Running { method, evaluate, modes, has_modes, velocity_dependent } = &mut *running;
     let (style, now) = (method.0.style(), clock.time());
-    let (looked_at, has_modes) = (true, *has_modes);
-    let (fresh, alert) = (false, false);
-    let mut tick =
-        Tick { world, evaluate, modes, has_modes, style, fresh, looked_at, dt: clock.dt, begin: now, end: now, alert };
+    let (has_modes, velocity_dependent) = (*has_modes, *velocity_dependent);
+    let mut tick = Tick {
+        world,
+        direct: None,
+        evaluate,
+        modes,
+        has_modes,
+        velocity_dependent,
+        style,
+        fresh: false,
+        looked_at: true,
+        dt: clock.dt,
+        begin: now,
+        end: now,
+        alert: false,
+    };
     tick.evaluate_stage(now);
     world.resource_mut::<Drive>().running = Some(running);
 }
@@ -251,7 +308,7 @@ fn refresh(world: &mut World) {
 /// Looks at the energy.
 #[cold]
 fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
-    flight::land(world);
+    flight::land(world, None);
     let created = energy.look(world, travel);
     let clock = *world.resource::<Clock>();
     let bodies = world.resource::<Bodies>();
@@ -292,7 +349,7 @@ fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
 }
 
 fn note_failure(world: &mut World) {
-    flight::land(world);
+    flight::land(world, None);
     let bodies = world.resource::<Bodies>();
     let Some((body, quantity)) = finite::first_not_finite(bodies) else { return };
     let name = world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default();
@@ -310,282 +367,4 @@ pub fn set_method(world: &mut World, method: Method) {
 /// what fields released.
 pub fn energy_seen(world: &World) -> f64 {
     world.get_resource::<Drive>().map_or(0.0, |drive| drive.energy.seen())
-}
-
-/// What an integrator may do inside a tick.
-pub struct Tick<'a> {
-    /// The world, for state of the integrator's own.
-    pub world: &'a mut World,
-    evaluate: &'a mut Schedule,
-    modes: &'a mut Schedule,
-    has_modes: bool,
-    pub(super) style: Style,
-    /// Whether the state was changed by others since the last tick, or is the first of all.
-    pub(super) fresh: bool,
-    /// Whether systems in the tick may look at forces.
-    looked_at: bool,
-    /// Length of the tick in seconds.
-    pub dt: f64,
-    /// Time at its beginning in seconds.
-    pub begin: f64,
-    /// Time at its end in seconds: the beginning of the next to the last bit.
-    pub end: f64,
-    pub(super) alert: bool,
-}
-
-impl Tick<'_> {
-    /// Whether some force depends on velocities.
-    pub fn velocity_dependent(&self) -> bool {
-        self.world.resource::<Census>().velocity_dependent
-    }
-
-    /// Whether some force other than those of contacts depends on velocities.
-    pub fn has_velocity_forces(&self) -> bool {
-        self.world.resource::<Census>().velocity_forces
-    }
-
-    /// The first time after `now` at which forces or their rates are known to jump, in seconds; infinite if there is none.
-    pub fn next_edge(&self, now: f64) -> f64 {
-        let edges = &self.world.resource::<Models>().edges;
-        let paths = self.world.resource::<Bodies>().prescribed.next_point(now);
-        edges.iter().map(|edge| edge(self.world, now)).fold(paths, f64::min)
-    }
-
-    /// Whether forces may change with time in a state that does not.
-    pub fn changes_with_time(&self) -> bool {
-        !self.world.resource::<Models>().edges.is_empty()
-            || !self.world.resource::<Bodies>().prescribed.motions.is_empty()
-    }
-
-    /// The packed state.
-    pub fn bodies(&mut self) -> Mut<'_, Bodies> {
-        self.world.resource_mut::<Bodies>()
-    }
-
-    /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
-    pub fn evaluate(&mut self, elapsed: f64) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
-        if elapsed == 0.0 {
-            bodies.accept();
-        }
-        // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
-        let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
-        let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(self.begin, time));
-        bodies.swap_estimate();
-        bodies.pose();
-        if let Some(driven) = driven {
-            let smallest = bodies.smallest_radius;
-            let Drive { farthest, travelled, .. } = *self.world.resource::<Drive>();
-            self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
-        }
-        self.run_evaluation(time, elapsed);
-        let mut bodies = self.world.resource_mut::<Bodies>();
-        if std::mem::take(&mut bodies.disturbed) {
-            bodies.wake_all();
-            bodies.pose();
-            // No time has passed since: histories stay as they are.
-            self.run_evaluation(time, 0.0);
-            bodies = self.world.resource_mut::<Bodies>();
-        }
-        bodies.swap_estimate();
-    }
-
-    /// Bodies are posed.
-    fn run_evaluation(&mut self, time: f64, elapsed: f64) {
-        *self.world.resource_mut::<Balance>() = Balance::default();
-        self.announce(time, elapsed, self.style);
-        self.evaluate.run(self.world);
-    }
-
-    fn announce(&mut self, time: f64, elapsed: f64, style: Style) {
-        let mut evaluation = self.world.resource_mut::<Evaluation>();
-        *evaluation = Evaluation { time, elapsed, style, count: evaluation.count + 1, stale: false };
-    }
-
-    /// Whether the state is the first of all, or was changed by others since the last tick.
-    pub fn is_fresh(&self) -> bool {
-        self.fresh
-    }
-
-    /// Lets forces and contacts choose their modes from `begin` to `end`.
-    pub fn choose_modes(&mut self, begin: f64, end: f64) {
-        if !self.world.resource::<Bodies>().prescribed.motions.is_empty() {
-            let mut bodies = self.bodies();
-            let middle = 0.5 * (begin + end);
-            let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
-            // On another piece of a path what rides on it has other forces from its first moment on.
-            let passed = bodies.prescribed.next_point(before) < middle;
-            if passed && self.style.is_staged() {
-                self.evaluate_stage(begin);
-            }
-        }
-        if self.has_modes {
-            let whole = begin == self.begin && end == self.end;
-            let length = if whole { self.dt } else { end - begin };
-            *self.world.resource_mut::<Span>() = Span { begin, end, length };
-            self.modes.run(self.world);
-            // What is held by contacts depends on all other forces.
-            if self.style.is_staged() && self.world.resource::<Evaluation>().stale {
-                self.evaluate_stage(begin);
-                self.settle();
-            }
-        }
-    }
-
-    /// Evaluates the forces of the state as it stands, at `time` seconds, as one of many of a step: nothing goes on by
-    /// it but the rates.
-    pub fn evaluate_stage(&mut self, time: f64) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
-        bodies.wake_all();
-        if !bodies.prescribed.motions.is_empty() {
-            bodies.prescribe(self.begin, time);
-        }
-        bodies.pose();
-        self.run_evaluation(time, 0.0);
-    }
-
-    /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
-    pub(super) fn begin_anew(&mut self) {
-        self.evaluate_stage(self.begin);
-        self.each_watch(|world, watch| (watch.take_stock)(world));
-        self.evaluate_stage(self.begin);
-        self.settle();
-    }
-
-    /// Adds all indicators of the state just evaluated to a list.
-    pub fn tell(&mut self, told: &mut Vec<Indicator>) {
-        let mut place = 0;
-        self.each_watch(|world, watch| {
-            let first = told.len();
-            (watch.tell)(world, told);
-            if told.len() - first != watch.told {
-                world.resource_mut::<Models>().watches[place].told = told.len() - first;
-            }
-            place += 1;
-        });
-    }
-
-    fn each_watch(&mut self, mut see: impl FnMut(&mut World, Watch)) {
-        let mut place = 0;
-        while let Some(&watch) = self.world.resource::<Models>().watches.get(place) {
-            see(self.world, watch);
-            place += 1;
-        }
-    }
-
-    /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
-    /// ready for the next step.
-    pub fn end_step(&mut self, fired: &[usize]) {
-        let time = self.world.resource::<Evaluation>().time;
-        if !fired.is_empty() {
-            let mut first = 0;
-            self.each_watch(|world, watch| {
-                let own = |place: &&usize| (first..first + watch.told).contains(*place);
-                let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
-                if !own.is_empty() {
-                    (watch.switch)(world, &own);
-                }
-                first += watch.told;
-            });
-            self.evaluate_stage(time);
-            self.settle();
-        }
-        let mut changed = false;
-        self.each_watch(|world, watch| changed |= (watch.tidy)(world));
-        if changed {
-            self.evaluate_stage(time);
-        }
-    }
-
-    /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
-    /// it, `times` as far as their present velocities and accelerations say. Says whether the state was evaluated for that.
-    pub fn reserve(&mut self, length: f64, times: f64) -> bool {
-        if !self.world.contains_resource::<Bounds>() {
-            return false;
-        }
-        let renew = lend(self.world, |world, bounds: &mut Bounds| {
-            let bodies = world.resource::<Bodies>();
-            let travel = |body: usize| {
-                let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
-                let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
-                let way = velocity + 0.5 * length * force * bodies.inverse_mass[body];
-                let turn = spin + 0.5 * length * torque * bodies.inverse_inertia[body];
-                (way + turn * bodies.extent[body]) * length
-            };
-            let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
-            bounds.reserve(bodies, times * farthest)
-        });
-        if renew {
-            let time = self.world.resource::<Evaluation>().time;
-            self.evaluate_stage(time);
-        }
-        renew
-    }
-
-    /// Shows the state as it stands at `time` seconds, between states that the motion goes by: forces are evaluated only if
-    /// somebody looks at them.
-    pub fn show(&mut self, time: f64) {
-        if self.looked_at || !self.world.resource::<Models>().watches.is_empty() {
-            return self.evaluate_stage(time);
-        }
-        self.world.resource_mut::<Bodies>().pose();
-        let mut evaluation = self.world.resource_mut::<Evaluation>();
-        (evaluation.time, evaluation.stale) = (time, true);
-    }
-
-    /// Candidate lists are made anew for the state as it stands.
-    pub fn renew_lists(&mut self, time: f64) {
-        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
-            bounds.outdate();
-            self.evaluate_stage(time);
-        }
-    }
-
-    /// Whether somebody moved farther than candidate lists reach since they were made.
-    pub fn outgrown(&self) -> bool {
-        self.world.get_resource::<Bounds>().is_some_and(|bounds| bounds.outgrown)
-    }
-
-    /// The step in which somebody moved farther than candidate lists reach is not taken.
-    pub fn recall_bounds(&mut self) {
-        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
-            bounds.outgrown = false;
-        }
-    }
-
-    /// Lets models correct the modes of a state just evaluated, until none wants to.
-    fn settle(&mut self) {
-        let time = self.world.resource::<Evaluation>().time;
-        for _ in 0..MOST_CORRECTIONS {
-            let mut corrected = false;
-            self.each_watch(|world, watch| corrected |= (watch.settle)(world));
-            if !corrected {
-                break;
-            }
-            self.evaluate_stage(time);
-        }
-    }
-
-    /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
-    pub fn kick(&mut self, dt: f64) {
-        self.book(dt);
-        self.world.resource_mut::<Bodies>().kick(dt);
-    }
-
-    /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
-    /// over `drift` seconds. One drift per tick: it is remembered as the displacement since the last accepted state. With
-    /// `ahead` the velocities so many seconds later are estimated from the same forces: the following evaluations see them in
-    /// place of the velocities, which stay as they are.
-    pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
-        self.book(kick);
-        let mut bodies = self.world.resource_mut::<Bodies>();
-        let (travelled, smallest) = (bodies.advance(kick, drift, ahead), bodies.smallest_radius);
-        self.note_travel(travelled, smallest);
-    }
-
-    fn book(&mut self, dt: f64) {
-        let balance = *self.world.resource::<Balance>();
-        self.alert |= balance.alert;
-        self.world.resource_mut::<Ledger>().book(&balance, dt);
-    }
 }

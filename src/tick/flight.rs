@@ -3,6 +3,7 @@
 use bevy_ecs::prelude::*;
 
 use super::Census;
+use super::direct::{Direct, held_mut};
 use super::drive::Drive;
 use crate::world::Bodies;
 
@@ -17,8 +18,9 @@ pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, evaluation: 
 }
 
 /// Somebody looks at all bodies, those that fly too.
-pub(super) fn land(world: &mut World) {
-    let travel = world.resource_mut::<Bodies>().land();
-    let mut drive = world.resource_mut::<Drive>();
+pub(super) fn land(world: &mut World, mut direct: Option<&mut Direct>) {
+    let bodies: &mut Bodies = held_mut(world, direct.as_deref_mut());
+    let travel = bodies.land();
+    let drive: &mut Drive = held_mut(world, direct);
     drive.travel = drive.travel.max(travel);
 }

@@ -7,7 +7,7 @@ impl Tick<'_> {
     /// From the state just evaluated at `time` seconds on, models with a history follow from state to state.
     pub fn begin_following(&mut self, time: f64) {
         self.hand_over(Style::Following);
-        let mut bodies = self.bodies();
+        let bodies = self.bodies();
         // An estimate of velocities belongs to the tick in which it was made, what rounding left over to the method before.
         bodies.estimated_velocity.clear();
         bodies.estimated_spin.clear();

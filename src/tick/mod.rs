@@ -21,15 +21,20 @@
 //! ordinary systems pays nothing for that. A system in [`Stage::Begin`] that changes components, spawns or despawns is
 //! noticed too, and the forces are evaluated anew before the tick; one that changes anything else that forces depend on
 //! says so with [`Bodies::touched`](crate::world::Bodies::touched).
+//!
+//! **Direct forms.** Where all systems are the engine's own and have one, ticks call them without these schedules: see
+//! `direct.rs`.
 
 pub mod balance;
 pub mod clock;
+pub(crate) mod direct;
 mod drive;
 mod failure;
 mod flight;
 pub mod flow;
 mod following;
 mod guard;
+mod inside;
 pub mod models;
 pub mod response;
 pub mod stability;
@@ -45,11 +50,13 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
+use direct::{Direct, Systems};
 pub(crate) use drive::foresee_components;
-pub use drive::{Tick, energy_seen, set_method, step};
+pub use drive::{energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
+pub use inside::Tick;
 pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use travel::{FarTravel, far_travel, largest_travel};
@@ -126,6 +133,13 @@ pub(crate) struct Census {
     pub changing_forces: bool,
 }
 
+impl Census {
+    /// Whether some force may change with time in a state that does not.
+    pub fn changing_forces(&self) -> bool {
+        self.changing_forces || self.ordinary_forces > 0
+    }
+}
+
 /// How plugins add systems to the tick.
 pub trait TickAppExt {
     /// Adds the schedules and resources of the tick. Adding it twice does nothing.
@@ -192,6 +206,7 @@ impl TickAppExt for App {
             .init_resource::<Stability>()
             .init_resource::<drive::Drive>()
             .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
+        Direct::stand_for(&mut self.world_mut().get_resource_or_init(), Systems { tick: 1, ..Default::default() });
         self.add_flight_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))
     }
 

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 
+use super::direct::{Direct, Systems};
 use super::{Census, Evaluate, EvaluateStage, Modes, SimTick, Stage};
 use crate::contacts::search::{FindPairs, find_pairs};
 
@@ -85,7 +86,7 @@ impl Stopwatch {
     }
 
     /// From now on the time counts for another part.
-    fn turn_to(&mut self, part: Part) {
+    pub(super) fn turn_to(&mut self, part: Part) {
         let now = Instant::now();
         self.spent[self.part as usize] += now - self.since;
         (self.part, self.since) = (part, now);
@@ -135,6 +136,9 @@ pub fn watch(world: &mut World) {
         turn_to::<MODES_OF_CONTACTS>.after(Of::Forces).before(Of::Contacts),
         turn_to::<INTEGRATE>.after(Of::Contacts),
     );
+    // Direct forms tell the time on their own.
+    let mut direct = world.get_resource_or_init::<Direct>();
+    direct.stand_for(Systems { tick: 4, evaluate: 6, ..Systems::default() });
     let mut census = world.get_resource_or_init::<Census>();
     census.packed_in_tick += 4;
     census.packed_in_evaluate += 6;
@@ -151,6 +155,7 @@ pub fn watch(world: &mut World) {
         if !schedule.graph().systems.is_empty() {
             schedule.add_systems(in_modes);
             world.resource_mut::<Census>().of_flights[1] += 3;
+            world.resource_mut::<Direct>().stand_for(Systems { modes: 3, ..Systems::default() });
         }
     });
 }

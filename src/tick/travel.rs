@@ -32,7 +32,7 @@ pub fn far_travel(world: &World) -> Option<FarTravel> {
 impl Tick<'_> {
     /// Books how far bodies have travelled in the tick: `from` are positions and angles at its beginning.
     pub fn book_travel(&mut self, from: &[(DVec2, f64)]) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
+        let bodies = self.bodies();
         bodies.list_displacements();
         let (mut greatest, mut sum) = (0.0_f64, 0.0);
         for (body, &(position, angle)) in from.iter().enumerate() {
@@ -50,7 +50,7 @@ impl Tick<'_> {
     /// Notes how far bodies travelled in the tick, and who went too far if it is time to look. `smallest` is the smallest radius.
     #[inline]
     pub(super) fn note_travel(&mut self, Travel { greatest, sum }: Travel, smallest: f64) {
-        let mut drive = self.world.resource_mut::<Drive>();
+        let drive: &mut Drive = self.held_mut();
         drive.travel = drive.travel.max(greatest);
         drive.travelled = sum;
         drive.farthest = greatest;
@@ -61,8 +61,7 @@ impl Tick<'_> {
 
     #[cold]
     fn look_for_far(&mut self) {
-        let (bodies, clock) = (self.world.resource::<Bodies>(), self.world.resource::<Clock>());
-        let drive = self.world.resource::<Drive>();
+        let (bodies, clock, drive): (&Bodies, &Clock, &Drive) = (self.held(), self.held(), self.held());
         if !drive.energy.is_due(clock.ticks + 1, drive.travel) {
             return;
         }
@@ -74,11 +73,11 @@ impl Tick<'_> {
             travel: bodies.travel(body),
             time: clock.time_of(clock.ticks + 1),
         });
-        self.world.resource_mut::<Drive>().far = far;
+        self.held_mut::<Drive>().far = far;
     }
 
     /// The greatest way in metres that any point of a body made in the tick so far.
     pub fn farthest(&self) -> f64 {
-        self.world.resource::<Drive>().farthest
+        self.held::<Drive>().farthest
     }
 }

@@ -14,7 +14,7 @@ use super::kinematic::{Kinematic, Prescribed};
 use super::material::MaterialIndex;
 use super::motion::Travel;
 use super::wall::Wall;
-use crate::simd::{BLOCK, Level};
+use crate::simd::{BLOCK, Lanes, Level};
 use crate::threads::Threads;
 
 /// Place of a body in the packed state, kept on its entity.
@@ -337,8 +337,8 @@ impl Bodies {
 }
 
 /// Puts atoms where their body is: at a place, turned by an angle.
-#[inline]
-pub(super) fn place_atoms((position, angle): (DVec2, f64), offsets: &[DVec2], places: &mut [DVec2]) {
+#[inline(always)]
+pub(super) fn place_atoms<V: Lanes>((position, angle): (DVec2, f64), offsets: &[DVec2], places: &mut [DVec2]) {
     // A lone disc in its centre of mass needs no angle.
     if let [offset] = offsets
         && *offset == DVec2::ZERO
@@ -348,7 +348,14 @@ pub(super) fn place_atoms((position, angle): (DVec2, f64), offsets: &[DVec2], pl
     }
     let (sin, cos) = libm::sincos(angle);
     let rotation = DVec2::new(cos, sin);
-    for (offset, place) in offsets.iter().zip(places) {
+    let several = V::COUNT * (offsets.len() / V::COUNT);
+    let (x, y, sin, cos) = (V::splat(position.x), V::splat(position.y), V::splat(sin), V::splat(cos));
+    for first in (0..several).step_by(V::COUNT) {
+        let (along, across) = V::load_pairs(&offsets[first..]);
+        let (along, across) = (cos * along - sin * across, sin * along + cos * across);
+        V::store_pairs(x + along, y + across, &mut places[first..]);
+    }
+    for (offset, place) in offsets.iter().zip(places).skip(several) {
         *place = position + rotation.rotate(*offset);
     }
 }
@@ -529,7 +536,7 @@ pub fn rebuild(world: &mut World) {
         bodies.atom_position = vec![DVec2::ZERO; bodies.atom_count()];
         for body in 0..bodies.len() {
             let (pose, atoms) = ((bodies.position[body], bodies.angle[body]), bodies.atoms_of(body));
-            place_atoms(pose, &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
+            place_atoms::<f64>(pose, &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
         }
     }
     bodies.moved =

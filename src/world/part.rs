@@ -164,12 +164,12 @@ impl<'a> Part<'a> {
 
     /// Puts the atoms of a body where it is, unless it stands.
     #[inline(always)]
-    pub fn place_atoms(&mut self, body: usize) {
+    pub fn place_atoms<V: Lanes>(&mut self, body: usize) {
         if self.moves[body] {
             let atoms = |place: usize| (self.first_atom[place] - self.first_atom[0]) as usize;
             let atoms = atoms(body)..atoms(body + 1);
             let offsets = &self.atom_offset[atoms.clone()];
-            place_atoms((self.position[body], self.angle[body]), offsets, &mut self.atom_position[atoms]);
+            place_atoms::<V>((self.position[body], self.angle[body]), offsets, &mut self.atom_position[atoms]);
         }
     }
 }
@@ -178,6 +178,10 @@ impl<'a> Part<'a> {
 pub(crate) trait PerBody: Clone + Send {
     /// Does it for the bodies from place `first` of a part on.
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize);
+
+    /// Does what is to be done for the atoms of a body, several side by side, after [`PerBody::bodies`].
+    #[inline(always)]
+    fn atoms<V: Lanes>(&mut self, _: &mut Part, _: usize) {}
 
     /// Has what a block of bodies needs brought near, from place `first` of a part on; there need not be such bodies.
     #[inline(always)]
@@ -200,17 +204,24 @@ impl<W: PerBody> Kernel for All<'_, W> {
         while number < part.blocks() {
             let bodies = part.block(number);
             let mut first = bodies.start;
-            W::fetch(&part, first + FETCHED);
-            if bodies.len() == BLOCK {
-                while first < bodies.end {
-                    work.bodies::<V>(&mut part, first);
-                    first += V::COUNT;
-                }
-            } else {
-                while first < bodies.end {
-                    work.bodies::<f64>(&mut part, first);
-                    first += 1;
-                }
+            if first + FETCHED < part.mass.len() {
+                W::fetch(&part, first + FETCHED);
+            }
+            while first + V::COUNT <= bodies.end {
+                work.bodies::<V>(&mut part, first);
+                first += V::COUNT;
+            }
+            // At the end of the list there may be no whole block.
+            while first + V::Half::COUNT <= bodies.end {
+                work.bodies::<V::Half>(&mut part, first);
+                first += V::Half::COUNT;
+            }
+            while first < bodies.end {
+                work.bodies::<f64>(&mut part, first);
+                first += 1;
+            }
+            for body in bodies {
+                work.atoms::<V>(&mut part, body);
             }
             number += 1;
         }

@@ -51,10 +51,12 @@ impl PerBody for Pose {
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let (place, inverse_mass) = (V::load_pairs(&part.position[first..]), V::load(&part.inverse_mass[first..]));
         self.forces(part, first, place, inverse_mass);
+    }
+
+    #[inline(always)]
+    fn atoms<V: Lanes>(&mut self, part: &mut Part, body: usize) {
         if !part.lone_discs {
-            for body in first..first + V::COUNT {
-                part.place_atoms(body);
-            }
+            part.place_atoms::<V>(body);
         }
     }
 }

@@ -9,7 +9,7 @@ use super::critical::Watch;
 use super::follow::Touch;
 use super::kernel::{self, Moment, Records};
 use super::law::{LawTable, PairLaw, Side};
-use super::list::ContactList;
+use super::list::{ContactList, lanes};
 use super::meetings::Meetings;
 use super::normal::{Approach, Mode, NormalForce};
 use super::patience::Patience;
@@ -223,6 +223,22 @@ impl Sink<'_> {
     }
 }
 
+/// The state that contacts act on.
+pub(super) struct Shared<'a> {
+    pub bodies: &'a mut Bodies,
+    pub balance: &'a mut Balance,
+    pub ledger: &'a mut Ledger,
+    pub evaluation: &'a Evaluation,
+}
+
+/// What contacts have beside it.
+pub(super) struct Own<'a> {
+    pub pairs: &'a CandidatePairs,
+    pub contacts: &'a mut PenaltyContacts,
+    pub rolling: Option<&'a mut RollingContacts>,
+    pub forces: Option<&'a mut ContactForces>,
+}
+
 /// The system of [`crate::tick::EvaluateStage::Contacts`].
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are its declaration of access")]
 pub(super) fn apply_penalty<N: NormalForce>(
@@ -234,12 +250,25 @@ pub(super) fn apply_penalty<N: NormalForce>(
     mut deepest: ResMut<DeepestOverlap>,
     evaluation: Res<Evaluation>,
     mut forces: Option<ResMut<ContactForces>>,
-    (touches, mut rolling): (Option<ResMut<Touches>>, Option<ResMut<RollingContacts>>),
+    (mut touches, mut rolling): (Option<ResMut<Touches>>, Option<ResMut<RollingContacts>>),
+) {
+    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
+    let (rolling, forces) = (rolling.as_deref_mut(), forces.as_deref_mut());
+    let own = Own { pairs: &pairs, contacts: &mut contacts, rolling, forces };
+    apply::<N>(shared, own, &mut deepest, touches.as_deref_mut());
+}
+
+/// All contacts follow the state, or are evaluated as in a stage of a step.
+pub(super) fn apply<N: NormalForce>(
+    Shared { bodies, balance, ledger, evaluation }: Shared,
+    Own { pairs, contacts, mut rolling, mut forces }: Own,
+    deepest: &mut DeepestOverlap,
+    touches: Option<&mut Touches>,
 ) {
     if contacts.version != pairs.version {
-        carry_history::<N>(&mut contacts, &bodies, &pairs);
-        contacts.records.prepare(&bodies, &pairs.atoms);
-        contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
+        carry_history::<N>(contacts, bodies, pairs);
+        contacts.records.prepare(bodies, &pairs.atoms);
+        contacts.lay_asleep(bodies, pairs, forces.as_deref_mut());
         bodies.try_flights(contacts.atoms.touching_count());
     }
     if bodies.asleep.is_empty() {
@@ -247,24 +276,24 @@ pub(super) fn apply_penalty<N: NormalForce>(
         contacts.walls.wake_all();
     }
     if let Some(forces) = &mut forces {
-        forces.clear(&bodies);
+        forces.clear(bodies);
     }
     let mut losses = Losses::default();
-    let mut sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
+    let mut sink = Sink { bodies, balance, forces };
     if evaluation.style.is_staged() {
         if let Some(rolling) = &mut rolling {
-            rolling.carry(&pairs);
+            rolling.carry(pairs);
         }
-        staged::evaluate::<N>(&mut contacts, rolling.as_deref_mut(), &pairs, evaluation.style, &mut sink);
-        if let Some(mut touches) = touches {
-            note_touches(&contacts, &bodies, &pairs, &mut touches);
+        staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, &mut sink);
+        if let Some(touches) = touches {
+            note_touches(contacts, sink.bodies, pairs, touches);
         }
         return;
     }
     let (time, elapsed) = (evaluation.time, evaluation.elapsed);
     let PenaltyContacts { laws, atoms, walls, records, meetings, .. } = &mut *contacts;
+    let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
     if !pairs.atoms.is_empty() {
-        let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
         let bound = sink.bodies.flights.take_bound();
         if !meetings.keep((sink.bodies, &bound), &pairs.atoms, atoms, &mut records.list) {
             records.update(sink.bodies, &pairs.atoms, atoms, path);
@@ -276,41 +305,56 @@ pub(super) fn apply_penalty<N: NormalForce>(
             atoms,
             laws,
             &mut sink,
-            &mut deepest,
+            deepest,
             moment,
         );
     }
-    let mut number = 0;
-    while let Some(block) = (number < walls.awake_blocks()).then(|| walls.awake_block(number)) {
-        number += 1;
-        for place in BLOCK * block..pairs.walls.len().min(BLOCK * block + BLOCK) {
-            if !walls.is_asleep(place) {
-                let pair = pairs.walls[place];
-                if passes_by(sink.bodies, pair) {
-                    continue;
-                }
-                follow_wall::<N>((walls, place), pair, laws, (&mut sink, &mut losses), &mut deepest, (time, elapsed));
-            }
-        }
-    }
+    follow_walls::<N>((walls, &pairs.walls), laws, (&mut sink, &mut losses), deepest, Moment { path, time, elapsed });
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
-    contacts.follow_flights(&mut bodies, &pairs, elapsed);
-    if let Some(mut touches) = touches {
-        note_touches(&contacts, &bodies, &pairs, &mut touches);
+    contacts.follow_flights(sink.bodies, pairs, elapsed);
+    if let Some(touches) = touches {
+        note_touches(contacts, sink.bodies, pairs, touches);
     }
 }
 
-/// Whether an atom near a wall belongs to a body that flies, and does not touch it. Where it touches it flies no more.
-fn passes_by(bodies: &mut Bodies, WallPair { wall, atom }: WallPair) -> bool {
-    let body = atom as usize;
-    let Some(passing) = bodies.passing(body) else { return false };
-    let wall = &bodies.walls[wall as usize];
-    let far = (passing.position - wall.point).dot(wall.normal) >= bodies.atom_radius[body];
-    if !far {
-        bodies.bind(body);
+/// Atoms near walls follow their motion.
+#[inline]
+fn follow_walls<N: NormalForce>(
+    (list, pairs): (&mut ContactList, &[WallPair]),
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    Moment { path, time, elapsed }: Moment,
+) {
+    for number in 0..list.awake_blocks() {
+        let block = list.awake_block(number);
+        // Nobody can have come near since it was looked at last.
+        if list.is_early(block, path) {
+            continue;
+        }
+        let pairs = &pairs[BLOCK * block..];
+        // Those that are asleep may touch.
+        let mut near = list.asleep_in(block) != 0;
+        let mut gap = f64::INFINITY;
+        for lane in lanes(list.awake_in(block)) {
+            let WallPair { wall, atom } = pairs[lane];
+            let (packed, passing) = (&sink.bodies.walls[wall as usize], sink.bodies.passing(atom as usize));
+            let at = passing.map_or_else(|| sink.bodies.atom_place(atom as usize), |passing| passing.position);
+            let apart = (at - packed.point).dot(packed.normal) - sink.bodies.atom_radius[atom as usize];
+            let place = BLOCK * block + lane;
+            if apart >= 0.0 && !list.is_touching(place) {
+                gap = gap.min(apart);
+            } else {
+                near = true;
+                // Whoever touches flies no more.
+                sink.bodies.bind(atom as usize);
+                follow_wall::<N>((list, place), pairs[lane], laws, (sink, losses), deepest, (time, elapsed));
+            }
+        }
+        // Half of it: more than rounding can take.
+        list.due[block] = if near { f64::NEG_INFINITY } else { path + 0.5 * gap };
     }
-    far
 }
 
 /// An atom near a wall follows its motion.
@@ -326,9 +370,6 @@ fn follow_wall<N: NormalForce>(
     let packed = sink.bodies.walls[wall as usize];
     let end = End::of(sink.bodies, atom);
     let height = (sink.bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
-    if height >= end.radius && !list.is_touching(place) {
-        return;
-    }
     let mut contact = list.get(place);
     let law = laws.get(contact.law);
     let normal = packed.normal;

@@ -219,6 +219,12 @@ impl ContactList {
         self.asleep.get(block).copied().unwrap_or(0)
     }
 
+    /// Which contacts of a block are there and not asleep.
+    #[inline(always)]
+    pub(super) fn awake_in(&self, block: usize) -> u8 {
+        there(self.len - BLOCK * block) & !self.asleep_in(block)
+    }
+
     /// Places of those that are held along their normal and are not asleep, in order.
     pub(super) fn awake_held(&self) -> impl Iterator<Item = usize> + '_ {
         let held = |block: &usize| self.phases[*block].loading & self.phases[*block].unloading;
@@ -311,6 +317,12 @@ impl ContactList {
     }
 }
 
+/// The bits of a block from whose beginning on there are so many contacts.
+#[inline(always)]
+fn there(count: usize) -> u8 {
+    (u16::MAX >> (2 * BLOCK - count.min(BLOCK))) as u8
+}
+
 /// The contacts of some blocks in a row. Blocks are counted from the first of them.
 pub(super) struct ListPart<'a> {
     /// The first block, counted in the whole list.
@@ -361,8 +373,7 @@ impl ListPart<'_> {
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {
         let looked_at = self.looked_at.get(block).copied().unwrap_or(u8::MAX);
-        let there = (u16::MAX >> (2 * BLOCK - self.count_in(block))) as u8;
-        there & looked_at & !self.asleep.get(block).copied().unwrap_or(0)
+        there(self.count_in(block)) & looked_at & !self.asleep.get(block).copied().unwrap_or(0)
     }
 }
 

@@ -6,6 +6,7 @@ pub mod contact;
 pub mod coulomb;
 mod critical;
 pub mod dashpot;
+mod direct;
 mod follow;
 mod frame;
 mod handover;
@@ -48,6 +49,7 @@ use crate::scene::units::{Damping, Rate};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::simulation::Finishers;
 use crate::tick::balance::EnergyTerms;
+use crate::tick::direct::{Direct, Systems};
 use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Models, Modes, Stability, TickAppExt};
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
@@ -161,6 +163,9 @@ fn add_systems<N: NormalForce>(app: &mut App) {
     let system = apply::apply_penalty::<N>.in_set(ApplyPenalty).after(FindPairs).in_set(EvaluateStage::Contacts);
     app.add_flight_systems(Evaluate, 1, system);
     app.add_flight_systems(Modes, 1, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
+    // Bounds, search, contacts and rest.
+    let systems = Systems { evaluate: 4, modes: 1, energies: 1, ..Systems::default() };
+    Direct::add(app.world_mut(), systems, direct::Contacts::<N>::default());
     if N::DEPENDS_ON_VELOCITY {
         app.need_velocities();
     }
@@ -187,6 +192,8 @@ pub fn install(settings: Penalty, app: &mut App) {
         app.insert_resource(RollingContacts::new(friction, ratio));
         let system = rolling::apply_rolling.after(ApplyPenalty).in_set(EvaluateStage::Contacts);
         app.add_packed_systems(Evaluate, 1, system);
+        let systems = Systems { evaluate: 1, energies: 1, ..Systems::default() };
+        app.world_mut().get_resource_or_init::<Direct>().stand_for(systems);
         app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(rolling_energy);
     }
     app.world_mut()

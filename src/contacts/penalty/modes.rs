@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts, Sink, approach};
+use super::apply::{End, Own, PenaltyContacts, Shared, Sink, approach};
 use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
@@ -49,22 +49,35 @@ pub(super) fn choose_modes<N: NormalForce>(
     mut forces: Option<ResMut<ContactForces>>,
     mut scratch: Local<Scratch>,
 ) {
-    contacts.watch::<N>(&bodies, &pairs, &clock, &stability, &mut balance, steady.as_deref());
+    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
+    let (rolling, forces) = (rolling.as_deref_mut(), forces.as_deref_mut());
+    let own = Own { pairs: &pairs, contacts: &mut contacts, rolling, forces };
+    choose::<N>(shared, (&clock, &span), own, (&stability, steady.as_deref()), &mut scratch);
+}
+
+/// Touching pairs choose their modes.
+pub(super) fn choose<N: NormalForce>(
+    Shared { bodies, balance, ledger, evaluation }: Shared,
+    (clock, span): (&Clock, &Span),
+    Own { pairs, contacts, rolling, forces }: Own,
+    (stability, steady): (&Stability, Option<&SteadySprings>),
+    scratch: &mut Scratch,
+) {
+    contacts.watch::<N>(bodies, pairs, clock, stability, balance, steady);
     if evaluation.style.is_staged() {
         return;
     }
-    let sink = Sink { bodies: &mut bodies, balance: &mut balance, forces: forces.as_deref_mut() };
-    let (contacts, rolling) = (&mut *contacts, rolling.as_deref_mut());
-    let Scratch { touching, cases, moved, islands, members, island } = &mut *scratch;
+    let sink = Sink { bodies, balance, forces };
+    let Scratch { touching, cases, moved, islands, members, island } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
     let mut choice = Choice { sink, contacts, rolling, dt: span.length, losses };
-    choice.wake_touched(&pairs);
+    choice.wake_touched(pairs);
     // A law whose normal force may have several values at rest needs the search to know which: without it contacts load and
     // unload in turns.
-    let restless = if N::SET_VALUED { 0 } else { choice.restless(&pairs) };
+    let restless = if N::SET_VALUED { 0 } else { choice.restless(pairs) };
     if !choice.contacts.patience.searches(restless, ticks) {
-        choice.let_go::<N>(&pairs, touching);
-        choice.book(&mut ledger);
+        choice.let_go::<N>(pairs, touching);
+        choice.book(ledger);
         return;
     }
     cases.clear();
@@ -95,10 +108,10 @@ pub(super) fn choose_modes<N: NormalForce>(
         members.collect(cases, choice.sink.bodies.len());
         let may_rest = members.list.iter().all(|&body| !moved.has(body));
         let thorough = may_rest && (!N::SET_VALUED || is_thorough(cases.len(), ticks));
-        choice.stop::<N>((cases, members), island, (may_rest, thorough), &mut ledger, &mut found);
+        choice.stop::<N>((cases, members), island, (may_rest, thorough), ledger, &mut found);
     }
     choice.contacts.patience.note(found, restless, ticks);
-    choice.book(&mut ledger);
+    choice.book(ledger);
 }
 
 /// The choice of modes under way.

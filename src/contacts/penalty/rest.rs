@@ -240,18 +240,32 @@ pub(super) fn settle_rest(
     (census, evaluation): (Res<Census>, Res<Evaluation>),
     mut forces: Option<ResMut<ContactForces>>,
 ) {
-    if contacts.rest.is_empty() && !contacts.rest.changed {
-        return;
-    }
-    let woken_by_others = bodies.asleep.is_empty() && contacts.sleep == Sleep::Allowed;
-    let new = contacts.rest.changed || woken_by_others;
-    contacts.rest.settle(&mut bodies, &mut balance);
-    if !bodies.disturbed && (new || contacts.rest.changed) {
-        let changing = census.changing_forces || census.ordinary_forces > 0;
-        let carried = !bodies.prescribed.motions.is_empty() || !bodies.belts.is_empty();
-        let sleeps = !(changing || carried || evaluation.style.is_staged());
-        contacts.sleep = if sleeps && contacts.may_sleep { Sleep::Allowed } else { Sleep::Never };
-        contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
+    let changing = census.changing_forces() || evaluation.style.is_staged();
+    contacts.settle((&mut bodies, &mut balance), &pairs, forces.as_deref_mut(), changing);
+}
+
+impl PenaltyContacts {
+    /// After all forces: see [`Rest::settle`]. Bodies at rest fall asleep unless forces are `changing`.
+    #[inline]
+    pub(super) fn settle(
+        &mut self,
+        (bodies, balance): (&mut Bodies, &mut Balance),
+        pairs: &CandidatePairs,
+        forces: Option<&mut ContactForces>,
+        changing: bool,
+    ) {
+        if self.rest.is_empty() && !self.rest.changed {
+            return;
+        }
+        let woken_by_others = bodies.asleep.is_empty() && self.sleep == Sleep::Allowed;
+        let new = self.rest.changed || woken_by_others;
+        self.rest.settle(bodies, balance);
+        if !bodies.disturbed && (new || self.rest.changed) {
+            let carried = !bodies.prescribed.motions.is_empty() || !bodies.belts.is_empty();
+            let sleeps = !(changing || carried);
+            self.sleep = if sleeps && self.may_sleep { Sleep::Allowed } else { Sleep::Never };
+            self.lay_asleep(bodies, pairs, forces);
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts};
+use super::apply::{End, PenaltyContacts, Shared};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::law::PairLaw;
@@ -145,14 +145,24 @@ pub(super) fn apply_rolling(
     mut ledger: ResMut<Ledger>,
     evaluation: Res<Evaluation>,
 ) {
-    rolling.carry(&pairs);
+    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
+    apply(shared, &pairs, &contacts, &mut rolling);
+}
+
+/// All rolling springs follow the state, behind their contacts.
+pub(super) fn apply(
+    Shared { bodies, balance, ledger, evaluation }: Shared,
+    pairs: &CandidatePairs,
+    contacts: &PenaltyContacts,
+    rolling: &mut RollingContacts,
+) {
+    rolling.carry(pairs);
     if evaluation.style.is_staged() {
         // They have acted with their contacts.
         return;
     }
     let (mut atoms, mut walls) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.walls));
-    let mut follow =
-        Follow { bodies: &mut bodies, balance: &mut balance, elapsed: evaluation.elapsed, losses: Losses::default() };
+    let mut follow = Follow { bodies, balance, elapsed: evaluation.elapsed, losses: Losses::default() };
     for (place, slider) in atoms.iter_mut().enumerate() {
         let contact = contacts.atoms.get(place);
         if contacts.atoms.is_asleep(place) {

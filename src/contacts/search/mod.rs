@@ -101,38 +101,50 @@ pub fn plugin(app: &mut App) {
 
 /// Makes the lists anew when the bounding boxes were.
 pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: ResMut<CandidatePairs>) {
-    if pairs.bounds_version == bounds.version {
-        return;
+    pairs.update(&bodies, &mut bounds);
+}
+
+impl CandidatePairs {
+    /// Makes the lists anew when the bounding boxes were.
+    #[inline]
+    pub(super) fn update(&mut self, bodies: &Bodies, bounds: &mut Bounds) {
+        if self.bounds_version != bounds.version {
+            self.renew(bodies, bounds);
+        }
     }
-    pairs.bounds_version = bounds.version;
-    pairs.version += 1;
-    let old_atoms = std::mem::take(&mut pairs.atoms);
-    let [touching, close] = std::mem::take(&mut pairs.group_ends);
-    let old_walls = std::mem::take(&mut pairs.walls);
-    pairs.search = Search::suiting(&bodies);
-    pairs.atoms = pairs.search.pairs(&bodies, &bounds);
-    pairs.walls = wall_pairs(&bodies, &bounds);
-    bounds.candidates = pairs.atoms.len() + pairs.walls.len();
-    let same = pairs.generation == bodies.generation;
-    let places = if same { None } else { Some(pairs.identities.places_in(&Identities::of(&bodies))) };
-    let place = |old: u32| {
-        places.as_ref().map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
-    };
-    // Walls do not come and go one by one: when their number changes their history starts anew.
-    let same_walls = same || pairs.wall_count == bodies.walls.len();
-    let renamed = |old: AtomPair| Some(AtomPair { a: place(old.a)?, b: place(old.b)? });
-    let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
-    pairs.atoms_before = carry(&pairs.atoms, groups, renamed);
-    pairs.walls_before = carry(&pairs.walls, [&old_walls], |old| {
-        Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
-    });
-    if pairs.search == Search::Cells {
-        pairs.group(&bodies, CLOSE * bounds.margin);
-    }
-    if !same {
-        pairs.generation = bodies.generation;
-        pairs.wall_count = bodies.walls.len();
-        pairs.identities = Identities::of(&bodies);
+
+    fn renew(&mut self, bodies: &Bodies, bounds: &mut Bounds) {
+        self.bounds_version = bounds.version;
+        self.version += 1;
+        let old_atoms = std::mem::take(&mut self.atoms);
+        let [touching, close] = std::mem::take(&mut self.group_ends);
+        let old_walls = std::mem::take(&mut self.walls);
+        self.search = Search::suiting(bodies);
+        self.atoms = self.search.pairs(bodies, bounds);
+        self.walls = wall_pairs(bodies, bounds);
+        bounds.candidates = self.atoms.len() + self.walls.len();
+        let same = self.generation == bodies.generation;
+        let places = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
+        let place = |old: u32| {
+            places
+                .as_ref()
+                .map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
+        };
+        // Walls do not come and go one by one: when their number changes their history starts anew.
+        let same_walls = same || self.wall_count == bodies.walls.len();
+        let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
+        self.atoms_before = carry(&self.atoms, groups, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
+        self.walls_before = carry(&self.walls, [&old_walls], |old| {
+            Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
+        });
+        if self.search == Search::Cells {
+            self.group(bodies, CLOSE * bounds.margin);
+        }
+        if !same {
+            self.generation = bodies.generation;
+            self.wall_count = bodies.walls.len();
+            self.identities = Identities::of(bodies);
+        }
     }
 }
 

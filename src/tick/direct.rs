@@ -1,0 +1,396 @@
+//! Ticks without schedules.
+//!
+//! To look a resource up takes some hundred instructions, to have a system run some hundred more: in a world of a few bodies
+//! that is nearly as much as its physics. So models of the engine have a *direct form* beside their systems: a [`Part`], which
+//! owns what it works on while ticks run. Where the parts stand for every system of the three schedules, all ticks of a batch
+//! but the first take the state out of the world once and call one part after the other. A system more, whoever wrote it,
+//! and all ticks go through the schedules.
+//!
+//! Both ways call the same functions in the same order, so not a bit of the state depends on which is taken.
+
+use bevy_ecs::component::Mutable;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::Schedule;
+
+use super::balance::{EnergyTerms, Totals};
+use super::drive::Drive;
+use super::stopwatch::{self, Stopwatch};
+use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Span};
+use crate::world::Bodies;
+
+/// What every part works on. While it is here, the world holds nothing of it.
+#[derive(Default)]
+pub(crate) struct State {
+    pub bodies: Bodies,
+    pub balance: Balance,
+    pub ledger: Ledger,
+    pub evaluation: Evaluation,
+    pub span: Span,
+    pub clock: Clock,
+    pub(super) drive: Drive,
+    stopwatch: Option<Stopwatch>,
+}
+
+impl State {
+    fn exchange(&mut self, world: &mut World) {
+        exchange(world, &mut self.bodies);
+        exchange(world, &mut self.balance);
+        exchange(world, &mut self.ledger);
+        exchange(world, &mut self.evaluation);
+        exchange(world, &mut self.span);
+        exchange(world, &mut self.clock);
+        exchange(world, &mut self.drive);
+    }
+
+    /// From now on the time counts for another part of the tick, if it is measured.
+    #[inline]
+    pub fn turn_to(&mut self, part: stopwatch::Part) {
+        if let Some(stopwatch) = &mut self.stopwatch {
+            stopwatch.turn_to(part);
+        }
+    }
+}
+
+/// A resource and what is held of it change places: to take it out of the world, and to give it back.
+pub(crate) fn exchange<R: Resource<Mutability = Mutable>>(world: &mut World, held: &mut R) {
+    std::mem::swap(held, &mut *world.resource_mut::<R>());
+}
+
+/// The same for a resource that may not be there.
+pub(crate) fn exchange_any<R: Resource<Mutability = Mutable> + Default>(world: &mut World, held: &mut Option<R>) {
+    *held =
+        world.get_resource_mut::<R>().map(|mut there| std::mem::replace(&mut *there, held.take().unwrap_or_default()));
+}
+
+/// The direct form of the systems of a model.
+pub(crate) trait Part: Send + Sync + 'static {
+    /// Takes resources of its own out of the world, or gives them back: each changes places with what is held of it.
+    fn exchange(&mut self, _: &mut World) {}
+
+    /// What its systems in [`Modes`](super::Modes) do.
+    fn choose_modes(&mut self, _: &mut State) {}
+
+    /// What its systems do in a stage of [`Evaluate`](super::Evaluate).
+    fn evaluate(&mut self, _: EvaluateStage, _: &mut State) {}
+
+    /// What it adds to [`EnergyTerms`].
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+}
+
+/// Energies in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Energies {
+    /// In fields.
+    pub potential: f64,
+    /// In springs and contacts.
+    pub elastic: f64,
+}
+
+/// The direct form of a system in [`Stage::Observe`](super::Stage::Observe).
+pub(crate) trait Observer: Send + Sync + 'static {
+    /// See [`Part::exchange`].
+    fn exchange(&mut self, _: &mut World);
+
+    /// Looks at the new state. If it has to see the whole world it does nothing and says so; then [`Observer::observe_world`] is
+    /// called with all state in its place.
+    fn observe(&mut self, state: &State, accounts: Accounts, world: &World) -> bool;
+
+    /// Looks at the new state in the world.
+    fn observe_world(&mut self, _: &mut World);
+}
+
+/// The accounts of the present state, wherever it is.
+#[derive(Clone, Copy)]
+pub(crate) enum Accounts<'a> {
+    World(&'a World),
+    Held(&'a State, &'a [Box<dyn Part>]),
+}
+
+impl<'a> Accounts<'a> {
+    /// Energies and momenta.
+    pub fn totals(self) -> Totals {
+        let (state, parts) = match self {
+            Self::World(world) => return Totals::of(world),
+            Self::Held(state, parts) => (state, parts),
+        };
+        let mut sum = Energies::default();
+        for part in parts {
+            let Energies { potential, elastic } = part.energies(state);
+            sum.potential += potential;
+            sum.elastic += elastic;
+        }
+        Totals::with(&state.bodies, sum.potential, sum.elastic)
+    }
+
+    /// What has gone in and out.
+    pub fn ledger(self) -> &'a Ledger {
+        match self {
+            Self::World(world) => world.resource(),
+            Self::Held(state, _) => &state.ledger,
+        }
+    }
+}
+
+/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes), and how
+/// many energies in [`EnergyTerms`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Systems {
+    pub tick: usize,
+    pub evaluate: usize,
+    pub modes: usize,
+    pub energies: usize,
+}
+
+impl Systems {
+    /// Those of these schedules.
+    pub fn of(world: &World, tick: &Schedule, evaluate: &Schedule, modes: &Schedule) -> Self {
+        let count = |schedule: &Schedule| schedule.graph().systems.len();
+        let terms = world.get_resource::<EnergyTerms>();
+        let energies = terms.map_or(0, |terms| terms.potential.len() + terms.elastic.len());
+        Self { tick: count(tick), evaluate: count(evaluate), modes: count(modes), energies }
+    }
+}
+
+/// The parts of a world, and what they work on.
+#[derive(Resource, Default)]
+pub(crate) struct Direct {
+    pub state: Box<State>,
+    parts: Vec<Box<dyn Part>>,
+    observers: Vec<Box<dyn Observer>>,
+    /// Systems for which the parts stand.
+    systems: Systems,
+}
+
+impl Direct {
+    /// Adds a part that stands for so many systems.
+    pub fn add(world: &mut World, systems: Systems, part: impl Part) {
+        let mut direct = world.get_resource_or_init::<Self>();
+        direct.parts.push(Box::new(part));
+        direct.stand_for(systems);
+    }
+
+    /// Adds the direct form of one system in [`Stage::Observe`](super::Stage::Observe).
+    pub fn add_observer(world: &mut World, observer: impl Observer) {
+        let mut direct = world.get_resource_or_init::<Self>();
+        direct.observers.push(Box::new(observer));
+        direct.stand_for(Systems { tick: 1, ..Systems::default() });
+    }
+
+    /// So many systems more are stood for.
+    pub fn stand_for(&mut self, systems: Systems) {
+        self.systems.tick += systems.tick;
+        self.systems.evaluate += systems.evaluate;
+        self.systems.modes += systems.modes;
+        self.systems.energies += systems.energies;
+    }
+
+    /// Whether there is a part for each of the systems that there are.
+    pub fn stands_for_all(&self, systems: Systems) -> bool {
+        self.systems == systems
+    }
+
+    /// Takes the state out of the world while `see` goes on.
+    pub fn hold<U>(&mut self, world: &mut World, see: impl FnOnce(&mut World, &mut Self) -> U) -> U {
+        self.exchange(world);
+        self.state.stopwatch = world.remove_resource();
+        let seen = see(world, self);
+        if let Some(stopwatch) = self.state.stopwatch.take() {
+            world.insert_resource(stopwatch);
+        }
+        self.exchange(world);
+        seen
+    }
+
+    /// Shows the world with all state in its place, while it is held.
+    pub fn show<U>(&mut self, world: &mut World, see: impl FnOnce(&mut World) -> U) -> U {
+        self.exchange(world);
+        let seen = see(world);
+        self.exchange(world);
+        seen
+    }
+
+    fn exchange(&mut self, world: &mut World) {
+        self.state.exchange(world);
+        for part in &mut self.parts {
+            part.exchange(world);
+        }
+        for observer in &mut self.observers {
+            observer.exchange(world);
+        }
+    }
+
+    /// What [`Modes`](super::Modes) does.
+    pub fn choose_modes(&mut self) {
+        use stopwatch::Part::{Integrate, ModesOfContacts};
+        self.state.turn_to(ModesOfContacts);
+        for part in &mut self.parts {
+            part.choose_modes(&mut self.state);
+        }
+        self.state.turn_to(Integrate);
+    }
+
+    /// What [`Evaluate`](super::Evaluate) does.
+    pub fn evaluate(&mut self) {
+        use stopwatch::Part as Timed;
+        let stages = [
+            (Timed::Bounds, EvaluateStage::Bounds),
+            (Timed::Forces, EvaluateStage::Forces),
+            (Timed::Search, EvaluateStage::Contacts),
+            (Timed::Joints, EvaluateStage::Joints),
+        ];
+        for (timed, stage) in stages {
+            self.state.turn_to(timed);
+            for part in &mut self.parts {
+                part.evaluate(stage, &mut self.state);
+            }
+        }
+        self.state.turn_to(Timed::Integrate);
+    }
+
+    /// What [`Stage::Observe`](super::Stage::Observe) does.
+    pub fn observe(&mut self, world: &mut World) {
+        self.state.turn_to(stopwatch::Part::Observe);
+        for number in 0..self.observers.len() {
+            let accounts = Accounts::Held(&self.state, &self.parts);
+            if !self.observers[number].observe(&self.state, accounts, world) {
+                self.exchange(world);
+                self.observers[number].observe_world(world);
+                self.exchange(world);
+            }
+        }
+        self.state.turn_to(stopwatch::Part::Between);
+    }
+}
+
+/// State that is looked up in the world, unless a [`State`] holds it.
+pub(super) trait Held: Resource<Mutability = Mutable> {
+    fn of(state: &State) -> &Self;
+    fn of_mut(state: &mut State) -> &mut Self;
+}
+
+macro_rules! held {
+    ($($type:ty: $field:ident),*) => {
+        $(impl Held for $type {
+            #[inline(always)]
+            fn of(state: &State) -> &Self {
+                &state.$field
+            }
+
+            #[inline(always)]
+            fn of_mut(state: &mut State) -> &mut Self {
+                &mut state.$field
+            }
+        })*
+    };
+}
+
+held!(Bodies: bodies, Balance: balance, Ledger: ledger, Evaluation: evaluation, Span: span, Clock: clock, Drive: drive);
+
+/// State wherever it is.
+#[inline(always)]
+pub(super) fn held<'a, R: Held>(world: &'a World, direct: Option<&'a Direct>) -> &'a R {
+    match direct {
+        Some(direct) => R::of(&direct.state),
+        None => world.resource(),
+    }
+}
+
+/// State wherever it is, to be changed.
+#[inline(always)]
+pub(super) fn held_mut<'a, R: Held>(world: &'a mut World, direct: Option<&'a mut Direct>) -> &'a mut R {
+    match direct {
+        Some(direct) => R::of_mut(&mut direct.state),
+        None => world.resource_mut::<R>().into_inner(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy_ecs::schedule::{ScheduleLabel, Schedules};
+
+    use super::*;
+    use crate::Simulation;
+    use crate::contacts::DeepestOverlap;
+    use crate::scene::Source;
+    use crate::tick::{Evaluate, Modes, SimTick, add_packed_observer};
+    use crate::world::hash::state_hash;
+
+    /// Blocks that fall into a corner and come to rest, each kind of part beside the others.
+    fn scene(method: &str, contacts: &str) -> Source {
+        let block = |number: usize| {
+            format!(
+                "(name: \"{number}\", at: ({}, {}), spin: {number}, material: \"stone\",
+                  atoms: Picture(spacing: 0.1, mass: 0.02, rows: [\"##\", \"##\"])),",
+                0.3 + 0.25 * (number % 3) as f64,
+                0.3 + 0.3 * number as f64
+            )
+        };
+        let blocks: String = (0..6).map(block).collect();
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 2, tick: 0.0005, method: {method}),
+            gravity: (0.1, -9.81), contacts: Penalty({contacts}),
+            materials: {{ \"stone\": (stiffness: 4000, friction: 0.4, inelasticity: 0.4) }},
+            walls: [
+                (name: \"floor\", left: (1, 0), right: (0, 0), material: \"stone\"),
+                (name: \"left\", left: (0, 0), right: (0, 1), material: \"stone\"),
+                (name: \"right\", left: (1.1, 1), right: (1.1, 0), material: \"stone\"),
+            ],
+            bodies: [{blocks}],
+            sensors: [ContactForce(on: \"floor\"), Energy()],
+            expect: [Inside(of: \"*\", box: ((0, 0), (1.1, 3))), Channel(name: \"energy.residual\", below: 0.01),
+                Channel(name: \"0.position.y\", below: 1)])"
+        );
+        Source::new("direct.ron", text)
+    }
+
+    fn is_direct(simulation: &Simulation) -> bool {
+        let schedules = simulation.world().resource::<Schedules>();
+        let [tick, evaluate, modes] =
+            [SimTick.intern(), Evaluate.intern(), Modes.intern()].map(|label| schedules.get(label).unwrap());
+        let systems = Systems::of(simulation.world(), tick, evaluate, modes);
+        simulation.world().resource::<Direct>().stands_for_all(systems)
+    }
+
+    #[test]
+    fn both_ways_give_the_same_bits() {
+        let laws = ["", "normal: Dashpot, damping: 2", "tangential: None", "rolling: Spring(friction: 0.05)"];
+        for (method, contacts) in
+            laws.iter().flat_map(|law| ["VelocityVerlet", "SemiImplicitEuler"].map(|method| (method, law)))
+        {
+            let load = || Simulation::load(&scene(method, contacts)).unwrap_or_else(|errors| panic!("{errors}"));
+            let (mut direct, mut scheduled) = (load(), load());
+            // One system more is enough.
+            add_packed_observer(scheduled.world_mut(), || {});
+            for tick in [1, 2, 9, 1000, direct.ticks()] {
+                direct.run_to_tick(tick).unwrap();
+                scheduled.run_to_tick(tick).unwrap();
+                assert_eq!(state_hash(direct.bodies()), state_hash(scheduled.bodies()), "{method}, {contacts}, {tick}");
+            }
+            assert!(is_direct(&direct) && !is_direct(&scheduled));
+            assert_eq!(direct.outcomes(), scheduled.outcomes());
+            let [direct, scheduled] = [direct.world(), scheduled.world()];
+            assert_eq!(direct.resource::<Ledger>(), scheduled.resource::<Ledger>());
+            assert_eq!(direct.resource::<Balance>(), scheduled.resource::<Balance>());
+            assert_eq!(direct.resource::<Evaluation>(), scheduled.resource::<Evaluation>());
+            assert_eq!(direct.resource::<DeepestOverlap>().share, scheduled.resource::<DeepestOverlap>().share);
+        }
+    }
+
+    #[test]
+    fn a_condition_on_a_stage_holds_in_all_ticks() {
+        let fall = |batches: &[u64]| {
+            let mut simulation = Simulation::load(&scene("VelocityVerlet", "")).unwrap();
+            simulation.world_mut().schedule_scope(Evaluate, |_, schedule| {
+                schedule.configure_sets(EvaluateStage::Contacts.run_if(|| false));
+            });
+            batches.iter().for_each(|&tick| simulation.run_to_tick(tick).unwrap());
+            simulation
+        };
+        let (at_once, one_by_one) = (fall(&[1, 1500]), fall(&(1..=1500).collect::<Vec<_>>()));
+        assert_eq!(state_hash(at_once.bodies()), state_hash(one_by_one.bodies()));
+        // Without contacts the floor is passed: 0.75 s are 2.8 m.
+        assert!(at_once.bodies().position.iter().all(|position| position.y < 0.0), "{:?}", at_once.bodies().position);
+    }
+}

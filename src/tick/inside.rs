@@ -1,0 +1,311 @@
+//! What an integrator may do inside a tick.
+
+use bevy_ecs::prelude::*;
+
+use super::direct::{Direct, Held, held, held_mut};
+use super::drive::Drive;
+use super::{Balance, Census, Evaluation, Indicator, Ledger, Models, Span, Style, Watch};
+use crate::bounds::Bounds;
+use crate::world::motion::Travel;
+use crate::world::{Bodies, lend};
+
+/// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
+/// where choices contradict each other.
+const MOST_CORRECTIONS: usize = 32;
+
+/// What an integrator may do inside a tick.
+pub struct Tick<'a> {
+    /// The world, for state of the integrator's own.
+    pub world: &'a mut World,
+    /// What holds the state in place of the world; only for integrators that said that they look for it nowhere else.
+    pub(super) direct: Option<&'a mut Direct>,
+    pub(super) evaluate: &'a mut Schedule,
+    pub(super) modes: &'a mut Schedule,
+    pub(super) has_modes: bool,
+    pub(super) velocity_dependent: bool,
+    pub(super) style: Style,
+    /// Whether the state was changed by others since the last tick, or is the first of all.
+    pub(super) fresh: bool,
+    /// Whether systems in the tick may look at forces.
+    pub(super) looked_at: bool,
+    /// Length of the tick in seconds.
+    pub dt: f64,
+    /// Time at its beginning in seconds.
+    pub begin: f64,
+    /// Time at its end in seconds: the beginning of the next to the last bit.
+    pub end: f64,
+    pub(super) alert: bool,
+}
+
+impl Tick<'_> {
+    /// Whether some force depends on velocities.
+    pub fn velocity_dependent(&self) -> bool {
+        self.velocity_dependent
+    }
+
+    /// Whether some force other than those of contacts depends on velocities.
+    pub fn has_velocity_forces(&self) -> bool {
+        self.world.resource::<Census>().velocity_forces
+    }
+
+    /// The first time after `now` at which forces or their rates are known to jump, in seconds; infinite if there is none.
+    pub fn next_edge(&self, now: f64) -> f64 {
+        let edges = &self.world.resource::<Models>().edges;
+        let paths = self.world.resource::<Bodies>().prescribed.next_point(now);
+        edges.iter().map(|edge| edge(self.world, now)).fold(paths, f64::min)
+    }
+
+    /// Whether forces may change with time in a state that does not.
+    pub fn changes_with_time(&self) -> bool {
+        !self.world.resource::<Models>().edges.is_empty()
+            || !self.world.resource::<Bodies>().prescribed.motions.is_empty()
+    }
+
+    /// State wherever it is.
+    #[inline(always)]
+    pub(super) fn held<R: Held>(&self) -> &R {
+        held(self.world, self.direct.as_deref())
+    }
+
+    /// State wherever it is, to be changed.
+    #[inline(always)]
+    pub(super) fn held_mut<R: Held>(&mut self) -> &mut R {
+        held_mut(self.world, self.direct.as_deref_mut())
+    }
+
+    /// The packed state.
+    pub fn bodies(&mut self) -> &mut Bodies {
+        self.held_mut()
+    }
+
+    /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
+    pub fn evaluate(&mut self, elapsed: f64) {
+        // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
+        let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
+        let begin = self.begin;
+        let bodies = self.bodies();
+        if elapsed == 0.0 {
+            bodies.accept();
+        }
+        let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(begin, time));
+        bodies.swap_estimate();
+        bodies.pose();
+        if let Some(driven) = driven {
+            let smallest = bodies.smallest_radius;
+            let Drive { farthest, travelled, .. } = *self.held();
+            self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
+        }
+        self.run_evaluation(time, elapsed);
+        let bodies = self.bodies();
+        if !std::mem::take(&mut bodies.disturbed) {
+            return bodies.swap_estimate();
+        }
+        bodies.wake_all();
+        bodies.pose();
+        // No time has passed since: histories stay as they are.
+        self.run_evaluation(time, 0.0);
+        self.bodies().swap_estimate();
+    }
+
+    /// Bodies are posed.
+    fn run_evaluation(&mut self, time: f64, elapsed: f64) {
+        *self.held_mut() = Balance::default();
+        let style = self.style;
+        let evaluation: &mut Evaluation = self.held_mut();
+        *evaluation = Evaluation { time, elapsed, style, count: evaluation.count + 1, stale: false };
+        match &mut self.direct {
+            Some(direct) => direct.evaluate(),
+            None => self.evaluate.run(self.world),
+        }
+    }
+
+    /// Whether the state is the first of all, or was changed by others since the last tick.
+    pub fn is_fresh(&self) -> bool {
+        self.fresh
+    }
+
+    /// Lets forces and contacts choose their modes from `begin` to `end`.
+    pub fn choose_modes(&mut self, begin: f64, end: f64) {
+        let bodies = self.bodies();
+        if !bodies.prescribed.motions.is_empty() {
+            let middle = 0.5 * (begin + end);
+            let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
+            // On another piece of a path what rides on it has other forces from its first moment on.
+            let passed = bodies.prescribed.next_point(before) < middle;
+            if passed && self.style.is_staged() {
+                self.evaluate_stage(begin);
+            }
+        }
+        if self.has_modes {
+            let whole = begin == self.begin && end == self.end;
+            let length = if whole { self.dt } else { end - begin };
+            *self.held_mut() = Span { begin, end, length };
+            match &mut self.direct {
+                Some(direct) => direct.choose_modes(),
+                None => self.modes.run(self.world),
+            }
+            // What is held by contacts depends on all other forces.
+            if self.style.is_staged() && self.held::<Evaluation>().stale {
+                self.evaluate_stage(begin);
+                self.settle();
+            }
+        }
+    }
+
+    /// Evaluates the forces of the state as it stands, at `time` seconds, as one of many of a step: nothing goes on by
+    /// it but the rates.
+    pub fn evaluate_stage(&mut self, time: f64) {
+        let mut bodies = self.world.resource_mut::<Bodies>();
+        bodies.wake_all();
+        if !bodies.prescribed.motions.is_empty() {
+            bodies.prescribe(self.begin, time);
+        }
+        bodies.pose();
+        self.run_evaluation(time, 0.0);
+    }
+
+    /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
+    pub(super) fn begin_anew(&mut self) {
+        self.evaluate_stage(self.begin);
+        self.each_watch(|world, watch| (watch.take_stock)(world));
+        self.evaluate_stage(self.begin);
+        self.settle();
+    }
+
+    /// Adds all indicators of the state just evaluated to a list.
+    pub fn tell(&mut self, told: &mut Vec<Indicator>) {
+        let mut place = 0;
+        self.each_watch(|world, watch| {
+            let first = told.len();
+            (watch.tell)(world, told);
+            if told.len() - first != watch.told {
+                world.resource_mut::<Models>().watches[place].told = told.len() - first;
+            }
+            place += 1;
+        });
+    }
+
+    fn each_watch(&mut self, mut see: impl FnMut(&mut World, Watch)) {
+        let mut place = 0;
+        while let Some(&watch) = self.world.resource::<Models>().watches.get(place) {
+            see(self.world, watch);
+            place += 1;
+        }
+    }
+
+    /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
+    /// ready for the next step.
+    pub fn end_step(&mut self, fired: &[usize]) {
+        let time = self.world.resource::<Evaluation>().time;
+        if !fired.is_empty() {
+            let mut first = 0;
+            self.each_watch(|world, watch| {
+                let own = |place: &&usize| (first..first + watch.told).contains(*place);
+                let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
+                if !own.is_empty() {
+                    (watch.switch)(world, &own);
+                }
+                first += watch.told;
+            });
+            self.evaluate_stage(time);
+            self.settle();
+        }
+        let mut changed = false;
+        self.each_watch(|world, watch| changed |= (watch.tidy)(world));
+        if changed {
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
+    /// it, `times` as far as their present velocities and accelerations say. Says whether the state was evaluated for that.
+    pub fn reserve(&mut self, length: f64, times: f64) -> bool {
+        if !self.world.contains_resource::<Bounds>() {
+            return false;
+        }
+        let renew = lend(self.world, |world, bounds: &mut Bounds| {
+            let bodies = world.resource::<Bodies>();
+            let travel = |body: usize| {
+                let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
+                let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
+                let way = velocity + 0.5 * length * force * bodies.inverse_mass[body];
+                let turn = spin + 0.5 * length * torque * bodies.inverse_inertia[body];
+                (way + turn * bodies.extent[body]) * length
+            };
+            let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
+            bounds.reserve(bodies, times * farthest)
+        });
+        if renew {
+            let time = self.world.resource::<Evaluation>().time;
+            self.evaluate_stage(time);
+        }
+        renew
+    }
+
+    /// Shows the state as it stands at `time` seconds, between states that the motion goes by: forces are evaluated only if
+    /// somebody looks at them.
+    pub fn show(&mut self, time: f64) {
+        if self.looked_at || !self.world.resource::<Models>().watches.is_empty() {
+            return self.evaluate_stage(time);
+        }
+        self.world.resource_mut::<Bodies>().pose();
+        let mut evaluation = self.world.resource_mut::<Evaluation>();
+        (evaluation.time, evaluation.stale) = (time, true);
+    }
+
+    /// Candidate lists are made anew for the state as it stands.
+    pub fn renew_lists(&mut self, time: f64) {
+        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
+            bounds.outdate();
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Whether somebody moved farther than candidate lists reach since they were made.
+    pub fn outgrown(&self) -> bool {
+        self.world.get_resource::<Bounds>().is_some_and(|bounds| bounds.outgrown)
+    }
+
+    /// The step in which somebody moved farther than candidate lists reach is not taken.
+    pub fn recall_bounds(&mut self) {
+        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
+            bounds.outgrown = false;
+        }
+    }
+
+    /// Lets models correct the modes of a state just evaluated, until none wants to.
+    fn settle(&mut self) {
+        let time = self.world.resource::<Evaluation>().time;
+        for _ in 0..MOST_CORRECTIONS {
+            let mut corrected = false;
+            self.each_watch(|world, watch| corrected |= (watch.settle)(world));
+            if !corrected {
+                break;
+            }
+            self.evaluate_stage(time);
+        }
+    }
+
+    /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
+    pub fn kick(&mut self, dt: f64) {
+        self.book(dt);
+        self.bodies().kick(dt);
+    }
+
+    /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
+    /// over `drift` seconds. One drift per tick: it is remembered as the displacement since the last accepted state. With
+    /// `ahead` the velocities so many seconds later are estimated from the same forces: the following evaluations see them in
+    /// place of the velocities, which stay as they are.
+    pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
+        self.book(kick);
+        let bodies = self.bodies();
+        let (travelled, smallest) = (bodies.advance(kick, drift, ahead), bodies.smallest_radius);
+        self.note_travel(travelled, smallest);
+    }
+
+    fn book(&mut self, dt: f64) {
+        let balance: Balance = *self.held();
+        self.alert |= balance.alert;
+        self.held_mut::<Ledger>().book(&balance, dt);
+    }
+}
