@@ -133,7 +133,7 @@ impl Bounds {
     /// Says whether they have to be made anew for that.
     pub fn reserve(&mut self, bodies: &Bodies, travel: f64) -> bool {
         let left = |body: usize| {
-            let turned = (bodies.angle[body] - self.angle[body]).abs() * bodies.extent[body];
+            let turned = (bodies.angle[body] - self.angle[body]).abs() * bodies.extent(body);
             self.margin / 2.0 - turned - (bodies.position[body] - self.position[body]).length()
         };
         let enough = (0..bodies.len()).filter(|&body| bodies.moves[body]).all(|body| left(body) >= travel);

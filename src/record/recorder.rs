@@ -96,12 +96,12 @@ fn cast_of(simulation: &Simulation) -> Cast {
     let name = |entity: Entity| world.get::<Name>(entity).map(|name| name.0.clone()).unwrap_or_default();
     let body = |place: usize| {
         let atoms = bodies.atoms_of(place);
-        let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset[a], radius: bodies.atom_radius[a] });
+        let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
         let fixed =
             world.get::<crate::world::Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
         BodyLook {
             name: name(bodies.entity[place]),
-            color: atoms.clone().next().and_then(|first| color(bodies.atom_material[first])),
+            color: atoms.clone().next().and_then(|first| color(bodies.atom_material(first))),
             discs: discs.collect(),
             fixed,
         }

@@ -6,6 +6,7 @@ pub mod finite;
 pub mod hash;
 pub mod kinematic;
 mod lend;
+mod lone;
 pub mod material;
 pub mod motion;
 pub mod packed;

@@ -205,7 +205,7 @@ impl Near<'_> {
         let (x, y) = V::load_pairs(&bodies.position[first..]);
         let (from_x, from_y) = V::load_pairs(&self.position[first..]);
         let turned = (V::load(&bodies.angle[first..]) - V::load(&self.angle[first..])).abs();
-        let left = V::splat(self.allowed) - turned * V::load(&bodies.extent[first..]);
+        let left = V::splat(self.allowed) - turned * V::load(&bodies.extents()[first..]);
         let (x, y, zero) = (x - from_x, y - from_y, V::splat(0.0));
         // Bodies that stand still are where they were, whatever the sign of zero.
         let near =

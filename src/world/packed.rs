@@ -10,6 +10,7 @@ use glam::DVec2;
 use super::atom::{Atom, atoms_of};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 use super::kinematic::{Kinematic, Prescribed};
+use super::lone::{Surface, Surfaces};
 use super::material::MaterialIndex;
 use super::motion::Travel;
 use super::wall::Wall;
@@ -82,10 +83,10 @@ pub struct Bodies {
     pub inverse_mass: Vec<f64>,
     /// 1/inertia, zero where the body does not move by forces.
     pub inverse_inertia: Vec<f64>,
-    /// Greatest distance of a point of the body from its centre of mass, in metres.
-    pub extent: Vec<f64>,
-    /// First atom of each body, and the number of atoms at the end.
-    pub first_atom: Vec<u32>,
+    /// See [`Bodies::extent`]; empty where bodies are lone discs.
+    pub(crate) extent: Vec<f64>,
+    /// First atom of each body, and the number of atoms at the end; empty where bodies are lone discs. See [`Bodies::atoms_of`].
+    pub(crate) first_atom: Vec<u32>,
 
     /// Centre of mass in metres.
     pub position: Vec<DVec2>,
@@ -116,20 +117,19 @@ pub struct Bodies {
     /// Torque of the present evaluation in N m.
     pub torque: Vec<f64>,
 
-    /// Centre of each atom from its body's centre of mass, in the body's frame, in metres.
-    pub atom_offset: Vec<DVec2>,
+    /// See [`Bodies::atom_offset`]; empty where bodies are lone discs.
+    pub(crate) atom_offset: Vec<DVec2>,
     /// Centre of each atom in the world, in metres; empty where bodies are lone discs. See [`Bodies::atom_place`].
     pub(crate) atom_position: Vec<DVec2>,
     /// Radius of each atom in metres.
     pub atom_radius: Vec<f64>,
-    /// Mass of each atom in kg.
-    pub atom_mass: Vec<f64>,
-    /// Stiffness of each atom in N/m.
-    pub atom_stiffness: Vec<f64>,
-    /// Material of each atom.
-    pub atom_material: Vec<MaterialIndex>,
-    /// Body of each atom.
-    pub atom_body: Vec<u32>,
+    /// Place of the surface of each atom among [`Bodies::surfaces`]. See [`Bodies::atom_stiffness`] and
+    /// [`Bodies::atom_material`].
+    pub(crate) atom_surface: Vec<u32>,
+    /// The surfaces that atoms have, each once.
+    pub(crate) surfaces: Vec<Surface>,
+    /// See [`Bodies::atom_body`]; empty where bodies are lone discs.
+    pub(crate) atom_body: Vec<u32>,
 
     /// Whether each body is one disc about its centre of mass: atoms have the numbers of their bodies then.
     pub lone_discs: bool,
@@ -216,16 +216,6 @@ impl Bodies {
         place(first)..place(last)
     }
 
-    /// Number of atoms.
-    pub fn atom_count(&self) -> usize {
-        self.atom_offset.len()
-    }
-
-    /// Atoms of body `body`.
-    pub fn atoms_of(&self, body: usize) -> std::ops::Range<usize> {
-        self.first_atom[body] as usize..self.first_atom[body + 1] as usize
-    }
-
     /// Velocity of a point that moves with body `body`, `arm` metres from its centre of mass.
     #[inline]
     pub fn velocity_at(&self, body: usize, arm: DVec2) -> DVec2 {
@@ -258,13 +248,7 @@ impl Bodies {
     /// The way in metres that some point of a body made at most since the last accepted state.
     pub(crate) fn travel(&self, body: usize) -> f64 {
         let (moved, turn) = self.displacement(body);
-        moved.length() + turn.abs() * self.extent[body]
-    }
-
-    /// Where the centre of an atom is, in metres.
-    #[inline(always)]
-    pub fn atom_place(&self, atom: usize) -> DVec2 {
-        if self.lone_discs { self.position[atom] } else { self.atom_position[atom] }
+        moved.length() + turn.abs() * self.extent(body)
     }
 
     /// Adds a force that acts `arm` metres from the centre of mass of body `body`.
@@ -322,7 +306,7 @@ impl Bodies {
                 (self.estimated_velocity[body], self.estimated_spin[body]) = (now.velocity, now.spin);
             }
             (self.drift[body], self.turn[body]) = (now.position - from.position, now.angle - from.angle);
-            let travel = self.drift[body].length() + self.turn[body].abs() * self.extent[body];
+            let travel = self.drift[body].length() + self.turn[body].abs() * self.extent(body);
             travelled.greatest = travelled.greatest.max(travel);
             travelled.sum += travel;
         }
@@ -428,21 +412,28 @@ impl Bodies {
         for list in [&mut self.dynamic, &mut self.moves, &mut self.collides] {
             list.reserve_exact(bodies);
         }
-        let Self { mass, inertia, inverse_mass, inverse_inertia, extent, angle, angle_rest, spin, torque, .. } = self;
-        for list in [mass, inertia, inverse_mass, inverse_inertia, extent, angle, angle_rest, spin, torque] {
+        let Self { mass, inertia, inverse_mass, inverse_inertia, angle, angle_rest, spin, torque, .. } = self;
+        for list in [mass, inertia, inverse_mass, inverse_inertia, angle, angle_rest, spin, torque] {
             list.reserve_exact(bodies);
         }
         for list in [&mut self.position, &mut self.position_rest, &mut self.velocity, &mut self.force] {
             list.reserve_exact(bodies);
         }
-        self.first_atom.reserve_exact(bodies + 1);
-        self.atom_offset.reserve_exact(atoms);
-        for list in [&mut self.atom_radius, &mut self.atom_mass, &mut self.atom_stiffness] {
-            list.reserve_exact(atoms);
+        self.atom_radius.reserve_exact(atoms);
+        self.atom_surface.reserve_exact(atoms);
+        if !self.lone_discs {
+            self.extent.reserve_exact(bodies);
+            self.first_atom.reserve_exact(bodies + 1);
+            self.atom_offset.reserve_exact(atoms);
+            self.atom_body.reserve_exact(atoms);
         }
-        self.atom_material.reserve_exact(atoms);
-        self.atom_body.reserve_exact(atoms);
     }
+}
+
+/// Whether a body is one disc about its centre of mass.
+fn is_lone_disc(world: &World, body: Entity) -> bool {
+    let mut atoms = atoms_of(world, body);
+    atoms.next().is_some_and(|atom| atom.offset == DVec2::ZERO) && atoms.next().is_none()
 }
 
 /// Fills the arrays anew from the entities, in the order of keys, and tells every body its place.
@@ -459,10 +450,11 @@ pub fn rebuild(world: &mut World) {
         threads: previous.threads,
         field: previous.field,
         pushed: previous.pushed,
+        lone_discs: found.iter().all(|&(_, entity)| is_lone_disc(world, entity)),
         ..Default::default()
     };
     bodies.make_room(found.len(), world.query::<&Atom>().iter(world).len());
-    bodies.first_atom.push(0);
+    let mut surfaces = Surfaces::default();
     for (place, &(key, entity)) in found.iter().enumerate() {
         let mut body = world.entity_mut(entity);
         match body.get_mut::<Slot>() {
@@ -505,22 +497,24 @@ pub fn rebuild(world: &mut World) {
         }
         bodies.force.push(DVec2::ZERO);
         bodies.torque.push(0.0);
-        let mut extent = 0.0_f64;
+        let (mut extent, first_atom) = (0.0_f64, bodies.atom_count() as u32);
         for atom in atoms_of(world, entity) {
-            extent = extent.max(atom.offset.length() + atom.radius);
-            bodies.atom_offset.push(atom.offset);
             bodies.atom_radius.push(atom.radius);
-            bodies.atom_mass.push(atom.mass);
-            bodies.atom_stiffness.push(atom.stiffness);
-            bodies.atom_material.push(atom.material);
-            bodies.atom_body.push(place as u32);
+            bodies.atom_surface.push(surfaces.place(atom));
+            if !bodies.lone_discs {
+                extent = extent.max(atom.offset.length() + atom.radius);
+                bodies.atom_offset.push(atom.offset);
+                bodies.atom_body.push(place as u32);
+            }
         }
-        bodies.extent.push(extent);
-        bodies.first_atom.push(bodies.atom_offset.len() as u32);
+        if !bodies.lone_discs {
+            bodies.extent.push(extent);
+            bodies.first_atom.push(first_atom);
+        }
     }
-    let lone = |body: usize| bodies.atoms_of(body).len() == 1 && bodies.atom_offset[body] == DVec2::ZERO;
-    bodies.lone_discs = (0..bodies.len()).all(lone);
+    bodies.surfaces = surfaces.into_list();
     if !bodies.lone_discs {
+        bodies.first_atom.push(bodies.atom_count() as u32);
         bodies.atom_position = vec![DVec2::ZERO; bodies.atom_count()];
         for body in 0..bodies.len() {
             let (pose, atoms) = ((bodies.position[body], bodies.angle[body]), bodies.atoms_of(body));

@@ -44,10 +44,9 @@ pub(crate) struct Part<'a> {
     pub torque: &'a mut [f64],
     pub lone_discs: bool,
     moves: &'a [bool],
-    /// One more than bodies.
+    /// One more than bodies; empty where bodies are lone discs, and so are the following.
     first_atom: &'a [u32],
     atom_offset: &'a [DVec2],
-    /// Empty where bodies are lone discs.
     pub atom_position: &'a mut [DVec2],
 }
 
@@ -68,7 +67,7 @@ impl<'a> Part<'a> {
             mass: &bodies.mass,
             inverse_mass: &bodies.inverse_mass,
             inverse_inertia: &bodies.inverse_inertia,
-            extent: &bodies.extent,
+            extent: if bodies.lone_discs { &bodies.atom_radius } else { &bodies.extent },
             position: &mut bodies.position,
             position_rest: &mut bodies.position_rest,
             angle: &mut bodies.angle,
@@ -93,7 +92,7 @@ impl<'a> Part<'a> {
     fn take(&mut self, count: usize) -> Self {
         let blocks = |list: &[u32]| list.partition_point(|&block| (block as usize) < (self.first + count) / BLOCK);
         let (awake, rest) = self.awake.map(|list| list.split_at(blocks(list))).unzip();
-        let atoms = (self.first_atom[count] - self.first_atom[0]) as usize;
+        let atoms = if self.lone_discs { 0 } else { (self.first_atom[count] - self.first_atom[0]) as usize };
         let front = Self {
             first: self.first,
             awake,
@@ -116,7 +115,7 @@ impl<'a> Part<'a> {
             torque: cut(&mut self.torque, count),
             lone_discs: self.lone_discs,
             moves: &self.moves[..count],
-            first_atom: &self.first_atom[..=count],
+            first_atom: if self.lone_discs { &[] } else { &self.first_atom[..=count] },
             atom_offset: &self.atom_offset[..atoms],
             atom_position: cut(&mut self.atom_position, atoms),
         };
@@ -128,7 +127,7 @@ impl<'a> Part<'a> {
         self.inverse_inertia = &self.inverse_inertia[count..];
         self.extent = &self.extent[count..];
         self.moves = &self.moves[count..];
-        self.first_atom = &self.first_atom[count..];
+        self.first_atom = if self.lone_discs { &[] } else { &self.first_atom[count..] };
         self.atom_offset = &self.atom_offset[atoms..];
         front
     }

@@ -78,8 +78,8 @@ impl Default for PenaltyContacts {
 fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let side = |atom: u32| Side {
-        stiffness: bodies.atom_stiffness[atom as usize],
-        material: bodies.atom_material[atom as usize],
+        stiffness: bodies.atom_stiffness(atom as usize),
+        material: bodies.atom_material(atom as usize),
     };
     let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
     atoms.carry(&pairs.atoms_before, |place| {
@@ -120,7 +120,7 @@ impl End {
     #[inline(always)]
     pub fn of(bodies: &Bodies, atom: u32) -> Self {
         let atom = atom as usize;
-        let body = bodies.atom_body[atom] as usize;
+        let body = bodies.atom_body(atom);
         Self { body, arm: bodies.atom_place(atom) - bodies.position[body], radius: bodies.atom_radius[atom] }
     }
 
@@ -326,7 +326,7 @@ fn follow_wall<N: NormalForce>(
 }
 
 fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs, touches: &mut Touches) {
-    let body = |atom: u32| bodies.atom_body[atom as usize] as usize;
+    let body = |atom: u32| bodies.atom_body(atom as usize);
     touches.clear();
     for place in contacts.atoms.touching() {
         let AtomPair { a, b } = pairs.atoms[place];

@@ -42,7 +42,7 @@ impl Records {
             needed[pair.a as usize] = true;
             needed[pair.b as usize] = true;
         }
-        let moves = |atom: usize| bodies.moves[bodies.atom_body[atom] as usize];
+        let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
         let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
         // Where most are needed, going by all in order is faster.
         if !bodies.lone_discs || 4 * count < 3 * needed.len() {
@@ -170,7 +170,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
     for list in list.parts(blocks) {
         let end = (list.first + blocks) * BLOCK;
         let first = bodies.len() - forces.len();
-        let last = pairs.get(end).map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
+        let last = pairs.get(end).map_or(bodies.len(), |pair| bodies.atom_body(pair.a as usize));
         let share = Share { first, force: cut(&mut forces, last - first), torque: cut(&mut torques, last - first) };
         let found = if list.first == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
         parts.push((list, share, found));
@@ -531,7 +531,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         for lane in lanes(touching) {
             let (force, (a, b)) = (pushes.force[lane], self.sides.pairs(self.list.first + block).get(lane));
             let (a, b) = (a as usize, b as usize);
-            let (body_a, body_b) = (bodies.atom_body[a] as usize, bodies.atom_body[b] as usize);
+            let (body_a, body_b) = (bodies.atom_body(a), bodies.atom_body(b));
             let (arm_a, arm_b) =
                 (bodies.atom_place(a) - bodies.position[body_a], bodies.atom_place(b) - bodies.position[body_b]);
             self.give(body_a as u32, -force, pushes.torque_first[lane] - arm_a.perp_dot(force));

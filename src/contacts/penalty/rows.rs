@@ -212,7 +212,7 @@ impl Rows {
         self.book_powers(bodies, ledger);
         for Loaded { body, load } in &self.loads {
             let limit = ROUNDING * load * dt * mobility(bodies, *body);
-            if bodies.velocity[*body].length() + bodies.spin[*body].abs() * bodies.extent[*body] <= limit {
+            if bodies.velocity[*body].length() + bodies.spin[*body].abs() * bodies.extent(*body) <= limit {
                 ledger.inelasticity.add(kinetic_energy_of(bodies, *body));
                 (bodies.velocity[*body], bodies.spin[*body]) = (DVec2::ZERO, 0.0);
             }
@@ -245,7 +245,7 @@ impl Rows {
         for &Loaded { body, load } in &self.loads {
             let stands = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
             let (force, torque) = (bodies.force[body], bodies.torque[body]);
-            let turning = torque.abs() * bodies.inverse_inertia[body] * bodies.extent[body];
+            let turning = torque.abs() * bodies.inverse_inertia[body] * bodies.extent(body);
             let limit = ROUNDING * load * mobility(bodies, body);
             if bodies.dynamic[body] && stands && force.length() * bodies.inverse_mass[body] + turning <= limit {
                 balance.outside(bodies.position[body], -force, -torque);
@@ -262,5 +262,5 @@ impl Rows {
 
 /// The greatest acceleration that a newton gives a point of a body, in 1/kg.
 fn mobility(bodies: &Bodies, body: usize) -> f64 {
-    bodies.inverse_mass[body] + bodies.extent[body].powi(2) * bodies.inverse_inertia[body]
+    bodies.inverse_mass[body] + bodies.extent(body).powi(2) * bodies.inverse_inertia[body]
 }

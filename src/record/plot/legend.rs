@@ -77,7 +77,7 @@ impl Legend {
         for place in 0..bodies.len() {
             let fixed = world.get::<Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
             moving += usize::from(!fixed);
-            let material = bodies.atoms_of(place).next().map(|first| bodies.atom_material[first]);
+            let material = bodies.atoms_of(place).next().map(|first| bodies.atom_material(first));
             let shared = material.and_then(|index| {
                 let materials = materials?;
                 materials.by_index.get(index.place())?.color.as_ref()?;
