@@ -93,7 +93,7 @@ fn cast_of(simulation: &Simulation) -> Cast {
     let color = |material: crate::world::MaterialIndex| {
         materials.and_then(|materials| materials.by_index.get(material.place())?.color.clone())
     };
-    let name = |entity: Entity| world.get::<Name>(entity).map(|name| name.0.clone()).unwrap_or_default();
+    let name = |entity: Entity| world.get::<Name>(entity).map(Name::to_string).unwrap_or_default();
     let body = |place: usize| {
         let atoms = bodies.atoms_of(place);
         let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });

@@ -228,9 +228,9 @@ impl Simulation {
     }
 
     /// Name of the body at `place`; empty for a body spawned without one.
-    pub fn name(&self, place: usize) -> &str {
+    pub fn name(&self, place: usize) -> String {
         let entity = self.bodies().entity[place];
-        self.world().get::<Name>(entity).map_or("", |name| &name.0)
+        self.world().get::<Name>(entity).map(Name::to_string).unwrap_or_default()
     }
 
     /// Seconds of physics from frame to frame of the film, by default 1/30.

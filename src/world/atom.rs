@@ -1,15 +1,18 @@
 //! An atom: a disc of a body, that touches other atoms and walls.
 
+use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::prelude::*;
+use bevy_ecs::world::DeferredWorld;
 use glam::DVec2;
 
-use super::body::mark_changed;
+use super::body::{Mass, mark_changed};
 use super::material::MaterialIndex;
 
-/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity; where there are
-/// more, each is an entity that points to the body. [`atoms_of`] finds both.
+/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity, as a
+/// [`LoneDisc`] if that is all the body is; where there are more, each is an entity that points to the body. [`atoms_of`] finds
+/// all of them.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
+#[component(immutable, on_insert = take_place, on_remove = mark_changed)]
 pub struct Atom {
     /// Centre in the body's own frame, from its centre of mass, in metres.
     pub offset: DVec2,
@@ -23,6 +26,41 @@ pub struct Atom {
     pub material: MaterialIndex,
 }
 
+/// The only atom of a body, if it is a disc about the centre of mass: what is to be known beside the body's mass. An [`Atom`] that
+/// is inserted on the body takes its place.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
+pub struct LoneDisc {
+    /// Radius in metres.
+    pub radius: f64,
+    /// Contact stiffness in N/m.
+    pub stiffness: f64,
+    /// What it is made of.
+    pub material: MaterialIndex,
+}
+
+impl LoneDisc {
+    /// The only atom of a body in this form, if it has one.
+    pub(super) fn of(atoms: &[Atom]) -> Option<Self> {
+        let &[Atom { offset: DVec2::ZERO, radius, stiffness, material, .. }] = atoms else { return None };
+        Some(Self { radius, stiffness, material })
+    }
+
+    /// The atom of a body of so many kg.
+    fn atom(self, mass: f64) -> Atom {
+        let Self { radius, stiffness, material } = self;
+        Atom { offset: DVec2::ZERO, radius, mass, stiffness, material }
+    }
+}
+
+/// An atom on a body takes the place of its lone disc.
+fn take_place(mut world: DeferredWorld, context: HookContext) {
+    if world.get::<LoneDisc>(context.entity).is_some() {
+        world.commands().entity(context.entity).try_remove::<LoneDisc>();
+    }
+    mark_changed(world, context);
+}
+
 /// Points from an atom to its body.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 #[relationship(relationship_target = Atoms)]
@@ -34,11 +72,30 @@ pub struct AtomOf(pub Entity);
 pub struct Atoms(Vec<Entity>);
 
 /// The atoms of a body in the order in which they were given; none if there is no such body.
-pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = &Atom> {
+pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = Atom> {
     let body = world.get_entity(body).ok();
-    let own = body.and_then(|body| body.get::<Atom>());
+    let disc = |body: EntityRef| Some(body.get::<LoneDisc>()?.atom(body.get::<Mass>()?.mass));
+    let own = body.and_then(|body| body.get::<Atom>().copied().or_else(|| disc(body)));
     let others = body.and_then(|body| body.get::<Atoms>()).map_or(&[][..], Atoms::entities);
-    own.into_iter().chain(others.iter().filter_map(|&atom| world.get(atom)))
+    own.into_iter().chain(others.iter().filter_map(|&atom| world.get(atom).copied()))
+}
+
+/// How many atoms there are.
+pub(crate) fn count_atoms(world: &mut World) -> usize {
+    world.query_filtered::<(), Or<(With<Atom>, With<LoneDisc>)>>().iter(world).count()
+}
+
+/// Makes all atoms so many times as stiff.
+pub(crate) fn stiffen(world: &mut World, factor: f64) {
+    let mut atoms = world.query::<(Entity, &Atom)>();
+    let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });
+    let atoms: Vec<_> = atoms.iter(world).map(stiffer).collect();
+    let mut discs = world.query::<(Entity, &LoneDisc)>();
+    let stiffer =
+        |(entity, disc): (Entity, &LoneDisc)| (entity, LoneDisc { stiffness: factor * disc.stiffness, ..*disc });
+    let discs: Vec<_> = discs.iter(world).map(stiffer).collect();
+    atoms.into_iter().for_each(|(entity, atom)| _ = world.entity_mut(entity).insert(atom));
+    discs.into_iter().for_each(|(entity, disc)| _ = world.entity_mut(entity).insert(disc));
 }
 
 impl Atoms {

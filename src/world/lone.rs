@@ -28,7 +28,7 @@ pub(super) struct Surfaces {
 
 impl Surfaces {
     /// The place of the surface of an atom in the list.
-    pub fn place(&mut self, &Atom { stiffness, material, .. }: &Atom) -> u32 {
+    pub fn place(&mut self, Atom { stiffness, material, .. }: Atom) -> u32 {
         *self.places.entry((stiffness.to_bits(), material.place())).or_insert_with(|| {
             self.list.push(Surface { stiffness, material });
             self.list.len() as u32 - 1

@@ -7,7 +7,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::atom::{Atom, atoms_of};
+use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 use super::kinematic::{Kinematic, Prescribed};
 use super::lone::{Surface, Surfaces};
@@ -16,10 +16,6 @@ use super::motion::Travel;
 use super::wall::Wall;
 use crate::simd::{BLOCK, Level};
 use crate::threads::Threads;
-
-/// Place of a body in the packed state, kept on its entity.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Slot(pub u32);
 
 /// A wall as contacts see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +61,8 @@ pub struct Bodies {
 
     /// Entity of each body.
     pub entity: Vec<Entity>,
+    /// Place of the body of each entity, by the number of the entity. What others have here means nothing.
+    pub(crate) places: Vec<u32>,
     /// Key of each body, ascending.
     pub key: Vec<u64>,
     /// Whether the body moves by forces.
@@ -173,6 +171,13 @@ impl Bodies {
     /// Whether there are no bodies.
     pub fn is_empty(&self) -> bool {
         self.entity.is_empty()
+    }
+
+    /// Place of the body of an entity; none if it has none, or has one since the arrays were filled.
+    #[inline]
+    pub fn place(&self, entity: Entity) -> Option<usize> {
+        let place = *self.places.get(entity.index_u32() as usize)? as usize;
+        (self.entity.get(place) == Some(&entity)).then_some(place)
     }
 
     /// Whether a body needs no work because it is at rest.
@@ -333,14 +338,13 @@ pub(super) fn place_atoms((position, angle): (DVec2, f64), offsets: &[DVec2], pl
     }
 }
 
-type State = (Entity, &'static Slot, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
-type StateMut =
-    (Entity, &'static Slot, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
+type State = (Entity, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
+type StateMut = (Entity, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
 
 /// Whether some component holds another value than the packed state.
-pub fn components_differ(bodies: Res<Bodies>, states: Query<State>) -> bool {
-    states.iter().any(|(_, slot, position, rotation, velocity, spin)| {
-        let body = slot.0 as usize;
+pub fn components_differ(bodies: Res<Bodies>, states: Query<State, With<Body>>) -> bool {
+    states.iter().any(|(entity, position, rotation, velocity, spin)| {
+        let Some(body) = bodies.place(entity) else { return false };
         bodies.position[body] != position.0
             || bodies.angle[body] != rotation.0
             || bodies.velocity[body] != velocity.0
@@ -349,10 +353,10 @@ pub fn components_differ(bodies: Res<Bodies>, states: Query<State>) -> bool {
 }
 
 /// Components -> packed state. What rounding left over is kept where a component was not touched.
-pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State>) {
+pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State, With<Body>>) {
     let bodies = &mut *bodies;
-    for (_, slot, position, rotation, velocity, spin) in &states {
-        let body = slot.0 as usize;
+    for (entity, position, rotation, velocity, spin) in &states {
+        let Some(body) = bodies.place(entity) else { continue };
         if bodies.position[body] != position.0 {
             bodies.position[body] = position.0;
             bodies.position_rest[body] = DVec2::ZERO;
@@ -373,13 +377,10 @@ pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State>) {
 }
 
 /// Packed state -> components.
-pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut>) {
-    for (entity, slot, mut position, mut rotation, mut velocity, mut spin) in &mut states {
-        let body = slot.0 as usize;
+pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut, With<Body>>) {
+    for (entity, mut position, mut rotation, mut velocity, mut spin) in &mut states {
         // Spawned since the last rebuild: its components are the truth.
-        if bodies.entity.get(body) != Some(&entity) {
-            continue;
-        }
+        let Some(body) = bodies.place(entity) else { continue };
         position.0 = bodies.position[body];
         rotation.0 = bodies.angle[body];
         velocity.0 = bodies.velocity[body];
@@ -436,7 +437,12 @@ fn is_lone_disc(world: &World, body: Entity) -> bool {
     atoms.next().is_some_and(|atom| atom.offset == DVec2::ZERO) && atoms.next().is_none()
 }
 
-/// Fills the arrays anew from the entities, in the order of keys, and tells every body its place.
+/// Place of the body of an entity, if it is still there.
+pub(crate) fn place_of(world: &World, entity: Entity) -> Option<usize> {
+    world.get::<Body>(entity).and_then(|_| world.get_resource::<Bodies>()?.place(entity))
+}
+
+/// Fills the arrays anew from the entities, in the order of keys.
 pub fn rebuild(world: &mut World) {
     if world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed) {
         make_pushable(world);
@@ -453,19 +459,17 @@ pub fn rebuild(world: &mut World) {
         lone_discs: found.iter().all(|&(_, entity)| is_lone_disc(world, entity)),
         ..Default::default()
     };
-    bodies.make_room(found.len(), world.query::<&Atom>().iter(world).len());
+    let last = found.iter().map(|(_, entity)| entity.index_u32() as usize).max();
+    bodies.places = vec![0; last.map_or(0, |last| last + 1)];
+    bodies.make_room(found.len(), count_atoms(world));
     let mut surfaces = Surfaces::default();
     for (place, &(key, entity)) in found.iter().enumerate() {
-        let mut body = world.entity_mut(entity);
-        match body.get_mut::<Slot>() {
-            Some(mut slot) => slot.0 = place as u32,
-            None => _ = body.insert(Slot(place as u32)),
-        }
         let body = world.entity(entity);
         let &Body { motion, collides, .. } = body.get::<Body>().expect("queried with Body");
         let &Mass { mass, inertia } = body.get::<Mass>().expect("Body requires Mass");
         let dynamic = motion == Motion::Dynamic;
         bodies.entity.push(entity);
+        bodies.places[entity.index_u32() as usize] = place as u32;
         bodies.key.push(key);
         bodies.dynamic.push(dynamic);
         let prescribed = body.get::<Kinematic>().filter(|_| motion == Motion::Kinematic);

@@ -93,7 +93,7 @@ pub(super) fn note_overlaps(world: &mut World) {
         Pair::Wall(body, wall) => [bodies.entity[body as usize], bodies.walls[wall as usize].entity],
     };
     let begin = OverlapAtStart { share, between: (a, b) };
-    let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or("(unnamed)", |name| &name.0));
+    let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string));
     let (overlap, percent) = (number(overlap), number((share * 1000.0).round() / 10.0));
     let who = match pairs.len() {
         1 => format!("`{a}` and `{b}` overlap by {overlap} m, {percent} % of the smaller radius"),

@@ -91,7 +91,7 @@ impl Legend {
             if let Some(material) = &shared {
                 known_lines.insert((material.clone(), fixed), lines.len());
             }
-            let name = world.get::<Name>(bodies.entity[place]).map(|name| name.0.clone()).unwrap_or_default();
+            let name = world.get::<Name>(bodies.entity[place]).map(Name::to_string).unwrap_or_default();
             lines.push(Line { name, shared, fixed, place, bodies: 1 });
         }
         lines.sort_by_key(|line| line.fixed);
