@@ -93,8 +93,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let bodies = self.tick.world.resource::<Bodies>();
         let velocities = 3 * self.dynamic.len();
         for (place, &body) in self.dynamic.iter().enumerate() {
-            let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass[body]);
-            let turning = bodies.torque[body] * bodies.inverse_inertia[body];
+            let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass(body));
+            let turning = bodies.torque[body] * bodies.inverse_inertia(body);
             rates[3 * place..3 * place + 3].copy_from_slice(&[velocity.x, velocity.y, bodies.spin[body]]);
             rates[velocities + 3 * place..velocities + 3 * place + 3].copy_from_slice(&[force.x, force.y, turning]);
         }
@@ -148,8 +148,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let bodies = self.tick.world.resource::<Bodies>();
         self.dynamic.iter().fold(Reach::default(), |reach, &body| {
             let speed = bodies.velocity[body].length() + bodies.spin[body].abs() * bodies.extent(body);
-            let turning = bodies.torque[body].abs() * bodies.inverse_inertia[body] * bodies.extent(body);
-            let acceleration = bodies.force[body].length() * bodies.inverse_mass[body] + turning;
+            let turning = bodies.torque[body].abs() * bodies.inverse_inertia(body) * bodies.extent(body);
+            let acceleration = bodies.force[body].length() * bodies.inverse_mass(body) + turning;
             Reach { speed: reach.speed.max(speed), acceleration: reach.acceleration.max(acceleration) }
         })
     }

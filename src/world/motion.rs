@@ -72,7 +72,7 @@ impl PerBody for Kick {
     #[inline(always)]
     fn fetch(part: &Part, first: usize) {
         Part::fetch_pairs([part.velocity, part.force], first);
-        Part::fetch_numbers([part.inverse_mass, part.inverse_inertia, part.spin, part.torque], first);
+        Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
     }
 
     #[inline(always)]
@@ -80,9 +80,10 @@ impl PerBody for Kick {
         let dt = V::splat(self.dt);
         let (x, y) = V::load_pairs(&part.velocity[first..]);
         let (force_x, force_y) = V::load_pairs(&part.force[first..]);
-        let weight = V::load(&part.inverse_mass[first..]) * dt;
+        let (inverse_mass, inverse_inertia) = part.inverses::<V>(first);
+        let weight = inverse_mass * dt;
         V::store_pairs(x + force_x * weight, y + force_y * weight, &mut part.velocity[first..]);
-        let weight = V::load(&part.inverse_inertia[first..]) * dt;
+        let weight = inverse_inertia * dt;
         let spin = V::load(&part.spin[first..]) + V::load(&part.torque[first..]) * weight;
         spin.store(&mut part.spin[first..]);
     }
@@ -111,15 +112,14 @@ impl PerBody for Advance {
     fn fetch(part: &Part, first: usize) {
         Part::fetch_pairs([part.velocity, part.force, part.position, part.position_rest], first);
         Part::fetch_pairs([part.estimated_velocity], first);
-        Part::fetch_numbers([part.inverse_mass, part.inverse_inertia, part.spin, part.torque], first);
-        Part::fetch_numbers([part.angle, part.angle_rest, part.extent, part.mass, part.estimated_spin], first);
+        Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
+        Part::fetch_numbers([part.angle, part.angle_rest, part.extent, part.estimated_spin], first);
     }
 
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let (force_x, force_y) = V::load_pairs(&part.force[first..]);
-        let (torque, inverse_mass) = (V::load(&part.torque[first..]), V::load(&part.inverse_mass[first..]));
-        let inverse_inertia = V::load(&part.inverse_inertia[first..]);
+        let (torque, (inverse_mass, inverse_inertia)) = (V::load(&part.torque[first..]), part.inverses::<V>(first));
         let (u, v) = V::load_pairs(&part.velocity[first..]);
         let spin = V::load(&part.spin[first..]);
         let (weight, turning) = (inverse_mass * V::splat(self.kick), inverse_inertia * V::splat(self.kick));
@@ -132,8 +132,7 @@ impl PerBody for Advance {
             V::store_pairs(u, v, &mut part.estimated_velocity[first..]);
             (spin + torque * turning).store(&mut part.estimated_spin[first..]);
         }
-        let moves = inverse_mass.gt(V::splat(0.0));
-        let dt = V::splat(self.drift).only(moves);
+        let dt = V::splat(self.drift).only(part.moving::<V>(first));
         let (dx, dy, turn) = (u * dt, v * dt, spin * dt);
         if !part.drift.is_empty() {
             V::store_pairs(dx, dy, &mut part.drift[first..]);
@@ -149,7 +148,7 @@ impl PerBody for Advance {
         angle.store(&mut part.angle[first..]);
         rest.store(&mut part.angle_rest[first..]);
         if part.lone_discs {
-            self.pose.forces(part, first, (x, y), inverse_mass);
+            self.pose.forces(part, first, (x, y));
         }
         let (lane, around) = (first % BLOCK, turn.abs() * V::load(&part.extent[first..]));
         // No way is longer than along both axes: roots only of those that may be the longest so far.

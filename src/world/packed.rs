@@ -77,10 +77,10 @@ pub struct Bodies {
     pub mass: Vec<f64>,
     /// Moment of inertia about the centre of mass in kg m2.
     pub inertia: Vec<f64>,
-    /// 1/mass, zero where the body does not move by forces.
-    pub inverse_mass: Vec<f64>,
-    /// 1/inertia, zero where the body does not move by forces.
-    pub inverse_inertia: Vec<f64>,
+    /// See [`Bodies::inverse_mass`]; empty where all bodies move by forces.
+    pub(crate) inverse_mass: Vec<f64>,
+    /// See [`Bodies::inverse_inertia`]; likewise.
+    pub(crate) inverse_inertia: Vec<f64>,
     /// See [`Bodies::extent`]; empty where bodies are lone discs.
     pub(crate) extent: Vec<f64>,
     /// First atom of each body, and the number of atoms at the end; empty where bodies are lone discs. See [`Bodies::atoms_of`].
@@ -227,18 +227,30 @@ impl Bodies {
         self.velocity[body] + arm.perp() * self.spin[body]
     }
 
+    /// 1/mass of a body in 1/kg, zero where it does not move by forces.
+    #[inline(always)]
+    pub fn inverse_mass(&self, body: usize) -> f64 {
+        self.inverse_mass.get(body).copied().unwrap_or_else(|| 1.0 / self.mass[body])
+    }
+
+    /// 1/inertia of a body in 1/(kg m2), zero where it does not move by forces.
+    #[inline(always)]
+    pub fn inverse_inertia(&self, body: usize) -> f64 {
+        self.inverse_inertia.get(body).copied().unwrap_or_else(|| 1.0 / self.inertia[body])
+    }
+
     /// Displacement of a body since the last accepted state in metres, and its turn in radians. Tangential springs follow them.
     #[inline(always)]
     pub fn displacement(&self, body: usize) -> (DVec2, f64) {
         let Some((velocity, spin, time)) = self.drift_of(body..body + 1) else {
             return (self.drift[body], self.turn[body]);
         };
-        let time = if self.inverse_mass[body] > 0.0 { time } else { 0.0 };
+        let time = if self.dynamic[body] { time } else { 0.0 };
         (velocity[0] * time, spin[0] * time)
     }
 
     /// The velocities and spins with which bodies in a row moved since the last accepted state, and for how many seconds;
-    /// `None` where displacements are listed. Those without mass did not move.
+    /// `None` where displacements are listed. Those that do not move by forces did not move.
     #[inline]
     pub(crate) fn drift_of(&self, bodies: std::ops::Range<usize>) -> Option<(&[DVec2], &[f64], f64)> {
         let Moved::For(time) = self.moved else { return None };
@@ -413,8 +425,8 @@ impl Bodies {
         for list in [&mut self.dynamic, &mut self.moves, &mut self.collides] {
             list.reserve_exact(bodies);
         }
-        let Self { mass, inertia, inverse_mass, inverse_inertia, angle, angle_rest, spin, torque, .. } = self;
-        for list in [mass, inertia, inverse_mass, inverse_inertia, angle, angle_rest, spin, torque] {
+        let Self { mass, inertia, angle, angle_rest, spin, torque, .. } = self;
+        for list in [mass, inertia, angle, angle_rest, spin, torque] {
             list.reserve_exact(bodies);
         }
         for list in [&mut self.position, &mut self.position_rest, &mut self.velocity, &mut self.force] {
@@ -478,8 +490,6 @@ pub fn rebuild(world: &mut World) {
         bodies.collides.push(collides);
         bodies.mass.push(mass);
         bodies.inertia.push(inertia);
-        bodies.inverse_mass.push(if dynamic { 1.0 / mass } else { 0.0 });
-        bodies.inverse_inertia.push(if dynamic { 1.0 / inertia } else { 0.0 });
         let position = body.get::<Position>().expect("Body requires Position").0;
         let angle = body.get::<Rotation>().expect("Body requires Rotation").0;
         let before = previous.key.binary_search(&key).ok();
@@ -529,6 +539,13 @@ pub fn rebuild(world: &mut World) {
         if bodies.lone_discs && bodies.prescribed.motions.is_empty() { Moved::For(0.0) } else { Moved::Listed };
     bodies.accept();
     bodies.all_dynamic = bodies.dynamic.iter().all(|dynamic| *dynamic);
+    if !bodies.all_dynamic {
+        let inverse = |list: &[f64]| {
+            let of = |(value, dynamic): (&f64, &bool)| if *dynamic { 1.0 / value } else { 0.0 };
+            list.iter().zip(&bodies.dynamic).map(of).collect()
+        };
+        (bodies.inverse_mass, bodies.inverse_inertia) = (inverse(&bodies.mass), inverse(&bodies.inertia));
+    }
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
     bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);
     walls.sort_unstable_by_key(|(_, wall)| wall.key);

@@ -25,8 +25,10 @@ pub(crate) struct Part<'a> {
     /// A bit for each body that is asleep, a byte for each block from the first on; empty: none is.
     pub asleep: &'a [u8],
     pub mass: &'a [f64],
-    pub inverse_mass: &'a [f64],
-    pub inverse_inertia: &'a [f64],
+    pub inertia: &'a [f64],
+    /// Empty where all bodies move by forces.
+    inverse_mass: &'a [f64],
+    inverse_inertia: &'a [f64],
     pub extent: &'a [f64],
     pub position: &'a mut [DVec2],
     pub position_rest: &'a mut [DVec2],
@@ -65,6 +67,7 @@ impl<'a> Part<'a> {
             awake: (!bodies.asleep.is_empty()).then_some(&bodies.awake),
             asleep: &bodies.asleep,
             mass: &bodies.mass,
+            inertia: &bodies.inertia,
             inverse_mass: &bodies.inverse_mass,
             inverse_inertia: &bodies.inverse_inertia,
             extent: if bodies.lone_discs { &bodies.atom_radius } else { &bodies.extent },
@@ -98,8 +101,9 @@ impl<'a> Part<'a> {
             awake,
             asleep: &self.asleep[..self.asleep.len().min(count / BLOCK)],
             mass: &self.mass[..count],
-            inverse_mass: &self.inverse_mass[..count],
-            inverse_inertia: &self.inverse_inertia[..count],
+            inertia: &self.inertia[..count],
+            inverse_mass: &self.inverse_mass[..count.min(self.inverse_mass.len())],
+            inverse_inertia: &self.inverse_inertia[..count.min(self.inverse_inertia.len())],
             extent: &self.extent[..count],
             position: cut(&mut self.position, count),
             position_rest: cut(&mut self.position_rest, count),
@@ -123,13 +127,31 @@ impl<'a> Part<'a> {
         self.awake = rest;
         self.asleep = &self.asleep[front.asleep.len()..];
         self.mass = &self.mass[count..];
-        self.inverse_mass = &self.inverse_mass[count..];
-        self.inverse_inertia = &self.inverse_inertia[count..];
+        self.inertia = &self.inertia[count..];
+        self.inverse_mass = &self.inverse_mass[front.inverse_mass.len()..];
+        self.inverse_inertia = &self.inverse_inertia[front.inverse_inertia.len()..];
         self.extent = &self.extent[count..];
         self.moves = &self.moves[count..];
         self.first_atom = if self.lone_discs { &[] } else { &self.first_atom[count..] };
         self.atom_offset = &self.atom_offset[atoms..];
         front
+    }
+
+    /// 1/mass and 1/inertia of some bodies from place `first` of the part on.
+    #[inline(always)]
+    pub fn inverses<V: Lanes>(&self, first: usize) -> (V, V) {
+        if self.inverse_mass.is_empty() {
+            let one = V::splat(1.0);
+            return (one / V::load(&self.mass[first..]), one / V::load(&self.inertia[first..]));
+        }
+        (V::load(&self.inverse_mass[first..]), V::load(&self.inverse_inertia[first..]))
+    }
+
+    /// Which of them move by forces.
+    #[inline(always)]
+    pub fn moving<V: Lanes>(&self, first: usize) -> V::Mask {
+        let (zero, one) = (V::splat(0.0), V::splat(1.0));
+        if self.inverse_mass.is_empty() { one } else { V::load(&self.inverse_mass[first..]) }.gt(zero)
     }
 
     #[inline(always)]

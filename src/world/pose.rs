@@ -27,12 +27,12 @@ impl Pose {
 
     /// The forces alone, of bodies that stand at these places.
     #[inline(always)]
-    pub fn forces<V: Lanes>(&mut self, part: &mut Part, first: usize, (x, y): (V, V), inverse_mass: V) {
+    pub fn forces<V: Lanes>(&mut self, part: &mut Part, first: usize, (x, y): (V, V)) {
         let zero = V::splat(0.0);
         zero.store(&mut part.torque[first..]);
         let Some(field) = self.field else { return V::store_pairs(zero, zero, &mut part.force[first..]) };
         let lane = first % BLOCK;
-        let mut moves = inverse_mass.gt(zero);
+        let mut moves = part.moving::<V>(first);
         if let Some(asleep) = part.asleep.get(first / BLOCK) {
             moves = moves & V::mask(!asleep >> lane);
         }
@@ -49,8 +49,8 @@ impl Pose {
 impl PerBody for Pose {
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
-        let (place, inverse_mass) = (V::load_pairs(&part.position[first..]), V::load(&part.inverse_mass[first..]));
-        self.forces(part, first, place, inverse_mass);
+        let place = V::load_pairs(&part.position[first..]);
+        self.forces(part, first, place);
         if !part.lone_discs {
             for body in first..first + V::COUNT {
                 part.place_atoms(body);

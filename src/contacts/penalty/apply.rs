@@ -90,7 +90,7 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
     // Between discs that turn about their centres no lever arm changes.
     let changes = |place: &u32| laws.get(*place).damping.depends_on_mobility();
     if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && !atoms.is_empty() && changes(&atoms.get(0).law) {
-        let mobility = |pair: &AtomPair| bodies.inverse_mass[pair.a as usize] + bodies.inverse_mass[pair.b as usize];
+        let mobility = |pair: &AtomPair| bodies.inverse_mass(pair.a as usize) + bodies.inverse_mass(pair.b as usize);
         let damping = |law: &u32, pair| N::response(laws.get(*law), mobility(pair)).1;
         atoms.damping = vec![[0.0; BLOCK]; atoms.law.len()];
         for ((damped, law), pairs) in atoms.damping.iter_mut().zip(&atoms.law).zip(pairs.atoms.chunks(BLOCK)) {
@@ -128,7 +128,7 @@ impl End {
     #[inline]
     pub fn mobility(&self, bodies: &Bodies, normal: DVec2) -> f64 {
         let lever = self.arm.perp_dot(normal);
-        bodies.inverse_mass[self.body] + lever * lever * bodies.inverse_inertia[self.body]
+        bodies.inverse_mass(self.body) + lever * lever * bodies.inverse_inertia(self.body)
     }
 
     /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and

@@ -99,10 +99,10 @@ fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
     };
     let count = records.len();
     let (place, now) = (&bodies.position[discs.clone()][..count], &bodies.velocity[discs.clone()][..count]);
-    let (mass, radius) = (&bodies.inverse_mass[discs.clone()][..count], &bodies.atom_radius[discs][..count]);
+    let (moves, radius) = (&bodies.moves[discs.clone()][..count], &bodies.atom_radius[discs][..count]);
     let (velocity, spin) = (&velocity[..count], &spin[..count]);
     for disc in 0..count {
-        let time = if mass[disc] > 0.0 { time } else { 0.0 };
+        let time = if moves[disc] { time } else { 0.0 };
         let (place, now, moved, turn) = (place[disc], now[disc], velocity[disc] * time, spin[disc] * time);
         records[disc] = Record([place.x, place.y, moved.x, moved.y, now.x, now.y, turn, radius[disc]]);
     }

@@ -403,7 +403,7 @@ fn mover(bodies: &Bodies, body: usize, dt: f64) -> Mover {
     if let Some(state) = bodies.prescribed.ahead(body, dt) {
         return Mover { velocity: state.velocity, spin: state.spin, ..Mover::default() };
     }
-    let (inverse_mass, inverse_inertia) = (bodies.inverse_mass[body], bodies.inverse_inertia[body]);
+    let (inverse_mass, inverse_inertia) = (bodies.inverse_mass(body), bodies.inverse_inertia(body));
     Mover {
         velocity: bodies.velocity[body] + bodies.force[body] * (inverse_mass * dt),
         spin: bodies.spin[body] + bodies.torque[body] * (inverse_inertia * dt),

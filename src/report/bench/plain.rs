@@ -328,8 +328,8 @@ impl Movers {
             vx: bodies.velocity.iter().map(|velocity| velocity.x).collect(),
             vy: bodies.velocity.iter().map(|velocity| velocity.y).collect(),
             spin: bodies.spin.clone(),
-            inverse_mass: bodies.inverse_mass.clone(),
-            inverse_inertia: bodies.inverse_inertia.clone(),
+            inverse_mass: (0..bodies.len()).map(|body| bodies.inverse_mass(body)).collect(),
+            inverse_inertia: (0..bodies.len()).map(|body| bodies.inverse_inertia(body)).collect(),
             ..Self::with_length(bodies.len())
         }
     }

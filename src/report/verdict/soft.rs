@@ -24,7 +24,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let bodies = world.resource::<Bodies>();
     let mass = |entity| {
         let slot = packed::place_of(world, entity)?;
-        bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass[slot])
+        bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass(slot))
     };
     let (a, b) = (evidence.name(deepest.0), evidence.name(deepest.1));
     let masses = mass(deepest.0).zip(mass(deepest.1));
