@@ -235,7 +235,8 @@ pub(super) fn apply_penalty<N: NormalForce>(
 ) {
     if contacts.version != pairs.version {
         carry_history::<N>(&mut contacts, &bodies, &pairs);
-        contacts.records.prepare(&bodies, &pairs.atoms);
+        let PenaltyContacts { records, atoms, .. } = &mut *contacts;
+        records.prepare(&bodies, &pairs.atoms, atoms);
         contacts.lay_asleep(&mut bodies, &pairs, forces.as_deref_mut());
     }
     if bodies.asleep.is_empty() {

@@ -29,13 +29,14 @@ pub(super) struct Records {
     pub list: Vec<Record>,
     /// The atoms that move and that some pair may need, in order; empty: all.
     needed: Vec<u32>,
+    /// There are records of those alone, in their order.
+    sparse: bool,
 }
 
 impl Records {
     /// Takes up new lists of pairs.
-    pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair]) {
+    pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair], contacts: &mut ContactList) {
         self.list.clear();
-        self.list.resize(bodies.atom_count(), Record::default());
         self.needed.clear();
         let mut needed = vec![false; bodies.atom_count()];
         for pair in pairs {
@@ -45,13 +46,23 @@ impl Records {
         let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
         let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
         // Where most are needed, going by all in order is faster.
-        if !bodies.lone_discs || 4 * count < 3 * needed.len() {
+        let few = 4 * count < 3 * needed.len();
+        if few || !bodies.lone_discs {
+            self.needed.reserve_exact(count);
             self.needed.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
         }
-        // Those of bodies that stand or are asleep are not filled in again.
-        for (atom, own) in self.list.iter_mut().enumerate() {
-            *own = record(bodies, atom);
+        self.sparse = few && bodies.lone_discs && bodies.all_dynamic;
+        if self.sparse {
+            let mut place = vec![0; needed.len()];
+            self.needed.iter().zip(0..).for_each(|(&atom, number)| place[atom as usize] = number);
+            contacts.pairs.find_records(&place, count);
+            self.list.reserve_exact(count);
+            self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
+            return;
         }
+        // Those of bodies that stand or are asleep are not filled in again.
+        self.list.reserve_exact(needed.len());
+        self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
     }
 
     /// Fills in the present state, as far as some pair has to be looked at; see [`FollowPairs::path`].
@@ -62,16 +73,17 @@ impl Records {
         let atoms = if all { self.list.len() } else { self.needed.len() };
         if 2 * BLOCK * blocks().count() < atoms {
             for first in blocks().map(|block| BLOCK * block) {
-                for pair in &pairs[first..pairs.len().min(first + BLOCK)] {
-                    self.list[pair.a as usize] = record(bodies, pair.a as usize);
-                    self.list[pair.b as usize] = record(bodies, pair.b as usize);
+                for (lane, pair) in pairs[first..pairs.len().min(first + BLOCK)].iter().enumerate() {
+                    let (a, b) = list.pairs.side(first / BLOCK).get(lane);
+                    self.list[a as usize] = record(bodies, pair.a as usize);
+                    self.list[b as usize] = record(bodies, pair.b as usize);
                 }
             }
             return;
         }
         let each = self.list.len().div_ceil(parts_of(atoms, FEWEST)).next_multiple_of(BLOCK);
         let parts = self.list.chunks_mut(each).enumerate().map(|(number, part)| (number * each, part)).collect();
-        let needed = &self.needed;
+        let (needed, sparse) = (&self.needed, self.sparse);
         bodies.threads.each(parts, |(first, part): (usize, &mut [Record])| {
             let atoms = first..first + part.len();
             if all && bodies.asleep.is_empty() {
@@ -80,6 +92,10 @@ impl Records {
                 for number in bodies.awake_blocks_within(atoms) {
                     let atoms = bodies.awake_block(number);
                     fill(bodies, atoms.clone(), &mut part[atoms.start - first..atoms.end - first]);
+                }
+            } else if sparse {
+                for (own, &atom) in part.iter_mut().zip(&needed[atoms]) {
+                    *own = record(bodies, atom as usize);
                 }
             } else {
                 let place = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
