@@ -140,5 +140,5 @@ pub fn plugin(app: &mut App) {
 
 /// Places in the packed state of bodies given by their keys; the gone ones are left out.
 fn places<'a>(bodies: &'a Bodies, keys: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
-    keys.iter().filter_map(|key| bodies.key.binary_search(key).ok())
+    keys.iter().filter_map(|key| bodies.key.find(*key))
 }

@@ -83,7 +83,7 @@ impl Recorder {
 }
 
 fn moments(bodies: &Bodies, time: f64) -> Vec<(u64, Moment)> {
-    (0..bodies.len()).map(|place| (bodies.key[place], Moment::of(bodies, place, time))).collect()
+    (0..bodies.len()).map(|place| (bodies.key.at(place), Moment::of(bodies, place, time))).collect()
 }
 
 /// What a film shows of the present bodies and walls.

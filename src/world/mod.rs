@@ -4,6 +4,7 @@ pub mod atom;
 pub mod body;
 pub mod finite;
 pub mod hash;
+pub mod keys;
 pub mod kinematic;
 mod lend;
 mod lone;

@@ -164,7 +164,7 @@ impl PerBody for Advance {
 
 impl Bodies {
     /// Whether each body that moves is nearer than `allowed` metres, its turn included, to where it stood: places and angles
-    /// are given. What is no number is not.
+    /// are given; without angles turning does not count. What is no number is not.
     pub fn stayed_near(&self, allowed: f64, position: &[DVec2], angle: &[f64]) -> bool {
         let near =
             |blocks: Range<usize>| simd::run(self.level, Near { bodies: self, allowed, position, angle, blocks });
@@ -203,8 +203,11 @@ impl Near<'_> {
         let bodies = self.bodies;
         let (x, y) = V::load_pairs(&bodies.position[first..]);
         let (from_x, from_y) = V::load_pairs(&self.position[first..]);
-        let turned = (V::load(&bodies.angle[first..]) - V::load(&self.angle[first..])).abs();
-        let left = V::splat(self.allowed) - turned * V::load(&bodies.extents()[first..]);
+        let mut left = V::splat(self.allowed);
+        if !self.angle.is_empty() {
+            let turned = (V::load(&bodies.angle[first..]) - V::load(&self.angle[first..])).abs();
+            left = left - turned * V::load(&bodies.extents()[first..]);
+        }
         let (x, y, zero) = (x - from_x, y - from_y, V::splat(0.0));
         // Bodies that stand still are where they were, whatever the sign of zero.
         let near =

@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
+use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
 use super::lone::{Surface, Surfaces};
 use super::material::MaterialIndex;
@@ -64,7 +65,7 @@ pub struct Bodies {
     /// Place of the body of each entity, by the number of the entity. What others have here means nothing.
     pub(crate) places: Vec<u32>,
     /// Key of each body, ascending.
-    pub key: Vec<u64>,
+    pub key: Keys,
     /// Whether the body moves by forces.
     pub dynamic: Vec<bool>,
     /// Whether it ever moves: by forces, or as prescribed.
@@ -421,7 +422,6 @@ impl Bodies {
     /// Makes room for so many bodies and atoms and no more: lists that grow end up to twice as long.
     fn make_room(&mut self, bodies: usize, atoms: usize) {
         self.entity.reserve_exact(bodies);
-        self.key.reserve_exact(bodies);
         for list in [&mut self.dynamic, &mut self.moves, &mut self.collides] {
             list.reserve_exact(bodies);
         }
@@ -492,7 +492,7 @@ pub fn rebuild(world: &mut World) {
         bodies.inertia.push(inertia);
         let position = body.get::<Position>().expect("Body requires Position").0;
         let angle = body.get::<Rotation>().expect("Body requires Rotation").0;
-        let before = previous.key.binary_search(&key).ok();
+        let before = previous.key.find(key);
         let kept = |same: bool| before.filter(|_| same);
         let position_kept = kept(before.is_some_and(|b| previous.position[b] == position));
         let angle_kept = kept(before.is_some_and(|b| previous.angle[b] == angle));
