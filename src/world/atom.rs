@@ -109,3 +109,71 @@ impl Atoms {
         &self.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::{NewBody, packed};
+
+    /// A body that is one disc, one whose disc is beside its centre, and one of two.
+    fn three_bodies(world: &mut World) -> [Entity; 3] {
+        let atom = |x: f64| Atom {
+            offset: DVec2::new(x, 0.0),
+            radius: 0.5,
+            mass: 2.0,
+            stiffness: 1e3,
+            material: MaterialIndex::default(),
+        };
+        let body = |atoms: Vec<Atom>| NewBody { mass: 2.0, atoms, ..NewBody::default() };
+        [vec![atom(0.0)], vec![atom(0.1)], vec![atom(-0.2), atom(0.2)]].map(|atoms| body(atoms).spawn(world))
+    }
+
+    #[test]
+    fn atoms_are_found_in_whatever_form_they_stand() {
+        let mut world = World::new();
+        let bodies = three_bodies(&mut world);
+        let forms = bodies.map(|body| (world.get::<LoneDisc>(body).is_some(), world.get::<Atom>(body).is_some()));
+        assert_eq!(forms, [(true, false), (false, true), (false, false)]);
+        let offsets = |body| atoms_of(&world, body).map(|atom| atom.offset.x).collect::<Vec<_>>();
+        assert_eq!(bodies.map(offsets), [vec![0.0], vec![0.1], vec![-0.2, 0.2]]);
+        assert_eq!(atoms_of(&world, bodies[0]).next().map(|atom| atom.mass), Some(2.0));
+        assert_eq!(count_atoms(&mut world), 4);
+        stiffen(&mut world, 3.0);
+        let stiffness = |body| atoms_of(&world, body).map(|atom| atom.stiffness).collect::<Vec<_>>();
+        assert_eq!(bodies.map(stiffness), [vec![3e3], vec![3e3], vec![3e3; 2]]);
+    }
+
+    #[test]
+    fn an_atom_that_is_inserted_takes_the_place_of_the_lone_disc() {
+        let mut world = World::new();
+        let [disc, ..] = three_bodies(&mut world);
+        let larger = Atom { radius: 0.75, ..atoms_of(&world, disc).next().unwrap() };
+        world.entity_mut(disc).insert(larger);
+        assert_eq!(atoms_of(&world, disc).collect::<Vec<_>>(), [larger]);
+        assert_eq!(count_atoms(&mut world), 4);
+        packed::rebuild(&mut world);
+        assert_eq!(world.resource::<crate::world::Bodies>().atom_radius[0], 0.75);
+    }
+
+    /// Promise: where all are lone discs, what is not listed is told as where it is.
+    #[test]
+    fn lone_discs_are_packed_like_others() {
+        let mut world = World::new();
+        let bodies = three_bodies(&mut world);
+        let told = |world: &mut World| {
+            packed::rebuild(world);
+            let bodies = world.resource::<crate::world::Bodies>();
+            let whose = (bodies.atom_body(0), bodies.atoms_of(0), bodies.atom_count(), bodies.len());
+            let shape = (bodies.atom_offset(0), bodies.atom_place(0), bodies.extent(0), bodies.atom_stiffness(0));
+            (bodies.lone_discs, whose, shape)
+        };
+        let (lone, whose, shape) = told(&mut world);
+        assert!(!lone && whose == (0, 0..1, 4, 3));
+        world.despawn(bodies[1]);
+        world.despawn(bodies[2]);
+        assert_eq!(told(&mut world), (true, (0, 0..1, 1, 1), shape));
+        assert_eq!(shape, (DVec2::ZERO, DVec2::ZERO, 0.5, 1e3));
+        let place = |body| world.resource::<crate::world::Bodies>().place(body);
+        assert_eq!(bodies.map(place), [Some(0), None, None]);
+    }
+}

@@ -35,8 +35,10 @@ impl Surfaces {
         })
     }
 
-    pub fn into_list(self) -> Vec<Surface> {
-        self.list
+    /// The list, and the places of the atoms in it: none if all have the same.
+    pub fn listed(self, places: Vec<u32>) -> (Vec<Surface>, Vec<u32>) {
+        let places = if self.list.len() == 1 { Vec::new() } else { places };
+        (self.list, places)
     }
 }
 
@@ -73,16 +75,20 @@ impl Bodies {
         if self.lone_discs { DVec2::ZERO } else { self.atom_offset[atom] }
     }
 
+    fn surface(&self, atom: usize) -> &Surface {
+        &self.surfaces[self.atom_surface.get(atom).map_or(0, |&place| place as usize)]
+    }
+
     /// Stiffness of an atom in N/m.
     #[inline]
     pub fn atom_stiffness(&self, atom: usize) -> f64 {
-        self.surfaces[self.atom_surface[atom] as usize].stiffness
+        self.surface(atom).stiffness
     }
 
     /// Material of an atom.
     #[inline]
     pub fn atom_material(&self, atom: usize) -> MaterialIndex {
-        self.surfaces[self.atom_surface[atom] as usize].material
+        self.surface(atom).material
     }
 
     /// Greatest distance of a point of a body from its centre of mass, in metres.

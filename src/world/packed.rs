@@ -122,7 +122,7 @@ pub struct Bodies {
     pub(crate) atom_position: Vec<DVec2>,
     /// Radius of each atom in metres.
     pub atom_radius: Vec<f64>,
-    /// Place of the surface of each atom among [`Bodies::surfaces`]. See [`Bodies::atom_stiffness`] and
+    /// Place of the surface of each atom among [`Bodies::surfaces`]; empty where all have the same. See [`Bodies::atom_stiffness`] and
     /// [`Bodies::atom_material`].
     pub(crate) atom_surface: Vec<u32>,
     /// The surfaces that atoms have, each once.
@@ -526,7 +526,7 @@ pub fn rebuild(world: &mut World) {
             bodies.first_atom.push(first_atom);
         }
     }
-    bodies.surfaces = surfaces.into_list();
+    (bodies.surfaces, bodies.atom_surface) = surfaces.listed(std::mem::take(&mut bodies.atom_surface));
     if !bodies.lone_discs {
         bodies.first_atom.push(bodies.atom_count() as u32);
         bodies.atom_position = vec![DVec2::ZERO; bodies.atom_count()];
