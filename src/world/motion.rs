@@ -132,7 +132,8 @@ impl PerBody for Advance {
             V::store_pairs(u, v, &mut part.estimated_velocity[first..]);
             (spin + torque * turning).store(&mut part.estimated_spin[first..]);
         }
-        let dt = V::splat(self.drift).only(part.moving::<V>(first));
+        let moves = inverse_mass.gt(V::splat(0.0));
+        let dt = V::splat(self.drift).only(moves);
         let (dx, dy, turn) = (u * dt, v * dt, spin * dt);
         if !part.drift.is_empty() {
             V::store_pairs(dx, dy, &mut part.drift[first..]);
@@ -148,7 +149,7 @@ impl PerBody for Advance {
         angle.store(&mut part.angle[first..]);
         rest.store(&mut part.angle_rest[first..]);
         if part.lone_discs {
-            self.pose.forces(part, first, (x, y));
+            self.pose.forces(part, first, (x, y), moves);
         }
         let (lane, around) = (first % BLOCK, turn.abs() * V::load(&part.extent[first..]));
         // No way is longer than along both axes: roots only of those that may be the longest so far.
