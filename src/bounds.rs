@@ -55,6 +55,7 @@ pub struct Bounds {
     stale: bool,
     generation: u64,
     position: Vec<DVec2>,
+    /// Empty where bodies are lone discs, which reach as far however they are turned.
     angle: Vec<f64>,
     /// [`Bodies::path`] up to which nobody can have left half the margin; not a number: not known.
     path: f64,
@@ -116,7 +117,11 @@ impl Bounds {
         self.generation = bodies.generation;
         self.version += 1;
         self.position.clone_from(&bodies.position);
-        self.angle.clone_from(&bodies.angle);
+        if bodies.lone_discs {
+            self.angle = Vec::new();
+        } else {
+            self.angle.clone_from(&bodies.angle);
+        }
         self.low.clear();
         self.high.clear();
         if bodies.atom_count() > MOST_ATOMS {
@@ -146,7 +151,8 @@ impl Bounds {
     /// Says whether they have to be made anew for that.
     pub fn reserve(&mut self, bodies: &Bodies, travel: f64) -> bool {
         let left = |body: usize| {
-            let turned = (bodies.angle[body] - self.angle[body]).abs() * bodies.extent[body];
+            let turned =
+                self.angle.get(body).map_or(0.0, |angle| (bodies.angle[body] - angle).abs() * bodies.extent(body));
             self.margin / 2.0 - turned - (bodies.position[body] - self.position[body]).length()
         };
         let enough = (0..bodies.len()).filter(|&body| bodies.moves[body]).all(|body| left(body) >= travel);

@@ -131,7 +131,7 @@ impl Order<'_> {
 fn pair(simulation: &mut Simulation, freeze: &FreezeEntry) -> Option<Touching> {
     let world = simulation.world_mut();
     let mut names = world.query::<(Entity, &Name)>();
-    let mut named = |wanted: &str| names.iter(world).find(|(_, name)| name.0 == wanted).map(|(entity, _)| entity);
+    let mut named = |wanted: &str| names.iter(world).find(|(_, name)| *name == wanted).map(|(entity, _)| entity);
     let (a, b) = freeze.touch.as_ref()?;
     Some(Touching { a: named(a)?, b: named(b)? })
 }

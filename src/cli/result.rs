@@ -108,8 +108,8 @@ fn returned(back: &Reversal) -> String {
 
 /// A body in `--json`.
 #[derive(Serialize)]
-struct BodyState<'a> {
-    name: &'a str,
+struct BodyState {
+    name: String,
     position: [f64; 2],
     angle: f64,
     velocity: [f64; 2],
@@ -123,7 +123,7 @@ struct RunResult<'a> {
     time: f64,
     ticks: u64,
     seconds_spent: f64,
-    bodies: Vec<BodyState<'a>>,
+    bodies: Vec<BodyState>,
     card: &'a Card,
     expect: &'a [Outcome],
     #[serde(skip_serializing_if = "Option::is_none")]

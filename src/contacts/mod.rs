@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::scene::{Arity, Outline, SceneAppExt};
-use crate::world::{Atom, Bodies, Body, Wall};
+use crate::world::{Bodies, Body, Wall, atom};
 
 pub use events::{ContactEvents, ContactEventsAppExt};
 pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
@@ -21,12 +21,7 @@ pub struct ContactLaw(pub &'static str);
 
 /// Makes all contacts so many times as stiff. To be done before the packed state is made.
 pub(crate) fn stiffen(world: &mut World, factor: f64) {
-    let mut atoms = world.query::<(Entity, &Atom)>();
-    let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });
-    let stiffer: Vec<_> = atoms.iter(world).map(stiffer).collect();
-    for (entity, atom) in stiffer {
-        world.entity_mut(entity).insert(atom);
-    }
+    atom::stiffen(world, factor);
 }
 
 /// The deepest overlap so far, as a share of the smaller radius.
@@ -98,8 +93,7 @@ pub fn install_default(outline: &Outline, app: &mut App) {
     let world = app.world_mut();
     let colliding = world.query::<&Body>().iter(world).filter(|body| body.collides).count();
     let walls = world.query::<&Wall>().iter(world).count();
-    let atoms = world.query::<&Atom>().iter(world).count();
-    if atoms > 0 && (colliding > 1 || (colliding > 0 && walls > 0)) {
+    if atom::count_atoms(world) > 0 && (colliding > 1 || (colliding > 0 && walls > 0)) {
         penalty::install(penalty::Penalty::default(), app);
     }
 }

@@ -59,7 +59,7 @@ impl Watch for Watching {
         }
         let bodies = sight.bodies;
         for place in places(bodies, &self.keys) {
-            let speed = bodies.velocity[place].length() + bodies.spin[place].abs() * bodies.extent[place];
+            let speed = bodies.velocity[place].length() + bodies.spin[place].abs() * bodies.extent(place);
             if self.fastest.is_none_or(|(fastest, _)| speed > fastest || speed.is_nan()) {
                 self.fastest = Some((speed, sight.time));
             }

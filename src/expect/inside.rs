@@ -69,7 +69,7 @@ impl Watch for Watching {
             let position = sight.bodies.position[place];
             // Written so that a position that is not finite is outside.
             if !(position.cmpge(self.low).all() && position.cmple(self.high).all()) {
-                let which = self.keys.iter().position(|&key| key == sight.bodies.key[place]);
+                let which = self.keys.iter().position(|&key| key == sight.bodies.key.at(place));
                 let name = which.map_or_else(String::new, |which| self.names[which].clone());
                 self.escaped = Some((name, sight.time, position));
                 return;

@@ -186,9 +186,5 @@ pub fn plugin(app: &mut App) {
 
 /// Places in the packed state of bodies given by their keys; the gone ones are left out.
 fn places<'a>(bodies: &'a Bodies, keys: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
-    // As long as none has come or gone, a body stands at the place that is its key.
-    let place = |key: u64| {
-        if bodies.key.get(key as usize) == Some(&key) { Ok(key as usize) } else { bodies.key.binary_search(&key) }
-    };
-    keys.iter().filter_map(move |&key| place(key).ok())
+    keys.iter().filter_map(|key| bodies.key.find(*key))
 }

@@ -143,7 +143,7 @@ impl AimedBody {
             Err(Box::new(SceneError::new(format!("{path}.{field}"), message).with_help(help)))
         };
         let bodies = world.resource::<Bodies>();
-        let body = bodies.key.binary_search(key).ok().filter(|&body| bodies.dynamic[body]);
+        let body = bodies.key.find(*key).filter(|&body| bodies.dynamic[body]);
         let Some(body) = body else {
             let help = "aim a body that is neither `fixed` nor `kinematic`".to_owned();
             return wrong("of", format!("`{name}` does not move by forces"), help);

@@ -139,7 +139,7 @@ impl Link {
     }
 
     fn look_up(&self, bodies: &Bodies) -> Option<(usize, Option<usize>)> {
-        let place = |key: u64| bodies.key.binary_search(&key).ok();
+        let place = |key: u64| bodies.key.find(key);
         let b = match self.keys.1 {
             Some(key) => Some(place(key)?),
             None => None,

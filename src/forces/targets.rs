@@ -40,7 +40,7 @@ impl Targets {
     pub fn places(&mut self, bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
         if self.generation != bodies.generation {
             self.generation = bodies.generation;
-            let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && self.include(bodies.key[b]));
+            let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && self.include(bodies.key.at(b)));
             self.places = moved.map(|b| b as u32).collect();
         }
         self.places.iter().map(|&place| place as usize)

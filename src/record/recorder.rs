@@ -83,7 +83,7 @@ impl Recorder {
 }
 
 fn moments(bodies: &Bodies, time: f64) -> Vec<(u64, Moment)> {
-    (0..bodies.len()).map(|place| (bodies.key[place], Moment::of(bodies, place, time))).collect()
+    (0..bodies.len()).map(|place| (bodies.key.at(place), Moment::of(bodies, place, time))).collect()
 }
 
 /// What a film shows of the present bodies and walls.
@@ -93,15 +93,15 @@ fn cast_of(simulation: &Simulation) -> Cast {
     let color = |material: crate::world::MaterialIndex| {
         materials.and_then(|materials| materials.by_index.get(material.place())?.color.clone())
     };
-    let name = |entity: Entity| world.get::<Name>(entity).map(|name| name.0.clone()).unwrap_or_default();
+    let name = |entity: Entity| world.get::<Name>(entity).map(Name::to_string).unwrap_or_default();
     let body = |place: usize| {
         let atoms = bodies.atoms_of(place);
-        let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset[a], radius: bodies.atom_radius[a] });
+        let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
         let fixed =
             world.get::<crate::world::Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
         BodyLook {
             name: name(bodies.entity[place]),
-            color: atoms.clone().next().and_then(|first| color(bodies.atom_material[first])),
+            color: atoms.clone().next().and_then(|first| color(bodies.atom_material(first))),
             discs: discs.collect(),
             fixed,
         }

@@ -283,7 +283,7 @@ pub(super) fn percent(share: f64) -> String {
 
 /// What a body or wall is called.
 pub(super) fn name(world: &World, entity: Entity) -> String {
-    world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), |name| name.0.clone())
+    world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), Name::to_string)
 }
 
 fn largest_overlap(world: &World) -> LargestOverlap {

@@ -11,7 +11,7 @@ pub(crate) fn of_series(prefix: &str, number: u64) -> String {
 }
 
 /// What [`of_series`] made a name of, if it did.
-fn in_series(name: &str) -> Option<(&str, u64)> {
+pub(crate) fn in_series(name: &str) -> Option<(&str, u64)> {
     let (prefix, digits) = name.rsplit_once('_')?;
     let canonical = digits == "0" || !digits.starts_with('0');
     let number = digits.bytes().all(|byte| byte.is_ascii_digit()) && canonical;

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use super::{Channel, SensorAppExt, add_found, entity_named};
 use crate::contacts::ContactForces;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
-use crate::world::{Bodies, Body, Slot, Wall};
+use crate::world::{Bodies, Body, Wall, packed};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
 
@@ -57,7 +57,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
             let place = bodies.walls.iter().position(|wall| wall.entity == entity)?;
             return forces.on_wall.get(place).copied();
         }
-        forces.on_body.get(world.get::<Slot>(entity)?.0 as usize).copied()
+        forces.on_body.get(packed::place_of(world, entity)?).copied()
     };
     let value = move |world: &World| component(force(world).unwrap_or(DVec2::ZERO));
     Some(Channel::new(format!("{owner}.{quantity}"), "N", value))

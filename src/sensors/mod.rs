@@ -17,7 +17,7 @@ use bevy_ecs::prelude::*;
 
 use crate::scene::values::Word;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
-use crate::world::{Bodies, Name};
+use crate::world::{Bodies, Name, packed};
 
 /// One measured number: its name, its unit and how it is read.
 pub struct Channel {
@@ -160,7 +160,7 @@ fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
 /// Entity of the body or wall called `name`.
 fn entity_named<C: Component>(world: &mut World, name: &str) -> Option<Entity> {
     let mut query = world.query_filtered::<(Entity, &Name), With<C>>();
-    query.iter(world).find(|(_, found)| found.0 == name).map(|(entity, _)| entity)
+    query.iter(world).find(|(_, found)| **found == *name).map(|(entity, _)| entity)
 }
 
 /// A channel of a body: read by its place in the packed state; not a number once the body is gone.
@@ -174,7 +174,7 @@ fn of_body(
     let entity = entity_named::<crate::world::Body>(world, name)?;
     let value = move |world: &World| {
         let bodies = world.resource::<Bodies>();
-        world.get::<crate::world::Slot>(entity).map_or(f64::NAN, |slot| read(bodies, slot.0 as usize))
+        packed::place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))
     };
     Some(Channel::new(format!("{name}.{quantity}"), unit, value))
 }

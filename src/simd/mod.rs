@@ -25,6 +25,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use glam::DVec2;
 
 pub use allocator::Lines;
+pub(crate) use allocator::give_back;
 pub use level::{Kernel, Level, run};
 pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
 

@@ -28,6 +28,10 @@ pub struct PairBlocks {
     blocks: Vec<PairBlock>,
     /// The places are below that.
     bound: usize,
+    /// The places of the records of both sides; empty where those are the same.
+    sides: Vec<PairBlock>,
+    /// Those are below that.
+    records: usize,
 }
 
 impl PairBlocks {
@@ -41,6 +45,29 @@ impl PairBlocks {
             (block.first[number % BLOCK], block.second[number % BLOCK]) = (first, second);
             self.bound = self.bound.max(first as usize + 1).max(second as usize + 1);
         }
+        (self.sides, self.records) = (Vec::new(), self.bound);
+    }
+
+    /// The records of both sides stand elsewhere: for each place where that is, and how many records there are.
+    ///
+    /// # Panics
+    /// If one is not there.
+    pub fn find_records(&mut self, of: &[u32], count: usize) {
+        let elsewhere = |places: [u32; BLOCK]| places.map(|place| of[place as usize]);
+        let side = |block: &PairBlock| PairBlock { first: elsewhere(block.first), second: elsewhere(block.second) };
+        self.sides = self.blocks.iter().map(side).collect();
+        let there = |block: &PairBlock| block.first.iter().chain(&block.second).all(|&place| (place as usize) < count);
+        assert!(self.sides.iter().all(there), "a pair of what is not there");
+        self.records = count;
+    }
+
+    fn sides(&self) -> &[PairBlock] {
+        if self.sides.is_empty() { &self.blocks } else { &self.sides }
+    }
+
+    /// The places of the records of the pairs of a block.
+    pub fn side(&self, block: usize) -> &PairBlock {
+        &self.sides()[block]
     }
 
     /// The records of both sides of all pairs.
@@ -48,8 +75,8 @@ impl PairBlocks {
     /// # Panics
     /// If there are fewer records than that.
     pub fn records<'a>(&'a self, records: &'a [Record]) -> PairedRecords<'a> {
-        assert!(self.blocks.is_empty() || self.bound.max(1) <= records.len(), "a pair of what is not there");
-        PairedRecords { pairs: self, records }
+        assert!(self.blocks.is_empty() || self.records.max(1) <= records.len(), "a pair of what is not there");
+        PairedRecords { pairs: self, sides: self.sides(), records }
     }
 }
 
@@ -57,6 +84,7 @@ impl PairBlocks {
 #[derive(Clone, Copy)]
 pub struct PairedRecords<'a> {
     pairs: &'a PairBlocks,
+    sides: &'a [PairBlock],
     records: &'a [Record],
 }
 
@@ -70,7 +98,7 @@ impl PairedRecords<'_> {
     /// Both sides of some pairs of a block, from `lane` on; see [`Lanes::record_pairs`].
     #[inline(always)]
     pub fn load<V: Lanes>(&self, block: usize, lane: usize) -> ([V; BLOCK], [V; 2]) {
-        let PairBlock { first, second } = self.pairs(block);
+        let PairBlock { first, second } = &self.sides[block];
         // SAFETY: all places were below the bound when they were listed, and there are as many records.
         unsafe { V::record_pairs(self.records, &first[lane..], &second[lane..]) }
     }
@@ -79,7 +107,7 @@ impl PairedRecords<'_> {
     /// second ones a few blocks before. Without it half of the time of the loads is spent on waiting.
     #[inline(always)]
     pub fn fetch(&self, block: usize) {
-        if let Some(PairBlock { second, .. }) = self.pairs.blocks.get(block) {
+        if let Some(PairBlock { second, .. }) = self.sides.get(block) {
             for &place in second {
                 super::fetch(self.records.as_ptr().wrapping_add(place as usize));
             }

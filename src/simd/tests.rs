@@ -88,6 +88,36 @@ fn all_levels_give_the_same_bits() {
     assert_eq!(expected[expected.len() - 5], 0b0000_1100);
 }
 
+/// Promise: where records of a few places alone are listed, pairs have the same sides, and their bodies stay where they are.
+#[test]
+fn records_that_stand_elsewhere_are_found() {
+    let record = |place: u32| Record(std::array::from_fn(|column| f64::from(place * 10) + column as f64));
+    let listed = [(2, 9), (4, 2), (9, 11)];
+    let mut pairs = PairBlocks::default();
+    pairs.list(listed.into_iter());
+    let all: Vec<Record> = (0..12).map(record).collect();
+    let expected: Vec<_> = (0..3).map(|lane| pairs.records(&all).load::<f64>(0, lane)).collect();
+    let needed = [2, 4, 9, 11];
+    let mut of = [0; 12];
+    (0..).zip(needed).for_each(|(place, needed)| of[needed as usize] = place);
+    pairs.find_records(&of, needed.len());
+    let few: Vec<Record> = needed.into_iter().map(record).collect();
+    let sides = pairs.records(&few);
+    assert_eq!((0..3).map(|lane| sides.load::<f64>(0, lane)).collect::<Vec<_>>(), expected);
+    assert_eq!([0, 1, 2].map(|lane| sides.pairs(0).get(lane)), listed);
+    assert_eq!([0, 1, 2].map(|lane| pairs.side(0).get(lane)), [(0, 2), (1, 0), (2, 3)]);
+    pairs.list(listed.into_iter());
+    assert_eq!(pairs.side(0).get(1), (4, 2));
+}
+
+#[test]
+#[should_panic(expected = "a pair of what is not there")]
+fn records_that_are_not_there_are_refused() {
+    let mut pairs = PairBlocks::default();
+    pairs.list([(0, 1)].into_iter());
+    pairs.find_records(&[0, 7], 7);
+}
+
 #[test]
 fn a_level_is_named_by_its_word() {
     for level in Level::ALL.into_iter().filter(|level| level.is_available()) {

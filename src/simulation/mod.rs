@@ -17,7 +17,7 @@ use crate::report::accuracy::{self, Tell};
 use crate::report::card::{Notes, number};
 use crate::scene::sections::FilmSection;
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
-use crate::simd::Level;
+use crate::simd::{Level, give_back};
 use crate::threads::Threads;
 use crate::tick::{Clock, Failure, TickAppExt, foresee_components, step};
 use crate::world::{Bodies, Name, packed};
@@ -84,6 +84,9 @@ pub struct Simulation {
     failure: Option<Failure>,
 }
 
+/// Bodies of a scene whose reading took memory worth giving back.
+const LARGE: usize = 10_000;
+
 impl Simulation {
     /// Reads a scene with the standard plugins.
     ///
@@ -136,6 +139,9 @@ impl Simulation {
         let mut bodies = world.resource_mut::<Bodies>();
         bodies.level = overrides.level.unwrap_or_default();
         bodies.threads = Threads::new(overrides.threads.unwrap_or(1));
+        if bodies.len() >= LARGE {
+            give_back();
+        }
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         Ok(Self { app, header, film, ticks, spent: Duration::ZERO, failure: None })
     }
@@ -228,9 +234,9 @@ impl Simulation {
     }
 
     /// Name of the body at `place`; empty for a body spawned without one.
-    pub fn name(&self, place: usize) -> &str {
+    pub fn name(&self, place: usize) -> String {
         let entity = self.bodies().entity[place];
-        self.world().get::<Name>(entity).map_or("", |name| &name.0)
+        self.world().get::<Name>(entity).map(Name::to_string).unwrap_or_default()
     }
 
     /// Seconds of physics from frame to frame of the film, by default 1/30.

@@ -15,7 +15,7 @@ use super::travel::FarTravel;
 use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
 use crate::bounds::update_bounding_boxes;
 use crate::integrate::Method;
-use crate::world::{Bodies, Force, Name, Slot, Torque, finite, packed};
+use crate::world::{Bodies, Force, Name, Torque, finite, packed};
 
 /// What is taken out of the world while a batch of ticks runs.
 struct Running {
@@ -175,15 +175,16 @@ fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut
 fn collect_forces(
     mut bodies: ResMut<Bodies>,
     mut balance: ResMut<Balance>,
-    forces: Query<(&Slot, &Force, &Torque)>,
+    forces: Query<(Entity, &Force, &Torque)>,
     mut found: Local<Vec<(u32, DVec2, f64)>>,
 ) {
     found.clear();
-    found.extend(forces.iter().map(|(slot, force, torque)| (slot.0, force.0, torque.0)));
+    let place = |entity| bodies.place(entity).map(|place| place as u32);
+    found.extend(forces.iter().filter_map(|(entity, force, torque)| Some((place(entity)?, force.0, torque.0))));
     // Query order depends on archetypes; the order of sums must not.
-    found.sort_unstable_by_key(|(slot, ..)| *slot);
-    for &(slot, force, torque) in &*found {
-        let body = slot as usize;
+    found.sort_unstable_by_key(|(place, ..)| *place);
+    for &(place, force, torque) in &*found {
+        let body = place as usize;
         if bodies.dynamic[body] && (force != DVec2::ZERO || torque != 0.0) {
             bodies.force[body] += force;
             bodies.torque[body] += torque;
@@ -313,7 +314,7 @@ fn look_closer(world: &mut World, mut energy: EnergyGuard, travel: f64) {
     let clock = *world.resource::<Clock>();
     let bodies = world.resource::<Bodies>();
     let failure = created.map(|(body, created)| Failure {
-        body: world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default(),
+        body: world.get::<Name>(bodies.entity[body]).map(Name::to_string).unwrap_or_default(),
         wrong: if created.energy.is_finite() { Wrong::Energy(created) } else { Wrong::NotFinite("energy") },
         tick: clock.ticks,
         time: clock.time(),
@@ -352,7 +353,7 @@ fn note_failure(world: &mut World) {
     flight::land(world, None);
     let bodies = world.resource::<Bodies>();
     let Some((body, quantity)) = finite::first_not_finite(bodies) else { return };
-    let name = world.get::<Name>(bodies.entity[body]).map(|name| name.0.clone()).unwrap_or_default();
+    let name = world.get::<Name>(bodies.entity[body]).map(Name::to_string).unwrap_or_default();
     let clock = world.resource::<Clock>();
     let failure = Failure { body: name, wrong: Wrong::NotFinite(quantity), tick: clock.ticks, time: clock.time() };
     world.resource_mut::<Drive>().failure = Some(failure);

@@ -93,8 +93,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let bodies = self.tick.world.resource::<Bodies>();
         let velocities = 3 * self.dynamic.len();
         for (place, &body) in self.dynamic.iter().enumerate() {
-            let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass[body]);
-            let turning = bodies.torque[body] * bodies.inverse_inertia[body];
+            let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass(body));
+            let turning = bodies.torque[body] * bodies.inverse_inertia(body);
             rates[3 * place..3 * place + 3].copy_from_slice(&[velocity.x, velocity.y, bodies.spin[body]]);
             rates[velocities + 3 * place..velocities + 3 * place + 3].copy_from_slice(&[force.x, force.y, turning]);
         }
@@ -120,7 +120,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let bodies = self.tick.world.resource::<Bodies>();
         let far = |(&body, &(position, angle)): (&usize, &(DVec2, f64))| {
             let turn = (bodies.angle[body] - angle).abs().min(1.0);
-            (bodies.position[body] - position).length() + turn * bodies.extent[body]
+            (bodies.position[body] - position).length() + turn * bodies.extent(body)
         };
         (self.dynamic.iter().zip(places).map(far).fold(0.0, f64::max), self.reach().speed)
     }
@@ -130,7 +130,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let bodies = self.tick.world.resource::<Bodies>();
         let size = |changes: &[f64]| {
             let each = self.dynamic.iter().zip(changes.chunks_exact(3));
-            let size = each.map(|(&body, by)| DVec2::new(by[0], by[1]).length() + by[2].abs() * bodies.extent[body]);
+            let size = each.map(|(&body, by)| DVec2::new(by[0], by[1]).length() + by[2].abs() * bodies.extent(body));
             size.fold(0.0, f64::max)
         };
         let coordinates = 3 * self.dynamic.len();
@@ -147,9 +147,9 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     pub fn reach(&self) -> Reach {
         let bodies = self.tick.world.resource::<Bodies>();
         self.dynamic.iter().fold(Reach::default(), |reach, &body| {
-            let speed = bodies.velocity[body].length() + bodies.spin[body].abs() * bodies.extent[body];
-            let turning = bodies.torque[body].abs() * bodies.inverse_inertia[body] * bodies.extent[body];
-            let acceleration = bodies.force[body].length() * bodies.inverse_mass[body] + turning;
+            let speed = bodies.velocity[body].length() + bodies.spin[body].abs() * bodies.extent(body);
+            let turning = bodies.torque[body].abs() * bodies.inverse_inertia(body) * bodies.extent(body);
+            let acceleration = bodies.force[body].length() * bodies.inverse_mass(body) + turning;
             Reach { speed: reach.speed.max(speed), acceleration: reach.acceleration.max(acceleration) }
         })
     }
@@ -158,7 +158,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     /// the farthest point of their body, numbers of models' own as positions, accounts not at all.
     pub fn measures(&self, distance: f64, speed: f64, sizes: &mut Vec<f64>) {
         let bodies = self.tick.world.resource::<Bodies>();
-        let turns = |size: f64, body: usize| size / bodies.extent[body].max(f64::MIN_POSITIVE);
+        let turns = |size: f64, body: usize| size / bodies.extent(body).max(f64::MIN_POSITIVE);
         sizes.clear();
         sizes.extend(self.dynamic.iter().flat_map(|&body| [distance, distance, turns(distance, body)]));
         sizes.extend(self.dynamic.iter().flat_map(|&body| [speed, speed, turns(speed, body)]));

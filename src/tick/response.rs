@@ -132,7 +132,7 @@ impl Springs {
         if self.slot_of[body] == NOBODY {
             self.slot_of[body] = self.bodies.len() as u32;
             self.bodies.push(body);
-            self.roots.push((bodies.inverse_mass[body].sqrt(), bodies.inverse_inertia[body].sqrt()));
+            self.roots.push((bodies.inverse_mass(body).sqrt(), bodies.inverse_inertia(body).sqrt()));
         }
         self.slot_of[body]
     }

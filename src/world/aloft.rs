@@ -119,7 +119,7 @@ impl Land<'_> {
             pairs(estimated, &mut bodies.estimated_velocity[first..]);
         }
         let (u, v) = aloft.drifted;
-        let around = spin.abs() * V::load(&bodies.extent[first..]);
+        let around = spin.abs() * V::load(&bodies.atom_radius[first..]);
         let way = ((u * u + v * v).sqrt() + around) * V::splat(self.air.dt);
         let mut ways = [0.0; BLOCK];
         way.only(flies).store(&mut ways);

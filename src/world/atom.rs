@@ -1,15 +1,18 @@
 //! An atom: a disc of a body, that touches other atoms and walls.
 
+use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::prelude::*;
+use bevy_ecs::world::DeferredWorld;
 use glam::DVec2;
 
-use super::body::mark_changed;
+use super::body::{Mass, mark_changed};
 use super::material::MaterialIndex;
 
-/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity; where there are
-/// more, each is an entity that points to the body. [`atoms_of`] finds both.
+/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity, as a
+/// [`LoneDisc`] if that is all the body is; where there are more, each is an entity that points to the body. [`atoms_of`] finds
+/// all of them.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
+#[component(immutable, on_insert = take_place, on_remove = mark_changed)]
 pub struct Atom {
     /// Centre in the body's own frame, from its centre of mass, in metres.
     pub offset: DVec2,
@@ -23,6 +26,41 @@ pub struct Atom {
     pub material: MaterialIndex,
 }
 
+/// The only atom of a body, if it is a disc about the centre of mass: what is to be known beside the body's mass. An [`Atom`] that
+/// is inserted on the body takes its place.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
+pub struct LoneDisc {
+    /// Radius in metres.
+    pub radius: f64,
+    /// Contact stiffness in N/m.
+    pub stiffness: f64,
+    /// What it is made of.
+    pub material: MaterialIndex,
+}
+
+impl LoneDisc {
+    /// The only atom of a body in this form, if it has one.
+    pub(super) fn of(atoms: &[Atom]) -> Option<Self> {
+        let &[Atom { offset: DVec2::ZERO, radius, stiffness, material, .. }] = atoms else { return None };
+        Some(Self { radius, stiffness, material })
+    }
+
+    /// The atom of a body of so many kg.
+    fn atom(self, mass: f64) -> Atom {
+        let Self { radius, stiffness, material } = self;
+        Atom { offset: DVec2::ZERO, radius, mass, stiffness, material }
+    }
+}
+
+/// An atom on a body takes the place of its lone disc.
+fn take_place(mut world: DeferredWorld, context: HookContext) {
+    if world.get::<LoneDisc>(context.entity).is_some() {
+        world.commands().entity(context.entity).try_remove::<LoneDisc>();
+    }
+    mark_changed(world, context);
+}
+
 /// Points from an atom to its body.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 #[relationship(relationship_target = Atoms)]
@@ -34,11 +72,30 @@ pub struct AtomOf(pub Entity);
 pub struct Atoms(Vec<Entity>);
 
 /// The atoms of a body in the order in which they were given; none if there is no such body.
-pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = &Atom> {
+pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = Atom> {
     let body = world.get_entity(body).ok();
-    let own = body.and_then(|body| body.get::<Atom>());
+    let disc = |body: EntityRef| Some(body.get::<LoneDisc>()?.atom(body.get::<Mass>()?.mass));
+    let own = body.and_then(|body| body.get::<Atom>().copied().or_else(|| disc(body)));
     let others = body.and_then(|body| body.get::<Atoms>()).map_or(&[][..], Atoms::entities);
-    own.into_iter().chain(others.iter().filter_map(|&atom| world.get(atom)))
+    own.into_iter().chain(others.iter().filter_map(|&atom| world.get(atom).copied()))
+}
+
+/// How many atoms there are.
+pub(crate) fn count_atoms(world: &mut World) -> usize {
+    world.query_filtered::<(), Or<(With<Atom>, With<LoneDisc>)>>().iter(world).count()
+}
+
+/// Makes all atoms so many times as stiff.
+pub(crate) fn stiffen(world: &mut World, factor: f64) {
+    let mut atoms = world.query::<(Entity, &Atom)>();
+    let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });
+    let atoms: Vec<_> = atoms.iter(world).map(stiffer).collect();
+    let mut discs = world.query::<(Entity, &LoneDisc)>();
+    let stiffer =
+        |(entity, disc): (Entity, &LoneDisc)| (entity, LoneDisc { stiffness: factor * disc.stiffness, ..*disc });
+    let discs: Vec<_> = discs.iter(world).map(stiffer).collect();
+    atoms.into_iter().for_each(|(entity, atom)| _ = world.entity_mut(entity).insert(atom));
+    discs.into_iter().for_each(|(entity, disc)| _ = world.entity_mut(entity).insert(disc));
 }
 
 impl Atoms {
@@ -50,5 +107,73 @@ impl Atoms {
     /// The atoms in the order in which they were given.
     pub fn entities(&self) -> &[Entity] {
         &self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::{NewBody, packed};
+
+    /// A body that is one disc, one whose disc is beside its centre, and one of two.
+    fn three_bodies(world: &mut World) -> [Entity; 3] {
+        let atom = |x: f64| Atom {
+            offset: DVec2::new(x, 0.0),
+            radius: 0.5,
+            mass: 2.0,
+            stiffness: 1e3,
+            material: MaterialIndex::default(),
+        };
+        let body = |atoms: Vec<Atom>| NewBody { mass: 2.0, atoms, ..NewBody::default() };
+        [vec![atom(0.0)], vec![atom(0.1)], vec![atom(-0.2), atom(0.2)]].map(|atoms| body(atoms).spawn(world))
+    }
+
+    #[test]
+    fn atoms_are_found_in_whatever_form_they_stand() {
+        let mut world = World::new();
+        let bodies = three_bodies(&mut world);
+        let forms = bodies.map(|body| (world.get::<LoneDisc>(body).is_some(), world.get::<Atom>(body).is_some()));
+        assert_eq!(forms, [(true, false), (false, true), (false, false)]);
+        let offsets = |body| atoms_of(&world, body).map(|atom| atom.offset.x).collect::<Vec<_>>();
+        assert_eq!(bodies.map(offsets), [vec![0.0], vec![0.1], vec![-0.2, 0.2]]);
+        assert_eq!(atoms_of(&world, bodies[0]).next().map(|atom| atom.mass), Some(2.0));
+        assert_eq!(count_atoms(&mut world), 4);
+        stiffen(&mut world, 3.0);
+        let stiffness = |body| atoms_of(&world, body).map(|atom| atom.stiffness).collect::<Vec<_>>();
+        assert_eq!(bodies.map(stiffness), [vec![3e3], vec![3e3], vec![3e3; 2]]);
+    }
+
+    #[test]
+    fn an_atom_that_is_inserted_takes_the_place_of_the_lone_disc() {
+        let mut world = World::new();
+        let [disc, ..] = three_bodies(&mut world);
+        let larger = Atom { radius: 0.75, ..atoms_of(&world, disc).next().unwrap() };
+        world.entity_mut(disc).insert(larger);
+        assert_eq!(atoms_of(&world, disc).collect::<Vec<_>>(), [larger]);
+        assert_eq!(count_atoms(&mut world), 4);
+        packed::rebuild(&mut world);
+        assert_eq!(world.resource::<crate::world::Bodies>().atom_radius[0], 0.75);
+    }
+
+    /// Promise: where all are lone discs, what is not listed is told as where it is.
+    #[test]
+    fn lone_discs_are_packed_like_others() {
+        let mut world = World::new();
+        let bodies = three_bodies(&mut world);
+        let told = |world: &mut World| {
+            packed::rebuild(world);
+            let bodies = world.resource::<crate::world::Bodies>();
+            let whose = (bodies.atom_body(0), bodies.atoms_of(0), bodies.atom_count(), bodies.len());
+            let shape = (bodies.atom_offset(0), bodies.atom_place(0), bodies.extent(0), bodies.atom_stiffness(0));
+            (bodies.lone_discs, whose, shape)
+        };
+        let (lone, whose, shape) = told(&mut world);
+        assert!(!lone && whose == (0, 0..1, 4, 3));
+        world.despawn(bodies[1]);
+        world.despawn(bodies[2]);
+        assert_eq!(told(&mut world), (true, (0, 0..1, 1, 1), shape));
+        assert_eq!(shape, (DVec2::ZERO, DVec2::ZERO, 0.5, 1e3));
+        let place = |body| world.resource::<crate::world::Bodies>().place(body);
+        assert_eq!(bodies.map(place), [Some(0), None, None]);
     }
 }

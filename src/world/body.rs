@@ -35,10 +35,6 @@ pub struct Body {
     pub collides: bool,
 }
 
-/// Name of a body or wall in the scene.
-#[derive(Component, Clone, Debug, Default, PartialEq, Eq)]
-pub struct Name(pub String);
-
 /// Position of the centre of mass in metres.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position(pub DVec2);

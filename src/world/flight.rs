@@ -275,7 +275,7 @@ impl Bodies {
         let moment = flights.moment(body, self.mass[body]);
         flights.weighed.0 += self.mass[body];
         flights.weighed.1.iter_mut().zip(moment).for_each(|(sum, moment)| *sum += moment);
-        let next = (drifted + field * dt).length() + self.spin[body].abs() * self.extent[body];
+        let next = (drifted + field * dt).length() + self.spin[body].abs() * self.atom_radius[body];
         flights.longest = flights.longest.max(next * dt);
         flights.fastest = flights.fastest.max(next * dt);
     }

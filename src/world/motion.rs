@@ -84,7 +84,7 @@ impl PerBody for Kick {
     #[inline(always)]
     fn fetch(part: &Part, first: usize) {
         Part::fetch_pairs([part.velocity, part.force], first);
-        Part::fetch_numbers([part.inverse_mass, part.inverse_inertia, part.spin, part.torque], first);
+        Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
     }
 
     #[inline(always)]
@@ -92,9 +92,10 @@ impl PerBody for Kick {
         let dt = V::splat(self.dt);
         let (x, y) = V::load_pairs(&part.velocity[first..]);
         let (force_x, force_y) = V::load_pairs(&part.force[first..]);
-        let weight = V::load(&part.inverse_mass[first..]) * dt;
+        let (inverse_mass, inverse_inertia) = part.inverses::<V>(first);
+        let weight = inverse_mass * dt;
         V::store_pairs(x + force_x * weight, y + force_y * weight, &mut part.velocity[first..]);
-        let weight = V::load(&part.inverse_inertia[first..]) * dt;
+        let weight = inverse_inertia * dt;
         let spin = V::load(&part.spin[first..]) + V::load(&part.torque[first..]) * weight;
         spin.store(&mut part.spin[first..]);
     }
@@ -123,15 +124,14 @@ impl PerBody for Advance {
     fn fetch(part: &Part, first: usize) {
         Part::fetch_pairs([part.velocity, part.force, part.position, part.position_rest], first);
         Part::fetch_pairs([part.estimated_velocity], first);
-        Part::fetch_numbers([part.inverse_mass, part.inverse_inertia, part.spin, part.torque], first);
-        Part::fetch_numbers([part.angle, part.angle_rest, part.extent, part.mass, part.estimated_spin], first);
+        Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
+        Part::fetch_numbers([part.angle, part.angle_rest, part.extent, part.estimated_spin], first);
     }
 
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let (force_x, force_y) = V::load_pairs(&part.force[first..]);
-        let (torque, inverse_mass) = (V::load(&part.torque[first..]), V::load(&part.inverse_mass[first..]));
-        let inverse_inertia = V::load(&part.inverse_inertia[first..]);
+        let (torque, (inverse_mass, inverse_inertia)) = (V::load(&part.torque[first..]), part.inverses::<V>(first));
         let (u, v) = V::load_pairs(&part.velocity[first..]);
         let spin = V::load(&part.spin[first..]);
         let (weight, turning) = (inverse_mass * V::splat(self.kick), inverse_inertia * V::splat(self.kick));
@@ -161,7 +161,7 @@ impl PerBody for Advance {
         angle.store(&mut part.angle[first..]);
         rest.store(&mut part.angle_rest[first..]);
         if part.lone_discs {
-            self.pose.forces(part, first, (x, y), inverse_mass);
+            self.pose.forces(part, first, (x, y), moves);
         }
         let (lane, around) = (first % BLOCK, turn.abs() * V::load(&part.extent[first..]));
         // No way is longer than along both axes: roots only of those that may be the longest so far.
@@ -177,7 +177,7 @@ impl PerBody for Advance {
 
 impl Bodies {
     /// Whether each body that moves is nearer than `allowed` metres, its turn included, to where it stood: places and angles
-    /// are given. What is no number is not.
+    /// are given; without angles turning does not count. What is no number is not.
     pub fn stayed_near(&self, allowed: f64, position: &[DVec2], angle: &[f64]) -> bool {
         let near =
             |blocks: Range<usize>| simd::run(self.level, Near { bodies: self, allowed, position, angle, blocks });
@@ -216,8 +216,11 @@ impl Near<'_> {
         let bodies = self.bodies;
         let (x, y) = V::load_pairs(&bodies.position[first..]);
         let (from_x, from_y) = V::load_pairs(&self.position[first..]);
-        let turned = (V::load(&bodies.angle[first..]) - V::load(&self.angle[first..])).abs();
-        let left = V::splat(self.allowed) - turned * V::load(&bodies.extent[first..]);
+        let mut left = V::splat(self.allowed);
+        if !self.angle.is_empty() {
+            let turned = (V::load(&bodies.angle[first..]) - V::load(&self.angle[first..])).abs();
+            left = left - turned * V::load(&bodies.extents()[first..]);
+        }
         let (x, y, zero) = (x - from_x, y - from_y, V::splat(0.0));
         // Bodies that stand still are where they were, whatever the sign of zero.
         let near =

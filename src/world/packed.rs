@@ -7,19 +7,17 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::atom::{Atom, atoms_of};
+use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 use super::flight::Flights;
+use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
+use super::lone::{Surface, Surfaces};
 use super::material::MaterialIndex;
 use super::motion::Travel;
 use super::wall::Wall;
 use crate::simd::{BLOCK, Lanes, Level};
 use crate::threads::Threads;
-
-/// Place of a body in the packed state, kept on its entity.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Slot(pub u32);
 
 /// A wall as contacts see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +63,10 @@ pub struct Bodies {
 
     /// Entity of each body.
     pub entity: Vec<Entity>,
+    /// Place of the body of each entity, by the number of the entity. What others have here means nothing.
+    pub(crate) places: Vec<u32>,
     /// Key of each body, ascending.
-    pub key: Vec<u64>,
+    pub key: Keys,
     /// Whether the body moves by forces.
     pub dynamic: Vec<bool>,
     /// Whether it ever moves: by forces, or as prescribed.
@@ -79,14 +79,14 @@ pub struct Bodies {
     pub mass: Vec<f64>,
     /// Moment of inertia about the centre of mass in kg m2.
     pub inertia: Vec<f64>,
-    /// 1/mass, zero where the body does not move by forces.
-    pub inverse_mass: Vec<f64>,
-    /// 1/inertia, zero where the body does not move by forces.
-    pub inverse_inertia: Vec<f64>,
-    /// Greatest distance of a point of the body from its centre of mass, in metres.
-    pub extent: Vec<f64>,
-    /// First atom of each body, and the number of atoms at the end.
-    pub first_atom: Vec<u32>,
+    /// See [`Bodies::inverse_mass`]; empty where all bodies move by forces.
+    pub(crate) inverse_mass: Vec<f64>,
+    /// See [`Bodies::inverse_inertia`]; likewise.
+    pub(crate) inverse_inertia: Vec<f64>,
+    /// See [`Bodies::extent`]; empty where bodies are lone discs.
+    pub(crate) extent: Vec<f64>,
+    /// First atom of each body, and the number of atoms at the end; empty where bodies are lone discs. See [`Bodies::atoms_of`].
+    pub(crate) first_atom: Vec<u32>,
 
     /// Centre of mass in metres.
     pub position: Vec<DVec2>,
@@ -117,20 +117,19 @@ pub struct Bodies {
     /// Torque of the present evaluation in N m.
     pub torque: Vec<f64>,
 
-    /// Centre of each atom from its body's centre of mass, in the body's frame, in metres.
-    pub atom_offset: Vec<DVec2>,
+    /// See [`Bodies::atom_offset`]; empty where bodies are lone discs.
+    pub(crate) atom_offset: Vec<DVec2>,
     /// Centre of each atom in the world, in metres; empty where bodies are lone discs. See [`Bodies::atom_place`].
     pub(crate) atom_position: Vec<DVec2>,
     /// Radius of each atom in metres.
     pub atom_radius: Vec<f64>,
-    /// Mass of each atom in kg.
-    pub atom_mass: Vec<f64>,
-    /// Stiffness of each atom in N/m.
-    pub atom_stiffness: Vec<f64>,
-    /// Material of each atom.
-    pub atom_material: Vec<MaterialIndex>,
-    /// Body of each atom.
-    pub atom_body: Vec<u32>,
+    /// Place of the surface of each atom among [`Bodies::surfaces`]; empty where all have the same. See [`Bodies::atom_stiffness`] and
+    /// [`Bodies::atom_material`].
+    pub(crate) atom_surface: Vec<u32>,
+    /// The surfaces that atoms have, each once.
+    pub(crate) surfaces: Vec<Surface>,
+    /// See [`Bodies::atom_body`]; empty where bodies are lone discs.
+    pub(crate) atom_body: Vec<u32>,
 
     /// Whether each body is one disc about its centre of mass: atoms have the numbers of their bodies then.
     pub lone_discs: bool,
@@ -179,6 +178,13 @@ impl Bodies {
         self.entity.is_empty()
     }
 
+    /// Place of the body of an entity; none if it has none, or has one since the arrays were filled.
+    #[inline]
+    pub fn place(&self, entity: Entity) -> Option<usize> {
+        let place = *self.places.get(entity.index_u32() as usize)? as usize;
+        (self.entity.get(place) == Some(&entity)).then_some(place)
+    }
+
     /// Whether a body needs no work because it is at rest.
     #[inline]
     pub fn is_asleep(&self, body: usize) -> bool {
@@ -220,20 +226,22 @@ impl Bodies {
         place(first)..place(last)
     }
 
-    /// Number of atoms.
-    pub fn atom_count(&self) -> usize {
-        self.atom_offset.len()
-    }
-
-    /// Atoms of body `body`.
-    pub fn atoms_of(&self, body: usize) -> std::ops::Range<usize> {
-        self.first_atom[body] as usize..self.first_atom[body + 1] as usize
-    }
-
     /// Velocity of a point that moves with body `body`, `arm` metres from its centre of mass.
     #[inline]
     pub fn velocity_at(&self, body: usize, arm: DVec2) -> DVec2 {
         self.velocity[body] + arm.perp() * self.spin[body]
+    }
+
+    /// 1/mass of a body in 1/kg, zero where it does not move by forces.
+    #[inline(always)]
+    pub fn inverse_mass(&self, body: usize) -> f64 {
+        self.inverse_mass.get(body).copied().unwrap_or_else(|| 1.0 / self.mass[body])
+    }
+
+    /// 1/inertia of a body in 1/(kg m2), zero where it does not move by forces.
+    #[inline(always)]
+    pub fn inverse_inertia(&self, body: usize) -> f64 {
+        self.inverse_inertia.get(body).copied().unwrap_or_else(|| 1.0 / self.inertia[body])
     }
 
     /// Displacement of a body since the last accepted state in metres, and its turn in radians. Tangential springs follow them.
@@ -242,12 +250,12 @@ impl Bodies {
         let Some((velocity, spin, time)) = self.drift_of(body..body + 1) else {
             return (self.drift[body], self.turn[body]);
         };
-        let time = if self.inverse_mass[body] > 0.0 { time } else { 0.0 };
+        let time = if self.dynamic[body] { time } else { 0.0 };
         (velocity[0] * time, spin[0] * time)
     }
 
     /// The velocities and spins with which bodies in a row moved since the last accepted state, and for how many seconds;
-    /// `None` where displacements are listed. Those without mass did not move.
+    /// `None` where displacements are listed. Those that do not move by forces did not move.
     #[inline]
     pub(crate) fn drift_of(&self, bodies: std::ops::Range<usize>) -> Option<(&[DVec2], &[f64], f64)> {
         let Moved::For(time) = self.moved else { return None };
@@ -262,13 +270,7 @@ impl Bodies {
     /// The way in metres that some point of a body made at most since the last accepted state.
     pub(crate) fn travel(&self, body: usize) -> f64 {
         let (moved, turn) = self.displacement(body);
-        moved.length() + turn.abs() * self.extent[body]
-    }
-
-    /// Where the centre of an atom is, in metres.
-    #[inline(always)]
-    pub fn atom_place(&self, atom: usize) -> DVec2 {
-        if self.lone_discs { self.position[atom] } else { self.atom_position[atom] }
+        moved.length() + turn.abs() * self.extent(body)
     }
 
     /// Adds a force that acts `arm` metres from the centre of mass of body `body`.
@@ -326,7 +328,7 @@ impl Bodies {
                 (self.estimated_velocity[body], self.estimated_spin[body]) = (now.velocity, now.spin);
             }
             (self.drift[body], self.turn[body]) = (now.position - from.position, now.angle - from.angle);
-            let travel = self.drift[body].length() + self.turn[body].abs() * self.extent[body];
+            let travel = self.drift[body].length() + self.turn[body].abs() * self.extent(body);
             travelled.greatest = travelled.greatest.max(travel);
             travelled.sum += travel;
         }
@@ -360,14 +362,13 @@ pub(super) fn place_atoms<V: Lanes>((position, angle): (DVec2, f64), offsets: &[
     }
 }
 
-type State = (Entity, &'static Slot, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
-type StateMut =
-    (Entity, &'static Slot, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
+type State = (Entity, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
+type StateMut = (Entity, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
 
 /// Whether some component holds another value than the packed state.
-pub fn components_differ(bodies: Res<Bodies>, states: Query<State>) -> bool {
-    states.iter().any(|(_, slot, position, rotation, velocity, spin)| {
-        let body = slot.0 as usize;
+pub fn components_differ(bodies: Res<Bodies>, states: Query<State, With<Body>>) -> bool {
+    states.iter().any(|(entity, position, rotation, velocity, spin)| {
+        let Some(body) = bodies.place(entity) else { return false };
         bodies.position[body] != position.0
             || bodies.angle[body] != rotation.0
             || bodies.velocity[body] != velocity.0
@@ -376,10 +377,10 @@ pub fn components_differ(bodies: Res<Bodies>, states: Query<State>) -> bool {
 }
 
 /// Components -> packed state. What rounding left over is kept where a component was not touched.
-pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State>) {
+pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State, With<Body>>) {
     let bodies = &mut *bodies;
-    for (_, slot, position, rotation, velocity, spin) in &states {
-        let body = slot.0 as usize;
+    for (entity, position, rotation, velocity, spin) in &states {
+        let Some(body) = bodies.place(entity) else { continue };
         if bodies.position[body] != position.0 {
             bodies.position[body] = position.0;
             bodies.position_rest[body] = DVec2::ZERO;
@@ -400,13 +401,10 @@ pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State>) {
 }
 
 /// Packed state -> components.
-pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut>) {
-    for (entity, slot, mut position, mut rotation, mut velocity, mut spin) in &mut states {
-        let body = slot.0 as usize;
+pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut, With<Body>>) {
+    for (entity, mut position, mut rotation, mut velocity, mut spin) in &mut states {
         // Spawned since the last rebuild: its components are the truth.
-        if bodies.entity.get(body) != Some(&entity) {
-            continue;
-        }
+        let Some(body) = bodies.place(entity) else { continue };
         position.0 = bodies.position[body];
         rotation.0 = bodies.angle[body];
         velocity.0 = bodies.velocity[body];
@@ -435,28 +433,39 @@ impl Bodies {
     /// Makes room for so many bodies and atoms and no more: lists that grow end up to twice as long.
     fn make_room(&mut self, bodies: usize, atoms: usize) {
         self.entity.reserve_exact(bodies);
-        self.key.reserve_exact(bodies);
         for list in [&mut self.dynamic, &mut self.moves, &mut self.collides] {
             list.reserve_exact(bodies);
         }
-        let Self { mass, inertia, inverse_mass, inverse_inertia, extent, angle, angle_rest, spin, torque, .. } = self;
-        for list in [mass, inertia, inverse_mass, inverse_inertia, extent, angle, angle_rest, spin, torque] {
+        let Self { mass, inertia, angle, angle_rest, spin, torque, .. } = self;
+        for list in [mass, inertia, angle, angle_rest, spin, torque] {
             list.reserve_exact(bodies);
         }
         for list in [&mut self.position, &mut self.position_rest, &mut self.velocity, &mut self.force] {
             list.reserve_exact(bodies);
         }
-        self.first_atom.reserve_exact(bodies + 1);
-        self.atom_offset.reserve_exact(atoms);
-        for list in [&mut self.atom_radius, &mut self.atom_mass, &mut self.atom_stiffness] {
-            list.reserve_exact(atoms);
+        self.atom_radius.reserve_exact(atoms);
+        self.atom_surface.reserve_exact(atoms);
+        if !self.lone_discs {
+            self.extent.reserve_exact(bodies);
+            self.first_atom.reserve_exact(bodies + 1);
+            self.atom_offset.reserve_exact(atoms);
+            self.atom_body.reserve_exact(atoms);
         }
-        self.atom_material.reserve_exact(atoms);
-        self.atom_body.reserve_exact(atoms);
     }
 }
 
-/// Fills the arrays anew from the entities, in the order of keys, and tells every body its place.
+/// Whether a body is one disc about its centre of mass.
+fn is_lone_disc(world: &World, body: Entity) -> bool {
+    let mut atoms = atoms_of(world, body);
+    atoms.next().is_some_and(|atom| atom.offset == DVec2::ZERO) && atoms.next().is_none()
+}
+
+/// Place of the body of an entity, if it is still there.
+pub(crate) fn place_of(world: &World, entity: Entity) -> Option<usize> {
+    world.get::<Body>(entity).and_then(|_| world.get_resource::<Bodies>()?.place(entity))
+}
+
+/// Fills the arrays anew from the entities, in the order of keys.
 pub fn rebuild(world: &mut World) {
     if world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed) {
         make_pushable(world);
@@ -471,21 +480,20 @@ pub fn rebuild(world: &mut World) {
         field: previous.field,
         pushed: previous.pushed,
         flights: previous.flights.ended(),
+        lone_discs: found.iter().all(|&(_, entity)| is_lone_disc(world, entity)),
         ..Default::default()
     };
-    bodies.make_room(found.len(), world.query::<&Atom>().iter(world).len());
-    bodies.first_atom.push(0);
+    let last = found.iter().map(|(_, entity)| entity.index_u32() as usize).max();
+    bodies.places = vec![0; last.map_or(0, |last| last + 1)];
+    bodies.make_room(found.len(), count_atoms(world));
+    let mut surfaces = Surfaces::default();
     for (place, &(key, entity)) in found.iter().enumerate() {
-        let mut body = world.entity_mut(entity);
-        match body.get_mut::<Slot>() {
-            Some(mut slot) => slot.0 = place as u32,
-            None => _ = body.insert(Slot(place as u32)),
-        }
         let body = world.entity(entity);
         let &Body { motion, collides, .. } = body.get::<Body>().expect("queried with Body");
         let &Mass { mass, inertia } = body.get::<Mass>().expect("Body requires Mass");
         let dynamic = motion == Motion::Dynamic;
         bodies.entity.push(entity);
+        bodies.places[entity.index_u32() as usize] = place as u32;
         bodies.key.push(key);
         bodies.dynamic.push(dynamic);
         let prescribed = body.get::<Kinematic>().filter(|_| motion == Motion::Kinematic);
@@ -494,11 +502,9 @@ pub fn rebuild(world: &mut World) {
         bodies.collides.push(collides);
         bodies.mass.push(mass);
         bodies.inertia.push(inertia);
-        bodies.inverse_mass.push(if dynamic { 1.0 / mass } else { 0.0 });
-        bodies.inverse_inertia.push(if dynamic { 1.0 / inertia } else { 0.0 });
         let position = body.get::<Position>().expect("Body requires Position").0;
         let angle = body.get::<Rotation>().expect("Body requires Rotation").0;
-        let before = previous.key.binary_search(&key).ok();
+        let before = previous.key.find(key);
         let kept = |same: bool| before.filter(|_| same);
         let position_kept = kept(before.is_some_and(|b| previous.position[b] == position));
         let angle_kept = kept(before.is_some_and(|b| previous.angle[b] == angle));
@@ -517,22 +523,24 @@ pub fn rebuild(world: &mut World) {
         }
         bodies.force.push(DVec2::ZERO);
         bodies.torque.push(0.0);
-        let mut extent = 0.0_f64;
+        let (mut extent, first_atom) = (0.0_f64, bodies.atom_count() as u32);
         for atom in atoms_of(world, entity) {
-            extent = extent.max(atom.offset.length() + atom.radius);
-            bodies.atom_offset.push(atom.offset);
             bodies.atom_radius.push(atom.radius);
-            bodies.atom_mass.push(atom.mass);
-            bodies.atom_stiffness.push(atom.stiffness);
-            bodies.atom_material.push(atom.material);
-            bodies.atom_body.push(place as u32);
+            bodies.atom_surface.push(surfaces.place(atom));
+            if !bodies.lone_discs {
+                extent = extent.max(atom.offset.length() + atom.radius);
+                bodies.atom_offset.push(atom.offset);
+                bodies.atom_body.push(place as u32);
+            }
         }
-        bodies.extent.push(extent);
-        bodies.first_atom.push(bodies.atom_offset.len() as u32);
+        if !bodies.lone_discs {
+            bodies.extent.push(extent);
+            bodies.first_atom.push(first_atom);
+        }
     }
-    let lone = |body: usize| bodies.atoms_of(body).len() == 1 && bodies.atom_offset[body] == DVec2::ZERO;
-    bodies.lone_discs = (0..bodies.len()).all(lone);
+    (bodies.surfaces, bodies.atom_surface) = surfaces.listed(std::mem::take(&mut bodies.atom_surface));
     if !bodies.lone_discs {
+        bodies.first_atom.push(bodies.atom_count() as u32);
         bodies.atom_position = vec![DVec2::ZERO; bodies.atom_count()];
         for body in 0..bodies.len() {
             let (pose, atoms) = ((bodies.position[body], bodies.angle[body]), bodies.atoms_of(body));
@@ -543,6 +551,13 @@ pub fn rebuild(world: &mut World) {
         if bodies.lone_discs && bodies.prescribed.motions.is_empty() { Moved::For(0.0) } else { Moved::Listed };
     bodies.accept();
     bodies.all_dynamic = bodies.dynamic.iter().all(|dynamic| *dynamic);
+    if !bodies.all_dynamic {
+        let inverse = |list: &[f64]| {
+            let of = |(value, dynamic): (&f64, &bool)| if *dynamic { 1.0 / value } else { 0.0 };
+            list.iter().zip(&bodies.dynamic).map(of).collect()
+        };
+        (bodies.inverse_mass, bodies.inverse_inertia) = (inverse(&bodies.mass), inverse(&bodies.inertia));
+    }
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
     bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);
     walls.sort_unstable_by_key(|(_, wall)| wall.key);

@@ -25,8 +25,10 @@ pub(crate) struct Part<'a> {
     /// A bit for each body that is asleep, a byte for each block from the first on; empty: none is.
     pub asleep: &'a [u8],
     pub mass: &'a [f64],
-    pub inverse_mass: &'a [f64],
-    pub inverse_inertia: &'a [f64],
+    pub inertia: &'a [f64],
+    /// Empty where all bodies move by forces.
+    inverse_mass: &'a [f64],
+    inverse_inertia: &'a [f64],
     pub extent: &'a [f64],
     pub position: &'a mut [DVec2],
     pub position_rest: &'a mut [DVec2],
@@ -44,10 +46,9 @@ pub(crate) struct Part<'a> {
     pub torque: &'a mut [f64],
     pub lone_discs: bool,
     moves: &'a [bool],
-    /// One more than bodies.
+    /// One more than bodies; empty where bodies are lone discs, and so are the following.
     first_atom: &'a [u32],
     atom_offset: &'a [DVec2],
-    /// Empty where bodies are lone discs.
     pub atom_position: &'a mut [DVec2],
 }
 
@@ -66,9 +67,10 @@ impl<'a> Part<'a> {
             awake: (!bodies.asleep.is_empty()).then_some(&bodies.awake),
             asleep: &bodies.asleep,
             mass: &bodies.mass,
+            inertia: &bodies.inertia,
             inverse_mass: &bodies.inverse_mass,
             inverse_inertia: &bodies.inverse_inertia,
-            extent: &bodies.extent,
+            extent: if bodies.lone_discs { &bodies.atom_radius } else { &bodies.extent },
             position: &mut bodies.position,
             position_rest: &mut bodies.position_rest,
             angle: &mut bodies.angle,
@@ -93,14 +95,15 @@ impl<'a> Part<'a> {
     fn take(&mut self, count: usize) -> Self {
         let blocks = |list: &[u32]| list.partition_point(|&block| (block as usize) < (self.first + count) / BLOCK);
         let (awake, rest) = self.awake.map(|list| list.split_at(blocks(list))).unzip();
-        let atoms = (self.first_atom[count] - self.first_atom[0]) as usize;
+        let atoms = if self.lone_discs { 0 } else { (self.first_atom[count] - self.first_atom[0]) as usize };
         let front = Self {
             first: self.first,
             awake,
             asleep: &self.asleep[..self.asleep.len().min(count / BLOCK)],
             mass: &self.mass[..count],
-            inverse_mass: &self.inverse_mass[..count],
-            inverse_inertia: &self.inverse_inertia[..count],
+            inertia: &self.inertia[..count],
+            inverse_mass: &self.inverse_mass[..count.min(self.inverse_mass.len())],
+            inverse_inertia: &self.inverse_inertia[..count.min(self.inverse_inertia.len())],
             extent: &self.extent[..count],
             position: cut(&mut self.position, count),
             position_rest: cut(&mut self.position_rest, count),
@@ -116,7 +119,7 @@ impl<'a> Part<'a> {
             torque: cut(&mut self.torque, count),
             lone_discs: self.lone_discs,
             moves: &self.moves[..count],
-            first_atom: &self.first_atom[..=count],
+            first_atom: if self.lone_discs { &[] } else { &self.first_atom[..=count] },
             atom_offset: &self.atom_offset[..atoms],
             atom_position: cut(&mut self.atom_position, atoms),
         };
@@ -124,13 +127,31 @@ impl<'a> Part<'a> {
         self.awake = rest;
         self.asleep = &self.asleep[front.asleep.len()..];
         self.mass = &self.mass[count..];
-        self.inverse_mass = &self.inverse_mass[count..];
-        self.inverse_inertia = &self.inverse_inertia[count..];
+        self.inertia = &self.inertia[count..];
+        self.inverse_mass = &self.inverse_mass[front.inverse_mass.len()..];
+        self.inverse_inertia = &self.inverse_inertia[front.inverse_inertia.len()..];
         self.extent = &self.extent[count..];
         self.moves = &self.moves[count..];
-        self.first_atom = &self.first_atom[count..];
+        self.first_atom = if self.lone_discs { &[] } else { &self.first_atom[count..] };
         self.atom_offset = &self.atom_offset[atoms..];
         front
+    }
+
+    /// 1/mass and 1/inertia of some bodies from place `first` of the part on.
+    #[inline(always)]
+    pub fn inverses<V: Lanes>(&self, first: usize) -> (V, V) {
+        if self.inverse_mass.is_empty() {
+            let one = V::splat(1.0);
+            return (one / V::load(&self.mass[first..]), one / V::load(&self.inertia[first..]));
+        }
+        (V::load(&self.inverse_mass[first..]), V::load(&self.inverse_inertia[first..]))
+    }
+
+    /// Which of them move by forces.
+    #[inline(always)]
+    pub fn moving<V: Lanes>(&self, first: usize) -> V::Mask {
+        let (zero, one) = (V::splat(0.0), V::splat(1.0));
+        if self.inverse_mass.is_empty() { one } else { V::load(&self.inverse_mass[first..]) }.gt(zero)
     }
 
     #[inline(always)]

@@ -25,14 +25,13 @@ impl Pose {
         *moment += DVec2::new(x, y);
     }
 
-    /// The forces alone, of bodies that stand at these places.
+    /// The forces alone, of bodies that stand at these places; those that move by forces may have a weight.
     #[inline(always)]
-    pub fn forces<V: Lanes>(&mut self, part: &mut Part, first: usize, (x, y): (V, V), inverse_mass: V) {
+    pub fn forces<V: Lanes>(&mut self, part: &mut Part, first: usize, (x, y): (V, V), mut moves: V::Mask) {
         let zero = V::splat(0.0);
         zero.store(&mut part.torque[first..]);
         let Some(field) = self.field else { return V::store_pairs(zero, zero, &mut part.force[first..]) };
         let lane = first % BLOCK;
-        let mut moves = inverse_mass.gt(zero);
         if let Some(asleep) = part.asleep.get(first / BLOCK) {
             moves = moves & V::mask(!asleep >> lane);
         }
@@ -49,8 +48,8 @@ impl Pose {
 impl PerBody for Pose {
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
-        let (place, inverse_mass) = (V::load_pairs(&part.position[first..]), V::load(&part.inverse_mass[first..]));
-        self.forces(part, first, place, inverse_mass);
+        let (place, moves) = (V::load_pairs(&part.position[first..]), part.moving::<V>(first));
+        self.forces(part, first, place, moves);
     }
 
     #[inline(always)]

@@ -2,10 +2,12 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
-use super::spawn::{NextKey, after_others, spawn_series};
+use super::spawn::{NextKey, Series, after_others, spawn_series};
 use super::{Atom, Motion, Name, NewBody, Wall};
+use crate::scene::names::of_series;
 use crate::scene::sections::{BodiesSection, FillSection, PackingsSection, WallsSection};
 use crate::scene::{Kind, Outline, SceneAppExt};
 use crate::shapes::AtomSpec;
@@ -31,7 +33,7 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
         next.wall += 1;
         let (left, right) = (wall.left.si(), wall.right.si());
         let surface_velocity = wall.belt();
-        world.spawn((Wall { key, left, right, material, surface_velocity }, Name(wall.name)));
+        world.spawn((Wall { key, left, right, material, surface_velocity }, Name::from(wall.name)));
     }
 }
 
@@ -70,7 +72,6 @@ pub fn spawn_packings(section: PackingsSection, outline: &Outline, world: &mut W
         let body = |number| {
             let start = table.body(number, made_of.density);
             NewBody {
-                name: entry.body_name(number as u64),
                 position: start.position,
                 angle: start.angle,
                 velocity: start.velocity,
@@ -78,8 +79,8 @@ pub fn spawn_packings(section: PackingsSection, outline: &Outline, world: &mut W
                 ..made_of.body(&start.properties)
             }
         };
-        let one_atom = table.atom_count() == table.body_count();
-        spawn_series(world, table.body_count(), one_atom, |number| keyed(body(number), outline));
+        let lone_discs = table.atom_count() == table.body_count();
+        spawn_series(world, series(entry.name, table.body_count(), lone_discs, outline), body);
     }
 }
 
@@ -89,14 +90,13 @@ pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
         let made_of = MadeOf::named(world, entry.material.as_deref());
         let properties = mass_properties::of(&entry.atoms.specs(), None, entry.atoms.own_rule(), made_of.density);
         let body = |number: usize| NewBody {
-            name: entry.body_name(number as u64),
             position: placed[number].position,
             angle: placed[number].angle,
             velocity: placed[number].velocity,
             ..made_of.body(&properties)
         };
-        let one_atom = properties.atoms.len() == 1;
-        spawn_series(world, placed.len(), one_atom, |number| keyed(body(number), outline));
+        let lone_discs = matches!(properties.atoms[..], [AtomSpec { offset: DVec2::ZERO, .. }]);
+        spawn_series(world, series(entry.name.clone(), placed.len(), lone_discs, outline), body);
     }
 }
 
@@ -107,6 +107,12 @@ fn material(world: &World, name: Option<&str>) -> MaterialIndex {
 /// The key of a body, its place in the outline: names are looked up there, and keys are the canonical order.
 fn keyed(body: NewBody, outline: &Outline) -> (Option<u64>, NewBody) {
     (outline.position(Kind::BODY, &body.name).map(|place| place as u64), body)
+}
+
+/// Bodies that are named by their numbers. They follow one another in the outline.
+fn series(prefix: String, count: usize, lone_discs: bool, outline: &Outline) -> Series {
+    let key = outline.position(Kind::BODY, &of_series(&prefix, 0)).map(|place| place as u64);
+    Series { prefix, count, key, lone_discs }
 }
 
 /// What bodies of one material share.

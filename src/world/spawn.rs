@@ -1,12 +1,14 @@
 //! Spawning bodies and walls, at the beginning or in mid-run.
 
+use std::sync::Arc;
+
 use bevy_ecs::bundle::NoBundleEffect;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::atom::{Atom, AtomOf, Atoms};
-use super::body::{Body, Force, Mass, Motion, Name, Position, Rotation, Spin, Torque, Velocity};
-use super::{Bodies, Kinematic, Slot};
+use super::atom::{Atom, AtomOf, Atoms, LoneDisc};
+use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
+use super::{Bodies, Kinematic, Name};
 
 /// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.
 #[derive(Resource, Debug, Default)]
@@ -99,26 +101,35 @@ fn spawn_one(world: &mut World, pushed: bool, components: impl Bundle) -> Entity
     }
 }
 
-/// Spawns the bodies of a series, with keys of the caller's choice or the next ones. Where each has one atom, the ECS makes room for
-/// all of them at once.
-pub(super) fn spawn_series(
-    world: &mut World,
-    count: usize,
-    one_atom: bool,
-    body: impl Fn(usize) -> (Option<u64>, NewBody),
-) {
-    let bodies = (0..count).map(body);
-    if !one_atom {
+/// Bodies that are named by their numbers.
+pub(super) struct Series {
+    /// What their names begin with.
+    pub prefix: String,
+    /// How many there are.
+    pub count: usize,
+    /// The key of the first, those of the others follow it; none: the next one.
+    pub key: Option<u64>,
+    /// Whether each is one disc about its centre of mass.
+    pub lone_discs: bool,
+}
+
+/// Spawns the bodies of a series; their own names do not count. Where each is a lone disc, the ECS makes room for all of them at
+/// once.
+pub(super) fn spawn_series(world: &mut World, series: Series, body: impl Fn(usize) -> NewBody) {
+    let Series { prefix, count, key, lone_discs } = series;
+    let prefix = Arc::new(prefix);
+    let mut next = world.get_resource_or_init::<NextKey>();
+    let first = key.unwrap_or(next.body);
+    next.body = next.body.max(first + count as u64);
+    let bodies = (0..count).map(|number| (first + number as u64, Name::of_series(&prefix, number), body(number)));
+    if !lone_discs {
         return after_others(world, count, |world| {
-            bodies.for_each(|(key, body)| _ = body.spawn_keyed(world, key));
+            bodies.for_each(|(key, name, body)| _ = body.spawn_named(world, key, name));
         });
     }
-    let mut next = world.get_resource_or_init::<NextKey>().body;
-    let discs = bodies.map(|(key, mut body)| {
-        let key = key.unwrap_or(next);
-        next = next.max(key + 1);
-        let atom = body.atoms.pop().expect("each has one atom");
-        (body.components(key), atom, Slot::default())
+    let discs = bodies.map(|(key, name, body)| {
+        let disc = LoneDisc::of(&body.atoms).expect("each is a lone disc");
+        (body.components(key, name), disc)
     });
     let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
     after_others(world, count, |world| {
@@ -128,15 +139,14 @@ pub(super) fn spawn_series(
             world.spawn_batch(discs);
         }
     });
-    world.resource_mut::<NextKey>().body = next;
 }
 
 impl NewBody {
     /// What it is but for its atoms.
-    fn components(self, key: u64) -> impl Bundle<Effect: NoBundleEffect> {
+    fn components(&self, key: u64, name: Name) -> impl Bundle<Effect: NoBundleEffect> + use<> {
         (
             Body { key, motion: self.motion, collides: self.collides },
-            Name(self.name),
+            name,
             Position(self.position),
             Rotation(self.angle),
             Velocity(self.velocity),
@@ -165,28 +175,31 @@ impl NewBody {
     pub fn spawn_with_key(mut self, world: &mut World, key: u64) -> Entity {
         let mut next = world.get_resource_or_init::<NextKey>();
         next.body = next.body.max(key + 1);
-        let (kinematic, mut atoms) = (self.kinematic.take(), std::mem::take(&mut self.atoms));
+        let name = std::mem::take(&mut self.name).into();
+        self.spawn_named(world, key, name)
+    }
+
+    fn spawn_named(mut self, world: &mut World, key: u64, name: Name) -> Entity {
+        let (kinematic, atoms) = (self.kinematic.take(), std::mem::take(&mut self.atoms));
         if kinematic.is_some() {
             self.motion = Motion::Kinematic;
         }
-        let components = self.components(key);
+        let components = self.components(key, name);
         // With all it ever has from the beginning: a component that comes later moves the body to another table, and the one it
-        // leaves keeps its memory. What is not packed yet will be before anybody looks for its place.
-        let bodies = world.get_resource::<Bodies>();
-        let pushed = bodies.is_some_and(|bodies| bodies.pushed);
-        let unpacked = bodies.is_none_or(|bodies| bodies.generation == 0);
-        let only = if atoms.len() == 1 { atoms.pop() } else { None };
-        let body = match (unpacked, only) {
-            (true, Some(only)) => spawn_one(world, pushed, (components, only, Slot::default())),
-            (false, Some(only)) => spawn_one(world, pushed, (components, only)),
-            (true, None) => spawn_one(world, pushed, (components, Slot::default(), Atoms::with_room(atoms.len()))),
-            (false, None) => spawn_one(world, pushed, components),
+        // leaves keeps its memory.
+        let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
+        let body = match (LoneDisc::of(&atoms), atoms.len()) {
+            (Some(disc), _) => spawn_one(world, pushed, (components, disc)),
+            (None, 1) => spawn_one(world, pushed, (components, atoms[0])),
+            (None, count) => spawn_one(world, pushed, (components, Atoms::with_room(count))),
         };
         if let Some(kinematic) = kinematic {
             world.entity_mut(body).insert(kinematic);
         }
-        for atom in atoms {
-            world.spawn((atom, AtomOf(body)));
+        if atoms.len() > 1 {
+            for atom in atoms {
+                world.spawn((atom, AtomOf(body)));
+            }
         }
         body
     }

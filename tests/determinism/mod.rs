@@ -112,7 +112,7 @@ fn states(simulation: &Simulation) -> Vec<(u64, State)> {
     let state = |body: usize| {
         let (position, velocity) = (bodies.position[body], bodies.velocity[body]);
         let numbers = [position.x, position.y, velocity.x, velocity.y, bodies.angle[body], bodies.spin[body]];
-        (bodies.key[body], numbers.map(f64::to_bits))
+        (bodies.key.at(body), numbers.map(f64::to_bits))
     };
     (0..bodies.len()).map(state).collect()
 }

@@ -53,8 +53,8 @@ fn apply_axis_wise(
         if compression <= 0.0 {
             continue;
         }
-        let stiffness = 1.0 / (1.0 / bodies.atom_stiffness[a] + 1.0 / bodies.atom_stiffness[b]);
-        let pair = materials.pair(bodies.atom_material[a].place(), bodies.atom_material[b].place());
+        let stiffness = 1.0 / (1.0 / bodies.atom_stiffness(a) + 1.0 / bodies.atom_stiffness(b));
+        let pair = materials.pair(bodies.atom_material(a).place(), bodies.atom_material(b).place());
         let normal_force = between * (stiffness * compression / distance);
         let approach = sign(velocity(&bodies, a) - velocity(&bodies, b));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
@@ -70,8 +70,8 @@ fn apply_axis_wise(
         if compression <= 0.0 {
             continue;
         }
-        let pair = materials.pair(wall.material.place(), bodies.atom_material[atom].place());
-        let normal_force = wall.normal * (bodies.atom_stiffness[atom] * compression);
+        let pair = materials.pair(wall.material.place(), bodies.atom_material(atom).place());
+        let normal_force = wall.normal * (bodies.atom_stiffness(atom) * compression);
         let motion = sign(velocity(&bodies, atom));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * motion * pair.friction_dynamic;
@@ -81,13 +81,13 @@ fn apply_axis_wise(
 }
 
 fn velocity(bodies: &Bodies, atom: usize) -> DVec2 {
-    let body = bodies.atom_body[atom] as usize;
+    let body = bodies.atom_body(atom);
     bodies.velocity_at(body, bodies.atom_place(atom) - bodies.position[body])
 }
 
 /// The law lets forces act at the centre of the atom.
 fn push(bodies: &mut Bodies, balance: &mut Balance, atom: usize, force: DVec2) {
-    let body = bodies.atom_body[atom] as usize;
+    let body = bodies.atom_body(atom);
     let arm = bodies.atom_place(atom) - bodies.position[body];
     bodies.push(body, arm, force);
     balance.outside(bodies.atom_place(atom), force, 0.0);

@@ -28,7 +28,7 @@ struct Diary(Vec<Heard>);
 fn keep_diary(events: Res<ContactEvents>, clock: Res<Clock>, names: Query<&Name>, mut diary: ResMut<Diary>) {
     // Between the integrator and the observers the clock stands at the end of the tick.
     assert_eq!(events.time, clock.time());
-    let name = |entity| names.get(entity).map_or_else(|_| "(gone)".to_owned(), |name| name.0.clone());
+    let name = |entity| names.get(entity).map_or_else(|_| "(gone)".to_owned(), Name::to_string);
     for (list, begun) in [(&events.begun, true), (&events.ended, false)] {
         diary.0.extend(list.iter().map(|pair| (clock.ticks, begun, name(pair.a), name(pair.b))));
     }
@@ -182,7 +182,7 @@ fn a_heap_tells_who_touches_by_positions_alone_in_canonical_order() {
         let now = touching(simulation.bodies());
         let pair = |&(is_wall, a, b): &(bool, usize, usize)| {
             let bodies = simulation.bodies();
-            let name = |entity| simulation.world().get::<Name>(entity).unwrap().0.clone();
+            let name = |entity| simulation.world().get::<Name>(entity).unwrap().to_string();
             (name(bodies.entity[a]), name(if is_wall { bodies.walls[b].entity } else { bodies.entity[b] }))
         };
         let begun = now.iter().filter(|&touch| !known.contains(touch)).map(pair).map(|(a, b)| (tick, true, a, b));

@@ -51,7 +51,7 @@ fn a_picture_becomes_a_body_of_its_area() {
     let whole = bodies.mass[0] * 4.0 / 6.0;
     assert!((bodies.inertia[0] - whole).abs() < (1.0 - share + pixels) * bodies.mass[0] * 2.0, "{}", bodies.inertia[0]);
     // The centre of mass is where it is put; discs reach the lowest edge, 1 m below, to two pixels.
-    let lowest = bodies.atom_offset.iter().zip(&bodies.atom_radius).map(|(at, radius)| at.y - radius);
+    let lowest = (0..bodies.atom_count()).map(|atom| bodies.atom_offset(atom).y - bodies.atom_radius[atom]);
     assert!((lowest.fold(0.0, f64::min) + 1.0).abs() < 2.0 * 2.0 / 256.0);
 }
 

@@ -157,7 +157,7 @@ fn find_stretch(world: &mut World, owner: &str, quantity: &str) -> Option<Channe
 
 fn body_named(world: &mut World, name: &str) -> Option<Entity> {
     let mut bodies = world.query_filtered::<(Entity, &Name), With<Body>>();
-    bodies.iter(world).find(|(_, found)| found.0 == name).map(|(body, _)| body)
+    bodies.iter(world).find(|(_, found)| **found == *name).map(|(body, _)| body)
 }
 
 #[cfg(test)]

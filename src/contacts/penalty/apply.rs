@@ -81,8 +81,8 @@ impl Default for PenaltyContacts {
 fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let side = |atom: u32| Side {
-        stiffness: bodies.atom_stiffness[atom as usize],
-        material: bodies.atom_material[atom as usize],
+        stiffness: bodies.atom_stiffness(atom as usize),
+        material: bodies.atom_material(atom as usize),
     };
     let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
     atoms.carry(&pairs.atoms_before, |place| {
@@ -93,7 +93,7 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
     // Between discs that turn about their centres no lever arm changes.
     let changes = |place: &u32| laws.get(*place).damping.depends_on_mobility();
     if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && !atoms.is_empty() && changes(&atoms.get(0).law) {
-        let mobility = |pair: &AtomPair| bodies.inverse_mass[pair.a as usize] + bodies.inverse_mass[pair.b as usize];
+        let mobility = |pair: &AtomPair| bodies.inverse_mass(pair.a as usize) + bodies.inverse_mass(pair.b as usize);
         let damping = |law: &u32, pair| N::response(laws.get(*law), mobility(pair)).1;
         atoms.damping = vec![[0.0; BLOCK]; atoms.law.len()];
         for ((damped, law), pairs) in atoms.damping.iter_mut().zip(&atoms.law).zip(pairs.atoms.chunks(BLOCK)) {
@@ -123,7 +123,7 @@ impl End {
     #[inline(always)]
     pub fn of(bodies: &Bodies, atom: u32) -> Self {
         let atom = atom as usize;
-        let body = bodies.atom_body[atom] as usize;
+        let body = bodies.atom_body(atom);
         Self { body, arm: bodies.atom_place(atom) - bodies.position[body], radius: bodies.atom_radius[atom] }
     }
 
@@ -131,7 +131,7 @@ impl End {
     #[inline]
     pub fn mobility(&self, bodies: &Bodies, normal: DVec2) -> f64 {
         let lever = self.arm.perp_dot(normal);
-        bodies.inverse_mass[self.body] + lever * lever * bodies.inverse_inertia[self.body]
+        bodies.inverse_mass(self.body) + lever * lever * bodies.inverse_inertia(self.body)
     }
 
     /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
@@ -267,7 +267,8 @@ pub(super) fn apply<N: NormalForce>(
 ) {
     if contacts.version != pairs.version {
         carry_history::<N>(contacts, bodies, pairs);
-        contacts.records.prepare(bodies, &pairs.atoms);
+        let PenaltyContacts { records, atoms, .. } = &mut *contacts;
+        records.prepare(bodies, &pairs.atoms, atoms);
         contacts.lay_asleep(bodies, pairs, forces.as_deref_mut());
         bodies.try_flights(contacts.atoms.touching_count());
     }
@@ -398,7 +399,7 @@ fn follow_wall<N: NormalForce>(
 }
 
 fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs, touches: &mut Touches) {
-    let body = |atom: u32| bodies.atom_body[atom as usize] as usize;
+    let body = |atom: u32| bodies.atom_body(atom as usize);
     touches.clear();
     for place in contacts.atoms.touching() {
         let AtomPair { a, b } = pairs.atoms[place];

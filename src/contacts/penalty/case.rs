@@ -77,10 +77,10 @@ impl Case {
         if contact.mode == Mode::Hold {
             return true;
         }
-        let acceleration = |body: usize| bodies.force[body] * bodies.inverse_mass[body];
+        let acceleration = |body: usize| bodies.force[body] * bodies.inverse_mass(body);
         let other = self.other_body();
         let relative = acceleration(self.end.body) - other.map_or(DVec2::ZERO, acceleration);
-        let inverse_mass = bodies.inverse_mass[self.end.body] + other.map_or(0.0, |body| bodies.inverse_mass[body]);
+        let inverse_mass = bodies.inverse_mass(self.end.body) + other.map_or(0.0, |body| bodies.inverse_mass(body));
         let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
         parting.abs() <= 2.0 * dt * (relative.dot(self.normal).abs() + (greatest - least) * inverse_mass)
     }

@@ -29,29 +29,40 @@ pub(super) struct Records {
     pub list: Vec<Record>,
     /// The atoms that move and that some pair may need, in order; empty: all.
     needed: Vec<u32>,
+    /// There are records of those alone, in their order.
+    sparse: bool,
 }
 
 impl Records {
     /// Takes up new lists of pairs.
-    pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair]) {
+    pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair], contacts: &mut ContactList) {
         self.list.clear();
-        self.list.resize(bodies.atom_count(), Record::default());
         self.needed.clear();
         let mut needed = vec![false; bodies.atom_count()];
         for pair in pairs {
             needed[pair.a as usize] = true;
             needed[pair.b as usize] = true;
         }
-        let moves = |atom: usize| bodies.moves[bodies.atom_body[atom] as usize];
+        let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
         let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
         // Where most are needed, going by all in order is faster.
-        if !bodies.lone_discs || 4 * count < 3 * needed.len() {
+        let few = 4 * count < 3 * needed.len();
+        if few || !bodies.lone_discs {
+            self.needed.reserve_exact(count);
             self.needed.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
         }
-        // Those of bodies that stand or are asleep are not filled in again.
-        for (atom, own) in self.list.iter_mut().enumerate() {
-            *own = record(bodies, atom);
+        self.sparse = few && bodies.lone_discs && bodies.all_dynamic;
+        if self.sparse {
+            let mut place = vec![0; needed.len()];
+            self.needed.iter().zip(0..).for_each(|(&atom, number)| place[atom as usize] = number);
+            contacts.pairs.find_records(&place, count);
+            self.list.reserve_exact(count);
+            self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
+            return;
         }
+        // Those of bodies that stand or are asleep are not filled in again.
+        self.list.reserve_exact(needed.len());
+        self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
     }
 
     /// Fills in the present state, as far as some pair has to be looked at; see [`FollowPairs::path`].
@@ -62,16 +73,17 @@ impl Records {
         let atoms = if all { self.list.len() } else { self.needed.len() };
         if 2 * BLOCK * blocks().count() < atoms {
             for first in blocks().map(|block| BLOCK * block) {
-                for pair in &pairs[first..pairs.len().min(first + BLOCK)] {
-                    self.list[pair.a as usize] = record(bodies, pair.a as usize);
-                    self.list[pair.b as usize] = record(bodies, pair.b as usize);
+                for (lane, pair) in pairs[first..pairs.len().min(first + BLOCK)].iter().enumerate() {
+                    let (a, b) = list.pairs.side(first / BLOCK).get(lane);
+                    self.list[a as usize] = record(bodies, pair.a as usize);
+                    self.list[b as usize] = record(bodies, pair.b as usize);
                 }
             }
             return;
         }
         let each = self.list.len().div_ceil(parts_of(atoms, FEWEST)).next_multiple_of(BLOCK);
         let parts = self.list.chunks_mut(each).enumerate().map(|(number, part)| (number * each, part)).collect();
-        let needed = &self.needed;
+        let (needed, sparse) = (&self.needed, self.sparse);
         bodies.threads.each(parts, |(first, part): (usize, &mut [Record])| {
             let atoms = first..first + part.len();
             if all && bodies.asleep.is_empty() {
@@ -80,6 +92,10 @@ impl Records {
                 for number in bodies.awake_blocks_within(atoms) {
                     let atoms = bodies.awake_block(number);
                     fill(bodies, atoms.clone(), &mut part[atoms.start - first..atoms.end - first]);
+                }
+            } else if sparse {
+                for (own, &atom) in part.iter_mut().zip(&needed[atoms]) {
+                    *own = record(bodies, atom as usize);
                 }
             } else {
                 let place = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
@@ -99,10 +115,10 @@ fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
     };
     let count = records.len();
     let (place, now) = (&bodies.position[discs.clone()][..count], &bodies.velocity[discs.clone()][..count]);
-    let (mass, radius) = (&bodies.inverse_mass[discs.clone()][..count], &bodies.atom_radius[discs][..count]);
+    let (moves, radius) = (&bodies.moves[discs.clone()][..count], &bodies.atom_radius[discs][..count]);
     let (velocity, spin) = (&velocity[..count], &spin[..count]);
     for disc in 0..count {
-        let time = if mass[disc] > 0.0 { time } else { 0.0 };
+        let time = if moves[disc] { time } else { 0.0 };
         let (place, now, moved, turn) = (place[disc], now[disc], velocity[disc] * time, spin[disc] * time);
         records[disc] = Record([place.x, place.y, moved.x, moved.y, now.x, now.y, turn, radius[disc]]);
     }
@@ -178,7 +194,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
             let end = list.first + blocks;
             let first = bodies.len() - forces.len();
             let next = pairs.get(BLOCK * end).filter(|_| end < range.end);
-            let last = next.map_or(bodies.len(), |pair| bodies.atom_body[pair.a as usize] as usize);
+            let last = next.map_or(bodies.len(), |pair| bodies.atom_body(pair.a as usize));
             let share = Share { first, force: cut(&mut forces, last - first), torque: cut(&mut torques, last - first) };
             let found = if list.first == 0 { start.clone() } else { Found { deepest: *deepest, ..Found::default() } };
             parts.push((list, share, found));
@@ -556,7 +572,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         for lane in lanes(touching) {
             let (force, (a, b)) = (pushes.force[lane], self.sides.pairs(self.list.first + block).get(lane));
             let (a, b) = (a as usize, b as usize);
-            let (body_a, body_b) = (bodies.atom_body[a] as usize, bodies.atom_body[b] as usize);
+            let (body_a, body_b) = (bodies.atom_body(a), bodies.atom_body(b));
             let (arm_a, arm_b) =
                 (bodies.atom_place(a) - bodies.position[body_a], bodies.atom_place(b) - bodies.position[body_b]);
             self.give(body_a as u32, -force, pushes.torque_first[lane] - arm_a.perp_dot(force));

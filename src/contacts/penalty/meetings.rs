@@ -80,7 +80,10 @@ impl Meetings {
             for (lane, (pair, meeting)) in pairs[first..last].iter().zip(&mut self.pairs[first..last]).enumerate() {
                 let touches = touching >> lane & 1 != 0;
                 if touches || meeting.has_come(bodies) {
-                    let next = next_meeting(bodies, *pair, records);
+                    let sides = [side(bodies, pair.a), side(bodies, pair.b)];
+                    let places = list.pairs.side(block).get(lane);
+                    (records[places.0 as usize], records[places.1 as usize]) = (sides[0].0, sides[1].0);
+                    let next = next_meeting(bodies, sides);
                     *meeting = next.filter(|_| !touches).unwrap_or(Meeting::NOW);
                     looked_at |= u8::from(*meeting == Meeting::NOW) << lane;
                 }
@@ -136,10 +139,8 @@ impl Meeting {
     }
 }
 
-/// When a pair may begin to touch; `None` where it is near enough now. Fills in its records.
-fn next_meeting(bodies: &Bodies, pair: AtomPair, records: &mut [Record]) -> Option<Meeting> {
-    let (a, b) = (side(bodies, pair.a), side(bodies, pair.b));
-    (records[pair.a as usize], records[pair.b as usize]) = (a.0, b.0);
+/// When a pair may begin to touch; `None` where it is near enough now. Of each side it is told whether it flies.
+fn next_meeting(bodies: &Bodies, [a, b]: [(Record, bool); 2]) -> Option<Meeting> {
     let (Record([ax, ay, amx, amy, .., a_radius]), Record([bx, by, bmx, bmy, .., b_radius])) = (a.0, b.0);
     let (x, y, reach) = (bx - ax, by - ay, a_radius + b_radius);
     let square = x * x + y * y;

@@ -305,17 +305,17 @@ fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, sett
     let mut law = PairLaw::default();
     N::set_up(&mut law, materials.largest_inelasticity(), settings);
     let mut frequency = |atom: usize| {
-        let body = bodies.atom_body[atom] as usize;
-        let distance = bodies.atom_offset[atom].length();
-        let mobility = |arm: f64| bodies.inverse_mass[body] + arm * arm * bodies.inverse_inertia[body];
-        law.stiffness = bodies.atom_stiffness[atom];
+        let body = bodies.atom_body(atom);
+        let distance = bodies.atom_offset(atom).length();
+        let mobility = |arm: f64| bodies.inverse_mass(body) + arm * arm * bodies.inverse_inertia(body);
+        law.stiffness = bodies.atom_stiffness(atom);
         let (stiffness, damping) = N::response(&law, mobility(distance));
         let radius = bodies.atom_radius[atom];
-        let rolling = rolling::stiffness(turning, law.stiffness, radius) * bodies.inverse_inertia[body];
+        let rolling = rolling::stiffness(turning, law.stiffness, radius) * bodies.inverse_inertia(body);
         let across = ratio * law.stiffness * mobility(distance + radius) + rolling;
         let damped = 0.5 * weight * damping * mobility(distance);
         damped + (damped * damped + stiffness * mobility(distance) + across).sqrt()
     };
-    let colliding = (0..bodies.atom_count()).filter(|&atom| bodies.collides[bodies.atom_body[atom] as usize]);
+    let colliding = (0..bodies.atom_count()).filter(|&atom| bodies.collides[bodies.atom_body(atom)]);
     colliding.map(&mut frequency).fold(0.0, f64::max)
 }

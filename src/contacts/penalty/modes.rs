@@ -135,7 +135,7 @@ impl Choice<'_> {
         let PenaltyContacts { atoms, rest, .. } = &mut *self.contacts;
         let ends = |place: usize| {
             let AtomPair { a, b } = pairs.atoms[place];
-            (bodies.atom_body[a as usize] as usize, bodies.atom_body[b as usize] as usize)
+            (bodies.atom_body(a as usize), bodies.atom_body(b as usize))
         };
         let moves = |body: usize, rest: &Rest| {
             let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
@@ -207,7 +207,7 @@ impl Choice<'_> {
             return atoms.awake_touching_count() + walls.awake_touching_count();
         }
         let bodies = &*self.sink.bodies;
-        let moves = |atom: u32| !self.stands(bodies.atom_body[atom as usize] as usize);
+        let moves = |atom: u32| !self.stands(bodies.atom_body(atom as usize));
         let of_atoms =
             atoms.awake_touching().filter(|&place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
         let of_walls = walls.awake_touching().filter(|&place| moves(pairs.walls[place].atom));
@@ -368,7 +368,7 @@ impl Choice<'_> {
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
             let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };
-            [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent[body], self.dt))
+            [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent(body), self.dt))
         };
         if members.list.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
             self.lay_to_rest(&members.list, &loads[1..], ledger);
@@ -415,7 +415,7 @@ fn mover(bodies: &Bodies, body: usize, dt: f64) -> Mover {
     if let Some(state) = bodies.prescribed.ahead(body, dt) {
         return Mover { velocity: state.velocity, spin: state.spin, ..Mover::default() };
     }
-    let (inverse_mass, inverse_inertia) = (bodies.inverse_mass[body], bodies.inverse_inertia[body]);
+    let (inverse_mass, inverse_inertia) = (bodies.inverse_mass(body), bodies.inverse_inertia(body));
     Mover {
         velocity: bodies.velocity[body] + bodies.force[body] * (inverse_mass * dt),
         spin: bodies.spin[body] + bodies.torque[body] * (inverse_inertia * dt),

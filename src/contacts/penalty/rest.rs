@@ -183,7 +183,7 @@ impl PenaltyContacts {
         }
         bodies.asleep = asleep;
         let stands = |atom: u32| {
-            let body = bodies.atom_body[atom as usize] as usize;
+            let body = bodies.atom_body(atom as usize);
             !bodies.moves[body] || bodies.is_asleep(body)
         };
         atoms.lay_asleep(|place| stands(pairs.atoms[place].a) && stands(pairs.atoms[place].b));
@@ -203,7 +203,7 @@ impl PenaltyContacts {
             let first = BLOCK * atoms.awake_block(number);
             for pair in &pairs.atoms[first..pairs.atoms.len().min(first + BLOCK)] {
                 for atom in [pair.a, pair.b] {
-                    awake[bodies.atom_body[atom as usize] as usize / BLOCK] = true;
+                    awake[bodies.atom_body(atom as usize) / BLOCK] = true;
                 }
             }
         }
@@ -278,7 +278,7 @@ impl Resting {
             None => {
                 self.left_over = Some((force, torque));
                 let limit = IMBALANCE * self.load;
-                force.length() <= limit && torque.abs() <= limit * bodies.extent[body]
+                force.length() <= limit && torque.abs() <= limit * bodies.extent(body)
             }
         };
         let stands = bodies.position[body] == self.position && bodies.angle[body] == self.angle;

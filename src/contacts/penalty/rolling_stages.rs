@@ -66,7 +66,7 @@ fn write(world: &mut World, state: &[f64]) {
 
 fn rates(world: &World, rates: &mut [f64]) {
     let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
-    let spin = |atom: u32| bodies.spin[bodies.atom_body[atom as usize] as usize];
+    let spin = |atom: u32| bodies.spin[bodies.atom_body(atom as usize)];
     let turning = pairs.atoms.iter().map(|pair| spin(pair.b) - spin(pair.a));
     let turning = turning.chain(pairs.walls.iter().map(|pair| spin(pair.atom)));
     let sticking = contacts(world).zip(world.resource::<RollingContacts>().sliders()).zip(turning);

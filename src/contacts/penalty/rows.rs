@@ -71,8 +71,8 @@ impl Row {
     fn acceleration(&self, bodies: &Bodies) -> f64 {
         let of = |side: &Side| {
             let (force, torque) = (bodies.force[side.body], bodies.torque[side.body]);
-            side.direction.dot(force) * bodies.inverse_mass[side.body]
-                + side.lever * torque * bodies.inverse_inertia[side.body]
+            side.direction.dot(force) * bodies.inverse_mass(side.body)
+                + side.lever * torque * bodies.inverse_inertia(side.body)
         };
         self.sides.iter().flatten().map(of).fold(self.inertial, |sum, term| sum + term)
     }
@@ -82,8 +82,8 @@ impl Row {
         let mut sum = 0.0;
         for own in self.sides.iter().flatten() {
             for side in other.sides.iter().flatten().filter(|side| side.body == own.body) {
-                sum += own.direction.dot(side.force) * bodies.inverse_mass[own.body]
-                    + own.lever * side.torque * bodies.inverse_inertia[own.body];
+                sum += own.direction.dot(side.force) * bodies.inverse_mass(own.body)
+                    + own.lever * side.torque * bodies.inverse_inertia(own.body);
             }
         }
         sum
@@ -205,14 +205,15 @@ impl Rows {
         self.book_powers(bodies, ledger);
         for (row, &impulse) in self.rows.iter().zip(&self.answer) {
             for side in row.sides.iter().flatten() {
-                bodies.velocity[side.body] += side.force * (impulse * bodies.inverse_mass[side.body]);
-                bodies.spin[side.body] += side.torque * (impulse * bodies.inverse_inertia[side.body]);
+                let (by, turned) = (bodies.inverse_mass(side.body), bodies.inverse_inertia(side.body));
+                bodies.velocity[side.body] += side.force * (impulse * by);
+                bodies.spin[side.body] += side.torque * (impulse * turned);
             }
         }
         self.book_powers(bodies, ledger);
         for Loaded { body, load } in &self.loads {
             let limit = ROUNDING * load * dt * mobility(bodies, *body);
-            if bodies.velocity[*body].length() + bodies.spin[*body].abs() * bodies.extent[*body] <= limit {
+            if bodies.velocity[*body].length() + bodies.spin[*body].abs() * bodies.extent(*body) <= limit {
                 ledger.inelasticity.add(kinetic_energy_of(bodies, *body));
                 (bodies.velocity[*body], bodies.spin[*body]) = (DVec2::ZERO, 0.0);
             }
@@ -245,9 +246,9 @@ impl Rows {
         for &Loaded { body, load } in &self.loads {
             let stands = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
             let (force, torque) = (bodies.force[body], bodies.torque[body]);
-            let turning = torque.abs() * bodies.inverse_inertia[body] * bodies.extent[body];
+            let turning = torque.abs() * bodies.inverse_inertia(body) * bodies.extent(body);
             let limit = ROUNDING * load * mobility(bodies, body);
-            if bodies.dynamic[body] && stands && force.length() * bodies.inverse_mass[body] + turning <= limit {
+            if bodies.dynamic[body] && stands && force.length() * bodies.inverse_mass(body) + turning <= limit {
                 balance.outside(bodies.position[body], -force, -torque);
                 (bodies.force[body], bodies.torque[body]) = (DVec2::ZERO, 0.0);
             }
@@ -262,5 +263,5 @@ impl Rows {
 
 /// The greatest acceleration that a newton gives a point of a body, in 1/kg.
 fn mobility(bodies: &Bodies, body: usize) -> f64 {
-    bodies.inverse_mass[body] + bodies.extent[body].powi(2) * bodies.inverse_inertia[body]
+    bodies.inverse_mass(body) + bodies.extent(body).powi(2) * bodies.inverse_inertia(body)
 }

@@ -122,7 +122,7 @@ impl Look {
         let mobility = |end: &End| {
             let (lever, spin) = (end.arm.perp_dot(normal), bodies.spin[end.body]);
             let rate = spin * end.arm.perp().perp_dot(normal) + end.arm.perp_dot(swing);
-            2.0 * lever * rate * bodies.inverse_inertia[end.body]
+            2.0 * lever * rate * bodies.inverse_inertia(end.body)
         };
         Change {
             parting: self.parting_rate(law, bodies),
@@ -133,8 +133,8 @@ impl Look {
     /// The rate of [`Look::parting`] under the present forces, in m/s2.
     pub fn parting_rate(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
         let acceleration = |end: &End| {
-            bodies.force[end.body] * bodies.inverse_mass[end.body]
-                + end.arm.perp() * (bodies.torque[end.body] * bodies.inverse_inertia[end.body])
+            bodies.force[end.body] * bodies.inverse_mass(end.body)
+                + end.arm.perp() * (bodies.torque[end.body] * bodies.inverse_inertia(end.body))
         };
         let other = self.case.other_end().map_or(DVec2::ZERO, acceleration);
         (acceleration(&self.case.end) - other).dot(self.case.normal) + self.inertial(law, bodies).0
@@ -146,8 +146,8 @@ impl Look {
         let acceleration = |end: &End| {
             let body = end.body;
             let (led, turned) = bodies.prescribed.acceleration(body);
-            let turning = bodies.torque[body] * bodies.inverse_inertia[body] + turned;
-            bodies.force[body] * bodies.inverse_mass[body] + led + end.arm.perp() * turning
+            let turning = bodies.torque[body] * bodies.inverse_inertia(body) + turned;
+            bodies.force[body] * bodies.inverse_mass(body) + led + end.arm.perp() * turning
                 - end.arm * (bodies.spin[body] * bodies.spin[body])
         };
         (acceleration(&self.case.end) - self.case.other_end().map_or(DVec2::ZERO, acceleration)).length()

@@ -47,17 +47,17 @@ impl Overlaps {
         let complete = cells::overlapping(bodies, MOST_LOOKS, |pair| {
             let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
             let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
-            let whose = Pair::Bodies(bodies.atom_body[a], bodies.atom_body[b]);
+            let whose = Pair::Bodies(bodies.atom_body(a) as u32, bodies.atom_body(b) as u32);
             found.add(overlap, bodies.atom_radius[a].min(bodies.atom_radius[b]), whose)
         });
         let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
         let looked_at = if touching.is_empty() { 0 } else { MOST_LOOKS / touching.len() };
         for (place, wall) in bodies.walls.iter().enumerate().take(looked_at) {
             let height = |at: DVec2| (at - wall.point).dot(wall.normal);
-            let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent[body]);
+            let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
             for atom in near.flat_map(|&body| bodies.atoms_of(body)) {
                 let radius = bodies.atom_radius[atom];
-                let whose = Pair::Wall(bodies.atom_body[atom], place as u32);
+                let whose = Pair::Wall(bodies.atom_body(atom) as u32, place as u32);
                 found.add(radius - height(bodies.atom_place(atom)), radius, whose);
             }
         }
@@ -93,7 +93,7 @@ pub(super) fn note_overlaps(world: &mut World) {
         Pair::Wall(body, wall) => [bodies.entity[body as usize], bodies.walls[wall as usize].entity],
     };
     let begin = OverlapAtStart { share, between: (a, b) };
-    let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or("(unnamed)", |name| &name.0));
+    let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string));
     let (overlap, percent) = (number(overlap), number((share * 1000.0).round() / 10.0));
     let who = match pairs.len() {
         1 => format!("`{a}` and `{b}` overlap by {overlap} m, {percent} % of the smaller radius"),

@@ -47,10 +47,9 @@ impl Sorted {
             center: bodies.atom_place(atom),
             reach: bodies.atom_radius[atom] + margin / 2.0,
             atom: atom as u32,
-            body: bodies.atom_body[atom],
+            body: bodies.atom_body(atom) as u32,
         };
-        let touching =
-            |atom: &usize| bodies.collides[bodies.atom_body[*atom] as usize] && bodies.atom_place(*atom).is_finite();
+        let touching = |atom: &usize| bodies.collides[bodies.atom_body(*atom)] && bodies.atom_place(*atom).is_finite();
         let mut all: Vec<Entry> = (0..bodies.atom_count()).filter(touching).map(entry).collect();
         let limit = LARGE * usual_reach(&all);
         let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
@@ -367,7 +366,6 @@ mod tests {
                 let place = center + 0.1 * DVec2::new(chance(), chance());
                 bodies.atom_position.push(place);
                 bodies.atom_radius.push(radius);
-                bodies.atom_offset.push(DVec2::ZERO);
                 bodies.atom_body.push(body as u32);
                 let reach = DVec2::splat(radius + bounds.margin / 2.0);
                 (low, high) = (low.min(place - reach), high.max(place + reach));

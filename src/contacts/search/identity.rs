@@ -21,7 +21,7 @@ pub(super) struct Identities(Vec<Run>);
 impl Identities {
     pub fn of(bodies: &Bodies) -> Self {
         let mut runs: Vec<Run> = Vec::new();
-        for (body, &key) in bodies.key.iter().enumerate() {
+        for (body, key) in bodies.key.iter().enumerate() {
             let atoms = bodies.atoms_of(body);
             let count = atoms.len() as u32;
             match runs.last_mut() {

@@ -227,7 +227,7 @@ fn wall_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<WallPair> {
     for (place, wall) in bodies.walls.iter().enumerate() {
         for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
             let height = (bodies.position[body] - wall.point).dot(wall.normal);
-            if height > bodies.extent[body] + bounds.margin {
+            if height > bodies.extent(body) + bounds.margin {
                 continue;
             }
             for atom in bodies.atoms_of(body) {

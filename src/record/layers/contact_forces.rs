@@ -120,7 +120,7 @@ fn note_start(world: &mut World) {
     let mass = masses.get(masses.len() / 2).copied().unwrap_or(1.0);
     let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
     let impact = |body: usize| {
-        let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness[atom]).fold(0.0, f64::max);
+        let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness(atom)).fold(0.0, f64::max);
         bodies.velocity[body].length() * (stiffness * bodies.mass[body]).sqrt()
     };
     let impacts = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(impact).fold(0.0, f64::max);

@@ -198,7 +198,7 @@ impl Shown {
     /// Places of the bodies in canonical order.
     fn places<'a>(&'a self, bodies: &'a Bodies) -> impl Iterator<Item = usize> + 'a {
         (0..bodies.len()).filter(|&place| match &self.0 {
-            Some(keys) => keys.binary_search(&bodies.key[place]).is_ok(),
+            Some(keys) => keys.binary_search(&bodies.key.at(place)).is_ok(),
             None => bodies.moves[place],
         })
     }

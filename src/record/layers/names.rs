@@ -44,7 +44,7 @@ impl OfBodies for Names {
 }
 
 fn label(world: &World, bodies: &Bodies, body: usize) -> Option<Mark> {
-    let text = world.get::<Name>(bodies.entity[body])?.0.clone();
+    let text = world.get::<Name>(bodies.entity[body])?.to_string();
     let (low, high) = bounding_box(bodies, body)?;
     Some(Mark::plain(MarkShape::Label { at: 0.5 * (low + high), clear: 0.5 * (high.y - low.y), text }))
 }

@@ -78,7 +78,7 @@ impl Layer for Tracks {
         let (bodies, dt) = (world.resource::<Bodies>(), world.resource::<Clock>().dt);
         let step = self.memory().map_or(1.0, |memory| stride(memory, dt) as f64 * dt / self.seconds);
         for body in self.shown.places(bodies) {
-            let Some(track) = self.tracks.get(&bodies.key[body]) else { continue };
+            let Some(track) = self.tracks.get(&bodies.key.at(body)) else { continue };
             let points: Vec<DVec2> = track.iter().copied().chain([bodies.position[body]]).collect();
             marks.push(Mark::plain(MarkShape::Trail { body, points, step }));
         }
@@ -97,9 +97,9 @@ impl Layer for Tracks {
         }
         self.looked = Some(clock.ticks);
         let places: Vec<usize> = self.shown.places(bodies).collect();
-        self.tracks.retain(|key, _| bodies.key.binary_search(key).is_ok());
+        self.tracks.retain(|key, _| bodies.key.find(*key).is_some());
         for body in places {
-            let track = self.tracks.entry(bodies.key[body]).or_default();
+            let track = self.tracks.entry(bodies.key.at(body)).or_default();
             if track.len() >= self.points {
                 track.pop_front();
             }

@@ -77,7 +77,7 @@ impl Legend {
         for place in 0..bodies.len() {
             let fixed = world.get::<Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
             moving += usize::from(!fixed);
-            let material = bodies.atoms_of(place).next().map(|first| bodies.atom_material[first]);
+            let material = bodies.atoms_of(place).next().map(|first| bodies.atom_material(first));
             let shared = material.and_then(|index| {
                 let materials = materials?;
                 materials.by_index.get(index.place())?.color.as_ref()?;
@@ -91,7 +91,7 @@ impl Legend {
             if let Some(material) = &shared {
                 known_lines.insert((material.clone(), fixed), lines.len());
             }
-            let name = world.get::<Name>(bodies.entity[place]).map(|name| name.0.clone()).unwrap_or_default();
+            let name = world.get::<Name>(bodies.entity[place]).map(Name::to_string).unwrap_or_default();
             lines.push(Line { name, shared, fixed, place, bodies: 1 });
         }
         lines.sort_by_key(|line| line.fixed);

@@ -131,7 +131,7 @@ impl Trajectory {
         let world = simulation.world();
         Self {
             moments,
-            extents: simulation.bodies().extent.clone(),
+            extents: simulation.bodies().extents().to_vec(),
             failure,
             evaluations: world.resource::<Evaluation>().count,
             crowded: world.get_resource::<LocatedEvents>().is_some_and(|events| events.given_up > 0),

@@ -109,10 +109,8 @@ impl Plain {
             return Err("it has bodies that touch nothing");
         }
         let (pair, wall) = laws(bodies, penalty, world.resource::<Materials>());
-        let single = bodies.first_atom.windows(2).all(|atoms| atoms[1] == atoms[0] + 1)
-            && bodies.atom_offset.iter().all(|offset| *offset == DVec2::ZERO);
         let of_bodies = Movers::of(bodies);
-        let (atoms, clumps) = if single {
+        let (atoms, clumps) = if bodies.lone_discs {
             (of_bodies, None)
         } else {
             let atoms = Movers::with_length(bodies.atom_count());
@@ -127,7 +125,7 @@ impl Plain {
             wall,
             atoms,
             radius: bodies.atom_radius.clone(),
-            body: bodies.atom_body.clone(),
+            body: (0..count).map(|atom| bodies.atom_body(atom) as u32).collect(),
             clumps,
             walls: bodies.walls.clone(),
             skin: SKIN * bodies.smallest_radius,
@@ -330,8 +328,8 @@ impl Movers {
             vx: bodies.velocity.iter().map(|velocity| velocity.x).collect(),
             vy: bodies.velocity.iter().map(|velocity| velocity.y).collect(),
             spin: bodies.spin.clone(),
-            inverse_mass: bodies.inverse_mass.clone(),
-            inverse_inertia: bodies.inverse_inertia.clone(),
+            inverse_mass: (0..bodies.len()).map(|body| bodies.inverse_mass(body)).collect(),
+            inverse_inertia: (0..bodies.len()).map(|body| bodies.inverse_inertia(body)).collect(),
             ..Self::with_length(bodies.len())
         }
     }
@@ -399,10 +397,11 @@ impl Clumps {
 /// The laws of pairs and of walls, for the mean atom and the mean body.
 fn laws(bodies: &Bodies, penalty: &Penalty, materials: &Materials) -> (Law, Law) {
     let count = bodies.atom_count().max(1) as f64;
-    let stiffness = bodies.atom_stiffness.iter().sum::<f64>() / count;
-    let of = |atom: &crate::world::MaterialIndex| &materials.by_index[atom.place()];
-    let friction = bodies.atom_material.iter().map(|atom| of(atom).friction_dynamic).sum::<f64>() / count;
-    let inelasticity = bodies.atom_material.iter().map(|atom| of(atom).inelasticity).sum::<f64>() / count;
+    let mean = |of: &dyn Fn(usize) -> f64| (0..bodies.atom_count()).map(of).sum::<f64>() / count;
+    let material = |atom: usize| &materials.by_index[bodies.atom_material(atom).place()];
+    let stiffness = mean(&|atom| bodies.atom_stiffness(atom));
+    let friction = mean(&|atom| material(atom).friction_dynamic);
+    let inelasticity = mean(&|atom| material(atom).inelasticity);
     let moving: Vec<f64> = (0..bodies.len()).filter(|&b| bodies.dynamic[b]).map(|b| bodies.mass[b]).collect();
     let mass = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
     let ratio = penalty.tangential.ratio();

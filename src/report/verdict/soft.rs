@@ -3,7 +3,7 @@
 use super::{Cause, Evidence, Trust};
 use crate::contacts::DeepestOverlap;
 use crate::report::card::{number, percent};
-use crate::world::{Bodies, Slot};
+use crate::world::{Bodies, packed};
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
 const HEAVY: f64 = 100.0;
@@ -23,8 +23,8 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let deepest = world.get_resource::<DeepestOverlap>()?.between?;
     let bodies = world.resource::<Bodies>();
     let mass = |entity| {
-        let slot = world.get::<Slot>(entity)?.0 as usize;
-        bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass[slot])
+        let slot = packed::place_of(world, entity)?;
+        bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass(slot))
     };
     let (a, b) = (evidence.name(deepest.0), evidence.name(deepest.1));
     let masses = mass(deepest.0).zip(mass(deepest.1));

@@ -8,7 +8,6 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::Region;
-use crate::scene::names;
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
@@ -150,11 +149,6 @@ impl Section for FillSection {
 }
 
 impl FillEntry {
-    /// The name of one of the bodies, counted from zero.
-    pub fn body_name(&self, number: u64) -> String {
-        names::of_series(&self.name, number)
-    }
-
     fn check(&self, outline: &Outline, report: &mut Report) {
         report.within("atoms", |report| self.atoms.check(report));
         mass_properties::of(&self.atoms.specs(), None, self.atoms.own_rule(), 1.0).check(report);

@@ -1,0 +1,105 @@
+//! Atoms of packed bodies. What follows from the rest where each body is one disc about its centre of mass is not listed then:
+//! atoms have the numbers of their bodies, stand where those stand, and reach as far.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use glam::DVec2;
+
+use super::atom::Atom;
+use super::material::MaterialIndex;
+use super::packed::Bodies;
+
+/// What contacts need to know of an atom beside its radius. Few atoms differ in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Surface {
+    /// Stiffness in N/m.
+    stiffness: f64,
+    material: MaterialIndex,
+}
+
+/// All surfaces that there are, each once, while they are listed.
+#[derive(Default)]
+pub(super) struct Surfaces {
+    list: Vec<Surface>,
+    /// Places in the list, by the bits of the stiffness and the place of the material.
+    places: BTreeMap<(u64, usize), u32>,
+}
+
+impl Surfaces {
+    /// The place of the surface of an atom in the list.
+    pub fn place(&mut self, Atom { stiffness, material, .. }: Atom) -> u32 {
+        *self.places.entry((stiffness.to_bits(), material.place())).or_insert_with(|| {
+            self.list.push(Surface { stiffness, material });
+            self.list.len() as u32 - 1
+        })
+    }
+
+    /// The list, and the places of the atoms in it: none if all have the same.
+    pub fn listed(self, places: Vec<u32>) -> (Vec<Surface>, Vec<u32>) {
+        let places = if self.list.len() == 1 { Vec::new() } else { places };
+        (self.list, places)
+    }
+}
+
+impl Bodies {
+    /// Number of atoms.
+    pub fn atom_count(&self) -> usize {
+        self.atom_radius.len()
+    }
+
+    /// Atoms of body `body`.
+    #[inline(always)]
+    pub fn atoms_of(&self, body: usize) -> Range<usize> {
+        if self.lone_discs {
+            return body..body + 1;
+        }
+        self.first_atom[body] as usize..self.first_atom[body + 1] as usize
+    }
+
+    /// Body of an atom.
+    #[inline(always)]
+    pub fn atom_body(&self, atom: usize) -> usize {
+        if self.lone_discs { atom } else { self.atom_body[atom] as usize }
+    }
+
+    /// Where the centre of an atom is, in metres.
+    #[inline(always)]
+    pub fn atom_place(&self, atom: usize) -> DVec2 {
+        if self.lone_discs { self.position[atom] } else { self.atom_position[atom] }
+    }
+
+    /// Centre of an atom from its body's centre of mass, in the body's frame, in metres.
+    #[inline]
+    pub fn atom_offset(&self, atom: usize) -> DVec2 {
+        if self.lone_discs { DVec2::ZERO } else { self.atom_offset[atom] }
+    }
+
+    fn surface(&self, atom: usize) -> &Surface {
+        &self.surfaces[self.atom_surface.get(atom).map_or(0, |&place| place as usize)]
+    }
+
+    /// Stiffness of an atom in N/m.
+    #[inline]
+    pub fn atom_stiffness(&self, atom: usize) -> f64 {
+        self.surface(atom).stiffness
+    }
+
+    /// Material of an atom.
+    #[inline]
+    pub fn atom_material(&self, atom: usize) -> MaterialIndex {
+        self.surface(atom).material
+    }
+
+    /// Greatest distance of a point of a body from its centre of mass, in metres.
+    #[inline(always)]
+    pub fn extent(&self, body: usize) -> f64 {
+        self.extents()[body]
+    }
+
+    /// The same of all bodies.
+    #[inline(always)]
+    pub fn extents(&self) -> &[f64] {
+        if self.lone_discs { &self.atom_radius } else { &self.extent }
+    }
+}
