@@ -70,14 +70,14 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut running = Box::new(Running { method, evaluate, modes, has_modes, velocity_dependent });
     keep_components_current(world, &mut sim, &mut running.evaluate);
     flight::allow(world, running.method.0.flies(), &sim, [&running.evaluate, &running.modes]);
-    let mut direct = std::mem::take(&mut *world.get_resource_or_init::<Direct>());
-    let all_direct = direct.stands_for_all(Systems::of(world, &sim, &running.evaluate, &running.modes));
-    let may_be_direct = all_direct && running.method.0.is_direct() && {
+    let systems = Systems::of(world, &sim, &running.evaluate, &running.modes);
+    let all_direct = world.resource::<Direct>().stands_for_all(systems);
+    let may_be_direct = all_direct && {
         // Where others have put conditions on stages. The schedules hand them on when they are made ready.
         let conditional = [&sim, &running.evaluate, &running.modes].into_iter().any(has_conditions);
         let mut drive = world.resource_mut::<Drive>();
         drive.conditional |= conditional;
-        !drive.conditional
+        !drive.conditional && running.method.0.is_direct()
     };
     for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
         apply_only_what_is_deferred(world, schedule);
@@ -89,13 +89,14 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     while left > 0 && world.resource::<Drive>().failure.is_none() {
         // The first tick takes up what others changed.
         if may_be_direct && left < ticks {
+            let mut direct = std::mem::take(&mut *world.resource_mut::<Direct>());
             direct.hold(world, |world, direct| left = run_direct(world, direct, left));
+            *world.resource_mut::<Direct>() = direct;
         } else {
             sim.run(world);
             left -= 1;
         }
     }
-    *world.resource_mut::<Direct>() = direct;
     if world.resource::<Evaluation>().stale {
         refresh(world);
     }
