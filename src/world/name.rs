@@ -77,9 +77,11 @@ mod tests {
         assert_eq!(name, Name::from("gas_3_10"));
         assert_eq!(Name::from("gas_3_10"), name);
         for other in ["", "gas_3", "gas_3_1", "gas_3_010", "gas_3_100", "gas_10"] {
-            assert!(name != *other && Name::from(other) != name, "{other}");
+            assert!(name != *other, "{other}");
+            assert_ne!(Name::from(other), name, "{other}");
         }
-        assert!(Name::default() == *"" && Name::default() == Name::from(""));
+        assert!(Name::default() == *"");
+        assert_eq!(Name::default(), Name::from(""));
         assert_eq!(format!("[{name:>10}]"), "[  gas_3_10]");
     }
 }

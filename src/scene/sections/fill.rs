@@ -15,7 +15,7 @@ use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
 use crate::world::{material, sections};
 
-/// The largest number of bodies of all entries together. A body of one atom takes some 0.7 kB while a scene is read, and a film reads its
+/// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read, and a film reads its
 /// scene twice.
 pub const LARGEST_COUNT: u64 = 1_000_000;
 /// How often a place is tried for one body before the region counts as full.
