@@ -1,18 +1,15 @@
 //! An atom: a disc of a body, that touches other atoms and walls.
 
-use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::prelude::*;
-use bevy_ecs::world::DeferredWorld;
 use glam::DVec2;
 
-use super::body::{Mass, mark_changed};
+use super::body::mark_changed;
 use super::material::MaterialIndex;
 
-/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity, as a
-/// [`LoneDisc`] if that is all the body is; where there are more, each is an entity that points to the body. [`atoms_of`] finds
-/// all of them.
+/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity; where there are
+/// more, each is an entity that points to the body. [`atoms_of`] finds all of them.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[component(immutable, on_insert = take_place, on_remove = mark_changed)]
+#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Atom {
     /// Centre in the body's own frame, from its centre of mass, in metres.
     pub offset: DVec2,
@@ -24,41 +21,6 @@ pub struct Atom {
     pub stiffness: f64,
     /// What it is made of.
     pub material: MaterialIndex,
-}
-
-/// The only atom of a body, if it is a disc about the centre of mass: what is to be known beside the body's mass. An [`Atom`] that
-/// is inserted on the body takes its place.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
-pub struct LoneDisc {
-    /// Radius in metres.
-    pub radius: f64,
-    /// Contact stiffness in N/m.
-    pub stiffness: f64,
-    /// What it is made of.
-    pub material: MaterialIndex,
-}
-
-impl LoneDisc {
-    /// The only atom of a body in this form, if it has one.
-    pub(super) fn of(atoms: &[Atom]) -> Option<Self> {
-        let &[Atom { offset: DVec2::ZERO, radius, stiffness, material, .. }] = atoms else { return None };
-        Some(Self { radius, stiffness, material })
-    }
-
-    /// The atom of a body of so many kg.
-    fn atom(self, mass: f64) -> Atom {
-        let Self { radius, stiffness, material } = self;
-        Atom { offset: DVec2::ZERO, radius, mass, stiffness, material }
-    }
-}
-
-/// An atom on a body takes the place of its lone disc.
-fn take_place(mut world: DeferredWorld, context: HookContext) {
-    if world.get::<LoneDisc>(context.entity).is_some() {
-        world.commands().entity(context.entity).try_remove::<LoneDisc>();
-    }
-    mark_changed(world, context);
 }
 
 /// Points from an atom to its body.
@@ -74,15 +36,14 @@ pub struct Atoms(Vec<Entity>);
 /// The atoms of a body in the order in which they were given; none if there is no such body.
 pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = Atom> {
     let body = world.get_entity(body).ok();
-    let disc = |body: EntityRef| Some(body.get::<LoneDisc>()?.atom(body.get::<Mass>()?.mass));
-    let own = body.and_then(|body| body.get::<Atom>().copied().or_else(|| disc(body)));
+    let own = body.and_then(|body| body.get::<Atom>().copied());
     let others = body.and_then(|body| body.get::<Atoms>()).map_or(&[][..], Atoms::entities);
     own.into_iter().chain(others.iter().filter_map(|&atom| world.get(atom).copied()))
 }
 
 /// How many atoms there are.
 pub(crate) fn count_atoms(world: &mut World) -> usize {
-    world.query_filtered::<(), Or<(With<Atom>, With<LoneDisc>)>>().iter(world).count()
+    world.query_filtered::<(), With<Atom>>().iter(world).count()
 }
 
 /// Makes all atoms so many times as stiff.
@@ -90,12 +51,7 @@ pub(crate) fn stiffen(world: &mut World, factor: f64) {
     let mut atoms = world.query::<(Entity, &Atom)>();
     let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });
     let atoms: Vec<_> = atoms.iter(world).map(stiffer).collect();
-    let mut discs = world.query::<(Entity, &LoneDisc)>();
-    let stiffer =
-        |(entity, disc): (Entity, &LoneDisc)| (entity, LoneDisc { stiffness: factor * disc.stiffness, ..*disc });
-    let discs: Vec<_> = discs.iter(world).map(stiffer).collect();
     atoms.into_iter().for_each(|(entity, atom)| _ = world.entity_mut(entity).insert(atom));
-    discs.into_iter().for_each(|(entity, disc)| _ = world.entity_mut(entity).insert(disc));
 }
 
 impl Atoms {
@@ -129,11 +85,11 @@ mod tests {
     }
 
     #[test]
-    fn atoms_are_found_in_whatever_form_they_stand() {
+    fn atoms_are_found_on_bodies_and_beside_them() {
         let mut world = World::new();
         let bodies = three_bodies(&mut world);
-        let forms = bodies.map(|body| (world.get::<LoneDisc>(body).is_some(), world.get::<Atom>(body).is_some()));
-        assert_eq!(forms, [(true, false), (false, true), (false, false)]);
+        let on_body = bodies.map(|body| world.get::<Atom>(body).is_some());
+        assert_eq!(on_body, [true, true, false]);
         let offsets = |body| atoms_of(&world, body).map(|atom| atom.offset.x).collect::<Vec<_>>();
         assert_eq!(bodies.map(offsets), [vec![0.0], vec![0.1], vec![-0.2, 0.2]]);
         assert_eq!(atoms_of(&world, bodies[0]).next().map(|atom| atom.mass), Some(2.0));
@@ -144,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn an_atom_that_is_inserted_takes_the_place_of_the_lone_disc() {
+    fn an_atom_is_changed_by_inserting_it_anew() {
         let mut world = World::new();
         let [disc, ..] = three_bodies(&mut world);
         let larger = Atom { radius: 0.75, ..atoms_of(&world, disc).next().unwrap() };

@@ -20,7 +20,7 @@ pub mod sections;
 pub mod spawn;
 pub mod wall;
 
-pub use atom::{Atom, AtomOf, Atoms, LoneDisc, atoms_of};
+pub use atom::{Atom, AtomOf, Atoms, atoms_of};
 pub use body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 pub(crate) use flight::Passing;
 pub use kinematic::Kinematic;

@@ -6,7 +6,7 @@ use bevy_ecs::bundle::NoBundleEffect;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::atom::{Atom, AtomOf, Atoms, LoneDisc};
+use super::atom::{Atom, AtomOf, Atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 use super::{Bodies, Kinematic, Name};
 
@@ -128,7 +128,7 @@ pub(super) fn spawn_series(world: &mut World, series: Series, body: impl Fn(usiz
         });
     }
     let discs = bodies.map(|(key, name, body)| {
-        let disc = LoneDisc::of(&body.atoms).expect("each is a lone disc");
+        let &[disc] = &body.atoms[..] else { unreachable!("each is a lone disc") };
         (body.components(key, name), disc)
     });
     let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
@@ -188,10 +188,9 @@ impl NewBody {
         // With all it ever has from the beginning: a component that comes later moves the body to another table, and the one it
         // leaves keeps its memory.
         let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
-        let body = match (LoneDisc::of(&atoms), atoms.len()) {
-            (Some(disc), _) => spawn_one(world, pushed, (components, disc)),
-            (None, 1) => spawn_one(world, pushed, (components, atoms[0])),
-            (None, count) => spawn_one(world, pushed, (components, Atoms::with_room(count))),
+        let body = match atoms[..] {
+            [atom] => spawn_one(world, pushed, (components, atom)),
+            _ => spawn_one(world, pushed, (components, Atoms::with_room(atoms.len()))),
         };
         if let Some(kinematic) = kinematic {
             world.entity_mut(body).insert(kinematic);
