@@ -228,9 +228,9 @@ impl Tick<'_> {
             let travel = |body: usize| {
                 let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
                 let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
-                let way = velocity + 0.5 * length * force * bodies.inverse_mass[body];
-                let turn = spin + 0.5 * length * torque * bodies.inverse_inertia[body];
-                (way + turn * bodies.extent[body]) * length
+                let way = velocity + 0.5 * length * force * bodies.inverse_mass(body);
+                let turn = spin + 0.5 * length * torque * bodies.inverse_inertia(body);
+                (way + turn * bodies.extent(body)) * length
             };
             let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
             bounds.reserve(bodies, times * farthest)
