@@ -92,7 +92,8 @@ impl Bounds {
         }
         bodies.end_flights();
         self.path = f64::NAN;
-        if known && !flying && !self.left_behind(bodies) && !(follows && self.could_shrink(bodies)) {
+        let holds = known && !flying && !self.left_behind(bodies);
+        if holds && !(follows && self.could_shrink(bodies)) {
             // Whoever is nearer than a quarter has as much left.
             if follows && bodies.stayed_near(self.margin / 4.0, &self.position, &self.angle) {
                 self.path = bodies.path + self.margin / 4.0;

@@ -144,8 +144,7 @@ fn next_meeting(bodies: &Bodies, [a, b]: [(Record, bool); 2]) -> Option<Meeting>
     let (Record([ax, ay, amx, amy, .., a_radius]), Record([bx, by, bmx, bmy, .., b_radius])) = (a.0, b.0);
     let (x, y, reach) = (bx - ax, by - ay, a_radius + b_radius);
     let square = x * x + y * y;
-    // Written so that what is no number counts as near.
-    if !(square >= reach * reach) {
+    if square < reach * reach || square.is_nan() {
         return None;
     }
     if !(a.1 && b.1) {

@@ -164,7 +164,7 @@ fn carry<P: Ord + Copy, const GROUPS: usize>(
         first += group.len() as u32;
         (begin..).zip(group).filter_map(|(place, &pair)| Some((place, renamed(pair)?))).peekable()
     });
-    let mut find = |pair: &P| {
+    let find = |pair: &P| {
         let mut found = NEW;
         for rest in &mut groups {
             while rest.next_if(|(_, old)| old < pair).is_some() {}
@@ -172,7 +172,7 @@ fn carry<P: Ord + Copy, const GROUPS: usize>(
         }
         found
     };
-    new.iter().map(|pair| find(pair)).collect()
+    new.iter().map(find).collect()
 }
 
 impl CandidatePairs {
