@@ -26,7 +26,9 @@ const SEARCH_SHARE: f64 = 1.0;
 const FEW_SEARCHES: f64 = 16.0;
 /// Where most bodies fly: what a search costs for each atom, with landing and taking off, against what a pair costs in the time
 /// that its list lasts.
-const FLIGHT_SEARCH: f64 = 0.3;
+const FLIGHT_SEARCH: f64 = 0.5;
+/// By how much the margin changes at once where most bodies fly.
+const MOST_AT_ONCE: f64 = 4.0;
 /// By how much the margin changes at once.
 const CHANGE: f64 = 1.5;
 
@@ -190,10 +192,9 @@ impl Bounds {
         let margin = self.margin / (2.0 * bodies.smallest_radius);
         let own = self.candidates as f64 * margin / (2.0 + margin);
         let wanted = FLIGHT_SEARCH * bodies.atom_count() as f64;
-        if own < wanted / (CHANGE * CHANGE) {
-            self.margin *= CHANGE;
-        } else if own > wanted * CHANGE * CHANGE {
-            self.margin /= CHANGE;
+        let times = (wanted / own).sqrt();
+        if !(1.0 / CHANGE..CHANGE).contains(&times) {
+            self.margin *= times.clamp(1.0 / MOST_AT_ONCE, MOST_AT_ONCE);
         }
     }
 

@@ -14,7 +14,7 @@ pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, evaluation: 
     let Census { of_flights: [in_tick, in_evaluation], .. } = *world.resource::<Census>();
     let flies = flies && evaluation.into_iter().map(count).sum::<usize>() == in_evaluation;
     world.resource_mut::<Bodies>().allow_flights(flies);
-    world.resource_mut::<Drive>().looked_at = count(sim) > in_tick;
+    world.resource_mut::<Drive>().looked_at = flies && count(sim) > in_tick;
 }
 
 /// Somebody looks at all bodies, those that fly too.

@@ -125,7 +125,6 @@ impl Bodies {
 
     /// Says whether bodies may fly from now on. Where they may not, all land.
     pub(crate) fn allow_flights(&mut self, allowed: bool) {
-        let allowed = allowed && self.lone_discs && self.all_dynamic;
         if !allowed {
             self.end_flights();
         } else if !self.flights.allowed {
@@ -207,7 +206,7 @@ impl Bodies {
     #[inline]
     pub(crate) fn may_fly(&self) -> bool {
         let Flights { allowed, worth_trying, .. } = self.flights;
-        self.flights.some() || allowed && worth_trying
+        self.flights.some() || allowed && worth_trying && self.lone_discs && self.all_dynamic && self.len() > FEWEST
     }
 
     /// After all forces of an evaluation at the end of a tick of `dt` seconds: bodies on which nothing but their weight acts take
