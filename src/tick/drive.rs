@@ -37,6 +37,8 @@ pub(super) struct Drive {
     ordinary_evaluate: bool,
     /// Systems in the tick look at all bodies.
     pub(super) looked_at: bool,
+    /// When the packed state had changed last as these saw it.
+    pub(super) shown_at: Option<bevy_ecs::change_detection::Tick>,
     /// Some stage has been given a condition.
     conditional: bool,
     /// Forces are those of the present state.
@@ -214,6 +216,10 @@ pub(super) fn integrate(world: &mut World) {
 /// A tick, without what goes before and after it. The state is in the world, unless it is held.
 fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
     let drive: &mut Drive = held_mut(world, direct.as_deref_mut());
+    if drive.looked_at && direct.is_none() {
+        flight::see_writers(world);
+    }
+    let drive: &mut Drive = held_mut(world, direct.as_deref_mut());
     let mut running = drive.running.take().expect("ticks run inside `step`");
     let (first_of_batch, ordinary) = (!drive.stepped, drive.ordinary_tick);
     let current = drive.current;
@@ -264,6 +270,9 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
     let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
     if drive.looked_at {
         flight::land(world, direct.as_deref_mut());
+        if direct.is_none() {
+            flight::note_looks(world);
+        }
     }
     if !travelled.is_finite() {
         see_all(world, direct, note_failure);

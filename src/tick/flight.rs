@@ -7,14 +7,29 @@ use super::direct::{Direct, held_mut};
 use super::drive::Drive;
 use crate::world::Bodies;
 
-/// Before a batch of ticks: sees whether all that makes forces is right while bodies fly, and whether others look at the bodies at each tick.
-/// `flies`: the method is one under which they may.
+/// Before a batch of ticks: sees whether all that makes forces is right while bodies fly, and whether others look at the bodies at
+/// each tick. `flies`: the method is one under which they may.
 pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, evaluation: [&Schedule; 2]) {
     let count = |schedule: &Schedule| schedule.graph().systems.len();
     let Census { of_flights: [in_tick, in_evaluation], .. } = *world.resource::<Census>();
     let flies = flies && evaluation.into_iter().map(count).sum::<usize>() == in_evaluation;
     world.resource_mut::<Bodies>().allow_flights(flies);
     world.resource_mut::<Drive>().looked_at = flies && count(sim) > in_tick;
+    note_looks(world);
+}
+
+/// Systems in the tick look at the bodies from now on; see [`see_writers`].
+pub(super) fn note_looks(world: &mut World) {
+    let changed = world.resource_ref::<Bodies>().last_changed();
+    world.resource_mut::<Drive>().shown_at = Some(changed);
+}
+
+/// Before a tick: where one of the systems in the tick wrote into the packed state, that counts and not what flights say.
+pub(super) fn see_writers(world: &mut World) {
+    let changed = world.resource_ref::<Bodies>().last_changed();
+    if world.resource::<Drive>().shown_at.is_some_and(|shown| shown != changed) {
+        world.resource_mut::<Bodies>().forget_flights();
+    }
 }
 
 /// Somebody looks at all bodies, those that fly too.

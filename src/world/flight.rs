@@ -172,6 +172,13 @@ impl Bodies {
         self.flights.longest
     }
 
+    /// All bodies are bound from now on, where others have put them after they had landed.
+    pub(crate) fn forget_flights(&mut self) {
+        if self.flights.some() {
+            self.flights = self.flights.ended();
+        }
+    }
+
     /// All bodies are bound from now on.
     pub(crate) fn end_flights(&mut self) {
         if self.flights.some() {

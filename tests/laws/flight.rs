@@ -120,6 +120,28 @@ fn whoever_changes_gravity_changes_all_flights() {
     }
 }
 
+/// A packed system that pushes all bodies once: to them it is as if they had been thrown anew.
+#[test]
+fn what_others_write_into_the_packed_state_counts() {
+    fn throw(clock: Res<Clock>, mut bodies: ResMut<Bodies>) {
+        if clock.ticks == 500 {
+            bodies.velocity.iter_mut().for_each(|velocity| velocity.x += 1.0);
+        }
+    }
+    let text = cloud(20, 10, 0.2, CLOCK);
+    let begin = load(&text);
+    let mut end = load_with(&text, |app| {
+        app.add_packed_systems(SimTick, 1, throw.in_set(Stage::Begin));
+    });
+    end.run_to_tick(1000).unwrap();
+    for body in 0..200 {
+        let (position, ..) = parabola(begin.bodies(), body, GRAVITY, 1.0);
+        let position = position + DVec2::X * 0.5;
+        let far = (end.bodies().position[body] - position).abs().max_element() > 500.0 * 32.0 * f64::EPSILON;
+        assert!(!far, "disc {body}: {} and not {position}", end.bodies().position[body]);
+    }
+}
+
 /// Where a body of two discs comes in the middle of a batch of ticks, all bodies are moved tick by tick from then on.
 #[test]
 fn flights_end_where_a_clump_comes() {
