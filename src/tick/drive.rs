@@ -37,6 +37,8 @@ pub(super) struct Drive {
     ordinary_evaluate: bool,
     /// Systems in the tick look at all bodies.
     pub(super) looked_at: bool,
+    /// Ticks at whose ends systems look at all bodies that look at no others, in order.
+    pub(super) looks: Vec<u64>,
     /// When the packed state had changed last as these saw it.
     pub(super) shown_at: Option<bevy_ecs::change_detection::Tick>,
     /// Some stage has been given a condition.
@@ -268,7 +270,7 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
     drive.stepped = true;
     drive.energy.alert |= alert;
     let (travel, travelled, energy) = (drive.travel, drive.travelled, drive.energy);
-    if drive.looked_at {
+    if drive.looked_at || drive.looks.binary_search(&(clock.ticks + 1)).is_ok() {
         flight::land(world, direct.as_deref_mut());
         if direct.is_none() {
             flight::note_looks(world);

@@ -1,10 +1,12 @@
 //! Whether bodies may fly ([`crate::world::Bodies::flying`]), and who sees where they are.
 
 use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::IntoScheduleConfigs;
+use bevy_ecs::system::ScheduleSystem;
 
-use super::Census;
 use super::direct::{Direct, held_mut};
 use super::drive::Drive;
+use super::{Census, add_packed_observer};
 use crate::world::Bodies;
 
 /// Before a batch of ticks: sees whether all that makes forces is right while bodies fly, and whether others look at the bodies at
@@ -30,6 +32,20 @@ pub(super) fn see_writers(world: &mut World) {
     if world.resource::<Drive>().shown_at.is_some_and(|shown| shown != changed) {
         world.resource_mut::<Bodies>().forget_flights();
     }
+}
+
+/// Adds a system to [`Stage::Observe`](super::Stage::Observe) that looks at the packed state at the ends of these ticks only, and changes
+/// nothing of it.
+pub(crate) fn add_observer_of_ticks<M>(
+    world: &mut World,
+    system: impl IntoScheduleConfigs<ScheduleSystem, M>,
+    ticks: &[u64],
+) {
+    add_packed_observer(world, system);
+    world.resource_mut::<Census>().of_flights[0] += 1;
+    let mut drive = world.resource_mut::<Drive>();
+    drive.looks.extend(ticks);
+    drive.looks.sort_unstable();
 }
 
 /// Somebody looks at all bodies, those that fly too.

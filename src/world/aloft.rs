@@ -78,11 +78,26 @@ impl Air {
 pub(super) struct Land<'a> {
     pub bodies: &'a mut Bodies,
     pub starts: &'a [Record],
-    /// Seconds since each took off; less than nothing: it does not fly.
-    pub time: &'a dyn Fn(usize) -> f64,
+    /// The tick in which each took off; the largest number: it does not fly.
+    pub since: &'a [u32],
+    /// The present tick.
+    pub ticks: u32,
     pub air: Air,
     /// The last kick of the tick was given.
     pub kicked: bool,
+}
+
+/// Numbers of bodies that fly take the place of those in a list.
+#[inline(always)]
+fn put<V: Lanes>(flies: V::Mask, new: V, list: &mut [f64]) {
+    V::select(flies, new, V::load(list)).store(list);
+}
+
+/// Likewise pairs of numbers.
+#[inline(always)]
+fn put_pairs<V: Lanes>(flies: V::Mask, new: (V, V), list: &mut [DVec2]) {
+    let old = V::load_pairs(list);
+    V::store_pairs(V::select(flies, new.0, old.0), V::select(flies, new.1, old.1), list);
 }
 
 impl Land<'_> {
@@ -91,8 +106,9 @@ impl Land<'_> {
     #[inline(always)]
     pub fn some<V: Lanes>(&mut self, first: usize) -> f64 {
         let (mut time, mut places) = ([0.0; BLOCK], [0_u32; BLOCK]);
-        for lane in 0..V::COUNT {
-            (time[lane], places[lane]) = ((self.time)(first + lane), (first + lane) as u32);
+        for (lane, &since) in self.since[first..first + V::COUNT].iter().enumerate() {
+            let flown = if since == u32::MAX { -1.0 } else { f64::from(self.ticks - since) };
+            (time[lane], places[lane]) = (flown * self.air.dt, (first + lane) as u32);
         }
         let time = V::load(&time);
         let flies = !time.lt(V::splat(0.0));
@@ -102,21 +118,16 @@ impl Land<'_> {
         let bodies = &mut *self.bodies;
         let spin = V::load(&bodies.spin[first..]);
         let aloft = self.air.after(V::records(self.starts, &places), time, spin);
-        let pairs = |new: (V, V), list: &mut [DVec2]| {
-            let old = V::load_pairs(list);
-            V::store_pairs(V::select(flies, new.0, old.0), V::select(flies, new.1, old.1), list);
-        };
-        let numbers = |new: V, list: &mut [f64]| V::select(flies, new, V::load(list)).store(list);
-        pairs(aloft.position, &mut bodies.position[first..]);
-        pairs(aloft.position_rest, &mut bodies.position_rest[first..]);
-        numbers(aloft.angle, &mut bodies.angle[first..]);
-        numbers(aloft.angle_rest, &mut bodies.angle_rest[first..]);
+        put_pairs(flies, aloft.position, &mut bodies.position[first..]);
+        put_pairs(flies, aloft.position_rest, &mut bodies.position_rest[first..]);
+        put(flies, aloft.angle, &mut bodies.angle[first..]);
+        put(flies, aloft.angle_rest, &mut bodies.angle_rest[first..]);
         let drifted = if self.kicked { aloft.velocity } else { aloft.drifted };
         // While an evaluation sees estimates these have taken the place of velocities.
         let (own, estimated) = if bodies.estimating { (aloft.velocity, drifted) } else { (drifted, aloft.velocity) };
-        pairs(own, &mut bodies.velocity[first..]);
+        put_pairs(flies, own, &mut bodies.velocity[first..]);
         if !bodies.estimated_velocity.is_empty() {
-            pairs(estimated, &mut bodies.estimated_velocity[first..]);
+            put_pairs(flies, estimated, &mut bodies.estimated_velocity[first..]);
         }
         let (u, v) = aloft.drifted;
         let around = spin.abs() * V::load(&bodies.atom_radius[first..]);

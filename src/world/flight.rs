@@ -152,8 +152,7 @@ impl Bodies {
         let starts = std::mem::take(&mut self.flights.starts);
         let since = std::mem::take(&mut self.flights.since);
         let Flights { ticks, air, kicked, .. } = self.flights;
-        let time = |body: usize| if since[body] == BOUND { -1.0 } else { f64::from(ticks - since[body]) * air.dt };
-        let mut land = Land { bodies: self, starts: &starts, time: &time, air, kicked };
+        let mut land = Land { bodies: self, starts: &starts, since: &since, ticks, air, kicked };
         let longest = match body {
             Some(body) => land.some::<f64>(body),
             None => land.all(),

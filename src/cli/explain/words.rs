@@ -122,6 +122,13 @@ pub(super) const WORDS: &[Word] = &[
          it, and there is nothing to switch on or off: where bodies stay and what wakes them is as it would be without.",
     ),
     word(
+        "free flight, flight",
+        "discs that touch nothing, and on which nothing but gravity acts, are moved along their parabolas at once instead of tick by \
+         tick, under `VelocityVerlet` with events at the ends of ticks, where they are most of all bodies. When two of them \
+         meet is known beforehand, so they cost nothing until then, and rounding is less than that of the ticks. There is \
+         nothing to switch on or off; what looks at bodies changes nothing.",
+    ),
+    word(
         "vector instructions",
         "instructions of the processor that work on two, four or eight numbers at once (levels `baseline`, `avx2` and \
          `avx512`; `scalar`: on one). All commands that run scenes take the best the processor has, or what `--simd LEVEL` \

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::Simulation;
 use crate::integrate::{LocatedEvents, StepCount};
-use crate::tick::{Clock, Evaluation, Failure, add_packed_observer};
+use crate::tick::{Clock, Evaluation, Failure, add_observer_of_ticks};
 use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
@@ -117,8 +117,8 @@ impl Trajectory {
     /// Looks at a run that begins, at the ends of these ticks, in ascending order. It may be run in any way.
     pub fn watch(simulation: &mut Simulation, ticks: Vec<u64>) {
         let begin = (simulation.clock().time(), poses(simulation.bodies()));
+        add_observer_of_ticks(simulation.world_mut(), look, &ticks);
         simulation.world_mut().insert_resource(Lookout { ticks, over: 0, moments: vec![begin] });
-        add_packed_observer(simulation.world_mut(), look);
     }
 
     /// What was seen of a run that was watched, and how it went wrong, if it did. It is watched no longer.
