@@ -104,6 +104,9 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     if world.resource::<Evaluation>().stale {
         refresh(world);
     }
+    if world.resource::<Drive>().looked_at {
+        flight::see_writers(world);
+    }
     // The last kick of the batch is seen by no drift any more.
     if world.resource::<Drive>().failure.is_none() {
         note_failure(world);

@@ -26,7 +26,7 @@ pub(super) fn note_looks(world: &mut World) {
     world.resource_mut::<Drive>().shown_at = Some(changed);
 }
 
-/// Before a tick: where one of the systems in the tick wrote into the packed state, that counts and not what flights say.
+/// Before a tick and after the last: where one of the systems in the tick wrote into the packed state, that counts and not what flights say.
 pub(super) fn see_writers(world: &mut World) {
     let changed = world.resource_ref::<Bodies>().last_changed();
     if world.resource::<Drive>().shown_at.is_some_and(|shown| shown != changed) {

@@ -142,6 +142,31 @@ fn what_others_write_into_the_packed_state_counts() {
     }
 }
 
+/// Likewise one that does so at the end of each tick: in how many pieces the run is made does not matter.
+#[test]
+fn what_others_write_at_the_end_of_a_tick_counts_in_every_tick() {
+    fn blow(mut bodies: ResMut<Bodies>) {
+        bodies.velocity.iter_mut().for_each(|velocity| velocity.x += 0.001);
+    }
+    let text = cloud(20, 10, 0.2, CLOCK);
+    let run = |pieces: u64| {
+        let mut simulation = load_with(&text, |app| {
+            app.add_packed_systems(SimTick, 1, blow.in_set(Stage::Observe));
+        });
+        let before: Vec<f64> = simulation.bodies().velocity.iter().map(|velocity| velocity.x).collect();
+        for piece in 1..=pieces {
+            simulation.run_to_tick(600 * piece / pieces).unwrap();
+        }
+        // Sums of 1200 numbers below 2 m/s.
+        let expected = |body: usize| before[body] + 0.6 + GRAVITY.x * 0.6;
+        for (body, velocity) in simulation.bodies().velocity.iter().enumerate() {
+            assert!((velocity.x - expected(body)).abs() < 1200.0 * 2.0 * f64::EPSILON, "disc {body}: {velocity}");
+        }
+        state_hash(simulation.bodies())
+    };
+    assert_eq!(run(1), run(600));
+}
+
 /// Where a body of two discs comes in the middle of a batch of ticks, all bodies are moved tick by tick from then on.
 #[test]
 fn flights_end_where_a_clump_comes() {

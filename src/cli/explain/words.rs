@@ -126,7 +126,8 @@ pub(super) const WORDS: &[Word] = &[
         "discs that touch nothing, and on which nothing but gravity acts, are moved along their parabolas at once instead of tick by \
          tick, under `VelocityVerlet` with events at the ends of ticks, where they are most of all bodies. When two of them \
          meet is known beforehand, so they cost nothing until then, and rounding is less than that of the ticks. There is \
-         nothing to switch on or off; what looks at bodies changes nothing.",
+         nothing to switch on or off. What looks at bodies changes nothing; a plugin that writes into the packed state, or takes \
+         it as if it would, has all bodies moved tick by tick again until the next lists of pairs.",
     ),
     word(
         "vector instructions",

@@ -170,7 +170,9 @@ fn side(bodies: &Bodies, atom: u32) -> (Record, bool) {
 fn ticks_until((x, y): (f64, f64), (dx, dy): (f64, f64), reach: f64) -> f64 {
     let left = x * x + y * y - reach * reach;
     let (closing, way) = (-(x * dx + y * dy), dx * dx + dy * dy);
-    let discriminant = closing * closing - way * left;
+    // `closing² - way left`, written so that nothing cancels where discs are far apart: by how much less than `reach` they pass.
+    let beside = x * dy - y * dx;
+    let discriminant = way * reach * reach - beside * beside;
     if left <= 0.0 {
         0.0
     } else if closing <= 0.0 || discriminant < 0.0 {
