@@ -186,6 +186,12 @@ impl Bodies {
         }
     }
 
+    /// Nobody flies for the present; afterwards it is tried at once.
+    pub(crate) fn put_off_flights(&mut self) {
+        self.end_flights();
+        self.flights.worth_trying = self.flights.allowed;
+    }
+
     /// A body is moved tick by tick from this evaluation on. Its forces are its weight so far, as those of all bodies that fly.
     pub(crate) fn bind(&mut self, body: usize) {
         if !self.flights.has(body) {

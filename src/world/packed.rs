@@ -144,6 +144,8 @@ pub struct Bodies {
     pub asleep: Vec<u8>,
     /// Blocks of eight bodies that need work, in order; only where some need none.
     pub awake: Vec<u32>,
+    /// How often bodies that were asleep have woken: as long as that is the same whoever was asleep stands where it stood.
+    pub(crate) rousings: u64,
 
     /// Forces are cleared and atoms stand where their bodies are: that was done when bodies were moved.
     pub(crate) posed: bool,
@@ -198,9 +200,17 @@ impl Bodies {
 
     /// All bodies need work from now on.
     pub fn wake_all(&mut self) {
-        self.posed = false;
-        self.asleep.clear();
+        self.lay_asleep(Vec::new());
         self.awake.clear();
+    }
+
+    /// From now on those are asleep to which these bits belong, and no others; `awake` is for the caller to fill.
+    pub(crate) fn lay_asleep(&mut self, asleep: Vec<u8>) {
+        let sleeps_on = |block: usize, bits: u8| bits & !asleep.get(block).copied().unwrap_or(0) == 0;
+        let all_sleep_on = self.asleep.iter().enumerate().all(|(block, &bits)| sleeps_on(block, bits));
+        self.rousings += u64::from(!all_sleep_on);
+        self.posed = false;
+        self.asleep = asleep;
     }
 
     /// Blocks of eight bodies that need work: how many there are, to be asked for with [`Bodies::awake_block`].

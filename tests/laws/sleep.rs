@@ -13,6 +13,7 @@ use glam::DVec2;
 use jostle::Simulation;
 use jostle::contacts::penalty::PenaltyContacts;
 use jostle::contacts::{CandidatePairs, ContactForces};
+use jostle::world::Velocity;
 use jostle::world::hash::state_hash;
 
 use super::support::{load, run_to};
@@ -119,4 +120,63 @@ fn a_body_is_laid_to_rest_in_the_tick_in_which_lists_are_made_anew_as_in_any_oth
         before = now;
     }
     assert!(coincidences > 0, "nobody was laid to rest while others slept and lists were made anew");
+}
+
+/// More bodies than boxes are swept for, all but four of which come to rest: one flies far away, one bounces between two of the
+/// others, one slides into the end of the row, gives its motion on to a disc that is farther from the next than lists reach, and
+/// stands; and one falls on the row from so high that many lists were made by then.
+fn a_few_among_many(block: &str) -> String {
+    let mut row = String::new();
+    for number in 0..240 {
+        let _ = write!(
+            row,
+            "(name: \"{number}\", at: ({:?}, 0.05), material: \"{}\", atoms: Disc(radius: 0.05)),",
+            0.2 * f64::from(number) + 0.8 * f64::from((number - 230).max(0)),
+            if number > 230 { "ice" } else { "stone" }
+        );
+    }
+    format!(
+        "Scene(format: 1, clock: (duration: 2, tick: 0.0005, method: VelocityVerlet), gravity: (0, -9.81),
+        materials: {{
+            \"stone\": (stiffness: 50000, friction: 0.5, restitution: 0.3, density: 10),
+            \"ice\": (stiffness: 50000, friction: 0, restitution: 1, density: 10),
+            \"lake\": (stiffness: 50000, friction: 0, restitution: 0.3, density: 10),
+        }},
+        walls: [(name: \"floor\", left: (100, 0), right: (-10, 0), material: \"lake\")],
+        bodies: [{row} {block}
+            (name: \"beside\", at: (20.1, 4.5), material: \"ice\", atoms: Disc(radius: 0.04)),
+            (name: \"far\", at: (70, 100), velocity: (20, 20), material: \"ice\", atoms: Disc(radius: 0.05)),
+            (name: \"striker\", at: (57, 0.05), velocity: (-3, 0), material: \"ice\", atoms: Disc(radius: 0.05)),
+            (name: \"late\", at: (10.02, 10), velocity: (0, -1), material: \"stone\", atoms: Disc(radius: 0.1)),
+        ])"
+    )
+}
+
+#[test]
+fn lists_that_stay_because_most_sleep_change_no_bit() {
+    let block = "(name: \"block\", at: (-2, 0.11), material: \"stone\",
+        atoms: Picture(spacing: 0.1, mass: 0.3, rows: [\"##\", \"##\"])),";
+    for text in [a_few_among_many(""), a_few_among_many(block)] {
+        let (mut asleep, mut awake) = (load_awake(&text, true), load_awake(&text, false));
+        let lists = |simulation: &Simulation| simulation.world().resource::<CandidatePairs>().version;
+        let (mut stayed, mut woken, mut before) = (0, 0, (0, 0, 0));
+        for tick in 1..=4000 {
+            for simulation in [&mut asleep, &mut awake] {
+                simulation.run_to_tick(tick).expect("numbers stay finite");
+                if tick == 200 {
+                    // By hand: of whoever was awake before no pair changes.
+                    let kicked = simulation.bodies().entity[231];
+                    *simulation.world_mut().get_mut::<Velocity>(kicked).unwrap() = Velocity(DVec2::new(-3.0, 0.0));
+                }
+            }
+            assert_eq!(state_hash(asleep.bodies()), state_hash(awake.bodies()), "tick {tick}");
+            let sleepers = asleep.bodies().asleep.iter().map(|bits| bits.count_ones()).sum::<u32>();
+            let now = (lists(&asleep), lists(&awake), sleepers);
+            stayed += u32::from(now.0 == before.0 && now.1 > before.1);
+            woken += u32::from(now.2 < before.2);
+            before = now;
+        }
+        assert!(stayed > 10, "lists stayed {stayed} times");
+        assert!(woken > 1, "sleepers woke {woken} times");
+    }
 }

@@ -422,12 +422,12 @@ pub(super) fn contact_points(world: &World) -> Vec<ContactPoint> {
 impl PenaltyContacts {
     /// After all contacts were followed at the end of a tick: whoever touches something is bound, and who does not may fly.
     fn follow_flights(&self, bodies: &mut Bodies, pairs: &CandidatePairs, elapsed: f64) {
+        // Whoever rests may sleep, and whether it does must change nothing: nor must it when lists were made.
+        if !self.rest.is_empty() {
+            return bodies.put_off_flights();
+        }
         if !bodies.may_fly() {
             return;
-        }
-        // Whoever rests may sleep, and whether it does must change nothing.
-        if !self.rest.is_empty() {
-            return bodies.end_flights();
         }
         let of_atoms = self.atoms.touching().map(|place| pairs.atoms[place]).flat_map(|pair| [pair.a, pair.b]);
         let mut touching: Vec<u32> =

@@ -167,7 +167,6 @@ impl PenaltyContacts {
         let Self { rest, atoms, walls, sleep, .. } = self;
         // Whoever was laid to rest in this tick has yet to be looked at, though the lists be made anew before that.
         rest.changed = rest.resting.iter().any(|resting| resting.left_over.is_none());
-        bodies.wake_all();
         let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
         let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
         let mut asleep = vec![0_u8; bodies.len().div_ceil(BLOCK)];
@@ -177,11 +176,12 @@ impl PenaltyContacts {
             any = true;
         }
         if !any {
+            bodies.wake_all();
             atoms.wake_all();
             walls.wake_all();
             return;
         }
-        bodies.asleep = asleep;
+        bodies.lay_asleep(asleep);
         let stands = |atom: u32| {
             let body = bodies.atom_body(atom as usize);
             !bodies.moves[body] || bodies.is_asleep(body)

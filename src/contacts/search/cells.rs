@@ -25,7 +25,7 @@ const CELLS_PER_ATOM: f64 = 4.0;
 const WASTE: f64 = 16.0;
 
 /// An atom as the search sees it.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Entry {
     center: DVec2,
     /// Radius and half the margin.
@@ -35,14 +35,21 @@ struct Entry {
 }
 
 /// Atoms that touch something, sorted into cells; those much larger than most aside.
-struct Sorted {
+#[derive(Debug)]
+pub(super) struct Sorted {
     all: Vec<Entry>,
     large: Vec<Entry>,
     cells: Cells,
 }
 
 impl Sorted {
-    fn of(bodies: &Bodies, margin: f64) -> Self {
+    /// All atoms, each with half of the margin around it.
+    pub fn of(bodies: &Bodies, margin: f64) -> Self {
+        Self::among(bodies, margin, 0..bodies.atom_count())
+    }
+
+    /// Some of them.
+    pub fn among(bodies: &Bodies, margin: f64, atoms: impl Iterator<Item = usize>) -> Self {
         let entry = |atom: usize| Entry {
             center: bodies.atom_place(atom),
             reach: bodies.atom_radius[atom] + margin / 2.0,
@@ -50,35 +57,70 @@ impl Sorted {
             body: bodies.atom_body(atom) as u32,
         };
         let touching = |atom: &usize| bodies.collides[bodies.atom_body(*atom)] && bodies.atom_place(*atom).is_finite();
-        let mut all: Vec<Entry> = (0..bodies.atom_count()).filter(touching).map(entry).collect();
+        let mut all: Vec<Entry> = atoms.filter(touching).map(entry).collect();
         let limit = LARGE * usual_reach(&all);
         let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
         all.retain(|entry| entry.reach <= limit);
         let cells = Cells::of(&all);
         Self { all, large, cells }
     }
+
+    /// All pairs of atoms of different bodies that are nearer than the margin and do not both stand still, in canonical order.
+    pub fn pairs(&self, bodies: &Bodies) -> Vec<AtomPair> {
+        let among = self.cells.all_pairs(&bodies.threads, |a, b| moves(bodies, a, b));
+        let mut pairs = in_order(among, bodies.atom_count());
+        let sorted = pairs.len();
+        self.each_of_large(bodies, |pair| pairs.push(pair));
+        if pairs.len() > sorted {
+            // Two sorted runs and a little more: nearly linear.
+            pairs.sort();
+        }
+        pairs
+    }
+
+    /// Shows pairs of which one at least is large.
+    fn each_of_large(&self, bodies: &Bodies, mut see: impl FnMut(AtomPair)) {
+        for (place, entry) in self.large.iter().enumerate() {
+            let mut look = |other: &Entry| {
+                if moves(bodies, entry.body, other.body) {
+                    see(entry.with(other));
+                }
+            };
+            self.cells.near(entry, self.cells.reach, &mut look);
+            self.large[place + 1..].iter().filter(|other| are_near(entry, other)).for_each(look);
+        }
+    }
+
+    /// Shows the same pairs as [`Sorted::pairs`], in any order, and those with one of `others`, of bodies that `counts` says.
+    pub fn each_pair(
+        &self,
+        bodies: &Bodies,
+        (others, counts): (&Self, impl Fn(u32) -> bool),
+        mut see: impl FnMut(AtomPair),
+    ) {
+        let among = self.cells.all_pairs(&bodies.threads, |a, b| moves(bodies, a, b));
+        among.into_iter().flatten().for_each(&mut see);
+        self.each_of_large(bodies, &mut see);
+        for entry in self.all.iter().chain(&self.large) {
+            let mut look = |other: &Entry| {
+                if counts(other.body) && moves(bodies, entry.body, other.body) {
+                    see(entry.with(other));
+                }
+            };
+            others.cells.near(entry, others.cells.reach, &mut look);
+            others.large.iter().filter(|other| are_near(entry, other)).for_each(look);
+        }
+    }
 }
 
-/// All pairs of atoms of different bodies that are nearer than `margin` metres and do not both stand still, in canonical order.
-pub(super) fn pairs(bodies: &Bodies, margin: f64) -> Vec<AtomPair> {
-    let Sorted { large, cells, .. } = Sorted::of(bodies, margin);
-    let moves = |a: u32, b: u32| bodies.dynamic[a as usize] || bodies.dynamic[b as usize];
-    let mut pairs = in_order(cells.all_pairs(&bodies.threads, moves), bodies.atom_count());
-    let sorted = pairs.len();
-    for (place, entry) in large.iter().enumerate() {
-        let mut push = |other: &Entry| {
-            if moves(entry.body, other.body) {
-                pairs.push(AtomPair { a: entry.atom.min(other.atom), b: entry.atom.max(other.atom) });
-            }
-        };
-        cells.near(entry, cells.reach, &mut push);
-        large[place + 1..].iter().filter(|other| are_near(entry, other)).for_each(push);
+fn moves(bodies: &Bodies, a: u32, b: u32) -> bool {
+    bodies.dynamic[a as usize] || bodies.dynamic[b as usize]
+}
+
+impl Entry {
+    fn with(&self, other: &Self) -> AtomPair {
+        AtomPair { a: self.atom.min(other.atom), b: self.atom.max(other.atom) }
     }
-    if pairs.len() > sorted {
-        // Two sorted runs and a little more: nearly linear.
-        pairs.sort();
-    }
-    pairs
 }
 
 /// Pairs that were found in any order in canonical order: those of each first atom together, and then by the second.
@@ -107,14 +149,13 @@ fn in_order(found: Vec<Vec<AtomPair>>, atoms: usize) -> Vec<AtomPair> {
 /// pairs were looked at; says whether all were shown.
 pub(super) fn overlapping(bodies: &Bodies, mut looks: usize, mut see: impl FnMut(AtomPair) -> bool) -> bool {
     let Sorted { all, large, cells } = Sorted::of(bodies, 0.0);
-    let moves = |a: u32, b: u32| bodies.dynamic[a as usize] || bodies.dynamic[b as usize];
     let mut go_on = true;
     let mut look = |entry: &Entry, others: &[Entry], twice: bool| {
         let others = &others[..others.len().min(looks)];
         looks -= others.len();
-        for other in others.iter().filter(|other| are_near(entry, other) && moves(entry.body, other.body)) {
+        for other in others.iter().filter(|other| are_near(entry, other) && moves(bodies, entry.body, other.body)) {
             if !twice || other.atom > entry.atom {
-                go_on &= see(AtomPair { a: entry.atom.min(other.atom), b: entry.atom.max(other.atom) });
+                go_on &= see(entry.with(other));
             }
         }
         go_on &= looks > 0;
@@ -153,6 +194,7 @@ fn are_near(a: &Entry, b: &Entry) -> bool {
 }
 
 /// Cells along one axis.
+#[derive(Debug)]
 struct Axis {
     low: f64,
     /// Fine cells per metre.
@@ -209,6 +251,7 @@ impl Axis {
     }
 }
 
+#[derive(Debug)]
 struct Cells {
     columns: Axis,
     rows: Axis,
@@ -308,7 +351,7 @@ impl Cells {
                 let entry = &self.entries[place];
                 for other in self.entries[place + 1..beside].iter().chain(&self.entries[above.clone()]) {
                     if are_near(entry, other) && wanted(entry.body, other.body) {
-                        found.push(AtomPair { a: entry.atom.min(other.atom), b: entry.atom.max(other.atom) });
+                        found.push(entry.with(other));
                     }
                 }
             }
@@ -341,7 +384,7 @@ impl Cells {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use bevy_ecs::prelude::Entity;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -351,7 +394,7 @@ mod tests {
     use crate::bounds::Bounds;
 
     /// Discs strewn over a square; some are a hundred times as large, some do not collide, some stand.
-    fn strewn(seed: u64, count: usize, side: f64) -> (Bodies, Bounds) {
+    pub(in super::super) fn strewn(seed: u64, count: usize, side: f64) -> (Bodies, Bounds) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         let (mut bodies, mut bounds) = (Bodies::default(), Bounds::default());
@@ -417,7 +460,7 @@ mod tests {
                 }
                 (bounds.low[0], bounds.high[0]) = (bounds.low[0] + far, bounds.high[0] + far);
             }
-            let found = pairs(&bodies, bounds.margin);
+            let found = Sorted::of(&bodies, bounds.margin).pairs(&bodies);
             assert_eq!(found, sweep::pairs(&bodies, &bounds), "seed {seed}");
             assert!(count < 10 || found.len() > 10, "{} pairs", found.len());
         }

@@ -9,6 +9,7 @@
 mod at_start;
 mod cells;
 mod identity;
+mod still;
 mod sweep;
 
 pub use at_start::OverlapAtStart;
@@ -17,7 +18,9 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use self::cells::Sorted;
 use self::identity::Identities;
+use self::still::Still;
 use crate::bounds::{self, Bounds};
 use crate::simulation::Finishers;
 use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
@@ -82,6 +85,8 @@ pub struct CandidatePairs {
     /// What stays the same when places change.
     identities: Identities,
     wall_count: usize,
+    /// Where most bodies are asleep: what stays of the lists as long as those do.
+    still: Option<Still>,
 }
 
 /// Where candidate pairs are found.
@@ -109,19 +114,23 @@ impl CandidatePairs {
     #[inline]
     pub(super) fn update(&mut self, bodies: &Bodies, bounds: &mut Bounds) {
         if self.bounds_version != bounds.version {
-            self.renew(bodies, bounds);
+            self.bounds_version = bounds.version;
+            if !self.still.as_ref().is_some_and(|still| still.holds(bodies, bounds)) {
+                self.renew(bodies, bounds);
+            }
         }
     }
 
     fn renew(&mut self, bodies: &Bodies, bounds: &mut Bounds) {
-        self.bounds_version = bounds.version;
         self.version += 1;
         let old_atoms = std::mem::take(&mut self.atoms);
         let [touching, close] = std::mem::take(&mut self.group_ends);
         let old_walls = std::mem::take(&mut self.walls);
         self.search = Search::suiting(bodies);
-        self.atoms = self.search.pairs(bodies, bounds);
-        self.walls = wall_pairs(bodies, bounds);
+        let sorted = (self.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
+        self.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies));
+        self.walls.clear();
+        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| self.walls.push(pair));
         bounds.candidates = self.atoms.len() + self.walls.len();
         let same = self.generation == bodies.generation;
         let places = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
@@ -138,8 +147,9 @@ impl CandidatePairs {
             Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
         });
         if self.search == Search::Cells {
-            self.group(bodies, CLOSE * bounds.margin);
+            self.group(bodies, bounds.margin);
         }
+        self.still = sorted.and_then(|sorted| Still::of(bodies, bounds, sorted, (&self.atoms, &self.walls)));
         if !same {
             self.generation = bodies.generation;
             self.wall_count = bodies.walls.len();
@@ -175,15 +185,20 @@ fn carry<P: Ord + Copy, const GROUPS: usize>(
     new.iter().map(find).collect()
 }
 
+/// The group to which a pair belongs: 0 if it touches, 1 if it nearly does, 2 otherwise.
+fn group_of(pair: AtomPair, bodies: &Bodies, margin: f64) -> usize {
+    let between = bodies.atom_place(pair.b as usize) - bodies.atom_place(pair.a as usize);
+    let (squared, reach) = (between.length_squared(), pair.reach(bodies));
+    let apart = |gap: f64| usize::from(squared > (reach + gap) * (reach + gap));
+    apart(0.0) + apart(CLOSE * margin)
+}
+
 impl CandidatePairs {
-    /// Puts those first that touch, then those that are no farther apart than `close` metres.
-    fn group(&mut self, bodies: &Bodies, close: f64) {
+    /// Puts those first that touch, then those that nearly do.
+    fn group(&mut self, bodies: &Bodies, margin: f64) {
         let mut groups = [const { Vec::new() }; 3];
         for (&pair, &before) in self.atoms.iter().zip(&self.atoms_before) {
-            let between = bodies.atom_place(pair.b as usize) - bodies.atom_place(pair.a as usize);
-            let (squared, reach) = (between.length_squared(), pair.reach(bodies));
-            let apart = |gap: f64| usize::from(squared > (reach + gap) * (reach + gap));
-            groups[apart(0.0) + apart(close)].push((pair, before));
+            groups[group_of(pair, bodies, margin)].push((pair, before));
         }
         self.group_ends = [groups[0].len(), groups[0].len() + groups[1].len()];
         (self.atoms, self.atoms_before) = groups.into_iter().flatten().unzip();
@@ -206,13 +221,6 @@ impl Search {
         if bodies.atom_count() <= bounds::MOST_ATOMS { Self::Sweep } else { Self::Cells }
     }
 
-    fn pairs(self, bodies: &Bodies, bounds: &Bounds) -> Vec<AtomPair> {
-        match self {
-            Self::Sweep => sweep::pairs(bodies, bounds),
-            Self::Cells => cells::pairs(bodies, bounds.margin),
-        }
-    }
-
     /// In words.
     pub fn told(self) -> &'static str {
         match self {
@@ -222,21 +230,25 @@ impl Search {
     }
 }
 
-fn wall_pairs(bodies: &Bodies, bounds: &Bounds) -> Vec<WallPair> {
-    let mut pairs = Vec::new();
+/// Shows the atoms of some bodies that are near walls: wall by wall, for each in the order of the bodies.
+fn each_wall_pair(
+    bodies: &Bodies,
+    margin: f64,
+    among: impl Iterator<Item = usize> + Clone,
+    mut see: impl FnMut(WallPair),
+) {
     for (place, wall) in bodies.walls.iter().enumerate() {
-        for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
+        for body in among.clone().filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
             let height = (bodies.position[body] - wall.point).dot(wall.normal);
-            if height > bodies.extent(body) + bounds.margin {
+            if height > bodies.extent(body) + margin {
                 continue;
             }
             for atom in bodies.atoms_of(body) {
                 let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
-                if height < bodies.atom_radius[atom] + bounds.margin {
-                    pairs.push(WallPair { wall: place as u32, atom: atom as u32 });
+                if height < bodies.atom_radius[atom] + margin {
+                    see(WallPair { wall: place as u32, atom: atom as u32 });
                 }
             }
         }
     }
-    pairs
 }
