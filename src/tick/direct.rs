@@ -98,7 +98,7 @@ pub(crate) trait Observer: Send + Sync + 'static {
     fn observe(&mut self, state: &State, accounts: Accounts, world: &World) -> bool;
 
     /// Looks at the new state in the world.
-    fn observe_world(&mut self, _: &mut World);
+    fn observe_world(&mut self, _: &mut World) {}
 }
 
 /// The accounts of the present state, wherever it is.

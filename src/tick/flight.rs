@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
 
-use super::direct::{Direct, held_mut};
+use super::direct::{Direct, Observer, held_mut};
 use super::drive::Drive;
 use super::{Census, add_packed_observer};
 use crate::world::Bodies;
@@ -34,15 +34,20 @@ pub(super) fn see_writers(world: &mut World) {
     }
 }
 
-/// Adds a system to [`Stage::Observe`](super::Stage::Observe) that looks at the packed state at the ends of these ticks only, and changes
-/// nothing of it.
+/// Adds a system to [`Stage::Observe`](super::Stage::Observe), and its direct form, that looks at the packed state at the ends of some
+/// ticks only, which [`look_at_ticks`] is told, and changes nothing of it.
 pub(crate) fn add_observer_of_ticks<M>(
     world: &mut World,
     system: impl IntoScheduleConfigs<ScheduleSystem, M>,
-    ticks: &[u64],
+    direct: impl Observer,
 ) {
     add_packed_observer(world, system);
+    Direct::add_observer(world, direct);
     world.resource_mut::<Census>().of_flights[0] += 1;
+}
+
+/// Somebody looks at the packed state at the ends of these ticks.
+pub(crate) fn look_at_ticks(world: &mut World, ticks: &[u64]) {
     let mut drive = world.resource_mut::<Drive>();
     drive.looks.extend(ticks);
     drive.looks.sort_unstable();

@@ -54,7 +54,7 @@ use direct::{Direct, Systems};
 pub(crate) use drive::foresee_components;
 pub use drive::{energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
-pub(crate) use flight::add_observer_of_ticks;
+pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use inside::Tick;

@@ -5,7 +5,8 @@ use glam::DVec2;
 
 use crate::Simulation;
 use crate::integrate::{LocatedEvents, StepCount};
-use crate::tick::{Clock, Evaluation, Failure, add_observer_of_ticks};
+use crate::tick::direct::{Accounts, Observer, State, exchange};
+use crate::tick::{Clock, Evaluation, Failure, add_observer_of_ticks, look_at_ticks};
 use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
@@ -60,7 +61,7 @@ impl Apart {
 
 /// Where a run looks at its bodies, and what it saw: without ending a batch of ticks, after which forces are evaluated for
 /// whoever else may look.
-#[derive(Resource)]
+#[derive(Resource, Default)]
 struct Lookout {
     /// The ticks at whose ends it looks, and how many of them are over.
     ticks: Vec<u64>,
@@ -69,9 +70,26 @@ struct Lookout {
 }
 
 fn look(bodies: Res<Bodies>, clock: Res<Clock>, mut lookout: ResMut<Lookout>) {
-    if lookout.ticks.get(lookout.over) == Some(&clock.ticks) {
-        lookout.over += 1;
-        lookout.moments.push((clock.time(), poses(&bodies)));
+    lookout.look(&bodies, &clock);
+}
+
+impl Lookout {
+    fn look(&mut self, bodies: &Bodies, clock: &Clock) {
+        if self.ticks.get(self.over) == Some(&clock.ticks) {
+            self.over += 1;
+            self.moments.push((clock.time(), poses(bodies)));
+        }
+    }
+}
+
+impl Observer for Lookout {
+    fn exchange(&mut self, world: &mut World) {
+        exchange(world, self);
+    }
+
+    fn observe(&mut self, state: &State, _: Accounts, _: &World) -> bool {
+        self.look(&state.bodies, &state.clock);
+        true
     }
 }
 
@@ -117,8 +135,15 @@ impl Trajectory {
     /// Looks at a run that begins, at the ends of these ticks, in ascending order. It may be run in any way.
     pub fn watch(simulation: &mut Simulation, ticks: Vec<u64>) {
         let begin = (simulation.clock().time(), poses(simulation.bodies()));
-        add_observer_of_ticks(simulation.world_mut(), look, &ticks);
-        simulation.world_mut().insert_resource(Lookout { ticks, over: 0, moments: vec![begin] });
+        let world = simulation.world_mut();
+        look_at_ticks(world, &ticks);
+        let lookout = Lookout { ticks, over: 0, moments: vec![begin] };
+        if let Some(mut there) = world.get_resource_mut::<Lookout>() {
+            *there = lookout;
+        } else {
+            world.insert_resource(lookout);
+            add_observer_of_ticks(world, look, Lookout::default());
+        }
     }
 
     /// What was seen of a run that was watched, and how it went wrong, if it did. It is watched no longer.
