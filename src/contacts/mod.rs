@@ -19,11 +19,6 @@ pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
 pub struct ContactLaw(pub &'static str);
 
-/// Makes all contacts so many times as stiff. To be done before the packed state is made.
-pub(crate) fn stiffen(world: &mut World, factor: f64) {
-    atom::stiffen(world, factor);
-}
-
 /// The deepest overlap so far, as a share of the smaller radius.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeepestOverlap {

@@ -20,7 +20,7 @@ use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::simd::{Level, give_back};
 use crate::threads::Threads;
 use crate::tick::{Clock, Failure, TickAppExt, foresee_components, step};
-use crate::world::{Bodies, Name, packed};
+use crate::world::{Bodies, Name, atom, packed};
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
 #[derive(Clone, Debug, Default)]
@@ -271,7 +271,7 @@ pub(crate) fn begin(
 ) -> Result<u64, SceneErrors> {
     world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
     if let Some(factor) = overrides.stiffness {
-        contacts::stiffen(world, factor);
+        atom::stiffen(world, factor);
     }
     packed::rebuild(world);
     for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::flight::BOUND;
 use super::packed::Bodies;
 use crate::simd::{self, BLOCK, Kernel, Lanes, Record};
 
@@ -107,7 +108,7 @@ impl Land<'_> {
     pub fn some<V: Lanes>(&mut self, first: usize) -> f64 {
         let (mut time, mut places) = ([0.0; BLOCK], [0_u32; BLOCK]);
         for (lane, &since) in self.since[first..first + V::COUNT].iter().enumerate() {
-            let flown = if since == u32::MAX { -1.0 } else { f64::from(self.ticks - since) };
+            let flown = if since == BOUND { -1.0 } else { f64::from(self.ticks - since) };
             (time[lane], places[lane]) = (flown * self.air.dt, (first + lane) as u32);
         }
         let time = V::load(&time);

@@ -46,7 +46,7 @@ pub(crate) fn count_atoms(world: &mut World) -> usize {
     world.query_filtered::<(), With<Atom>>().iter(world).count()
 }
 
-/// Makes all atoms so many times as stiff.
+/// Makes all atoms so many times as stiff, and with them their contacts. To be done before the packed state is made.
 pub(crate) fn stiffen(world: &mut World, factor: f64) {
     let mut atoms = world.query::<(Entity, &Atom)>();
     let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });

@@ -19,7 +19,7 @@ use super::part::PerBody;
 use crate::simd::Record;
 
 /// For bodies that are bound, in place of the tick in which they took off.
-const BOUND: u32 = u32::MAX;
+pub(super) const BOUND: u32 = u32::MAX;
 
 /// Who flies, and since when.
 #[derive(Debug, Default)]

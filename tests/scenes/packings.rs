@@ -134,7 +134,7 @@ fn tables_that_are_wrong_are_told_with_line_and_column() {
 #[test]
 fn small_benchmarks_are_good_scenes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/benchmarks");
-    for (name, bodies) in [("dense_1k", 1000), ("gas_1k", 1000), ("pyramid", 210)] {
+    for (name, bodies) in [("dense_1k", 1000), ("gas_1k", 1000), ("pyramid", 210), ("few_awake", 10_000)] {
         let source = Source::read(&folder.join(format!("{name}.ron"))).unwrap_or_else(|errors| panic!("{errors}"));
         let simulation = Simulation::load(&source).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(simulation.bodies().len(), bodies, "{name}");

@@ -20,7 +20,8 @@ pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let error = card.energy_error();
-    if error <= UNACCOUNTED {
+    // Numbers so great that their share is none are told of as that.
+    if error.is_nan() || error <= UNACCOUNTED {
         return None;
     }
     let why = [ticks::brief_contact, ticks::far_travel_unseen].into_iter().find_map(|cause| cause(evidence));
