@@ -23,7 +23,7 @@ const RISEN: f64 = 1.05;
 /// Ticks per pair between two solutions otherwise.
 const TICKS_PER_PAIR: u64 = 32;
 
-/// Rounds in which the tick is sought where forces depend on velocities.
+/// Looks in which the tick is sought where forces depend on velocities, at most.
 const ROUNDS: usize = 12;
 
 /// What may be missing, as a share: a hundredth of what [`Springs::largest`] leaves out.
@@ -116,14 +116,11 @@ impl PenaltyContacts {
             watch.bound = watch.bound.max(bound.squared);
             let mut squared = watch.springs.largest();
             if N::DEPENDS_ON_VELOCITY || steady.is_some_and(SteadySprings::damped) {
-                // Damping counts by the tick that is sought; each round halves at least what is missing.
-                for _ in 0..ROUNDS {
-                    gather(&mut watch.springs, weight(squared.sqrt()));
-                    let before = std::mem::replace(&mut squared, watch.springs.largest());
-                    if (squared - before).abs() <= ENOUGH * squared {
-                        break;
-                    }
-                }
+                // Damping counts by the tick that is sought.
+                squared = frequency_squared((stability.limit / clock.dt, squared), |angular_frequency| {
+                    gather(&mut watch.springs, weight(angular_frequency));
+                    watch.springs.largest()
+                });
             }
             if squared > fastest * fastest {
                 let body = bodies.entity[bound.body];
@@ -178,9 +175,67 @@ impl PenaltyContacts {
     }
 }
 
+/// The square of the angular frequency at which springs respond, where damping stiffens them the more the faster they are: `looked` is a
+/// frequency for which damping was counted, in rad/s, with the square that was found then; `look` finds it for another one.
+///
+/// For a single spring the square is `k + c omega`, for many it is nearly so: the line through two looks tells where to look next.
+fn frequency_squared(looked: (f64, f64), mut look: impl FnMut(f64) -> f64) -> f64 {
+    let (mut before, mut squared_before) = looked;
+    let (mut now, mut squared) = (squared_before.sqrt(), squared_before);
+    for _ in 0..ROUNDS {
+        squared = look(now);
+        if (squared - now * now).abs() <= ENOUGH * squared {
+            break;
+        }
+        let damping = (squared - squared_before) / (now - before);
+        let stiffness = squared - damping * now;
+        let is_line = damping >= 0.0 && stiffness >= 0.0;
+        (before, squared_before) = (now, squared);
+        now = if is_line { 0.5 * (damping + (damping * damping + 4.0 * stiffness).sqrt()) } else { squared.sqrt() };
+    }
+    squared
+}
+
 impl PairLaw {
     /// Stiffness of the tangential spring in N/m, if there is friction that stretches it.
     fn held_across(&self) -> f64 {
         if self.friction_static > 0.0 || self.friction_dynamic > 0.0 { self.tangential_stiffness } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn how_damping_counts_is_found_in_few_looks() {
+        // One spring and a dashpot: omega^2 = k + c omega.
+        for (stiffness, damping) in [(1.0, 0.0), (1.0, 0.1), (4e6, 1e3), (1.0, 1.0), (1.0, 30.0)] {
+            let exact = 0.5 * (damping + f64::sqrt(damping * damping + 4.0 * stiffness));
+            for begin in [0.01 * exact, 3.0 * exact, 100.0 * exact] {
+                let mut looks = 0;
+                let found = frequency_squared((begin, stiffness + damping * begin), |angular_frequency| {
+                    looks += 1;
+                    stiffness + damping * angular_frequency
+                });
+                // What is missing is less than what the last two differ by.
+                assert!((found - exact * exact).abs() <= ENOUGH * found, "{stiffness} {damping}: {found}");
+                assert!(looks <= 2, "{looks} looks");
+            }
+        }
+        // The greatest of several such lines.
+        let several = |omega: f64| [(9.0, 0.5), (5.0, 2.0), (1.0, 4.0)].map(|(k, c)| k + c * omega);
+        for begin in [0.1, 3.0, 40.0] {
+            let mut looks = 0;
+            let mut look = |omega| {
+                looks += 1;
+                several(omega).into_iter().fold(0.0, f64::max)
+            };
+            let found = frequency_squared((begin, look(begin)), &mut look);
+            // omega^2 = 1 + 4 omega.
+            let exact = 2.0 + f64::sqrt(5.0);
+            assert!((found - exact * exact).abs() <= ENOUGH * found, "{found}");
+            assert!(looks <= 6, "{looks} looks");
+        }
     }
 }
