@@ -65,6 +65,11 @@ impl Sorted {
         Self { all, large, cells }
     }
 
+    /// The same for others to be looked for among it: without the list of all.
+    pub fn without_list(self) -> Self {
+        Self { all: Vec::new(), ..self }
+    }
+
     /// All pairs of atoms of different bodies that are nearer than the margin and do not both stand still, in canonical order.
     pub fn pairs(&self, bodies: &Bodies) -> Vec<AtomPair> {
         let among = self.cells.all_pairs(&bodies.threads, |a, b| moves(bodies, a, b));
