@@ -235,6 +235,7 @@ mod tests {
             // omega^2 = 1 + 4 omega.
             let exact = 2.0 + f64::sqrt(5.0);
             assert!((found - exact * exact).abs() <= ENOUGH * found, "{found}");
+            // Two on each of the lines lead to the next, or to the end.
             assert!(looks <= 6, "{looks} looks");
         }
     }

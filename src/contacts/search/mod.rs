@@ -4,7 +4,8 @@
 //! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. Of many atoms the
 //! pairs that touch as the list is made stand first, then those that nearly do, then the others, each group sorted: so the
 //! work on several pairs side by side is on pairs that touch, and those that are far are passed over together. When the list is made anew every pair that was in the old one is told
-//! its old place, so that whoever keeps history beside the list can carry it over.
+//! its old place, so that whoever keeps history beside the list can carry it over. Where most bodies sleep the list stays, unless
+//! those that are awake have come near to others (`still.rs`).
 
 mod at_start;
 mod cells;
