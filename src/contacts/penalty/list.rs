@@ -400,7 +400,7 @@ impl ContactList {
 
     /// Some blocks in a row in parts of so many; the last may have fewer.
     pub(super) fn parts(&mut self, range: Range<usize>, blocks: usize) -> impl Iterator<Item = ListPart<'_>> {
-        let (count, begin) = (range.len().div_ceil(blocks), range.start);
+        let (count, begin, end) = (range.len().div_ceil(blocks), range.start, range.end);
         let of = |len: usize| range.start.min(len)..range.end.min(len);
         let (law, damping) = (&self.law[of(self.law.len())], &self.damping[of(self.damping.len())]);
         let (looked_at, asleep) = (&self.looked_at[of(self.looked_at.len())], &self.asleep[of(self.asleep.len())]);
@@ -429,7 +429,8 @@ impl ContactList {
                 due: due.next().unwrap_or_default(),
                 looked_at: looked_at.next().unwrap_or_default(),
                 asleep: asleep.next().unwrap_or_default(),
-                awake: (some_asleep || sparse).then(|| &awake[place(first)..place(first + blocks)]),
+                // The last part may have fewer blocks, and others follow behind the range.
+                awake: (some_asleep || sparse).then(|| &awake[place(first)..place(end.min(first + blocks))]),
             }
         })
     }
@@ -478,6 +479,23 @@ impl Drop for Edited<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_block_that_needs_work_is_in_one_part() {
+        let mut list = ContactList::default();
+        list.resize(12 * BLOCK);
+        // All of block 4 sleeps. Seven blocks in parts of three: two blocks are missing of the last, and other blocks follow.
+        list.lay_asleep(|place| place / BLOCK == 4);
+        let parts = list.parts(1..8, 3);
+        let found: Vec<usize> = parts
+            .flat_map(|part| {
+                let own: Vec<usize> = (0..part.awake_blocks()).map(|number| part.awake_block(number)).collect();
+                assert!(own.iter().all(|block| *block < part.due.len()), "{own:?} of {}", part.due.len());
+                own.into_iter().map(move |block| part.first + block)
+            })
+            .collect();
+        assert_eq!(found, [1, 2, 3, 5, 6, 7]);
+    }
 
     #[test]
     fn contacts_come_back_as_they_were_put() {
