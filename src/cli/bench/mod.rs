@@ -28,7 +28,7 @@ pub(super) struct Bench {
     /// thousand discs
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Ticks of a round. Default: what takes about a fifth of a second, within the duration of the scene
+    /// Ticks of a round. Default: what takes about a fifth of a second, but at least 50, within the duration of the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     ticks: Option<u64>,
     /// Rounds that are timed. Default: 7, with --quick 3

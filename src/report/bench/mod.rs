@@ -26,11 +26,14 @@ use crate::tick::stopwatch::{self, Part, Stopwatch};
 const WORK: u64 = 2_000_000;
 /// The same where it has to be quick.
 const QUICK_WORK: u64 = 100_000;
+/// Ticks of a round at least, unless it has to be quick. A round begins and ends with the state in components: to take it out
+/// and to write it back takes as long as some five ticks of a million discs that hardly touch.
+const LEAST: u64 = 50;
 
 /// What is to be measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Order {
-    /// Ticks of a round; none: what takes a fifth of a second, within the duration of the scene.
+    /// Ticks of a round; none: what takes a fifth of a second, but [`LEAST`] at least, within the duration of the scene.
     pub ticks: Option<u64>,
     /// How many rounds are timed.
     pub rounds: u32,
@@ -43,8 +46,8 @@ pub struct Order {
 impl Order {
     /// Ticks of a round of a scene. They do not depend on how fast the computer is, so the state in the end does not either.
     pub fn ticks_of(&self, simulation: &Simulation) -> u64 {
-        let work = if self.quick { QUICK_WORK } else { WORK };
-        let cheap = work / simulation.bodies().atom_count().max(1) as u64;
+        let (work, least) = if self.quick { (QUICK_WORK, 1) } else { (WORK, LEAST) };
+        let cheap = (work / simulation.bodies().atom_count().max(1) as u64).max(least);
         let within = simulation.ticks().saturating_sub(self.first_tick(simulation)) / (u64::from(self.rounds) + 1);
         self.ticks.unwrap_or(cheap.min(within)).max(1)
     }
