@@ -96,6 +96,9 @@ pub trait Lanes:
         (second, [first[BLOCK - 2], first[BLOCK - 1]])
     }
 
+    /// Writes as many records to the beginning of a list: item `k` holds the `k`th number of each.
+    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]);
+
     /// The square root of each.
     fn sqrt(self) -> Self;
 

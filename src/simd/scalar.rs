@@ -68,6 +68,11 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
+    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]) {
+        records[0] = Record(numbers);
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }

@@ -24,6 +24,7 @@ impl Kernel for Everything<'_> {
         let pairs_of_records = twins.records(&records);
         let pairs: Vec<DVec2> = (0..BLOCK).map(|place| DVec2::new(self.numbers[place], self.others[place])).collect();
         let mut swapped = [DVec2::ZERO; BLOCK];
+        let mut written = [Record::default(); BLOCK];
         let mut lane = 0;
         while lane < BLOCK {
             let (a, b) = (V::load(&self.numbers[lane..]), V::load(&self.others[lane..]));
@@ -32,6 +33,7 @@ impl Kernel for Everything<'_> {
             let chosen = V::mask(0b1011_0010 >> lane);
             let both = V::load_pairs(&pairs[lane..]);
             V::store_pairs(both.1, both.0, &mut swapped[lane..]);
+            V::store_records(transposed, &mut written[lane..]);
             let made = [
                 a + b,
                 a - b,
@@ -67,7 +69,8 @@ impl Kernel for Everything<'_> {
             lane += V::COUNT;
         }
         let swapped = swapped.iter().flat_map(|pair| [pair.x, pair.y]);
-        let numbers = results.into_iter().flatten().chain(swapped).map(f64::to_bits);
+        let written = written.into_iter().flat_map(|record| record.0);
+        let numbers = results.into_iter().flatten().chain(swapped).chain(written).map(f64::to_bits);
         numbers.chain(bits.map(u64::from)).collect()
     }
 }

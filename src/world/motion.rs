@@ -54,6 +54,7 @@ impl Bodies {
             found(&advance);
         } else {
             self.each(advance, found);
+            self.recorded = !self.records.is_empty() && self.asleep.is_empty();
         }
         self.path += self.farthest_way(travel.greatest);
         self.add_flights(&mut travel, &mut weighed);
@@ -138,10 +139,11 @@ impl PerBody for Advance {
         let (u, v, spin) = (u + force_x * weight, v + force_y * weight, spin + torque * turning);
         V::store_pairs(u, v, &mut part.velocity[first..]);
         spin.store(&mut part.spin[first..]);
+        let mut seen = (u, v);
         if let Some(ahead) = self.ahead {
             let (weight, turning) = (inverse_mass * V::splat(ahead), inverse_inertia * V::splat(ahead));
-            let (u, v) = (u + force_x * weight, v + force_y * weight);
-            V::store_pairs(u, v, &mut part.estimated_velocity[first..]);
+            seen = (u + force_x * weight, v + force_y * weight);
+            V::store_pairs(seen.0, seen.1, &mut part.estimated_velocity[first..]);
             (spin + torque * turning).store(&mut part.estimated_spin[first..]);
         }
         let moves = inverse_mass.gt(V::splat(0.0));
@@ -160,6 +162,10 @@ impl PerBody for Advance {
         let (angle, rest) = compensated(angle, rest, turn);
         angle.store(&mut part.angle[first..]);
         rest.store(&mut part.angle_rest[first..]);
+        if !part.records.is_empty() {
+            let radius = V::load(&part.extent[first..]);
+            V::store_records([x, y, dx, dy, seen.0, seen.1, turn, radius], &mut part.records[first..]);
+        }
         if part.lone_discs {
             self.pose.forces(part, first, (x, y), moves);
         }

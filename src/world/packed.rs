@@ -16,7 +16,7 @@ use super::lone::{Surface, Surfaces};
 use super::material::MaterialIndex;
 use super::motion::Travel;
 use super::wall::Wall;
-use crate::simd::{BLOCK, Lanes, Level};
+use crate::simd::{BLOCK, Lanes, Level, Record};
 use crate::threads::Threads;
 
 /// A wall as contacts see it.
@@ -147,6 +147,11 @@ pub struct Bodies {
     /// How often bodies that were asleep have woken: as long as that is the same whoever was asleep stands where it stood.
     pub(crate) rousings: u64,
 
+    /// Lent by contacts that need all of them: what they have to know of each disc. Whoever moves all bodies fills them in on the way.
+    pub(crate) records: Vec<Record>,
+    /// They were filled in, with the present state.
+    pub(crate) recorded: bool,
+
     /// Forces are cleared and atoms stand where their bodies are: that was done when bodies were moved.
     pub(crate) posed: bool,
     /// Acceleration in m/s2 of a uniform field: forces are not cleared to nothing but to the weight in it.
@@ -185,6 +190,11 @@ impl Bodies {
     pub fn place(&self, entity: Entity) -> Option<usize> {
         let place = *self.places.get(entity.index_u32() as usize)? as usize;
         (self.entity.get(place) == Some(&entity)).then_some(place)
+    }
+
+    /// How many bodies move by forces.
+    pub fn dynamic_count(&self) -> usize {
+        if self.all_dynamic { self.len() } else { self.dynamic.iter().filter(|dynamic| **dynamic).count() }
     }
 
     /// Whether a body needs no work because it is at rest.
@@ -328,7 +338,7 @@ impl Bodies {
     /// Returns how far they went in the tick.
     pub fn prescribe(&mut self, begin: f64, time: f64) -> Travel {
         let prescribed = std::mem::take(&mut self.prescribed);
-        self.posed = false;
+        (self.posed, self.recorded) = (false, false);
         let mut travelled = Travel::default();
         for (body, motion) in &prescribed.motions {
             let (body, from, now) = (*body, motion.state(begin), motion.state(time));

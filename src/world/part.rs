@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec2;
 
 use super::packed::{Bodies, place_atoms};
-use crate::simd::{self, BLOCK, Kernel, Lanes};
+use crate::simd::{self, BLOCK, Kernel, Lanes, Record};
 
 /// Atoms, or bodies without, of the smallest part: with fewer it costs more to hand them out than they do.
 const FEWEST: usize = 16384;
@@ -42,6 +42,8 @@ pub(crate) struct Part<'a> {
     /// Empty where displacements are not listed.
     pub drift: &'a mut [DVec2],
     pub turn: &'a mut [f64],
+    /// Empty where nobody asks for them.
+    pub records: &'a mut [Record],
     pub force: &'a mut [DVec2],
     pub torque: &'a mut [f64],
     pub lone_discs: bool,
@@ -81,6 +83,7 @@ impl<'a> Part<'a> {
             estimated_spin: &mut bodies.estimated_spin,
             drift: &mut bodies.drift,
             turn: &mut bodies.turn,
+            records: &mut bodies.records,
             force: &mut bodies.force,
             torque: &mut bodies.torque,
             lone_discs: bodies.lone_discs,
@@ -115,6 +118,7 @@ impl<'a> Part<'a> {
             estimated_spin: cut(&mut self.estimated_spin, count),
             drift: cut(&mut self.drift, count),
             turn: cut(&mut self.turn, count),
+            records: cut(&mut self.records, count),
             force: cut(&mut self.force, count),
             torque: cut(&mut self.torque, count),
             lone_discs: self.lone_discs,

@@ -7,12 +7,13 @@ use super::Penalty;
 use super::contact::Losses;
 use super::critical::Watch;
 use super::follow::Touch;
-use super::kernel::{self, Moment, Records};
+use super::kernel::{self, Moment};
 use super::law::{LawTable, PairLaw, Side};
 use super::list::{ContactList, lanes};
 use super::meetings::Meetings;
 use super::normal::{Approach, Mode, NormalForce};
 use super::patience::Patience;
+use super::records::Records;
 use super::rest::{Rest, Sleep};
 use super::rolling::RollingContacts;
 use super::rows::Rows;
@@ -265,6 +266,7 @@ pub(super) fn apply<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     touches: Option<&mut Touches>,
 ) {
+    contacts.records.take_back(bodies);
     if contacts.version != pairs.version {
         carry_history::<N>(contacts, bodies, pairs);
         let PenaltyContacts { records, atoms, .. } = &mut *contacts;
@@ -296,7 +298,8 @@ pub(super) fn apply<N: NormalForce>(
     let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
     if !pairs.atoms.is_empty() {
         let bound = sink.bodies.flights.take_bound();
-        if !meetings.keep((sink.bodies, &bound), &pairs.atoms, atoms, &mut records.list) {
+        let some_fly = meetings.keep((sink.bodies, &bound), &pairs.atoms, atoms, &mut records.list);
+        if !some_fly {
             records.update(sink.bodies, &pairs.atoms, atoms, path);
         }
         let moment = Moment { path, time, elapsed };
@@ -309,6 +312,9 @@ pub(super) fn apply<N: NormalForce>(
             deepest,
             moment,
         );
+        if !some_fly {
+            records.lend(sink.bodies);
+        }
     }
     follow_walls::<N>((walls, &pairs.walls), laws, (&mut sink, &mut losses), deepest, Moment { path, time, elapsed });
     ledger.friction.add(losses.friction);

@@ -1,11 +1,10 @@
 //! The kernel of contacts between atoms: candidate pairs are followed eight at a time, as many side by side as the
 //! processor can, and their forces go to the bodies pair by pair in canonical order.
 //!
-//! What a pair needs to know of an atom stands in one [`Record`], a line of the cache: the sixteen lines of eight pairs are
-//! loaded and transposed in registers.
+//! What a pair needs to know of an atom stands in one [`Record`], a line of the cache ([`super::records`]): the sixteen lines of
+//! eight pairs are loaded and transposed in registers.
 
 use std::marker::PhantomData;
-use std::ops::Range;
 
 use glam::DVec2;
 
@@ -17,125 +16,10 @@ use super::law::{LawTable, PairLaw};
 use super::list::{ContactList, ListPart, Phases, lanes};
 use super::normal::{Approach, NormalForce};
 use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
-use crate::simd::{self, BLOCK, Kernel, Lanes, Level, PairedRecords, Pushes, Record};
+use crate::simd::{self, BLOCK, Kernel, Lanes, Level, PairBlock, PairedRecords, Pushes, Record};
 use crate::tick::Balance;
 use crate::world::Bodies;
 use crate::world::part::{cut, parts_of};
-
-/// What contacts need to know of each atom: place, displacement since the last accepted state, turn since then, radius and
-/// velocity.
-#[derive(Debug, Default)]
-pub(super) struct Records {
-    pub list: Vec<Record>,
-    /// The atoms that move and that some pair may need, in order; empty: all.
-    needed: Vec<u32>,
-    /// There are records of those alone, in their order.
-    sparse: bool,
-}
-
-impl Records {
-    /// Takes up new lists of pairs.
-    pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair], contacts: &mut ContactList) {
-        self.list.clear();
-        self.needed.clear();
-        let mut needed = vec![false; bodies.atom_count()];
-        for pair in pairs {
-            needed[pair.a as usize] = true;
-            needed[pair.b as usize] = true;
-        }
-        let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
-        let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
-        // Where most are needed, going by all in order is faster.
-        let few = 4 * count < 3 * needed.len();
-        if few || !bodies.lone_discs {
-            self.needed.reserve_exact(count);
-            self.needed.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
-        }
-        self.sparse = few && bodies.lone_discs && bodies.all_dynamic;
-        if self.sparse {
-            let mut place = vec![0; needed.len()];
-            self.needed.iter().zip(0..).for_each(|(&atom, number)| place[atom as usize] = number);
-            contacts.pairs.find_records(&place, count);
-            self.list.reserve_exact(count);
-            self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
-            return;
-        }
-        // Those of bodies that stand or are asleep are not filled in again.
-        self.list.reserve_exact(needed.len());
-        self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
-    }
-
-    /// Fills in the present state, as far as some pair has to be looked at; see [`FollowPairs::path`].
-    pub fn update(&mut self, bodies: &Bodies, pairs: &[AtomPair], list: &ContactList, path: f64) {
-        let is_due = |block: &usize| !list.is_early(*block, path);
-        let blocks = || (0..list.awake_blocks()).map(|number| list.awake_block(number)).filter(is_due);
-        let all = bodies.lone_discs && self.needed.is_empty();
-        let atoms = if all { self.list.len() } else { self.needed.len() };
-        if 2 * BLOCK * blocks().count() < atoms {
-            for first in blocks().map(|block| BLOCK * block) {
-                for (lane, pair) in pairs[first..pairs.len().min(first + BLOCK)].iter().enumerate() {
-                    let (a, b) = list.pairs.side(first / BLOCK).get(lane);
-                    self.list[a as usize] = record(bodies, pair.a as usize);
-                    self.list[b as usize] = record(bodies, pair.b as usize);
-                }
-            }
-            return;
-        }
-        let each = self.list.len().div_ceil(parts_of(atoms, FEWEST)).next_multiple_of(BLOCK);
-        let parts = self.list.chunks_mut(each).enumerate().map(|(number, part)| (number * each, part)).collect();
-        let (needed, sparse) = (&self.needed, self.sparse);
-        bodies.threads.each(parts, |(first, part): (usize, &mut [Record])| {
-            let atoms = first..first + part.len();
-            if all && bodies.asleep.is_empty() {
-                fill(bodies, atoms, part);
-            } else if all {
-                for number in bodies.awake_blocks_within(atoms) {
-                    let atoms = bodies.awake_block(number);
-                    fill(bodies, atoms.clone(), &mut part[atoms.start - first..atoms.end - first]);
-                }
-            } else if sparse {
-                for (own, &atom) in part.iter_mut().zip(&needed[atoms]) {
-                    *own = record(bodies, atom as usize);
-                }
-            } else {
-                let place = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
-                for &atom in &needed[place(atoms.start)..place(atoms.end)] {
-                    part[atom as usize - first] = record(bodies, atom as usize);
-                }
-            }
-        });
-    }
-}
-
-/// The records of lone discs in a row, as [`record`] makes them: lists are cut to them, so that places are looked at once.
-#[inline]
-fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
-    let Some((velocity, spin, time)) = bodies.drift_of(discs.clone()) else {
-        return discs.zip(records).for_each(|(disc, own)| *own = record(bodies, disc));
-    };
-    let count = records.len();
-    let (place, now) = (&bodies.position[discs.clone()][..count], &bodies.velocity[discs.clone()][..count]);
-    let (moves, radius) = (&bodies.moves[discs.clone()][..count], &bodies.atom_radius[discs][..count]);
-    let (velocity, spin) = (&velocity[..count], &spin[..count]);
-    for disc in 0..count {
-        let time = if moves[disc] { time } else { 0.0 };
-        let (place, now, moved, turn) = (place[disc], now[disc], velocity[disc] * time, spin[disc] * time);
-        records[disc] = Record([place.x, place.y, moved.x, moved.y, now.x, now.y, turn, radius[disc]]);
-    }
-}
-
-/// What contacts need to know of an atom at present.
-#[inline(always)]
-pub(super) fn record(bodies: &Bodies, atom: usize) -> Record {
-    if bodies.lone_discs {
-        let (place, velocity, radius) = (bodies.position[atom], bodies.velocity[atom], bodies.atom_radius[atom]);
-        let (moved, turn) = bodies.displacement(atom);
-        return Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, radius]);
-    }
-    let end = End::of(bodies, atom as u32);
-    let (place, (moved, turn), velocity) = (bodies.atom_place(atom), end.displacement(bodies), end.velocity(bodies));
-    Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, end.radius])
-}
 
 /// What else is to be known of an evaluation.
 #[derive(Clone, Copy)]
@@ -149,7 +33,7 @@ pub(super) struct Moment {
 }
 
 /// Pairs of the smallest part: with fewer it costs more to hand them out than they do.
-const FEWEST: usize = 16384;
+pub(super) const FEWEST: usize = 16384;
 
 /// All candidate pairs of atoms follow the motion of their sides, in parts if there are many. Each part gives forces to the
 /// bodies that stand first in its pairs; what is for others waits until all are done, and goes to them in the order of pairs.
@@ -172,7 +56,8 @@ pub(super) fn follow_pairs<N: NormalForce>(
     let start = Found { balance: *sink.balance, deepest: *deepest, ..Found::default() };
     let follow = |(list, share, found): (ListPart, Share, Found), forces: Option<&mut ContactForces>| {
         let (sides, law) = (list.pairs.records(records), PhantomData::<N>);
-        simd::run(level, FollowPairs { sides, list, laws, bodies, share, found, forces, plain, sparse, moment, law })
+        let pairs = Pairs { sides, list, laws, bodies, plain, sparse, moment, law };
+        simd::run(level, FollowPairs { pairs, share, found, forces })
     };
     let mut losses = Losses::default();
     if count == 1 {
@@ -246,14 +131,20 @@ struct Found {
 
 /// Pairs of a part follow the motion of their sides.
 struct FollowPairs<'a, N> {
+    pairs: Pairs<'a, N>,
+    share: Share<'a>,
+    found: Found,
+    forces: Option<&'a mut ContactForces>,
+}
+
+/// What the pairs of a part are followed with. Nothing takes it by reference that is not put in place: so the processor has its
+/// lists in registers.
+struct Pairs<'a, N> {
     sides: PairedRecords<'a>,
     list: ListPart<'a>,
     laws: &'a LawTable,
     /// Without forces: those are shared out.
     bodies: &'a Bodies,
-    share: Share<'a>,
-    found: Found,
-    forces: Option<&'a mut ContactForces>,
     /// Bodies are discs that move by forces, and nobody asks for single forces.
     plain: bool,
     /// Few pairs of each block have to be looked at, and others are left out.
@@ -323,63 +214,100 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
     type Output = Found;
 
     #[inline(always)]
-    fn run<V: Lanes>(mut self) -> Found {
-        match self.list.only_law {
-            Some(law) => self.all::<V, true>(&self.laws.lanes::<V>(&[law; BLOCK])),
-            None if self.list.phases.is_empty() => {}
-            None => self.all::<V, false>(&self.laws.lanes::<V>(&[0; BLOCK])),
+    fn run<V: Lanes>(self) -> Found {
+        let Pairs { list, laws, .. } = &self.pairs;
+        match list.only_law {
+            Some(law) => {
+                let law = laws.lanes::<V>(&[law; BLOCK]);
+                if self.pairs.plain && list.is_whole() {
+                    self.all::<V, true, true>(&law)
+                } else {
+                    self.all::<V, true, false>(&law)
+                }
+            }
+            None if list.phases.is_empty() => self.found,
+            None => {
+                let law = laws.lanes::<V>(&[0; BLOCK]);
+                self.all::<V, false, false>(&law)
+            }
         }
-        self.found
     }
 }
 
 impl<N: NormalForce> FollowPairs<'_, N> {
     /// Follows all pairs; `law` is that of all of them if there is only one.
     #[inline(always)]
-    fn all<V: Lanes, const ONE_LAW: bool>(&mut self, law: &PairLaw<V>) {
+    fn all<V: Lanes, const ONE_LAW: bool, const PLAIN: bool>(self, law: &PairLaw<V>) -> Found {
+        let Self { mut pairs, share: Share { first, force, torque }, mut found, mut forces } = self;
         let mut lost = PartialLosses::default();
         let mut pushes = Pushes::NONE;
         let mut ahead = [Geometry::default(); AHEAD];
-        let (blocks, mut number) = (self.list.awake_blocks(), 0);
+        let (blocks, mut number) = (if PLAIN { pairs.list.phases.len() } else { pairs.list.awake_blocks() }, 0);
         while number < blocks {
             let together = AHEAD.min(blocks - number);
             let mut near = 0;
             for _ in 0..together {
-                let block = self.list.awake_block(number);
+                let block = if PLAIN { number } else { pairs.list.awake_block(number) };
                 number += 1;
                 // Nobody can have come near since it was looked at last.
-                if self.list.is_early(block, self.moment.path) {
+                if pairs.list.is_early(block, pairs.moment.path) {
                     continue;
                 }
-                self.sides.fetch(self.list.first + block + FETCHED);
-                self.look::<V>(block, &mut ahead[near]);
+                pairs.sides.fetch(pairs.list.first + block + FETCHED);
+                pairs.look::<V, PLAIN>(block, &mut ahead[near]);
                 near += usize::from(ahead[near].among != 0);
             }
             for geometry in &ahead[..near] {
-                let (mut lane, mut touching) = (0, 0);
+                let (mut lane, mut touching, mut deeper) = (0, 0, 0);
+                let deepest = found.deepest.share;
                 while lane < BLOCK {
-                    if !(self.sparse && none_of::<V>(geometry.among, lane)) {
-                        touching |= self.follow::<V, ONE_LAW>(lane, geometry, law, &mut pushes, &mut lost) << lane;
+                    if PLAIN || !(pairs.sparse && none_of::<V>(geometry.among, lane)) {
+                        let (touch, deep) =
+                            pairs.follow::<V, ONE_LAW>(lane, geometry, law, deepest, &mut pushes, &mut lost);
+                        touching |= touch << lane;
+                        deeper |= deep << lane;
                     }
                     lane += V::COUNT;
                 }
-                if touching != 0 {
-                    self.push(geometry, touching, &pushes);
+                let block = geometry.block;
+                let sides = pairs.sides.pairs(pairs.list.first + block);
+                if deeper != 0 {
+                    let overlaps = pairs.list.histories[block].overlap;
+                    note_deepest(&mut found.deepest, pairs.bodies, sides, deeper, overlaps, pairs.moment.time);
+                }
+                if touching == 0 {
+                    continue;
+                }
+                let share = Share { first, force: &mut *force, torque: &mut *torque };
+                if !PLAIN && !pairs.plain {
+                    let laws = (pairs.laws, pairs.list.law[block], pairs.list.histories[block].overlap);
+                    let sink = (share, &mut found, forces.as_deref_mut());
+                    push_and_account(pairs.bodies, sides, geometry, touching, &pushes, laws, sink);
+                    continue;
+                }
+                // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
+                let lanes = if touching.count_ones() >= FULL && (PLAIN || !pairs.sparse) { u8::MAX } else { touching };
+                let Share { first, force, torque } = share;
+                if !pushes.give(&pairs.sides, pairs.list.first + block, lanes, (first, force, torque)) {
+                    push_among_parts(Share { first, force, torque }, &mut found, sides, touching, &pushes);
                 }
             }
         }
         let sum = |partial: &[f64; BLOCK]| partial.iter().fold(0.0, |sum, part| sum + part);
-        self.found.losses = Losses { friction: sum(&lost.friction), inelasticity: sum(&lost.inelasticity) };
+        found.losses = Losses { friction: sum(&lost.friction), inelasticity: sum(&lost.inelasticity) };
+        found
     }
+}
 
+impl<N: NormalForce> Pairs<'_, N> {
     /// Finds out where the sides of the pairs of a block are.
     #[inline(always)]
-    fn look<V: Lanes>(&mut self, block: usize, geometry: &mut Geometry) {
-        let (there, touched) = (self.list.awake_in(block), self.list.phases[block].touching());
-        (geometry.block, geometry.among) = (block, 0);
+    fn look<V: Lanes, const PLAIN: bool>(&mut self, block: usize, geometry: &mut Geometry) {
+        let there = if PLAIN { self.list.there_in(block) } else { self.list.awake_in(block) };
+        let (touched, mut among) = (self.list.phases[block].touching(), 0);
         let mut lane = 0;
         while lane < BLOCK {
-            if self.sparse && none_of::<V>(there, lane) {
+            if !PLAIN && self.sparse && none_of::<V>(there, lane) {
                 lane += V::COUNT;
                 continue;
             }
@@ -390,7 +318,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             // Written so that what is no number counts as near.
             let away = !squared.lt(reach * reach) & squared.lt(V::splat(f64::INFINITY));
             let near = V::mask((there & touched) >> lane) | (V::mask(there >> lane) & !away);
-            geometry.among |= (V::bits(near) & lanes_of::<V>()) << lane;
+            among |= (V::bits(near) & lanes_of::<V>()) << lane;
             let distance = squared.sqrt();
             let inverse = V::splat(1.0) / distance;
             // Centres in one place have no direction: up is as good as any.
@@ -412,8 +340,9 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             }
             lane += V::COUNT;
         }
+        (geometry.block, geometry.among) = (block, among);
         self.list.due[block] = f64::NEG_INFINITY;
-        if geometry.among == 0 {
+        if among == 0 {
             // Both sides may come nearer.
             let mut gap = f64::INFINITY;
             for lane in 0..self.list.count_in(block) {
@@ -430,9 +359,10 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         lane: usize,
         geometry: &Geometry,
         only: &PairLaw<V>,
+        deepest: f64,
         pushes: &mut Pushes,
         lost: &mut PartialLosses,
-    ) -> u8 {
+    ) -> (u8, u8) {
         let block = geometry.block;
         let phases = self.list.phases[block];
         let among = V::mask(geometry.among >> lane);
@@ -488,7 +418,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         let pushing = (contacts.loading | contacts.unloading) & among;
         let touching = V::bits(pushing) & lanes_of::<V>();
         let smaller = V::select(radius.0.lt(radius.1), radius.0, radius.1);
-        let deeper = V::bits(contacts.overlap.gt(V::splat(self.found.deepest.share) * smaller)) & touching;
+        let deeper = V::bits(contacts.overlap.gt(V::splat(deepest) * smaller)) & touching;
         let (normal_force, tangential) = (contacts.normal_force, contacts.tangential_force(&law));
         let arm_a = radius.0 - law.share_a * contacts.overlap;
         let arm_b = radius.1 - law.share_b * contacts.overlap;
@@ -496,10 +426,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         V::store_pairs(x.only(pushing), y.only(pushing), &mut pushes.force[lane..]);
         (arm_a * tangential).only(pushing).store(&mut pushes.torque_first[lane..]);
         (arm_b * tangential).only(pushing).store(&mut pushes.torque_second[lane..]);
-        if deeper != 0 {
-            self.note_deepest(block, deeper << lane);
-        }
-        touching
+        (touching, deeper)
     }
 
     /// Relative velocity along the normal that an impulse of one newton second makes, in 1/kg.
@@ -517,73 +444,72 @@ impl<N: NormalForce> FollowPairs<'_, N> {
         }
         V::load(&mobility)
     }
+}
 
-    #[cold]
-    fn note_deepest(&mut self, block: usize, deeper: u8) {
-        let pairs = self.sides.pairs(self.list.first + block);
-        for lane in lanes(deeper) {
-            let (a, b) = pairs.get(lane);
-            let (a, b) = (End::of(self.bodies, a), End::of(self.bodies, b));
-            let (entity, overlap) = (&self.bodies.entity, self.list.histories[block].overlap[lane]);
-            self.found
-                .deepest
-                .note(overlap, a.radius.min(b.radius), self.moment.time, || (entity[a.body], entity[b.body]));
-        }
+#[cold]
+fn note_deepest(
+    deepest: &mut DeepestOverlap,
+    bodies: &Bodies,
+    sides: &PairBlock,
+    deeper: u8,
+    overlaps: [f64; BLOCK],
+    time: f64,
+) {
+    for lane in lanes(deeper) {
+        let (a, b) = sides.get(lane);
+        let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+        let entity = &bodies.entity;
+        deepest.note(overlaps[lane], a.radius.min(b.radius), time, || (entity[a.body], entity[b.body]));
     }
+}
 
-    /// Forces of a block go to the bodies, one pair after the other.
-    #[inline(always)]
-    fn push(&mut self, geometry: &Geometry, touching: u8, pushes: &Pushes) {
-        if !self.plain {
-            return self.push_and_account(geometry, touching, pushes);
-        }
-        // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
-        let lanes = if touching.count_ones() >= FULL && !self.sparse { u8::MAX } else { touching };
-        let Share { first, force, torque } = &mut self.share;
-        if !pushes.give(&self.sides, self.list.first + geometry.block, lanes, (*first, force, torque)) {
-            self.push_among_parts(geometry.block, touching, pushes);
-        }
+/// Forces of a block go to the bodies, one pair after the other, where some side stands in another part.
+#[cold]
+fn push_among_parts(mut share: Share, found: &mut Found, sides: &PairBlock, touching: u8, pushes: &Pushes) {
+    for lane in lanes(touching) {
+        let ((a, b), force) = (sides.get(lane), pushes.force[lane]);
+        share.give(found, a, -force, pushes.torque_first[lane]);
+        share.give(found, b, force, pushes.torque_second[lane]);
     }
+}
 
-    /// The same where some side stands in another part.
-    #[cold]
-    fn push_among_parts(&mut self, block: usize, touching: u8, pushes: &Pushes) {
-        for lane in lanes(touching) {
-            let ((a, b), force) = (self.sides.pairs(self.list.first + block).get(lane), pushes.force[lane]);
-            self.give(a, -force, pushes.torque_first[lane]);
-            self.give(b, force, pushes.torque_second[lane]);
-        }
-    }
-
+impl Share<'_> {
     /// A body of the part gets a force and a torque at once, one of another part later.
-    fn give(&mut self, body: u32, force: DVec2, torque: f64) {
-        let own = (body as usize).wrapping_sub(self.share.first);
-        if let (Some(forces), Some(torques)) = (self.share.force.get_mut(own), self.share.torque.get_mut(own)) {
+    fn give(&mut self, found: &mut Found, body: u32, force: DVec2, torque: f64) {
+        let own = (body as usize).wrapping_sub(self.first);
+        if let (Some(forces), Some(torques)) = (self.force.get_mut(own), self.torque.get_mut(own)) {
             *forces += force;
             *torques += torque;
         } else {
-            self.found.others.push((body, force, torque));
+            found.others.push((body, force, torque));
         }
     }
+}
 
-    /// The same where bodies have several atoms, where some do not move by forces, or where somebody asks for forces.
-    fn push_and_account(&mut self, geometry: &Geometry, touching: u8, pushes: &Pushes) {
-        let (block, bodies) = (geometry.block, self.bodies);
-        for lane in lanes(touching) {
-            let (force, (a, b)) = (pushes.force[lane], self.sides.pairs(self.list.first + block).get(lane));
-            let (a, b) = (a as usize, b as usize);
-            let (body_a, body_b) = (bodies.atom_body(a), bodies.atom_body(b));
-            let (arm_a, arm_b) =
-                (bodies.atom_place(a) - bodies.position[body_a], bodies.atom_place(b) - bodies.position[body_b]);
-            self.give(body_a as u32, -force, pushes.torque_first[lane] - arm_a.perp_dot(force));
-            self.give(body_b as u32, force, pushes.torque_second[lane] + arm_b.perp_dot(force));
-            if self.forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
-                let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
-                let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
-                let law = self.laws.get(self.list.law[block][lane]);
-                let arms = arms(ends, normal, self.list.histories[block].overlap[lane], law);
-                account(bodies, (&mut self.found.balance, self.forces.as_deref_mut()), ends, arms, force);
-            }
+/// The same where bodies have several atoms, where some do not move by forces, or where somebody asks for forces.
+#[inline(never)]
+fn push_and_account(
+    bodies: &Bodies,
+    sides: &PairBlock,
+    geometry: &Geometry,
+    touching: u8,
+    pushes: &Pushes,
+    (laws, law, overlaps): (&LawTable, [u32; BLOCK], [f64; BLOCK]),
+    (mut share, found, mut forces): (Share, &mut Found, Option<&mut ContactForces>),
+) {
+    for lane in lanes(touching) {
+        let (force, (a, b)) = (pushes.force[lane], sides.get(lane));
+        let (a, b) = (a as usize, b as usize);
+        let (body_a, body_b) = (bodies.atom_body(a), bodies.atom_body(b));
+        let (arm_a, arm_b) =
+            (bodies.atom_place(a) - bodies.position[body_a], bodies.atom_place(b) - bodies.position[body_b]);
+        share.give(found, body_a as u32, -force, pushes.torque_first[lane] - arm_a.perp_dot(force));
+        share.give(found, body_b as u32, force, pushes.torque_second[lane] + arm_b.perp_dot(force));
+        if forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
+            let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
+            let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
+            let arms = arms(ends, normal, overlaps[lane], laws.get(law[lane]));
+            account(bodies, (&mut found.balance, forces.as_deref_mut()), ends, arms, force);
         }
     }
 }

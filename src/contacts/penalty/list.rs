@@ -369,6 +369,17 @@ impl ListPart<'_> {
         BLOCK.min(self.len - BLOCK * (self.first + block))
     }
 
+    /// Whether all have to be looked at.
+    pub fn is_whole(&self) -> bool {
+        self.asleep.is_empty() && self.looked_at.is_empty() && self.awake.is_none()
+    }
+
+    /// Which contacts of a block are there.
+    #[inline(always)]
+    pub fn there_in(&self, block: usize) -> u8 {
+        there(self.count_in(block))
+    }
+
     /// Which contacts of a block are there, not asleep, and have to be looked at.
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {

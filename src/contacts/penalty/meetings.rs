@@ -7,8 +7,8 @@
 
 use bevy_ecs::prelude::*;
 
-use super::kernel::record;
 use super::list::ContactList;
+use super::records::record;
 use crate::contacts::AtomPair;
 use crate::simd::{BLOCK, Record};
 use crate::tick::Clock;

@@ -20,6 +20,7 @@ mod meetings;
 mod modes;
 pub mod normal;
 mod patience;
+mod records;
 mod rest;
 pub mod rolling;
 mod rolling_stages;

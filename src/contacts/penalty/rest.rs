@@ -17,6 +17,9 @@ use crate::world::Bodies;
 /// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
 const IMBALANCE: f64 = 1e-9;
 
+/// Bodies among which one at least has to sleep for all of them to be asked whether they do.
+const FEWEST: usize = 16;
+
 /// A body at rest.
 #[derive(Clone, Copy, Debug)]
 struct Resting {
@@ -134,7 +137,7 @@ impl Rest {
             }
             stays
         });
-        if self.resting.len() == bodies.dynamic.iter().filter(|dynamic| **dynamic).count() {
+        if self.resting.len() == bodies.dynamic_count() {
             // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
             (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
         }
@@ -170,12 +173,12 @@ impl PenaltyContacts {
         let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
         let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
         let mut asleep = vec![0_u8; bodies.len().div_ceil(BLOCK)];
-        let mut any = false;
+        let mut count = 0;
         for resting in sleepers.filter(|_| known) {
             asleep[resting.body / BLOCK] |= 1 << (resting.body % BLOCK);
-            any = true;
+            count += 1;
         }
-        if !any {
+        if count == 0 || FEWEST * count < bodies.len() {
             bodies.wake_all();
             atoms.wake_all();
             walls.wake_all();

@@ -1,0 +1,250 @@
+//! Eight lanes, with AVX-512.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use glam::DVec2;
+
+use super::{F64x4, last_two_of, operators, store_pair};
+use crate::simd::{BLOCK, Lanes, Record};
+
+/// Eight numbers.
+#[derive(Clone, Copy)]
+pub struct F64x8(__m512d);
+
+/// Eight times yes or no.
+#[derive(Clone, Copy)]
+pub struct Bits8(u8);
+
+operators!(F64x8: Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd);
+
+impl F64x8 {
+    #[inline(always)]
+    fn flip(self, signs: Self) -> Self {
+        // SAFETY: see the head of the folder.
+        Self(unsafe { _mm512_xor_pd(self.0, signs.0) })
+    }
+}
+
+impl BitAnd for Bits8 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl BitOr for Bits8 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl Not for Bits8 {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+impl F64x8 {
+    /// The first six numbers less those of another.
+    #[inline(always)]
+    fn less_in_six(self, other: Self) -> Self {
+        // SAFETY: see the head of the folder.
+        Self(unsafe { _mm512_mask_sub_pd(self.0, 0b0011_1111, self.0, other.0) })
+    }
+
+    /// The last two numbers of four records: those at the first place of a list, the third, the fifth and the seventh.
+    ///
+    /// # Safety
+    /// The places are those of records.
+    #[inline(always)]
+    unsafe fn last_two(records: &[Record], places: &[u32]) -> __m512d {
+        // SAFETY: as the caller promises; a record has two numbers from the seventh on.
+        unsafe {
+            let quarter = _mm512_castpd128_pd512(last_two_of(records, places[0]));
+            let half = _mm512_insertf64x2::<1>(quarter, last_two_of(records, places[2]));
+            let three = _mm512_insertf64x2::<2>(half, last_two_of(records, places[4]));
+            _mm512_insertf64x2::<3>(three, last_two_of(records, places[6]))
+        }
+    }
+
+    /// A transposition of eight lines: pairs of numbers within quarters, then quarters, then halves.
+    #[inline(always)]
+    fn transposed(rows: [Self; BLOCK]) -> [Self; BLOCK] {
+        let [a, b, c, d, e, f, g, h] =
+            [rows[0].0, rows[1].0, rows[2].0, rows[3].0, rows[4].0, rows[5].0, rows[6].0, rows[7].0];
+        // SAFETY: see the head of the folder.
+        unsafe {
+            let (even_ab, odd_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+            let (even_cd, odd_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
+            let (even_ef, odd_ef) = (_mm512_unpacklo_pd(e, f), _mm512_unpackhi_pd(e, f));
+            let (even_gh, odd_gh) = (_mm512_unpacklo_pd(g, h), _mm512_unpackhi_pd(g, h));
+            // Quarters 0 and 2, then quarters 1 and 3, of two pairs of rows each.
+            let even_02 = _mm512_shuffle_f64x2::<0x88>(even_ab, even_cd);
+            let even_02_too = _mm512_shuffle_f64x2::<0x88>(even_ef, even_gh);
+            let even_13 = _mm512_shuffle_f64x2::<0xdd>(even_ab, even_cd);
+            let even_13_too = _mm512_shuffle_f64x2::<0xdd>(even_ef, even_gh);
+            let odd_02 = _mm512_shuffle_f64x2::<0x88>(odd_ab, odd_cd);
+            let odd_02_too = _mm512_shuffle_f64x2::<0x88>(odd_ef, odd_gh);
+            let odd_13 = _mm512_shuffle_f64x2::<0xdd>(odd_ab, odd_cd);
+            let odd_13_too = _mm512_shuffle_f64x2::<0xdd>(odd_ef, odd_gh);
+            [
+                Self(_mm512_shuffle_f64x2::<0x88>(even_02, even_02_too)),
+                Self(_mm512_shuffle_f64x2::<0x88>(odd_02, odd_02_too)),
+                Self(_mm512_shuffle_f64x2::<0x88>(even_13, even_13_too)),
+                Self(_mm512_shuffle_f64x2::<0x88>(odd_13, odd_13_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(even_02, even_02_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(odd_02, odd_02_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(even_13, even_13_too)),
+                Self(_mm512_shuffle_f64x2::<0xdd>(odd_13, odd_13_too)),
+            ]
+        }
+    }
+}
+
+impl Lanes for F64x8 {
+    const COUNT: usize = 8;
+    type Half = F64x4;
+    type Mask = Bits8;
+
+    #[inline(always)]
+    fn splat(number: f64) -> Self {
+        // SAFETY: see the head of the folder.
+        Self(unsafe { _mm512_set1_pd(number) })
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[f64]) -> Self {
+        let numbers = &numbers[..Self::COUNT];
+        // SAFETY: as many numbers stand there.
+        Self(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [f64]) {
+        let numbers = &mut numbers[..Self::COUNT];
+        // SAFETY: there is room for as many.
+        unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
+    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
+        let row = |lane: usize| Self::load(&records[places[lane] as usize].0);
+        Self::transposed([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+    }
+
+    #[inline(always)]
+    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]) {
+        let records = &mut records[..Self::COUNT];
+        for pair in 0..BLOCK / 2 {
+            let (a, b) = (numbers[2 * pair].0, numbers[2 * pair + 1].0);
+            // SAFETY: see the head of the folder.
+            unsafe {
+                let (even, odd) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+                store_pair(_mm512_castpd512_pd128(even), &mut records[0], pair);
+                store_pair(_mm512_castpd512_pd128(odd), &mut records[1], pair);
+                store_pair(_mm512_extractf64x2_pd::<1>(even), &mut records[2], pair);
+                store_pair(_mm512_extractf64x2_pd::<1>(odd), &mut records[3], pair);
+                store_pair(_mm512_extractf64x2_pd::<2>(even), &mut records[4], pair);
+                store_pair(_mm512_extractf64x2_pd::<2>(odd), &mut records[5], pair);
+                store_pair(_mm512_extractf64x2_pd::<3>(even), &mut records[6], pair);
+                store_pair(_mm512_extractf64x2_pd::<3>(odd), &mut records[7], pair);
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
+        let (first, second) = (&first[..BLOCK], &second[..BLOCK]);
+        let mut rows = [Self::splat(0.0); BLOCK];
+        let mut lane = 0;
+        // SAFETY: the places are those of records, as the caller promises; see the head of the folder.
+        unsafe {
+            while lane < BLOCK {
+                let own = Self::load(&records.get_unchecked(first[lane] as usize).0);
+                rows[lane] = Self::load(&records.get_unchecked(second[lane] as usize).0).less_in_six(own);
+                lane += 1;
+            }
+            let (even, odd) = (Self::last_two(records, first), Self::last_two(records, &first[1..]));
+            let rest = [Self(_mm512_unpacklo_pd(even, odd)), Self(_mm512_unpackhi_pd(even, odd))];
+            (Self::transposed(rows), rest)
+        }
+    }
+
+    #[inline(always)]
+    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
+        let pairs = &pairs[..Self::COUNT];
+        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
+        unsafe {
+            let place = pairs.as_ptr().cast::<f64>();
+            let (low, high) = (_mm512_loadu_pd(place), _mm512_loadu_pd(place.add(8)));
+            let first = _mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0);
+            let second = _mm512_set_epi64(15, 13, 11, 9, 7, 5, 3, 1);
+            (Self(_mm512_permutex2var_pd(low, first, high)), Self(_mm512_permutex2var_pd(low, second, high)))
+        }
+    }
+
+    #[inline(always)]
+    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
+        let pairs = &mut pairs[..Self::COUNT];
+        // SAFETY: likewise.
+        unsafe {
+            let place = pairs.as_mut_ptr().cast::<f64>();
+            let low = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0);
+            let high = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
+            _mm512_storeu_pd(place, _mm512_permutex2var_pd(first.0, low, second.0));
+            _mm512_storeu_pd(place.add(8), _mm512_permutex2var_pd(first.0, high, second.0));
+        }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see the head of the folder.
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm512_andnot_pd(Self::splat(-0.0).0, self.0) })
+    }
+
+    #[inline(always)]
+    fn at_least_zero(self) -> Self {
+        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        Self(unsafe { _mm512_max_pd(self.0, Self::splat(0.0).0) })
+    }
+
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm512_or_pd(self.abs().0, _mm512_and_pd(sign.0, Self::splat(-0.0).0)) })
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> Bits8 {
+        // SAFETY: likewise.
+        Bits8(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn mask(bits: u8) -> Bits8 {
+        Bits8(bits)
+    }
+
+    #[inline(always)]
+    fn bits(mask: Bits8) -> u8 {
+        mask.0
+    }
+
+    #[inline(always)]
+    fn select(mask: Bits8, yes: Self, no: Self) -> Self {
+        // SAFETY: likewise.
+        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}

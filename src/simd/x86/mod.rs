@@ -1,0 +1,89 @@
+//! Two, four and eight lanes on x86-64.
+//!
+//! Each operation is one instruction of the processor. The types are made only inside [`super::run`], which has looked
+//! whether the instructions are there; that is what makes the calls below sound.
+
+mod eight;
+mod four;
+mod two;
+
+use std::arch::x86_64::{__m128d, _mm_loadu_pd, _mm_storeu_pd};
+
+use super::{BLOCK, Record};
+
+pub use eight::F64x8;
+pub use four::F64x4;
+pub use two::F64x2;
+
+macro_rules! operators {
+    ($name:ident: $($operation:ident $method:ident $instruction:ident),*) => {
+        $(impl $operation for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the head of the folder.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        })*
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.flip(Self::splat(-0.0))
+            }
+        }
+    };
+}
+
+/// Masks that are numbers with all bits set or none.
+macro_rules! bit_operators {
+    ($name:ident, $and:ident, $or:ident, $xor:ident, $all:expr) => {
+        impl BitAnd for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn bitand(self, other: Self) -> Self {
+                // SAFETY: see the head of the folder.
+                Self(unsafe { $and(self.0, other.0) })
+            }
+        }
+
+        impl BitOr for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn bitor(self, other: Self) -> Self {
+                // SAFETY: see the head of the folder.
+                Self(unsafe { $or(self.0, other.0) })
+            }
+        }
+
+        impl Not for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                // SAFETY: see the head of the folder.
+                Self(unsafe { $xor(self.0, $all) })
+            }
+        }
+    };
+}
+
+use {bit_operators, operators};
+
+/// The last two numbers of a record.
+///
+/// # Safety
+/// The place is that of a record.
+#[inline(always)]
+unsafe fn last_two_of(records: &[Record], place: u32) -> __m128d {
+    // SAFETY: as the caller promises; a record has two numbers from the seventh on.
+    unsafe { _mm_loadu_pd(records.get_unchecked(place as usize).0.as_ptr().add(BLOCK - 2)) }
+}
+
+/// Writes two numbers of a record, one of the four pairs that make it.
+#[inline(always)]
+fn store_pair(numbers: __m128d, record: &mut Record, pair: usize) {
+    let pair = &mut record.0[2 * pair..2 * pair + 2];
+    // SAFETY: each x86-64 processor has SSE2; there is room for two.
+    unsafe { _mm_storeu_pd(pair.as_mut_ptr(), numbers) };
+}
