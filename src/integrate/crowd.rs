@@ -7,7 +7,7 @@
 //! are tried again. Each try that ends in a crowd doubles the stretch until the next, so that trying costs little.
 
 use super::{Integrator, VelocityVerlet};
-use crate::tick::{Models, Responses, Tick};
+use crate::tick::Tick;
 
 /// Events that may be located in one tick after quiet ones.
 const MOST_EVENTS: u32 = 64;
@@ -55,8 +55,8 @@ impl Crowd {
     }
 
     /// Whether a model says that what it holds is too much, or this many events of the tick are.
-    pub fn comes(&self, tick: &Tick, events: u32) -> bool {
-        events >= self.credit || crowded(tick)
+    pub fn comes(&self, tick: &mut Tick, events: u32) -> bool {
+        events >= self.credit || tick.is_crowded()
     }
 
     /// Whether so many indicators may vanish in a step.
@@ -82,8 +82,8 @@ impl Crowd {
     }
 
     /// Whether events may be tried again in the tick to come. A stretch whose contacts are too many as they are goes on.
-    pub fn ends(&mut self, tick: &Tick) -> bool {
-        if crowded(tick) {
+    pub fn ends(&mut self, tick: &mut Tick) -> bool {
+        if tick.is_crowded() {
             self.left = self.next;
         }
         self.left == 0
@@ -99,7 +99,7 @@ impl Crowd {
     pub fn advance(&mut self, tick: &mut Tick, from: f64) {
         self.left = self.left.saturating_sub(1);
         let (until, length) = (tick.end, tick.end - from);
-        let fastest = Responses::of(tick.world).fastest.map_or(0.0, |fastest| fastest.angular_frequency);
+        let fastest = tick.responses().fastest.map_or(0.0, |fastest| fastest.angular_frequency);
         let parts = (length * fastest / FINE).ceil().max(1.0);
         let mut begin = from;
         let mut part = 0.0;
@@ -113,8 +113,4 @@ impl Crowd {
             begin = end;
         }
     }
-}
-
-fn crowded(tick: &Tick) -> bool {
-    tick.world.resource::<Models>().crowds.iter().any(|crowded| crowded(tick.world))
 }

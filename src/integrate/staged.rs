@@ -16,7 +16,6 @@ use super::inside::Inside;
 use super::locate::{Bracket, Moment};
 use super::steps::{Flow, OneStep, Start};
 use super::whole::Whole;
-use crate::bounds::Bounds;
 use crate::tick::{Evaluation, Indicator, Style, Tick, WorldFlow};
 use crate::world::Bodies;
 
@@ -174,7 +173,7 @@ impl Staged {
     }
 
     /// Takes up the present state; what rounding left over is kept where it is the one that was left.
-    fn take_up(&mut self, flow: &WorldFlow) {
+    fn take_up(&mut self, flow: &mut WorldFlow) {
         let before = std::mem::take(&mut self.state);
         flow.read(&mut self.state);
         self.rest.resize(self.state.len(), 0.0);
@@ -340,7 +339,7 @@ impl Staged {
         let edge = tick.next_edge(now);
         let end = match &self.control {
             // A prescribed motion is told from tick to tick.
-            Some(control) if tick.world.resource::<Bodies>().prescribed.motions.is_empty() => now + control.longest(),
+            Some(control) if tick.held::<Bodies>().prescribed.motions.is_empty() => now + control.longest(),
             Some(_) => tick.end,
             None if part + 1 >= self.parts => tick.end,
             None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
@@ -392,7 +391,7 @@ impl Staged {
     fn resume(&mut self, tick: &mut Tick) -> Option<Made> {
         let made = self.under_way.take()?;
         let fresh = tick.is_fresh();
-        let flow = WorldFlow::new(tick);
+        let mut flow = WorldFlow::new(tick);
         let mut now = Vec::new();
         flow.read(&mut now);
         let accounts = flow.places_of_accounts().start;
@@ -401,7 +400,7 @@ impl Staged {
             return Some(made);
         }
         self.forget();
-        if tick.world.resource::<Evaluation>().stale {
+        if tick.held::<Evaluation>().stale {
             tick.evaluate_stage(tick.begin);
         }
         None
@@ -410,8 +409,8 @@ impl Staged {
 
 /// The longest step in s that is worth trying where there are many to be hit.
 fn longest_among_many(flow: &WorldFlow) -> f64 {
-    let bodies = flow.tick.world.resource::<Bodies>();
-    if bodies.atom_count() <= MANY_ATOMS || !flow.tick.world.contains_resource::<Bounds>() {
+    let bodies: &Bodies = flow.tick.held();
+    if bodies.atom_count() <= MANY_ATOMS || flow.tick.bounds().is_none() {
         return f64::INFINITY;
     }
     let (reach, way) = (flow.reach(), MOST_RADII * bodies.smallest_radius);
@@ -449,11 +448,15 @@ impl Integrator for Staged {
         }
     }
 
+    fn is_direct(&self) -> bool {
+        self.whole.as_ref().is_none_or(Whole::is_direct)
+    }
+
     fn advance(&mut self, tick: &mut Tick) {
         if !self.crowd.follows() && self.whole.as_mut().is_some_and(|whole| whole.advance(tick)) {
             return self.crowd.stays_away(0);
         }
-        let bodies = tick.world.resource::<Bodies>();
+        let bodies = tick.bodies();
         self.work.from.clear();
         self.work.from.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
         let (mut now, end) = (tick.begin, tick.end);
@@ -474,7 +477,7 @@ impl Integrator for Staged {
                     let (until, at_edge) = self.target(tick, now, part);
                     tick.choose_modes(now, until);
                     let mut flow = WorldFlow::new(tick);
-                    self.take_up(&flow);
+                    self.take_up(&mut flow);
                     let Some(made) = self.make(&mut flow, now, until) else {
                         self.crowd.begin(tick, now);
                         break;

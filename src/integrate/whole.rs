@@ -6,7 +6,6 @@
 
 use super::Integrator;
 use super::staged::StepCount;
-use crate::bounds::Bounds;
 use crate::tick::{Clock, Indicator, Tick, Undo};
 use crate::world::Bodies;
 
@@ -26,6 +25,11 @@ pub(super) struct Whole {
 impl Whole {
     pub fn new(method: Box<dyn Integrator>) -> Self {
         Self { method, undo: Undo::default(), lasts: false, edge: 0.0, lists: None, told: Vec::new() }
+    }
+
+    /// Whether ticks of it need no schedules.
+    pub fn is_direct(&self) -> bool {
+        self.method.is_direct()
     }
 
     /// Makes the tick, if nothing in it is watched. Says whether it did; if not, the state is that of its beginning.
@@ -66,7 +70,7 @@ impl Whole {
     /// Begins a stretch of such ticks, if nothing is watched.
     fn begin(&mut self, tick: &mut Tick) -> bool {
         // Steps that look for events find velocities that forces depend on to rounding; whole ones estimate them.
-        let unlike = tick.has_velocity_forces() || !tick.world.resource::<Bodies>().prescribed.motions.is_empty();
+        let unlike = tick.has_velocity_forces() || !tick.held::<Bodies>().prescribed.motions.is_empty();
         if unlike || self.sees_something(tick) {
             return false;
         }
@@ -75,7 +79,7 @@ impl Whole {
             bodies.position_rest.fill(glam::DVec2::ZERO);
             bodies.angle_rest.fill(0.0);
             self.allow_renewal(tick, true);
-            let (ticks, dt) = (tick.world.resource::<Clock>().ticks, tick.dt);
+            let (ticks, dt) = (tick.held::<Clock>().ticks, tick.dt);
             let mut count = tick.world.get_resource_or_init::<StepCount>();
             count.whole_from = Some(ticks);
             count.longest = count.longest.max(dt);
@@ -87,7 +91,7 @@ impl Whole {
     fn end(&mut self, tick: &mut Tick) {
         if self.lasts {
             self.allow_renewal(tick, false);
-            let ticks = tick.world.resource::<Clock>().ticks;
+            let ticks = tick.held::<Clock>().ticks;
             let mut count = tick.world.resource_mut::<StepCount>();
             (count.accepted, count.whole_from) = (count.until(ticks), None);
             // Forces were those of estimated velocities.
@@ -97,17 +101,17 @@ impl Whole {
 
     fn allow_renewal(&mut self, tick: &mut Tick, allowed: bool) {
         self.lasts = allowed;
-        if let Some(mut bounds) = tick.world.get_resource_mut::<Bounds>() {
+        if let Some(bounds) = tick.bounds_mut() {
             bounds.renewed_in_steps = allowed;
         }
     }
 }
 
 fn version_of_lists(tick: &Tick) -> Option<u64> {
-    tick.world.get_resource::<Bounds>().map(|bounds| bounds.version)
+    tick.bounds().map(|bounds| bounds.version)
 }
 
 /// Whether a body went so far in the tick that it may have passed another: lists made at its end do not show whom.
 fn may_have_passed(tick: &Tick) -> bool {
-    tick.farthest() > tick.world.resource::<Bounds>().margin / 2.0
+    tick.bounds().is_some_and(|bounds| tick.farthest() > bounds.margin / 2.0)
 }

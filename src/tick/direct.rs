@@ -2,9 +2,9 @@
 //!
 //! To look a resource up takes some hundred instructions, to have a system run some hundred more: in a world of a few bodies
 //! that is nearly as much as its physics. So models of the engine have a *direct form* beside their systems: a [`Part`], which
-//! owns what it works on while ticks run. Where the parts stand for every system of the three schedules, all ticks of a batch
-//! but the first take the state out of the world once and call one part after the other. A system more, whoever wrote it,
-//! and all ticks go through the schedules.
+//! owns what it works on while ticks run. Where the parts stand for every system of the three schedules, and for all that models
+//! tell methods with several stages, a batch of ticks takes the state out of the world once and calls one part after the other.
+//! A system or a watch more, whoever wrote it, and all ticks go through the schedules.
 //!
 //! Both ways call the same functions in the same order, so not a bit of the state depends on which is taken.
 
@@ -14,8 +14,10 @@ use bevy_ecs::schedule::Schedule;
 
 use super::balance::{EnergyTerms, Totals};
 use super::drive::Drive;
+use super::stages::Stages;
 use super::stopwatch::{self, Stopwatch};
-use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Span};
+use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Models, Responses, Span, Stability};
+use crate::bounds::Bounds;
 use crate::world::Bodies;
 
 /// What every part works on. While it is here, the world holds nothing of it.
@@ -27,6 +29,8 @@ pub(crate) struct State {
     pub evaluation: Evaluation,
     pub span: Span,
     pub clock: Clock,
+    /// Where pairs are searched for.
+    pub bounds: Option<Bounds>,
     pub(super) drive: Drive,
     stopwatch: Option<Stopwatch>,
 }
@@ -39,6 +43,7 @@ impl State {
         exchange(world, &mut self.evaluation);
         exchange(world, &mut self.span);
         exchange(world, &mut self.clock);
+        exchange_any(world, &mut self.bounds);
         exchange(world, &mut self.drive);
     }
 
@@ -76,6 +81,16 @@ pub(crate) trait Part: Send + Sync + 'static {
     /// What it adds to [`EnergyTerms`].
     fn energies(&self, _: &State) -> Energies {
         Energies::default()
+    }
+
+    /// What it tells methods that take several stages per step, if anything.
+    fn stages(&mut self) -> Option<&mut dyn Stages> {
+        None
+    }
+
+    /// What it adds to [`Stability::sources`].
+    fn responses(&self) -> Responses {
+        Responses::default()
     }
 }
 
@@ -133,14 +148,23 @@ impl<'a> Accounts<'a> {
     }
 }
 
-/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes), and how
-/// many energies in [`EnergyTerms`].
+/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes), how
+/// many energies in [`EnergyTerms`], and what else is asked of models inside a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Systems {
     pub tick: usize,
     pub evaluate: usize,
     pub modes: usize,
     pub energies: usize,
+    /// See [`Models::blocks`].
+    pub blocks: usize,
+    /// Watches, edges, handovers and crowds of [`Models`].
+    pub watches: usize,
+    pub edges: usize,
+    pub handovers: usize,
+    pub crowds: usize,
+    /// See [`Stability::sources`].
+    pub sources: usize,
 }
 
 impl Systems {
@@ -149,7 +173,19 @@ impl Systems {
         let count = |schedule: &Schedule| schedule.graph().systems.len();
         let terms = world.get_resource::<EnergyTerms>();
         let energies = terms.map_or(0, |terms| terms.potential.len() + terms.elastic.len());
-        Self { tick: count(tick), evaluate: count(evaluate), modes: count(modes), energies }
+        let models = world.resource::<Models>();
+        Self {
+            tick: count(tick),
+            evaluate: count(evaluate),
+            modes: count(modes),
+            energies,
+            blocks: models.blocks.len(),
+            watches: models.watches.len(),
+            edges: models.edges.len(),
+            handovers: models.handovers.len(),
+            crowds: models.crowds.len(),
+            sources: world.resource::<Stability>().sources.len(),
+        }
     }
 }
 
@@ -184,6 +220,12 @@ impl Direct {
         self.systems.evaluate += systems.evaluate;
         self.systems.modes += systems.modes;
         self.systems.energies += systems.energies;
+        self.systems.blocks += systems.blocks;
+        self.systems.watches += systems.watches;
+        self.systems.edges += systems.edges;
+        self.systems.handovers += systems.handovers;
+        self.systems.crowds += systems.crowds;
+        self.systems.sources += systems.sources;
     }
 
     /// Whether there is a part for each of the systems that there are.
@@ -249,6 +291,25 @@ impl Direct {
         self.state.turn_to(Timed::Integrate);
     }
 
+    /// Shows what parts tell methods that take several stages per step.
+    pub fn each_staged(&mut self, mut see: impl FnMut(&mut dyn Stages, &mut State)) {
+        for part in &mut self.parts {
+            if let Some(stages) = part.stages() {
+                see(stages, &mut self.state);
+            }
+        }
+    }
+
+    /// Whether any part has something to tell them.
+    pub fn has_stages(&mut self) -> bool {
+        self.parts.iter_mut().any(|part| part.stages().is_some())
+    }
+
+    /// How fast parts respond, as far as it was measured.
+    pub fn responses(&self) -> Responses {
+        Responses::of_all(self.parts.iter().map(|part| part.responses()))
+    }
+
     /// What [`Stage::Observe`](super::Stage::Observe) does.
     pub fn observe(&mut self, world: &mut World) {
         self.state.turn_to(stopwatch::Part::Observe);
@@ -265,7 +326,7 @@ impl Direct {
 }
 
 /// State that is looked up in the world, unless a [`State`] holds it.
-pub(super) trait Held: Resource<Mutability = Mutable> {
+pub(crate) trait Held: Resource<Mutability = Mutable> {
     fn of(state: &State) -> &Self;
     fn of_mut(state: &mut State) -> &mut Self;
 }
@@ -313,12 +374,13 @@ mod tests {
     use super::*;
     use crate::Simulation;
     use crate::contacts::DeepestOverlap;
+    use crate::integrate::{LocatedEvents, StepCount};
     use crate::scene::Source;
-    use crate::tick::{Evaluate, Modes, SimTick, add_packed_observer};
+    use crate::tick::{Evaluate, Modes, SimTick, Watch, add_packed_observer};
     use crate::world::hash::state_hash;
 
     /// Blocks that fall into a corner and come to rest, each kind of part beside the others.
-    fn scene(method: &str, contacts: &str) -> Source {
+    fn scene(clock: &str, contacts: &str) -> Source {
         let block = |number: usize| {
             format!(
                 "(name: \"{number}\", at: ({}, {}), spin: {number}, material: \"stone\",
@@ -329,7 +391,7 @@ mod tests {
         };
         let blocks: String = (0..6).map(block).collect();
         let text = format!(
-            "Scene(format: 1, clock: (duration: 2, tick: 0.0005, method: {method}),
+            "Scene(format: 1, clock: ({clock}),
             gravity: (0.1, -9.81), contacts: Penalty({contacts}),
             materials: {{ \"stone\": (stiffness: 4000, friction: 0.4, inelasticity: 0.4) }},
             walls: [
@@ -350,38 +412,127 @@ mod tests {
         let [tick, evaluate, modes] =
             [SimTick.intern(), Evaluate.intern(), Modes.intern()].map(|label| schedules.get(label).unwrap());
         let systems = Systems::of(simulation.world(), tick, evaluate, modes);
-        simulation.world().resource::<Direct>().stands_for_all(systems)
+        let method = simulation.world().resource::<Drive>().method.as_ref();
+        method.is_some_and(|method| method.0.is_direct())
+            && simulation.world().resource::<Direct>().stands_for_all(systems)
     }
+
+    /// Runs the scene in both ways, in batches that end at these ticks and at its end. How many events were located, and how many
+    /// ticks were too crowded for that.
+    fn compare(clock: &str, contacts: &str, batches: &[u64]) -> LocatedEvents {
+        let load = || Simulation::load(&scene(clock, contacts)).unwrap_or_else(|errors| panic!("{errors}"));
+        let (mut direct, mut scheduled) = (load(), load());
+        // One system more is enough.
+        add_packed_observer(scheduled.world_mut(), || {});
+        for tick in batches.iter().copied().chain([direct.ticks()]) {
+            direct.run_to_tick(tick).unwrap();
+            scheduled.run_to_tick(tick).unwrap();
+            assert_eq!(state_hash(direct.bodies()), state_hash(scheduled.bodies()), "{clock}, {contacts}, {tick}");
+        }
+        assert!(is_direct(&direct) && !is_direct(&scheduled));
+        assert_eq!(direct.outcomes(), scheduled.outcomes());
+        let [direct, scheduled] = [direct.world(), scheduled.world()];
+        assert_eq!(direct.resource::<Ledger>(), scheduled.resource::<Ledger>());
+        assert_eq!(direct.resource::<Balance>(), scheduled.resource::<Balance>());
+        assert_eq!(direct.resource::<Evaluation>(), scheduled.resource::<Evaluation>());
+        assert_eq!(direct.resource::<DeepestOverlap>().share, scheduled.resource::<DeepestOverlap>().share);
+        assert_eq!(direct.get_resource::<StepCount>(), scheduled.get_resource::<StepCount>());
+        assert_eq!(direct.get_resource::<LocatedEvents>(), scheduled.get_resource::<LocatedEvents>());
+        direct.get_resource().copied().unwrap_or_default()
+    }
+
+    const LAWS: [&str; 4] = ["", "normal: Dashpot, damping: 2", "tangential: None", "rolling: Spring(friction: 0.05)"];
 
     #[test]
     fn both_ways_give_the_same_bits() {
-        let laws = ["", "normal: Dashpot, damping: 2", "tangential: None", "rolling: Spring(friction: 0.05)"];
-        for (method, contacts) in
-            laws.iter().flat_map(|law| ["VelocityVerlet", "SemiImplicitEuler"].map(|method| (method, law)))
-        {
-            let load = || Simulation::load(&scene(method, contacts)).unwrap_or_else(|errors| panic!("{errors}"));
-            let (mut direct, mut scheduled) = (load(), load());
-            // One system more is enough.
-            add_packed_observer(scheduled.world_mut(), || {});
-            for tick in [1, 2, 9, 1000, direct.ticks()] {
-                direct.run_to_tick(tick).unwrap();
-                scheduled.run_to_tick(tick).unwrap();
-                assert_eq!(state_hash(direct.bodies()), state_hash(scheduled.bodies()), "{method}, {contacts}, {tick}");
+        for law in LAWS {
+            for method in ["VelocityVerlet", "SemiImplicitEuler"] {
+                compare(&format!("duration: 2, tick: 0.0005, method: {method}"), law, &[1, 2, 9, 1000]);
             }
-            assert!(is_direct(&direct) && !is_direct(&scheduled));
-            assert_eq!(direct.outcomes(), scheduled.outcomes());
-            let [direct, scheduled] = [direct.world(), scheduled.world()];
-            assert_eq!(direct.resource::<Ledger>(), scheduled.resource::<Ledger>());
-            assert_eq!(direct.resource::<Balance>(), scheduled.resource::<Balance>());
-            assert_eq!(direct.resource::<Evaluation>(), scheduled.resource::<Evaluation>());
-            assert_eq!(direct.resource::<DeepestOverlap>().share, scheduled.resource::<DeepestOverlap>().share);
         }
     }
 
     #[test]
+    fn both_ways_give_the_same_bits_where_events_are_located() {
+        let methods = [
+            "VelocityVerlet, events: Located",
+            "SemiImplicitEuler, events: Located",
+            "ExplicitEuler",
+            "RungeKutta4",
+            "Dop853",
+            "ImplicitMidpoint",
+            "Symplectic4",
+        ];
+        let mut given_up = 0;
+        for (law, method) in LAWS.iter().flat_map(|law| methods.map(|method| (law, method))) {
+            let clock = format!("duration: 0.5, tick: 0.001, method: {method}");
+            let found = compare(&clock, law, &[1, 2, 9, 240, 241, 242]);
+            assert!(found.count > 0, "{law}, {method}");
+            given_up += found.given_up;
+        }
+        // Crowds, in which methods change, are among them.
+        assert!(given_up > 0);
+        let exact = "tangential: Exact, rolling: Spring(friction: 0.05)";
+        assert!(compare("duration: 0.5, tick: 0.001, method: RungeKutta4", exact, &[1, 2, 9]).count > 0);
+    }
+
+    #[test]
+    fn both_ways_give_the_same_bits_where_an_error_is_allowed() {
+        for law in LAWS {
+            for tolerance in ["1e-3", "1e-6"] {
+                let clock = format!("duration: 0.5, tolerance: {tolerance}");
+                assert!(compare(&clock, law, &[1, 2, 3, 4, 7]).count > 0, "{law}, {tolerance}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_ways_give_the_same_bits_where_events_are_at_the_ends_of_stages() {
+        for method in ["RungeKutta4", "ImplicitMidpoint", "Symplectic4", "Dop853"] {
+            let clock = format!("duration: 0.5, tick: 0.0005, method: {method}, events: PerTick");
+            compare(&clock, "tangential: Exact", &[1, 2, 9]);
+        }
+    }
+
+    /// What a plugin watches, or says of its model otherwise, is asked in the world.
+    #[test]
+    fn a_watch_without_a_direct_form_keeps_the_schedules() {
+        let kinds: [fn(&mut Models); 4] = [
+            |models| {
+                models.watches.push(Watch {
+                    tell: |_, _| {},
+                    switch: |_, _| {},
+                    settle: |_| false,
+                    take_stock: |_| {},
+                    tidy: |world| {
+                        world.resource_mut::<Seen>().0 += 1;
+                        false
+                    },
+                });
+            },
+            |models| models.edges.push(|_, _| f64::INFINITY),
+            |models| models.handovers.push(|_, _| {}),
+            |models| models.crowds.push(|_| false),
+        ];
+        for (number, add) in kinds.into_iter().enumerate() {
+            let mut simulation = Simulation::load(&scene("duration: 0.1, tolerance: 1e-6", "")).unwrap();
+            assert!(is_direct(&simulation));
+            add(&mut simulation.world_mut().resource_mut::<Models>());
+            simulation.world_mut().init_resource::<Seen>();
+            assert!(!is_direct(&simulation), "{number}");
+            simulation.run_to_end().unwrap();
+            assert_eq!(simulation.world().resource::<Seen>().0 > 0, number == 0);
+        }
+    }
+
+    #[derive(Resource, Default)]
+    struct Seen(u32);
+
+    #[test]
     fn a_condition_on_a_stage_holds_in_all_ticks() {
         let fall = |batches: &[u64]| {
-            let mut simulation = Simulation::load(&scene("VelocityVerlet", "")).unwrap();
+            let mut simulation =
+                Simulation::load(&scene("duration: 2, tick: 0.0005, method: VelocityVerlet", "")).unwrap();
             simulation.world_mut().schedule_scope(Evaluate, |_, schedule| {
                 schedule.configure_sets(EvaluateStage::Contacts.run_if(|| false));
             });

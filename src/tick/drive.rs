@@ -30,7 +30,7 @@ struct Running {
 #[derive(Resource, Default)]
 pub(super) struct Drive {
     running: Option<Box<Running>>,
-    method: Option<Method>,
+    pub(super) method: Option<Method>,
     /// Ordinary systems live in the tick: components are kept up to date around it.
     ordinary_tick: bool,
     /// Ordinary systems live in the evaluation: components are kept up to date around it.
@@ -57,6 +57,8 @@ pub(super) struct Drive {
     pub(super) far: Option<FarTravel>,
     pub(super) energy: EnergyGuard,
     failure: Option<Failure>,
+    /// How many indicators each model that is watched told last, in order.
+    pub(super) told: Vec<usize>,
 }
 
 /// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
@@ -83,6 +85,8 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
         drive.conditional |= conditional;
         !drive.conditional && running.method.0.is_direct()
     };
+    // Where bodies may fly the first tick sees whether others wrote into the state.
+    let begins_direct = !running.method.0.flies();
     for schedule in [&mut sim, &mut running.evaluate, &mut running.modes] {
         apply_only_what_is_deferred(world, schedule);
     }
@@ -91,8 +95,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     drive.running = Some(running);
     let mut left = ticks;
     while left > 0 && world.resource::<Drive>().failure.is_none() {
-        // The first tick takes up what others changed.
-        if may_be_direct && left < ticks {
+        if may_be_direct && (left < ticks || begins_direct) {
             let mut direct = std::mem::take(&mut *world.resource_mut::<Direct>());
             direct.hold(world, |world, direct| left = run_direct(world, direct, left));
             *world.resource_mut::<Direct>() = direct;
@@ -228,7 +231,11 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
     let mut running = drive.running.take().expect("ticks run inside `step`");
     let (first_of_batch, ordinary) = (!drive.stepped, drive.ordinary_tick);
     let current = drive.current;
-    let before = if first_of_batch || ordinary { take_up_changes(world, first_of_batch) } else { None };
+    let before = if first_of_batch || ordinary {
+        see_all(world, direct.as_deref_mut(), |world| take_up_changes(world, first_of_batch))
+    } else {
+        None
+    };
     let clock: Clock = *held(world, direct.as_deref());
     let Running { method, evaluate, modes, has_modes, velocity_dependent } = &mut *running;
     let style = method.0.style();
@@ -256,7 +263,7 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
         tick.evaluate(0.0);
     }
     if let Some(before) = before {
-        Ledger::book_exchange(tick.world, before);
+        see_all(tick.world, tick.direct.as_deref_mut(), |world| Ledger::book_exchange(world, before));
     }
     // Where all bodies are asleep the end of the tick is its beginning.
     if !tick.bodies().all_asleep() {
@@ -288,7 +295,7 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
 
 /// Shows the world with all state in its place.
 #[cold]
-fn see_all(world: &mut World, direct: Option<&mut Direct>, see: impl FnOnce(&mut World)) {
+fn see_all<U>(world: &mut World, direct: Option<&mut Direct>, see: impl FnOnce(&mut World) -> U) -> U {
     match direct {
         Some(direct) => direct.show(world, see),
         None => see(world),

@@ -4,7 +4,8 @@
 use glam::DVec2;
 
 use super::balance::Ledger;
-use super::{Balance, Census, Models, StateBlock, Tick};
+use super::stages::Block;
+use super::{Balance, Tick};
 use crate::integrate::steps::Flow;
 use crate::world::Bodies;
 
@@ -27,7 +28,9 @@ pub struct WorldFlow<'t, 'w> {
     /// The tick under way.
     pub tick: &'t mut Tick<'w>,
     dynamic: Vec<usize>,
-    blocks: Vec<(StateBlock, usize)>,
+    /// Lengths of what models keep of their own, and all together.
+    blocks: Vec<usize>,
+    own: usize,
     dimension: usize,
     velocity_dependent: bool,
     watched: bool,
@@ -36,15 +39,14 @@ pub struct WorldFlow<'t, 'w> {
 impl<'t, 'w> WorldFlow<'t, 'w> {
     /// The world in this tick. Made anew when modes have changed.
     pub fn new(tick: &'t mut Tick<'w>) -> Self {
-        let bodies = tick.world.resource::<Bodies>();
+        let bodies: &Bodies = tick.held();
         let dynamic: Vec<usize> = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).collect();
-        let blocks: Vec<(StateBlock, usize)> =
-            tick.world.resource::<Models>().blocks.iter().map(|block| (*block, (block.length)(tick.world))).collect();
-        let own: usize = blocks.iter().map(|(_, length)| length).sum();
+        let mut blocks = Vec::new();
+        tick.each_block(|block| blocks.push(block.length()));
+        let own = blocks.iter().sum();
         let dimension = 6 * dynamic.len() + own + ACCOUNTS;
-        let velocity_dependent = tick.world.resource::<Census>().velocity_dependent;
-        let watched = !tick.world.resource::<Models>().watches.is_empty();
-        Self { tick, dynamic, blocks, dimension, velocity_dependent, watched }
+        let (velocity_dependent, watched) = (tick.velocity_dependent, tick.is_watched());
+        Self { tick, dynamic, blocks, own, dimension, velocity_dependent, watched }
     }
 
     /// Places of the accounts in a state.
@@ -52,10 +54,26 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         self.dimension - ACCOUNTS..self.dimension
     }
 
+    /// Places of what models keep of their own.
+    fn places_of_own(&self) -> std::ops::Range<usize> {
+        let begin = 6 * self.dynamic.len();
+        begin..begin + self.own
+    }
+
+    /// Shows each model's own state with its numbers, all of which are given.
+    fn each_block(&mut self, mut own: &mut [f64], mut see: impl FnMut(Block, &mut [f64])) {
+        let mut lengths = self.blocks.iter();
+        self.tick.each_block(|block| {
+            let (numbers, others) = std::mem::take(&mut own).split_at_mut(next_length(&mut lengths));
+            see(block, numbers);
+            own = others;
+        });
+    }
+
     /// The present state. Accounts begin at zero.
-    pub fn read(&self, state: &mut Vec<f64>) {
+    pub fn read(&mut self, state: &mut Vec<f64>) {
         state.clear();
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         for &body in &self.dynamic {
             state.extend([bodies.position[body].x, bodies.position[body].y, bodies.angle[body]]);
         }
@@ -63,16 +81,13 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
             state.extend([bodies.velocity[body].x, bodies.velocity[body].y, bodies.spin[body]]);
         }
         state.resize(self.dimension, 0.0);
-        let mut place = 6 * self.dynamic.len();
-        for &(block, length) in &self.blocks {
-            (block.read)(self.tick.world, &mut state[place..place + length]);
-            place += length;
-        }
+        let own = self.places_of_own();
+        self.each_block(&mut state[own], |block, numbers| block.read(numbers));
     }
 
     /// Makes `state` the present one.
     pub fn write(&mut self, state: &[f64]) {
-        let mut bodies = self.tick.world.resource_mut::<Bodies>();
+        let bodies = self.tick.bodies();
         let velocities = 3 * self.dynamic.len();
         for (place, &body) in self.dynamic.iter().enumerate() {
             let (q, v) = (&state[3 * place..], &state[velocities + 3 * place..]);
@@ -81,16 +96,17 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
             bodies.velocity[body] = DVec2::new(v[0], v[1]);
             bodies.spin[body] = v[2];
         }
-        let mut place = 2 * velocities;
-        for &(block, length) in &self.blocks {
-            (block.write)(self.tick.world, &state[place..place + length]);
-            place += length;
-        }
+        let (mut lengths, mut own) = (self.blocks.iter(), &state[self.places_of_own()]);
+        self.tick.each_block(|block| {
+            let (numbers, others) = own.split_at(next_length(&mut lengths));
+            block.write(numbers);
+            own = others;
+        });
     }
 
     /// The rates of the state that was evaluated last.
-    pub fn read_rates(&self, rates: &mut [f64]) {
-        let bodies = self.tick.world.resource::<Bodies>();
+    pub fn read_rates(&mut self, rates: &mut [f64]) {
+        let bodies: &Bodies = self.tick.held();
         let velocities = 3 * self.dynamic.len();
         for (place, &body) in self.dynamic.iter().enumerate() {
             let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass(body));
@@ -98,26 +114,23 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
             rates[3 * place..3 * place + 3].copy_from_slice(&[velocity.x, velocity.y, bodies.spin[body]]);
             rates[velocities + 3 * place..velocities + 3 * place + 3].copy_from_slice(&[force.x, force.y, turning]);
         }
-        let mut place = 2 * velocities;
-        for &(block, length) in &self.blocks {
-            (block.rates)(self.tick.world, &mut rates[place..place + length]);
-            place += length;
-        }
-        let balance = self.tick.world.resource::<Balance>();
-        let Balance { force, torque, drag, work, friction, inelasticity, .. } = *balance;
-        rates[place..].copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
+        let own = self.places_of_own();
+        self.each_block(&mut rates[own], |block, rates| block.rates(rates));
+        let Balance { force, torque, drag, work, friction, inelasticity, .. } = *self.tick.held();
+        let accounts = self.places_of_accounts();
+        rates[accounts].copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
     }
 
     /// Positions and angles of the dynamic bodies.
     pub fn places(&self) -> Vec<(DVec2, f64)> {
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         self.dynamic.iter().map(|&body| (bodies.position[body], bodies.angle[body])).collect()
     }
 
     /// How far any point of a dynamic body is from where it was at these `places`, in m, and how fast, in m/s. A turn counts
     /// as no more than one radian.
     pub fn sizes_since(&self, places: &[(DVec2, f64)]) -> (f64, f64) {
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         let far = |(&body, &(position, angle)): (&usize, &(DVec2, f64))| {
             let turn = (bodies.angle[body] - angle).abs().min(1.0);
             (bodies.position[body] - position).length() + turn * bodies.extent(body)
@@ -127,7 +140,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
 
     /// How far a change of the state takes any point of a dynamic body, in m, and how much faster it makes it, in m/s.
     pub fn sizes_of(&self, change: &[f64]) -> (f64, f64) {
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         let size = |changes: &[f64]| {
             let each = self.dynamic.iter().zip(changes.chunks_exact(3));
             let size = each.map(|(&body, by)| DVec2::new(by[0], by[1]).length() + by[2].abs() * bodies.extent(body));
@@ -139,13 +152,13 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
 
     /// The greatest distance of a dynamic body from the origin along an axis, in m.
     pub fn farthest(&self) -> f64 {
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         self.dynamic.iter().map(|&body| bodies.position[body].abs().max_element()).fold(0.0, f64::max)
     }
 
     /// How far bodies can get from the state that was evaluated last.
     pub fn reach(&self) -> Reach {
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         self.dynamic.iter().fold(Reach::default(), |reach, &body| {
             let speed = bodies.velocity[body].length() + bodies.spin[body].abs() * bodies.extent(body);
             let turning = bodies.torque[body].abs() * bodies.inverse_inertia(body) * bodies.extent(body);
@@ -157,7 +170,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     /// What errors of each number of a state are measured by, given a distance in m and a speed in m/s: angles are measured at
     /// the farthest point of their body, numbers of models' own as positions, accounts not at all.
     pub fn measures(&self, distance: f64, speed: f64, sizes: &mut Vec<f64>) {
-        let bodies = self.tick.world.resource::<Bodies>();
+        let bodies: &Bodies = self.tick.held();
         let turns = |size: f64, body: usize| size / bodies.extent(body).max(f64::MIN_POSITIVE);
         sizes.clear();
         sizes.extend(self.dynamic.iter().flat_map(|&body| [distance, distance, turns(distance, body)]));
@@ -169,7 +182,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     /// Books what a step has added to the accounts.
     pub fn book(&mut self, change: &[f64]) {
         let [drag, work, friction, inelasticity, x, y, angular] = change[self.places_of_accounts()] else { return };
-        let mut ledger = self.tick.world.resource_mut::<Ledger>();
+        let ledger: &mut Ledger = self.tick.held_mut();
         ledger.impulse[0].add(x);
         ledger.impulse[1].add(y);
         ledger.angular_impulse.add(angular);
@@ -178,6 +191,11 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         ledger.friction.add(friction);
         ledger.inelasticity.add(inelasticity);
     }
+}
+
+/// There are as many blocks as when the flow was made.
+fn next_length(lengths: &mut std::slice::Iter<usize>) -> usize {
+    lengths.next().copied().unwrap_or_default()
 }
 
 impl Flow for WorldFlow<'_, '_> {

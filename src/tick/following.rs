@@ -1,12 +1,12 @@
 //! From stages of steps to whole steps that follow one another, and back: what an integrator needs that changes between
 //! the two in a run.
 
-use super::{Models, Style, Tick};
+use super::{Style, Tick};
 
 impl Tick<'_> {
     /// From the state just evaluated at `time` seconds on, models with a history follow from state to state.
     pub fn begin_following(&mut self, time: f64) {
-        self.hand_over(Style::Following);
+        self.change_style(Style::Following);
         let bodies = self.bodies();
         // An estimate of velocities belongs to the tick in which it was made, what rounding left over to the method before.
         bodies.estimated_velocity.clear();
@@ -18,18 +18,15 @@ impl Tick<'_> {
 
     /// From the beginning of the tick on, states are stages of steps again.
     pub fn begin_stages(&mut self, style: Style) {
-        self.hand_over(style);
+        self.change_style(style);
         self.begin_anew();
         // What the change has cost is booked.
         self.end_step(&[]);
     }
 
-    fn hand_over(&mut self, style: Style) {
+    fn change_style(&mut self, style: Style) {
         self.style = style;
-        let models = self.world.resource::<Models>().handovers.clone();
-        for handover in models {
-            handover(self.world, style);
-        }
+        self.hand_over(style);
     }
 
     /// A part of the tick as if it were a whole one.

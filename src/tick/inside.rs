@@ -2,9 +2,9 @@
 
 use bevy_ecs::prelude::*;
 
-use super::direct::{Direct, Held, held, held_mut};
+use super::direct::{Direct, Held, State, held, held_mut};
 use super::drive::Drive;
-use super::{Balance, Census, Evaluation, Indicator, Ledger, Models, Span, Style, Watch};
+use super::{Balance, Census, Evaluation, Indicator, Ledger, Models, Span, Style};
 use crate::bounds::Bounds;
 use crate::world::motion::Travel;
 use crate::world::{Bodies, lend};
@@ -50,26 +50,32 @@ impl Tick<'_> {
 
     /// The first time after `now` at which forces or their rates are known to jump, in seconds; infinite if there is none.
     pub fn next_edge(&self, now: f64) -> f64 {
-        let edges = &self.world.resource::<Models>().edges;
-        let paths = self.world.resource::<Bodies>().prescribed.next_point(now);
-        edges.iter().map(|edge| edge(self.world, now)).fold(paths, f64::min)
+        let paths = self.held::<Bodies>().prescribed.next_point(now);
+        self.edges().iter().map(|edge| edge(self.world, now)).fold(paths, f64::min)
     }
 
     /// Whether forces may change with time in a state that does not.
     pub fn changes_with_time(&self) -> bool {
-        !self.world.resource::<Models>().edges.is_empty()
-            || !self.world.resource::<Bodies>().prescribed.motions.is_empty()
+        !self.edges().is_empty() || !self.held::<Bodies>().prescribed.motions.is_empty()
+    }
+
+    /// What models know of when forces jump. None that has a direct form does.
+    fn edges(&self) -> &[fn(&World, f64) -> f64] {
+        match self.direct {
+            Some(_) => &[],
+            None => &self.world.resource::<Models>().edges,
+        }
     }
 
     /// State wherever it is.
     #[inline(always)]
-    pub(super) fn held<R: Held>(&self) -> &R {
+    pub(crate) fn held<R: Held>(&self) -> &R {
         held(self.world, self.direct.as_deref())
     }
 
     /// State wherever it is, to be changed.
     #[inline(always)]
-    pub(super) fn held_mut<R: Held>(&mut self) -> &mut R {
+    pub(crate) fn held_mut<R: Held>(&mut self) -> &mut R {
         held_mut(self.world, self.direct.as_deref_mut())
     }
 
@@ -155,10 +161,11 @@ impl Tick<'_> {
     /// Evaluates the forces of the state as it stands, at `time` seconds, as one of many of a step: nothing goes on by
     /// it but the rates.
     pub fn evaluate_stage(&mut self, time: f64) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
+        let begin = self.begin;
+        let bodies = self.bodies();
         bodies.wake_all();
         if !bodies.prescribed.motions.is_empty() {
-            bodies.prescribe(self.begin, time);
+            bodies.prescribe(begin, time);
         }
         bodies.pose();
         self.run_evaluation(time, 0.0);
@@ -167,51 +174,45 @@ impl Tick<'_> {
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
     pub(super) fn begin_anew(&mut self) {
         self.evaluate_stage(self.begin);
-        self.each_watch(|world, watch| (watch.take_stock)(world));
+        self.each_watched(|watched| watched.take_stock());
         self.evaluate_stage(self.begin);
         self.settle();
     }
 
     /// Adds all indicators of the state just evaluated to a list.
     pub fn tell(&mut self, told: &mut Vec<Indicator>) {
-        let mut place = 0;
-        self.each_watch(|world, watch| {
+        let mut counts = std::mem::take(&mut self.held_mut::<Drive>().told);
+        counts.clear();
+        self.each_watched(|watched| {
             let first = told.len();
-            (watch.tell)(world, told);
-            if told.len() - first != watch.told {
-                world.resource_mut::<Models>().watches[place].told = told.len() - first;
-            }
-            place += 1;
+            watched.tell(told);
+            counts.push(told.len() - first);
         });
-    }
-
-    fn each_watch(&mut self, mut see: impl FnMut(&mut World, Watch)) {
-        let mut place = 0;
-        while let Some(&watch) = self.world.resource::<Models>().watches.get(place) {
-            see(self.world, watch);
-            place += 1;
-        }
+        self.held_mut::<Drive>().told = counts;
     }
 
     /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
     /// ready for the next step.
     pub fn end_step(&mut self, fired: &[usize]) {
-        let time = self.world.resource::<Evaluation>().time;
+        let time = self.held::<Evaluation>().time;
         if !fired.is_empty() {
-            let mut first = 0;
-            self.each_watch(|world, watch| {
-                let own = |place: &&usize| (first..first + watch.told).contains(*place);
+            let told = std::mem::take(&mut self.held_mut::<Drive>().told);
+            let (mut first, mut counts) = (0, told.iter());
+            self.each_watched(|watched| {
+                let end = first + counts.next().copied().unwrap_or_default();
+                let own = |place: &&usize| (first..end).contains(*place);
                 let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
                 if !own.is_empty() {
-                    (watch.switch)(world, &own);
+                    watched.switch(&own);
                 }
-                first += watch.told;
+                first = end;
             });
+            self.held_mut::<Drive>().told = told;
             self.evaluate_stage(time);
             self.settle();
         }
         let mut changed = false;
-        self.each_watch(|world, watch| changed |= (watch.tidy)(world));
+        self.each_watched(|watched| changed |= watched.tidy());
         if changed {
             self.evaluate_stage(time);
         }
@@ -220,23 +221,20 @@ impl Tick<'_> {
     /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
     /// it, `times` as far as their present velocities and accelerations say. Says whether the state was evaluated for that.
     pub fn reserve(&mut self, length: f64, times: f64) -> bool {
-        if !self.world.contains_resource::<Bounds>() {
-            return false;
-        }
-        let renew = lend(self.world, |world, bounds: &mut Bounds| {
-            let bodies = world.resource::<Bodies>();
-            let travel = |body: usize| {
-                let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
-                let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
-                let way = velocity + 0.5 * length * force * bodies.inverse_mass(body);
-                let turn = spin + 0.5 * length * torque * bodies.inverse_inertia(body);
-                (way + turn * bodies.extent(body)) * length
-            };
-            let farthest = (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max);
-            bounds.reserve(bodies, times * farthest)
-        });
+        let reserve =
+            |bounds: &mut Bounds, bodies: &Bodies| bounds.reserve(bodies, times * farthest_in(bodies, length));
+        let renew = match &mut self.direct {
+            Some(direct) => {
+                let State { bounds, bodies, .. } = &mut *direct.state;
+                bounds.as_mut().is_some_and(|bounds| reserve(bounds, bodies))
+            }
+            None if self.world.contains_resource::<Bounds>() => {
+                lend(self.world, |world, bounds: &mut Bounds| reserve(bounds, world.resource()))
+            }
+            None => false,
+        };
         if renew {
-            let time = self.world.resource::<Evaluation>().time;
+            let time = self.held::<Evaluation>().time;
             self.evaluate_stage(time);
         }
         renew
@@ -245,17 +243,17 @@ impl Tick<'_> {
     /// Shows the state as it stands at `time` seconds, between states that the motion goes by: forces are evaluated only if
     /// somebody looks at them.
     pub fn show(&mut self, time: f64) {
-        if self.looked_at || !self.world.resource::<Models>().watches.is_empty() {
+        if self.looked_at || self.is_watched() {
             return self.evaluate_stage(time);
         }
-        self.world.resource_mut::<Bodies>().pose();
-        let mut evaluation = self.world.resource_mut::<Evaluation>();
+        self.bodies().pose();
+        let evaluation: &mut Evaluation = self.held_mut();
         (evaluation.time, evaluation.stale) = (time, true);
     }
 
     /// Candidate lists are made anew for the state as it stands.
     pub fn renew_lists(&mut self, time: f64) {
-        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
+        if let Some(bounds) = self.bounds_mut() {
             bounds.outdate();
             self.evaluate_stage(time);
         }
@@ -263,22 +261,22 @@ impl Tick<'_> {
 
     /// Whether somebody moved farther than candidate lists reach since they were made.
     pub fn outgrown(&self) -> bool {
-        self.world.get_resource::<Bounds>().is_some_and(|bounds| bounds.outgrown)
+        self.bounds().is_some_and(|bounds| bounds.outgrown)
     }
 
     /// The step in which somebody moved farther than candidate lists reach is not taken.
     pub fn recall_bounds(&mut self) {
-        if let Some(mut bounds) = self.world.get_resource_mut::<Bounds>() {
+        if let Some(bounds) = self.bounds_mut() {
             bounds.outgrown = false;
         }
     }
 
     /// Lets models correct the modes of a state just evaluated, until none wants to.
     fn settle(&mut self) {
-        let time = self.world.resource::<Evaluation>().time;
+        let time = self.held::<Evaluation>().time;
         for _ in 0..MOST_CORRECTIONS {
             let mut corrected = false;
-            self.each_watch(|world, watch| corrected |= (watch.settle)(world));
+            self.each_watched(|watched| corrected |= watched.settle());
             if !corrected {
                 break;
             }
@@ -308,4 +306,16 @@ impl Tick<'_> {
         self.alert |= balance.alert;
         self.held_mut::<Ledger>().book(&balance, dt);
     }
+}
+
+/// How far any point of a body may travel within `length` seconds by its present velocity and acceleration, in metres.
+fn farthest_in(bodies: &Bodies, length: f64) -> f64 {
+    let travel = |body: usize| {
+        let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());
+        let (spin, torque) = (bodies.spin[body].abs(), bodies.torque[body].abs());
+        let way = velocity + 0.5 * length * force * bodies.inverse_mass(body);
+        let turn = spin + 0.5 * length * torque * bodies.inverse_inertia(body);
+        (way + turn * bodies.extent(body)) * length
+    };
+    (0..bodies.len()).filter(|&body| bodies.moves[body]).map(travel).fold(0.0, f64::max)
 }

@@ -38,6 +38,7 @@ mod inside;
 pub mod models;
 pub mod response;
 pub mod stability;
+mod stages;
 pub mod steady;
 pub mod stopwatch;
 mod travel;
@@ -60,6 +61,7 @@ pub use guard::Created;
 pub use inside::Tick;
 pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
+pub(crate) use stages::Stages;
 pub use travel::{FarTravel, far_travel, largest_travel};
 pub use undo::Undo;
 

@@ -86,6 +86,4 @@ pub struct Watch {
     pub take_stock: fn(&mut World),
     /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
     pub tidy: fn(&mut World) -> bool,
-    /// How many indicators it told last; kept by the engine.
-    pub told: usize,
 }

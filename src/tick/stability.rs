@@ -111,7 +111,11 @@ pub struct Briefest {
 impl Responses {
     /// What all models know together.
     pub fn of(world: &World) -> Self {
-        let all = world.resource::<Stability>().sources.iter().map(|source| source(world));
+        Self::of_all(world.resource::<Stability>().sources.iter().map(|source| source(world)))
+    }
+
+    /// What these know together.
+    pub(super) fn of_all(all: impl Iterator<Item = Self>) -> Self {
         all.fold(Self::default(), |known, found| {
             let faster =
                 |fastest: &Fastest| known.fastest.is_none_or(|k| k.angular_frequency < fastest.angular_frequency);

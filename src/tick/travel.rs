@@ -42,7 +42,7 @@ impl Tick<'_> {
             sum += travel;
         }
         let smallest = bodies.smallest_radius;
-        let alert = self.world.resource::<Balance>().alert;
+        let alert = self.held::<Balance>().alert;
         self.alert |= alert;
         self.note_travel(Travel { greatest, sum }, smallest);
     }

@@ -18,23 +18,23 @@ pub struct Undo {
 impl Tick<'_> {
     /// Remembers the present state.
     pub fn remember(&self, undo: &mut Undo) {
-        let bodies = self.world.resource::<Bodies>();
+        let bodies: &Bodies = self.held();
         undo.position.clone_from(&bodies.position);
         undo.angle.clone_from(&bodies.angle);
         undo.velocity.clone_from(&bodies.velocity);
         undo.spin.clone_from(&bodies.spin);
-        undo.ledger = *self.world.resource::<Ledger>();
+        undo.ledger = *self.held();
     }
 
     /// Goes back to the state that was remembered. It is to be evaluated.
     pub fn take_back(&mut self, undo: &Undo) {
-        let mut bodies = self.world.resource_mut::<Bodies>();
+        let bodies = self.bodies();
         bodies.position.clone_from(&undo.position);
         bodies.angle.clone_from(&undo.angle);
         bodies.velocity.clone_from(&undo.velocity);
         bodies.spin.clone_from(&undo.spin);
         bodies.estimated_velocity.clear();
         bodies.estimated_spin.clear();
-        *self.world.resource_mut::<Ledger>() = undo.ledger;
+        *self.held_mut::<Ledger>() = undo.ledger;
     }
 }

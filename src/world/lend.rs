@@ -17,3 +17,16 @@ pub(crate) fn lend<R: Resource<Mutability = Mutable> + Default, U>(
     *world.resource_mut::<R>() = lent;
     seen
 }
+
+/// The same for a resource that may not be there.
+pub(crate) fn lend_any<R: Resource<Mutability = Mutable> + Default, U>(
+    world: &mut World,
+    see: impl FnOnce(&mut World, Option<&mut R>) -> U,
+) -> U {
+    let mut lent = world.get_resource_mut::<R>().map(|mut there| std::mem::take(&mut *there));
+    let seen = see(world, lent.as_mut());
+    if let Some(lent) = lent {
+        *world.resource_mut::<R>() = lent;
+    }
+    seen
+}

@@ -24,7 +24,7 @@ pub use atom::{Atom, AtomOf, Atoms, atoms_of};
 pub use body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 pub(crate) use flight::Passing;
 pub use kinematic::Kinematic;
-pub(crate) use lend::lend;
+pub(crate) use lend::{lend, lend_any};
 pub use material::{MaterialIndex, Materials};
 pub use name::Name;
 pub use packed::{Bodies, PackedWall};

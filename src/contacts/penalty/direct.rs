@@ -8,23 +8,21 @@ use super::apply::{Own, PenaltyContacts, Shared, apply};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
-use crate::bounds::Bounds;
 use crate::contacts::events::Touches;
 use crate::contacts::{CandidatePairs, ContactForces, DeepestOverlap};
 use crate::tick::direct::{Energies, Part, State, exchange, exchange_any};
 use crate::tick::steady::SteadySprings;
-use crate::tick::{Census, EvaluateStage, Stability, stopwatch};
+use crate::tick::{Census, EvaluateStage, Responses, Stability, Stages, stopwatch};
 
 /// What they work on.
 pub(super) struct Contacts<N> {
-    bounds: Bounds,
-    pairs: CandidatePairs,
-    contacts: PenaltyContacts,
-    deepest: DeepestOverlap,
+    pub pairs: CandidatePairs,
+    pub contacts: PenaltyContacts,
+    pub deepest: DeepestOverlap,
     stability: Stability,
-    rolling: Option<RollingContacts>,
+    pub rolling: Option<RollingContacts>,
     forces: Option<ContactForces>,
-    touches: Option<Touches>,
+    pub touches: Option<Touches>,
     steady: Option<SteadySprings>,
     changing_forces: bool,
     scratch: Scratch,
@@ -34,7 +32,6 @@ pub(super) struct Contacts<N> {
 impl<N> Default for Contacts<N> {
     fn default() -> Self {
         Self {
-            bounds: Bounds::default(),
             pairs: CandidatePairs::default(),
             contacts: PenaltyContacts::default(),
             deepest: DeepestOverlap::default(),
@@ -52,7 +49,6 @@ impl<N> Default for Contacts<N> {
 
 impl<N: NormalForce> Part for Contacts<N> {
     fn exchange(&mut self, world: &mut World) {
-        exchange(world, &mut self.bounds);
         exchange(world, &mut self.pairs);
         exchange(world, &mut self.contacts);
         exchange(world, &mut self.deepest);
@@ -70,6 +66,14 @@ impl<N: NormalForce> Part for Contacts<N> {
         Energies { potential: 0.0, elastic: self.contacts.energy() + rolling }
     }
 
+    fn stages(&mut self) -> Option<&mut dyn Stages> {
+        Some(self)
+    }
+
+    fn responses(&self) -> Responses {
+        self.contacts.watch.found
+    }
+
     fn choose_modes(&mut self, state: &mut State) {
         let State { bodies, balance, ledger, evaluation, clock, span, .. } = state;
         let shared = Shared { bodies, balance, ledger, evaluation };
@@ -80,10 +84,16 @@ impl<N: NormalForce> Part for Contacts<N> {
 
     fn evaluate(&mut self, stage: EvaluateStage, state: &mut State) {
         match stage {
-            EvaluateStage::Bounds => self.bounds.update(&mut state.bodies, &state.evaluation),
+            EvaluateStage::Bounds => {
+                if let State { bounds: Some(bounds), bodies, evaluation, .. } = state {
+                    bounds.update(bodies, evaluation);
+                }
+            }
             EvaluateStage::Forces => {}
             EvaluateStage::Contacts => {
-                self.pairs.update(&state.bodies, &mut self.bounds);
+                if let State { bounds: Some(bounds), bodies, .. } = state {
+                    self.pairs.update(bodies, bounds);
+                }
                 state.turn_to(stopwatch::Part::Contacts);
                 let State { bodies, balance, ledger, evaluation, .. } = state;
                 let shared = Shared { bodies, balance, ledger, evaluation };

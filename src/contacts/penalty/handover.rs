@@ -6,8 +6,6 @@
 //! contact stands but for rounding; whatever moves goes on in the mode of its velocity, and stops at an event of its own. The
 //! energy of springs that a change takes is lost to friction.
 
-use bevy_ecs::prelude::*;
-
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
@@ -15,8 +13,8 @@ use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::staged::Look;
-use super::switching::view;
-use crate::tick::{Clock, Style};
+use super::switching::View;
+use crate::tick::Style;
 
 /// Rows of held contacts that are solved together; they cost the third power of their number.
 const MOST_ROWS: usize = 64;
@@ -25,52 +23,47 @@ const MOST_ROWS: usize = 64;
 const ROUNDING: f64 = 1e-9;
 
 /// Whether more contacts are held than rows can be solved for.
-pub(super) fn crowded(world: &World) -> bool {
-    let contacts = world.resource::<PenaltyContacts>();
+pub(super) fn crowded(contacts: &PenaltyContacts, rolling: Option<&RollingContacts>) -> bool {
     let rows =
         |contact: Contact| usize::from(contact.mode == Mode::Hold) + usize::from(contact.tangential.grip == Grip::Hold);
     let atoms = contacts.atoms.touching().map(|place| contacts.atoms.get(place));
     let walls = contacts.walls.touching().map(|place| contacts.walls.get(place));
-    let rolling = world.get_resource::<RollingContacts>();
     let rolling = rolling.into_iter().flat_map(|rolling| rolling.atoms.iter().chain(&rolling.walls));
     let rolling = rolling.filter(|slider| slider.grip == Grip::Hold).count();
     atoms.chain(walls).map(rows).sum::<usize>() + rolling > MOST_ROWS
 }
 
 /// The way in which contacts are evaluated changes.
-pub(super) fn hand_over<N: NormalForce>(world: &mut World, style: Style) {
-    let dt = world.resource::<Clock>().dt;
-    view(world, |view| {
-        view.contacts.rest.clear();
-        if style == Style::Following {
-            view.contacts.rows.clear();
-            let slip = |slider: &mut Slider| {
-                if slider.grip == Grip::Slide {
-                    slider.grip = Grip::Slip;
-                }
-            };
-            for place in 0..view.len() {
-                slip(&mut view.contact(place).0.tangential);
+pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) {
+    view.contacts.rest.clear();
+    if style == Style::Following {
+        view.contacts.rows.clear();
+        let slip = |slider: &mut Slider| {
+            if slider.grip == Grip::Slide {
+                slider.grip = Grip::Slip;
             }
-            let rolling = view.rolling.iter_mut();
-            rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.walls)).for_each(slip);
-            return;
-        }
-        view.contacts.held_before = Some(view.stored(|_| true));
+        };
         for place in 0..view.len() {
-            let (look, bodies) = (view.look(place), view.bodies);
-            let (mut contact, law, roller) = view.whole(place, &look);
-            if contact.mode == Mode::Open {
-                continue;
-            }
-            let rounding = ROUNDING * contact.normal_force * dt * look.approach(bodies).mobility;
-            contact.take_over::<N>(law, &look, rounding);
-            if let Some((slider, rolling_law)) = roller {
-                let stands = look.turning().abs() * look.case.end.radius <= rounding;
-                slider.take_over(&rolling_law, stands && contact.mode == Mode::Hold, look.turning());
-            }
+            slip(&mut view.contact(place).0.tangential);
         }
-    });
+        let rolling = view.rolling.as_deref_mut().into_iter();
+        rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.walls)).for_each(slip);
+        return;
+    }
+    view.contacts.held_before = Some(view.stored(|_| true));
+    for place in 0..view.len() {
+        let (look, bodies) = (view.look(place), view.bodies);
+        let (mut contact, law, roller) = view.whole(place, &look);
+        if contact.mode == Mode::Open {
+            continue;
+        }
+        let rounding = ROUNDING * contact.normal_force * dt * look.approach(bodies).mobility;
+        contact.take_over::<N>(law, &look, rounding);
+        if let Some((slider, rolling_law)) = roller {
+            let stands = look.turning().abs() * look.case.end.radius <= rounding;
+            slider.take_over(&rolling_law, stands && contact.mode == Mode::Hold, look.turning());
+        }
+    }
 }
 
 impl Contact {

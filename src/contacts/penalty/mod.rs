@@ -28,6 +28,7 @@ mod rows;
 mod split;
 mod staged;
 mod switching;
+mod watched;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -201,6 +202,8 @@ pub fn install(settings: Penalty, app: &mut App) {
         .get_resource_or_init::<Stability>()
         .sources
         .push(|world| world.resource::<PenaltyContacts>().watch.found);
+    let systems = Systems { sources: 1, ..Systems::default() };
+    app.world_mut().get_resource_or_init::<Direct>().stand_for(systems);
 }
 
 impl Entry for Penalty {
@@ -252,7 +255,7 @@ fn prepare<N: NormalForce>(world: &mut World) {
     note_limits(world);
     world.resource_mut::<Models>().remarks.push(patience::remark);
     world.resource_mut::<Models>().remarks.push(meetings::remark);
-    switching::install::<N>(world);
+    watched::install::<N>(world);
     let angular_frequency = stiffest_contact::<N>(world.resource(), world.resource(), world.resource());
     let foreseen = Foreseen { angular_frequency, holder: Holder::Contacts };
     world.resource_mut::<Stability>().foreseen.push(foreseen);

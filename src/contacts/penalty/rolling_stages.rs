@@ -1,8 +1,6 @@
 //! Rolling springs where contacts are stages of a step: their angles are state, they stick and slip at events of their own, and
 //! where the normal force is held and nothing rolls they are held with it ([`super::rows`]).
 
-use bevy_ecs::prelude::*;
-
 use super::apply::{PenaltyContacts, Sink};
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
@@ -14,11 +12,7 @@ use super::split::Share;
 use super::staged::Look;
 use super::switching::What;
 use crate::contacts::CandidatePairs;
-use crate::tick::StateBlock;
-use crate::world::{Bodies, lend};
-
-/// The angles of all rolling springs that stick.
-pub(super) const BLOCK: StateBlock = StateBlock { length, read, write, rates };
+use crate::world::Bodies;
 
 /// A rolling spring with its law.
 pub(super) type Roller<'a> = (&'a mut Slider, SliderLaw);
@@ -31,46 +25,50 @@ impl RollingContacts {
         let list = if other.is_some() { &mut self.atoms } else { &mut self.walls };
         (&mut list[look.case.place as usize], law)
     }
-
-    fn sliders(&self) -> impl Iterator<Item = &Slider> {
-        self.atoms.iter().chain(&self.walls)
-    }
-}
-
-fn contacts(world: &World) -> impl Iterator<Item = Contact> {
-    let contacts = world.resource::<PenaltyContacts>();
-    contacts.atoms.iter().chain(contacts.walls.iter())
 }
 
 fn is_state((contact, slider): &(Contact, &Slider)) -> bool {
     contact.mode != Mode::Open && slider.grip == Grip::Stick
 }
 
-fn length(world: &World) -> usize {
-    contacts(world).zip(world.resource::<RollingContacts>().sliders()).filter(is_state).count()
+/// All rolling springs with their contacts.
+fn springs<'a>(
+    contacts: &'a PenaltyContacts,
+    rolling: &'a RollingContacts,
+) -> impl Iterator<Item = (Contact, &'a Slider)> {
+    contacts.atoms.iter().chain(contacts.walls.iter()).zip(rolling.atoms.iter().chain(&rolling.walls))
 }
 
-fn read(world: &World, state: &mut [f64]) {
-    let sticking = contacts(world).zip(world.resource::<RollingContacts>().sliders()).filter(is_state);
+/// How many angles are state.
+pub(super) fn length(contacts: &PenaltyContacts, rolling: &RollingContacts) -> usize {
+    springs(contacts, rolling).filter(is_state).count()
+}
+
+/// Springs -> state.
+pub(super) fn read(contacts: &PenaltyContacts, rolling: &RollingContacts, state: &mut [f64]) {
+    let sticking = springs(contacts, rolling).filter(is_state);
     state.iter_mut().zip(sticking).for_each(|(state, (_, slider))| *state = slider.elongation);
 }
 
-fn write(world: &mut World, state: &[f64]) {
-    lend(world, |world, rolling: &mut RollingContacts| {
-        let RollingContacts { atoms, walls, .. } = rolling;
-        let sticking = contacts(world).zip(atoms.iter_mut().chain(walls));
-        let sticking = sticking.filter(|(contact, slider)| is_state(&(*contact, &**slider)));
-        state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);
-    });
+/// State -> springs.
+pub(super) fn write(contacts: &PenaltyContacts, rolling: &mut RollingContacts, state: &[f64]) {
+    let RollingContacts { atoms, walls, .. } = rolling;
+    let contacts = contacts.atoms.iter().chain(contacts.walls.iter());
+    let sticking = contacts.zip(atoms.iter_mut().chain(walls));
+    let sticking = sticking.filter(|(contact, slider)| is_state(&(*contact, &**slider)));
+    state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);
 }
 
-fn rates(world: &World, rates: &mut [f64]) {
-    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+/// The rates of angles that are state.
+pub(super) fn rates(
+    (bodies, pairs): (&Bodies, &CandidatePairs),
+    (contacts, rolling): (&PenaltyContacts, &RollingContacts),
+    rates: &mut [f64],
+) {
     let spin = |atom: u32| bodies.spin[bodies.atom_body(atom as usize)];
     let turning = pairs.atoms.iter().map(|pair| spin(pair.b) - spin(pair.a));
     let turning = turning.chain(pairs.walls.iter().map(|pair| spin(pair.atom)));
-    let sticking = contacts(world).zip(world.resource::<RollingContacts>().sliders()).zip(turning);
-    let sticking = sticking.filter(|(spring, _)| is_state(spring));
+    let sticking = springs(contacts, rolling).zip(turning).filter(|(spring, _)| is_state(spring));
     rates.iter_mut().zip(sticking).for_each(|(rate, (_, turning))| *rate = turning);
 }
 

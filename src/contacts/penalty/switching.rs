@@ -13,25 +13,21 @@
 //! A mode that begins at rest is decided by accelerations, not by velocities: it is tried as held, and where the forces that
 //! would hold it are out of bounds it takes the mode beyond the bound.
 
-use bevy_ecs::prelude::*;
-
 use super::apply::PenaltyContacts;
 use super::case::Other;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
-use super::handover;
 use super::law::{LawTable, PairLaw};
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use super::staged::Look;
-use super::{Penalty, RollingLaw, TangentialLaw};
 use crate::contacts::events::Touches;
 use crate::contacts::{CandidatePairs, DeepestOverlap};
 use crate::tick::balance::{angular_momentum, momentum};
-use crate::tick::{Clock, Evaluation, Indicator, Ledger, Models, Objection, StateBlock, Style, Watch};
-use crate::world::{Bodies, lend};
+use crate::tick::{Indicator, Ledger};
+use crate::world::Bodies;
 
 /// What an indicator of a contact stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,58 +48,12 @@ pub(super) enum What {
 /// The indicators of the present modes: candidate pairs (pairs of atoms first, then walls) and what is watched of them.
 pub(super) type Told = Vec<(u32, What)>;
 
-/// Registers contacts with this law for methods with several stages.
-pub(super) fn install<N: NormalForce>(world: &mut World) {
-    let rolls = world.contains_resource::<RollingContacts>();
-    let mut models = world.get_resource_or_init::<Models>();
-    models.blocks.push(StateBlock { length, read, write, rates });
-    if rolls {
-        models.blocks.push(rolling_stages::BLOCK);
-    }
-    models.watches.push(Watch {
-        tell: tell::<N>,
-        switch: switch::<N>,
-        settle: settle::<N>,
-        take_stock: take_stock::<N>,
-        tidy,
-        told: 0,
-    });
-    models.objections.push(object);
-    models.handovers.push(handover::hand_over::<N>);
-    models.crowds.push(handover::crowded);
-}
-
-/// What these contacts cannot do yet, or cannot do at all.
-fn object(world: &World, style: Style) -> Option<Objection> {
-    let settings = world.resource::<Penalty>();
-    let friction = world.resource::<PenaltyContacts>().materials.any_friction();
-    let (path, message, help) = match (style, settings.tangential) {
-        (Style::Following, TangentialLaw::Exact) => (
-            "contacts.Penalty.tangential",
-            "`Exact` friction needs a method that locates events inside a tick",
-            "write `clock: (.., method: RungeKutta4)`, `method: Dop853` or `events: Located`; or `tangential: Spring(ratio: 0.8)`",
-        ),
-        (Style::Instant, TangentialLaw::Spring { .. }) if friction => (
-            "clock.events",
-            "tangential springs need their events located under a method with several stages",
-            "write `events: Located`, or `tangential: Exact` or `None`, or `method: VelocityVerlet`",
-        ),
-        (Style::Instant, _) if settings.rolling != RollingLaw::None => (
-            "clock.events",
-            "rolling springs need their events located under a method with several stages",
-            "write `events: Located`, or `rolling: None`, or `method: VelocityVerlet`",
-        ),
-        _ => return None,
-    };
-    Some(Objection { path, message: message.to_owned(), help })
-}
-
 /// All candidate pairs with their contacts.
 pub(super) struct View<'a> {
     pub bodies: &'a Bodies,
-    pairs: &'a CandidatePairs,
+    pub pairs: &'a CandidatePairs,
     pub contacts: &'a mut PenaltyContacts,
-    pub rolling: Option<RollingContacts>,
+    pub rolling: Option<&'a mut RollingContacts>,
 }
 
 impl View<'_> {
@@ -125,7 +75,7 @@ impl View<'_> {
         let count = atoms.len();
         let contact = if place < count { atoms.edit(place) } else { walls.edit(place - count) };
         let law = laws.get(contact.law);
-        (contact, law, self.rolling.as_mut().map(|rolling| rolling.of(look, law)))
+        (contact, law, self.rolling.as_deref_mut().map(|rolling| rolling.of(look, law)))
     }
 
     pub fn contact(&mut self, place: usize) -> (Edited<'_>, &PairLaw) {
@@ -135,19 +85,6 @@ impl View<'_> {
         let law = laws.get(contact.law);
         (contact, law)
     }
-}
-
-pub(super) fn view<R>(world: &mut World, see: impl FnOnce(&mut View) -> R) -> R {
-    lend(world, |world, contacts: &mut PenaltyContacts| {
-        let rolling = world.get_resource_mut::<RollingContacts>().map(|mut rolling| std::mem::take(&mut *rolling));
-        let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
-        let mut view = View { bodies, pairs, contacts, rolling };
-        let seen = see(&mut view);
-        if let Some(rolling) = view.rolling {
-            *world.resource_mut::<RollingContacts>() = rolling;
-        }
-        seen
-    })
 }
 
 /// Contacts whose tangential spring holds: its elongation is state.
@@ -160,19 +97,21 @@ fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
     sticks && laws.get(contact.law).tangential().acts()
 }
 
-fn length(world: &World) -> usize {
-    springs(world.resource::<PenaltyContacts>()).count()
+/// How many elongations are state.
+pub(super) fn length(contacts: &PenaltyContacts) -> usize {
+    springs(contacts).count()
 }
 
-fn read(world: &World, state: &mut [f64]) {
-    for (state, contact) in state.iter_mut().zip(springs(world.resource())) {
+/// Contacts -> state.
+pub(super) fn read(contacts: &PenaltyContacts, state: &mut [f64]) {
+    for (state, contact) in state.iter_mut().zip(springs(contacts)) {
         *state = contact.tangential.elongation;
     }
 }
 
-fn write(world: &mut World, state: &[f64]) {
-    let mut contacts = world.resource_mut::<PenaltyContacts>();
-    let PenaltyContacts { atoms, walls, laws, .. } = &mut *contacts;
+/// State -> contacts.
+pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
+    let PenaltyContacts { atoms, walls, laws, .. } = contacts;
     let mut states = state.iter();
     for list in [atoms, walls] {
         for place in 0..list.len() {
@@ -185,9 +124,8 @@ fn write(world: &mut World, state: &[f64]) {
     }
 }
 
-fn rates(world: &World, rates: &mut [f64]) {
-    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
-    let contacts = world.resource::<PenaltyContacts>();
+/// The rates of elongations that are state.
+pub(super) fn rates((bodies, pairs): (&Bodies, &CandidatePairs), contacts: &PenaltyContacts, rates: &mut [f64]) {
     let of_atoms = contacts.atoms.iter().zip(&pairs.atoms).enumerate();
     let of_atoms = of_atoms
         .filter(|(_, (contact, _))| is_spring(contact, &contacts.laws))
@@ -208,25 +146,23 @@ fn following<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodi
     law.friction_dynamic.copysign(contact.tangential.held) * rate / law.tangential_stiffness
 }
 
-/// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to look.
-fn is_idle(world: &World) -> bool {
-    let contacts = world.resource::<PenaltyContacts>();
-    let near = !contacts.atoms.is_empty() || !contacts.walls.is_empty();
-    !near && contacts.rows.is_empty() && contacts.held_before.is_none() && contacts.slid == 0.0
+impl PenaltyContacts {
+    /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to look.
+    pub(super) fn is_idle(&self) -> bool {
+        let near = !self.atoms.is_empty() || !self.walls.is_empty();
+        !near && self.rows.is_empty() && self.held_before.is_none() && self.slid == 0.0
+    }
 }
 
-fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
-    if is_idle(world) {
-        world.resource_mut::<PenaltyContacts>().told.clear();
-        return;
-    }
-    view(world, |view| {
-        let mut what = std::mem::take(&mut view.contacts.told);
+impl View<'_> {
+    /// Indicators of the present modes.
+    pub fn tell<N: NormalForce>(&mut self, told: &mut Vec<Indicator>) {
+        let mut what = std::mem::take(&mut self.contacts.told);
         what.clear();
-        for place in 0..view.len() {
-            let look = view.look(place);
-            let bodies = view.bodies;
-            let (contact, law, roller) = view.whole(place, &look);
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let bodies = self.bodies;
+            let (contact, law, roller) = self.whole(place, &look);
             if contact.mode == Mode::Open {
                 what.push((place as u32, What::Touch));
                 told.push(Indicator { value: -look.overlap, slope: look.parting(), bend: look.bend(bodies) });
@@ -275,22 +211,21 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
                 });
             }
         }
-        view.contacts.told = what;
-    });
-}
-
-fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
-    if world.contains_resource::<Touches>() {
-        note_begun(world, fired);
+        self.contacts.told = what;
     }
-    let slid = view(world, |view| {
-        let slid = view.close_slides();
+
+    /// Changes the modes whose indicators vanished.
+    pub fn switch<N: NormalForce>(&mut self, fired: &[usize], ledger: &mut Ledger, touches: Option<&mut Touches>) {
+        if let Some(touches) = touches {
+            self.note_begun(fired, touches);
+        }
+        let slid = self.close_slides();
         // What springs hold before and no longer after is lost; it is booked when all modes have settled.
-        view.contacts.held_before = Some(view.stored(|_| true));
+        self.contacts.held_before = Some(self.stored(|_| true));
         for &place in fired {
-            let (pair, what) = view.contacts.told[place];
-            let look = view.look(pair as usize);
-            let (mut contact, law, roller) = view.whole(pair as usize, &look);
+            let (pair, what) = self.contacts.told[place];
+            let look = self.look(pair as usize);
+            let (mut contact, law, roller) = self.whole(pair as usize, &look);
             contact.switch::<N>(law, what, &look);
             contact.come_loose(law, &look);
             match (roller, what) {
@@ -299,16 +234,13 @@ fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
                 (None, _) => {}
             }
         }
-        slid
-    });
-    world.resource_mut::<Ledger>().friction.add(slid);
-}
+        ledger.friction.add(slid);
+    }
 
-/// Notes which bodies begin to touch, for who asks: those of open contacts that are touched now, if no other contact between
-/// the two holds.
-fn note_begun(world: &mut World, fired: &[usize]) {
-    let begun = view(world, |view| {
-        let between = |view: &View, place: usize| {
+    /// Notes which bodies begin to touch, for who asks: those of open contacts that are touched now, if no other contact between
+    /// the two holds.
+    fn note_begun(&mut self, fired: &[usize], touches: &mut Touches) {
+        let between = |view: &Self, place: usize| {
             let case = view.look(place).case;
             match case.other {
                 Other::Atom(other) => (false, other.body, case.end.body),
@@ -317,28 +249,24 @@ fn note_begun(world: &mut World, fired: &[usize]) {
         };
         let touched: Vec<usize> = fired
             .iter()
-            .map(|&place| view.contacts.told[place])
+            .map(|&place| self.contacts.told[place])
             .filter(|told| matches!(told.1, What::Touch))
             .map(|told| told.0 as usize)
             .collect();
-        let mut begun: Vec<_> = touched.into_iter().map(|place| between(view, place)).collect();
+        let mut begun: Vec<_> = touched.into_iter().map(|place| between(self, place)).collect();
         begun.sort_unstable();
         begun.dedup();
-        for place in 0..if begun.is_empty() { 0 } else { view.len() } {
-            if view.contact(place).0.mode != Mode::Open {
-                let pair = between(view, place);
+        for place in 0..if begun.is_empty() { 0 } else { self.len() } {
+            if self.contact(place).0.mode != Mode::Open {
+                let pair = between(self, place);
                 begun.retain(|other| *other != pair);
             }
         }
-        begun
-    });
-    let mut touches = world.resource_mut::<Touches>();
-    for (is_wall, a, b) in begun {
-        if is_wall { touches.wall_begins(a, b as u32) } else { touches.bodies_begin(a, b) }
+        for (is_wall, a, b) in begun {
+            if is_wall { touches.wall_begins(a, b as u32) } else { touches.bodies_begin(a, b) }
+        }
     }
-}
 
-impl View<'_> {
     /// Energy in J of those tangential and rolling springs whose grip is asked for.
     pub fn stored(&mut self, which: impl Fn(Grip) -> bool) -> f64 {
         let mut sum = 0.0;
@@ -374,12 +302,13 @@ impl View<'_> {
     }
 }
 
-fn settle<N: NormalForce>(world: &mut World) -> bool {
-    let mut corrected = false;
-    view(world, |view| {
-        for place in 0..view.len() {
-            let look = view.look(place);
-            let (mut contact, law, mut roller) = view.whole(place, &look);
+impl View<'_> {
+    /// Corrects modes that cannot last under the accelerations just evaluated. Says whether there were any.
+    pub fn settle<N: NormalForce>(&mut self) -> bool {
+        let mut corrected = false;
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let (mut contact, law, mut roller) = self.whole(place, &look);
             if contact.mode == Mode::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
                 if contact.normal_force < least || contact.normal_force > greatest {
@@ -403,17 +332,16 @@ fn settle<N: NormalForce>(world: &mut World) -> bool {
             }
         }
         if !corrected {
-            view.contacts.slid = view.sliding_energy();
+            self.contacts.slid = self.sliding_energy();
         }
-    });
-    corrected
-}
+        corrected
+    }
 
-fn take_stock<N: NormalForce>(world: &mut World) {
-    view(world, |view| {
-        for place in 0..view.len() {
-            let look = view.look(place);
-            let (mut contact, law, roller) = view.whole(place, &look);
+    /// Chooses all modes of a state that did not follow from the one before.
+    pub fn take_stock<N: NormalForce>(&mut self) {
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let (mut contact, law, roller) = self.whole(place, &look);
             if contact.mode == Mode::Open && look.overlap > 0.0 {
                 contact.overlap = look.overlap;
                 contact.begin::<N>(law, &look);
@@ -425,7 +353,7 @@ fn take_stock<N: NormalForce>(world: &mut World) {
                 contact.mode = standing::<N>(law, contact.mode, look.parting());
             }
         }
-    });
+    }
 }
 
 /// The mode of a contact that parts with `parting` m/s; one that does neither is held, for a first try.
@@ -433,45 +361,34 @@ fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode 
     if parting == 0.0 && N::SET_VALUED && N::dissipates(law) { Mode::Hold } else { N::chosen(present, parting) }
 }
 
-/// After a step: what is held stands, and the deepest overlap is noted.
-fn tidy(world: &mut World) -> bool {
-    if is_idle(world) {
-        return false;
-    }
-    let (time, dt) = (world.resource::<Evaluation>().time, world.resource::<Clock>().dt);
-    let (slid, lost, rows) = view(world, |view| {
-        let slid = view.close_slides();
-        let lost = view.contacts.held_before.take().map(|before| {
-            let lost = before - view.stored(|_| true);
-            view.contacts.slid = view.sliding_energy();
-            lost
-        });
-        (slid, lost, !view.contacts.rows.is_empty())
-    });
-    let mut ledger = world.resource_mut::<Ledger>();
-    ledger.friction.add(slid);
-    if let Some(lost) = lost {
+/// After a step: what is held stands, and the deepest overlap is noted. Says whether velocities have changed.
+pub(super) fn tidy(
+    (bodies, ledger): (&mut Bodies, &mut Ledger),
+    (time, dt): (f64, f64),
+    (pairs, contacts, mut rolling): (&CandidatePairs, &mut PenaltyContacts, Option<&mut RollingContacts>),
+    deepest: &mut DeepestOverlap,
+) -> bool {
+    let mut view = View { bodies, pairs, contacts, rolling: rolling.as_deref_mut() };
+    ledger.friction.add(view.close_slides());
+    if let Some(before) = view.contacts.held_before.take() {
+        let lost = before - view.stored(|_| true);
+        view.contacts.slid = view.sliding_energy();
         ledger.friction.add(lost);
     }
-    let moved = rows && stop_rows(world, dt);
-    lend(world, |world, deepest: &mut DeepestOverlap| view(world, |view| view.note_overlaps(time, deepest)));
+    let moved = !contacts.rows.is_empty() && stop_rows(contacts, bodies, ledger, dt);
+    View { bodies, pairs, contacts, rolling }.note_overlaps(time, deepest);
     moved
 }
 
 /// Takes out of velocities what rounding has left along held rows, and books it. Says whether there was anything.
-fn stop_rows(world: &mut World, dt: f64) -> bool {
-    lend(world, |world, contacts: &mut PenaltyContacts| {
-        lend(world, |world, bodies: &mut Bodies| {
-            let mut ledger = world.resource_mut::<Ledger>();
-            let before = (momentum(bodies), angular_momentum(bodies));
-            let moved = contacts.rows.stop(bodies, dt, &mut ledger);
-            let by = momentum(bodies) - before.0;
-            ledger.impulse[0].add(by.x);
-            ledger.impulse[1].add(by.y);
-            ledger.angular_impulse.add(angular_momentum(bodies) - before.1);
-            moved
-        })
-    })
+fn stop_rows(contacts: &mut PenaltyContacts, bodies: &mut Bodies, ledger: &mut Ledger, dt: f64) -> bool {
+    let before = (momentum(bodies), angular_momentum(bodies));
+    let moved = contacts.rows.stop(bodies, dt, ledger);
+    let by = momentum(bodies) - before.0;
+    ledger.impulse[0].add(by.x);
+    ledger.impulse[1].add(by.y);
+    ledger.angular_impulse.add(angular_momentum(bodies) - before.1);
+    moved
 }
 
 impl View<'_> {
