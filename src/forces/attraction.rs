@@ -11,8 +11,8 @@ use serde::Deserialize;
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::balance::EnergyTerms;
-use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
+use crate::tick::{Balance, Dependence};
 use crate::world::Bodies;
 
 /// Attraction between all bodies, as between the masses of heaven: `F = G m1 m2 / (r^2 + s^2)` for two that are `r` apart
@@ -69,14 +69,12 @@ pub struct AttractionForce {
     pub softening: f64,
 }
 
-#[derive(Resource)]
+#[derive(Resource, Default)]
 struct Attractions(Vec<AttractionForce>);
 
 /// Installs attraction.
 pub fn install(attractions: Vec<AttractionForce>, app: &mut App) {
-    app.insert_resource(Attractions(attractions));
-    app.add_packed_force(Dependence::Position, apply_attraction);
-    app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
+    add_force_on_bodies(app, Attractions(attractions));
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -88,39 +86,43 @@ fn pairs(dynamic: &[bool]) -> impl Iterator<Item = (usize, usize)> + '_ {
     all.filter(|&(a, b)| dynamic[a] || dynamic[b])
 }
 
-fn apply_attraction(attractions: Res<Attractions>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    let Bodies { dynamic, moves, position, velocity, mass, force: sums, .. } = &mut *bodies;
-    for attraction in &attractions.0 {
-        for (a, b) in pairs(dynamic) {
-            let between = position[b] - position[a];
-            let squared = between.length_squared() + attraction.softening * attraction.softening;
-            // Two bodies in one place do not pull each other anywhere.
-            if squared == 0.0 {
-                continue;
-            }
-            let strength = attraction.constant * mass[a] * mass[b];
-            let force = between * (strength / (squared * squared.sqrt()));
-            sums[a] += force;
-            sums[b] -= force;
-            if !dynamic[a] {
-                balance.outside(position[b], -force, 0.0);
-                balance.work -= if moves[a] { force.dot(velocity[a]) } else { 0.0 };
-            }
-            if !dynamic[b] {
-                balance.outside(position[a], force, 0.0);
-                balance.work += if moves[b] { force.dot(velocity[b]) } else { 0.0 };
+impl ForceOnBodies for Attractions {
+    const DEPENDENCE: Dependence = Dependence::Position;
+    const HAS_ENERGY: bool = true;
+
+    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
+        let Bodies { dynamic, moves, position, velocity, mass, force: sums, .. } = bodies;
+        for attraction in &self.0 {
+            for (a, b) in pairs(dynamic) {
+                let between = position[b] - position[a];
+                let squared = between.length_squared() + attraction.softening * attraction.softening;
+                // Two bodies in one place do not pull each other anywhere.
+                if squared == 0.0 {
+                    continue;
+                }
+                let strength = attraction.constant * mass[a] * mass[b];
+                let force = between * (strength / (squared * squared.sqrt()));
+                sums[a] += force;
+                sums[b] -= force;
+                if !dynamic[a] {
+                    balance.outside(position[b], -force, 0.0);
+                    balance.work -= if moves[a] { force.dot(velocity[a]) } else { 0.0 };
+                }
+                if !dynamic[b] {
+                    balance.outside(position[a], force, 0.0);
+                    balance.work += if moves[b] { force.dot(velocity[b]) } else { 0.0 };
+                }
             }
         }
     }
-}
 
-fn potential_energy(world: &World) -> f64 {
-    let (bodies, attractions) = (world.resource::<Bodies>(), world.resource::<Attractions>());
-    let energy = |attraction: &AttractionForce, (a, b): (usize, usize)| {
-        let between: DVec2 = bodies.position[b] - bodies.position[a];
-        let distance = (between.length_squared() + attraction.softening * attraction.softening).sqrt();
-        let strength = attraction.constant * bodies.mass[a] * bodies.mass[b];
-        if distance == 0.0 { 0.0 } else { -strength / distance }
-    };
-    attractions.0.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
+    fn energy(&self, bodies: &Bodies) -> f64 {
+        let energy = |attraction: &AttractionForce, (a, b): (usize, usize)| {
+            let between: DVec2 = bodies.position[b] - bodies.position[a];
+            let distance = (between.length_squared() + attraction.softening * attraction.softening).sqrt();
+            let strength = attraction.constant * bodies.mass[a] * bodies.mass[b];
+            if distance == 0.0 { 0.0 } else { -strength / distance }
+        };
+        self.0.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
+    }
 }

@@ -11,7 +11,8 @@ use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
+use crate::tick::{Balance, Dependence};
 use crate::world::Bodies;
 
 /// Resistance of air that rests: `F = -(c1 + c2 |v|) v`, with `c1` linear (Stokes) and `c2` quadratic (Newton).
@@ -67,13 +68,12 @@ pub struct DragForce {
     pub of: Targets,
 }
 
-#[derive(Resource)]
+#[derive(Resource, Default)]
 struct Drags(Vec<DragForce>);
 
 /// Installs drag.
 pub fn install(drags: Vec<DragForce>, app: &mut App) {
-    app.insert_resource(Drags(drags));
-    app.add_packed_force(Dependence::Velocity, apply_drag);
+    add_force_on_bodies(app, Drags(drags));
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -87,14 +87,18 @@ pub(super) fn resistance(world: &World, key: u64) -> Vec<Air> {
     drags.iter().filter(|drag| drag.of.include(key)).map(air).collect()
 }
 
-fn apply_drag(mut drags: ResMut<Drags>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    for drag in &mut drags.0 {
-        for body in drag.of.places(&bodies) {
-            let velocity = bodies.velocity[body];
-            let force = velocity * -(drag.linear + drag.quadratic * velocity.length());
-            bodies.force[body] += force;
-            balance.outside(bodies.position[body], force, 0.0);
-            balance.drag -= force.dot(velocity);
+impl ForceOnBodies for Drags {
+    const DEPENDENCE: Dependence = Dependence::Velocity;
+
+    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
+        for drag in &mut self.0 {
+            for body in drag.of.places(bodies) {
+                let velocity = bodies.velocity[body];
+                let force = velocity * -(drag.linear + drag.quadratic * velocity.length());
+                bodies.force[body] += force;
+                balance.outside(bodies.position[body], force, 0.0);
+                balance.drag -= force.dot(velocity);
+            }
         }
     }
 }

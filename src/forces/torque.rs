@@ -8,7 +8,8 @@ use serde::Deserialize;
 use super::{Targets, check_targets};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written, units};
-use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
+use crate::tick::{Balance, Dependence};
 use crate::world::Bodies;
 
 /// A constant torque.
@@ -52,26 +53,29 @@ pub struct ConstantTorque {
     pub value: f64,
 }
 
-#[derive(Resource)]
+#[derive(Resource, Default)]
 struct Torques(Vec<ConstantTorque>);
 
 /// Installs torques.
 pub fn install(torques: Vec<ConstantTorque>, app: &mut App) {
-    app.insert_resource(Torques(torques));
-    // The torque does not depend on velocities, its power does.
-    app.add_packed_force(Dependence::Velocity, apply_torque);
+    add_force_on_bodies(app, Torques(torques));
 }
 
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Torque>();
 }
 
-fn apply_torque(mut torques: ResMut<Torques>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    for torque in &mut torques.0 {
-        for body in torque.of.places(&bodies) {
-            bodies.torque[body] += torque.value;
-            balance.torque += torque.value;
-            balance.work += torque.value * bodies.spin[body];
+impl ForceOnBodies for Torques {
+    // The torque does not depend on velocities, its power does.
+    const DEPENDENCE: Dependence = Dependence::Velocity;
+
+    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
+        for torque in &mut self.0 {
+            for body in torque.of.places(bodies) {
+                bodies.torque[body] += torque.value;
+                balance.torque += torque.value;
+                balance.work += torque.value * bodies.spin[body];
+            }
         }
     }
 }

@@ -13,7 +13,8 @@ use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping, Velocity};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
+use crate::tick::{Balance, Dependence};
 use crate::world::Bodies;
 
 /// Resistance of air that moves evenly: `F = -(c1 + c2 |w|) w`, with `w` the velocity against the air.
@@ -57,8 +58,7 @@ impl Entry for Wind {
             quadratic: value.quadratic.si(),
             of: Targets::named(value.of.as_ref(), outline),
         };
-        app.insert_resource(Gusts(entries.into_iter().map(gust).collect()));
-        app.add_packed_force(Dependence::Velocity, apply_wind);
+        add_force_on_bodies(app, Gusts(entries.into_iter().map(gust).collect()));
     }
 }
 
@@ -69,7 +69,7 @@ struct Gust {
     of: Targets,
 }
 
-#[derive(Resource)]
+#[derive(Resource, Default)]
 struct Gusts(Vec<Gust>);
 
 pub(super) fn plugin(app: &mut App) {
@@ -83,15 +83,19 @@ pub(super) fn resistance(world: &World, key: u64) -> Vec<Air> {
     gusts.iter().filter(|gust| gust.of.include(key)).map(air).collect()
 }
 
-fn apply_wind(mut gusts: ResMut<Gusts>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    for gust in &mut gusts.0 {
-        for body in gust.of.places(&bodies) {
-            let relative = bodies.velocity[body] - gust.velocity;
-            let force = relative * -(gust.linear + gust.quadratic * relative.length());
-            bodies.force[body] += force;
-            balance.outside(bodies.position[body], force, 0.0);
-            balance.drag -= force.dot(relative);
-            balance.work += force.dot(gust.velocity);
+impl ForceOnBodies for Gusts {
+    const DEPENDENCE: Dependence = Dependence::Velocity;
+
+    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
+        for gust in &mut self.0 {
+            for body in gust.of.places(bodies) {
+                let relative = bodies.velocity[body] - gust.velocity;
+                let force = relative * -(gust.linear + gust.quadratic * relative.length());
+                bodies.force[body] += force;
+                balance.outside(bodies.position[body], force, 0.0);
+                balance.drag -= force.dot(relative);
+                balance.work += force.dot(gust.velocity);
+            }
         }
     }
 }

@@ -28,6 +28,7 @@
 pub mod balance;
 pub mod clock;
 pub(crate) mod direct;
+pub(crate) mod direct_force;
 mod drive;
 mod failure;
 mod flight;
