@@ -16,6 +16,9 @@
 //! Tolerances: 0.25 below for the scatter over phases, as there; half an order above, for a method that does better than its
 //! forces allow locates after all. Velocity Verlet that goes from tick to tick refuses friction that sticks without any give.
 //!
+//! And with `tangential: None` nothing acts along the surface, whatever friction the materials have and however events are met: the
+//! velocity along a floor and the spin stay what they were, to the last bit.
+//!
 //! Not tested: a single phase (errors scatter by a factor of a hundred).
 
 use jostle::Simulation;
@@ -25,7 +28,7 @@ use jostle::problems::{
 };
 use jostle::scene::Source;
 
-use super::support::{fitted_order, phases, table};
+use super::support::{fitted_order, load, phases, run_to, table};
 
 const PHASES: u32 = 24;
 
@@ -89,4 +92,24 @@ fn unlocated_events_leave_runge_kutta_4_the_order_of_the_force() {
 #[test]
 fn unlocated_events_leave_dop853_the_order_of_the_force() {
     orders_are_those_that_smoothness_leaves("Dop853");
+}
+
+#[test]
+fn without_a_tangential_law_nothing_acts_along_the_surface() {
+    for method in problems::methods() {
+        for events in ["Located", "PerTick"] {
+            let mut simulation = load(&format!(
+                "Scene(format: 1, clock: (duration: 1, tick: 0.0005, method: {}, events: {events}), gravity: (0, -9.81),
+                contacts: Penalty(tangential: None), materials: {{ \"rough\": (stiffness: 4000, friction: 0.4) }},
+                walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"rough\")],
+                bodies: [(name: \"ball\", at: (0, 0.3), velocity: (1, 0), spin: 3, material: \"rough\", atoms: Disc(radius: 0.1, mass: 0.1))])",
+                method.name
+            ));
+            run_to(&mut simulation, 1.0);
+            let (bodies, card) = (simulation.bodies(), simulation.card());
+            let what = format!("{} {events}: {:?}, spin {}", method.name, bodies.velocity[0], bodies.spin[0]);
+            assert_eq!((bodies.velocity[0].x, bodies.spin[0]), (1.0, 3.0), "{what}");
+            assert!(card.energy.residual.is_finite() && card.energy.friction == 0.0, "{what}: {:?}", card.energy);
+        }
+    }
 }

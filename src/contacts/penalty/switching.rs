@@ -486,6 +486,10 @@ impl Contact {
             return;
         }
         self.mode = N::chosen(Mode::Loading, approach.parting);
+        if !law.tangential().acts() {
+            self.tangential = Slider::default();
+            return;
+        }
         let limit = law.friction_dynamic * N::smooth_force(law, self.mode, look.overlap, approach).max(0.0);
         let sliding = look.sliding(law);
         self.tangential.grip = Grip::Slide;

@@ -33,7 +33,7 @@ const LEAST: u64 = 50;
 /// What is to be measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Order {
-    /// Ticks of a round; none: what takes a fifth of a second, but [`LEAST`] at least, within the duration of the scene.
+    /// Ticks of a round; none: what takes a fifth of a second, but 50 at least, within the duration of the scene.
     pub ticks: Option<u64>,
     /// How many rounds are timed.
     pub rounds: u32,
