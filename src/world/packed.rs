@@ -193,7 +193,7 @@ impl Bodies {
     }
 
     /// How many bodies move by forces.
-    pub fn dynamic_count(&self) -> usize {
+    pub(crate) fn dynamic_count(&self) -> usize {
         if self.all_dynamic { self.len() } else { self.dynamic.iter().filter(|dynamic| **dynamic).count() }
     }
 

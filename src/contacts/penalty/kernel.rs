@@ -137,8 +137,8 @@ struct FollowPairs<'a, N> {
     forces: Option<&'a mut ContactForces>,
 }
 
-/// What the pairs of a part are followed with. Nothing takes it by reference that is not put in place: so the processor has its
-/// lists in registers.
+/// What the pairs of a part are followed with. No function that is called for itself may take it by reference, only those that are
+/// inlined: then the places of its lists stay in registers.
 struct Pairs<'a, N> {
     sides: PairedRecords<'a>,
     list: ListPart<'a>,
@@ -235,10 +235,12 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
 }
 
 impl<N: NormalForce> FollowPairs<'_, N> {
-    /// Follows all pairs; `law` is that of all of them if there is only one.
+    /// Follows all pairs; `law` is that of all of them if there is only one. `PLAIN`: they are [plain](Pairs::plain), and all of them
+    /// have to be looked at.
     #[inline(always)]
     fn all<V: Lanes, const ONE_LAW: bool, const PLAIN: bool>(self, law: &PairLaw<V>) -> Found {
         let Self { mut pairs, share: Share { first, force, torque }, mut found, mut forces } = self;
+        let (plain, sparse) = (PLAIN || pairs.plain, !PLAIN && pairs.sparse);
         let mut lost = PartialLosses::default();
         let mut pushes = Pushes::NONE;
         let mut ahead = [Geometry::default(); AHEAD];
@@ -261,7 +263,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
                 let (mut lane, mut touching, mut deeper) = (0, 0, 0);
                 let deepest = found.deepest.share;
                 while lane < BLOCK {
-                    if PLAIN || !(pairs.sparse && none_of::<V>(geometry.among, lane)) {
+                    if !(sparse && none_of::<V>(geometry.among, lane)) {
                         let (touch, deep) =
                             pairs.follow::<V, ONE_LAW>(lane, geometry, law, deepest, &mut pushes, &mut lost);
                         touching |= touch << lane;
@@ -279,14 +281,14 @@ impl<N: NormalForce> FollowPairs<'_, N> {
                     continue;
                 }
                 let share = Share { first, force: &mut *force, torque: &mut *torque };
-                if !PLAIN && !pairs.plain {
+                if !plain {
                     let laws = (pairs.laws, pairs.list.law[block], pairs.list.histories[block].overlap);
                     let sink = (share, &mut found, forces.as_deref_mut());
                     push_and_account(pairs.bodies, sides, geometry, touching, &pushes, laws, sink);
                     continue;
                 }
                 // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
-                let lanes = if touching.count_ones() >= FULL && (PLAIN || !pairs.sparse) { u8::MAX } else { touching };
+                let lanes = if touching.count_ones() >= FULL && !sparse { u8::MAX } else { touching };
                 let Share { first, force, torque } = share;
                 if !pushes.give(&pairs.sides, pairs.list.first + block, lanes, (first, force, torque)) {
                     push_among_parts(Share { first, force, torque }, &mut found, sides, touching, &pushes);
@@ -303,11 +305,12 @@ impl<N: NormalForce> Pairs<'_, N> {
     /// Finds out where the sides of the pairs of a block are.
     #[inline(always)]
     fn look<V: Lanes, const PLAIN: bool>(&mut self, block: usize, geometry: &mut Geometry) {
+        let sparse = !PLAIN && self.sparse;
         let there = if PLAIN { self.list.there_in(block) } else { self.list.awake_in(block) };
         let (touched, mut among) = (self.list.phases[block].touching(), 0);
         let mut lane = 0;
         while lane < BLOCK {
-            if !PLAIN && self.sparse && none_of::<V>(there, lane) {
+            if sparse && none_of::<V>(there, lane) {
                 lane += V::COUNT;
                 continue;
             }
@@ -463,7 +466,8 @@ fn note_deepest(
     }
 }
 
-/// Forces of a block go to the bodies, one pair after the other, where some side stands in another part.
+/// Forces of a block go to the bodies, one pair after the other, where some side stands in another part: [`Pushes::give`] gives
+/// them where none does.
 #[cold]
 fn push_among_parts(mut share: Share, found: &mut Found, sides: &PairBlock, touching: u8, pushes: &Pushes) {
     for lane in lanes(touching) {
@@ -486,7 +490,7 @@ impl Share<'_> {
     }
 }
 
-/// The same where bodies have several atoms, where some do not move by forces, or where somebody asks for forces.
+/// Forces of a block go to the bodies, one pair after the other, where those have several atoms, where some do not move by forces, or where somebody asks for forces.
 #[inline(never)]
 fn push_and_account(
     bodies: &Bodies,

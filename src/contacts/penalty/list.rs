@@ -384,7 +384,7 @@ impl ListPart<'_> {
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {
         let looked_at = self.looked_at.get(block).copied().unwrap_or(u8::MAX);
-        there(self.count_in(block)) & looked_at & !self.asleep.get(block).copied().unwrap_or(0)
+        self.there_in(block) & looked_at & !self.asleep.get(block).copied().unwrap_or(0)
     }
 }
 
