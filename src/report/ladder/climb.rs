@@ -20,8 +20,8 @@ const STEEP: f64 = 8.0;
 pub(in crate::report) struct Rungs<I: Iterator<Item = f64>> {
     /// From coarse to fine.
     pub ticks: I,
-    /// Longer ones, from fine to coarse: they are tried, after the first of the others, as long as each is of use and costs less than
-    /// the one before.
+    /// Longer ones, from fine to coarse: they are tried, after the first of the others, as long as each is of use and takes no more
+    /// evaluations than the one before.
     pub trials: Vec<f64>,
 }
 
@@ -139,7 +139,9 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         self.last = Some((spent, tick));
         self.settings.push(setting);
         for tick in std::mem::take(&mut self.trials) {
-            let cost = |setting: &Setting| setting.error().filter(|error| *error < USELESS).and(setting.seconds);
+            // Not by time: what is tried, and told, would be another thing in each run.
+            let cost =
+                |setting: &Setting| setting.error().filter(|error| *error < USELESS).map(|_| setting.evaluations);
             let Some(before) = cost(&self.settings[0]) else { break };
             let (trial, _) = subject.run(self.course, tick)?;
             if cost(&trial).is_none_or(|cost| cost > before) {
