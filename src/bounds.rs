@@ -83,6 +83,10 @@ pub fn update_bounding_boxes(mut bodies: ResMut<Bodies>, mut bounds: ResMut<Boun
 impl Bounds {
     /// Makes the boxes anew when a body has moved by half the margin since they were made.
     pub(crate) fn update(&mut self, bodies: &mut Bodies, evaluation: &Evaluation) {
+        // Whoever sleeps changes nothing: nor does it count that he was woken, or when lists are made would follow from it.
+        if evaluation.again {
+            return;
+        }
         let known = self.generation == bodies.generation && !self.stale;
         let follows = !evaluation.style.is_staged();
         self.age += 1;

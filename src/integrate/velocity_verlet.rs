@@ -29,7 +29,7 @@ impl Integrator for VelocityVerlet {
         let ahead = tick.velocity_dependent().then_some(dt / 2.0);
         tick.advance(dt / 2.0, dt, ahead);
         tick.evaluate(dt);
-        tick.kick(dt / 2.0);
+        tick.kick_at_end(dt / 2.0);
     }
 
     fn flies(&self) -> bool {

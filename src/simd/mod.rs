@@ -17,6 +17,7 @@ mod pairs;
 mod scalar;
 #[cfg(test)]
 mod tests;
+mod vectors;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -28,6 +29,7 @@ pub use allocator::Lines;
 pub(crate) use allocator::give_back;
 pub use level::{Kernel, Level, run};
 pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
+pub use vectors::Vectors;
 
 /// Eight numbers that belong together and are loaded as one: a line of the cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,11 +73,29 @@ pub trait Lanes:
     /// Writes the lanes to the beginning of a list.
     fn store(self, numbers: &mut [f64]);
 
-    /// As many pairs from the beginning of a list: their first numbers, and their second ones.
-    fn load_pairs(pairs: &[DVec2]) -> (Self, Self);
+    /// Numbers of two in turns, first of the first: the first half of them, and the other.
+    fn interleaved(first: Self, second: Self) -> (Self, Self);
 
-    /// Writes pairs to the beginning of a list.
-    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]);
+    /// What was [interleaved](Lanes::interleaved).
+    fn parted(low: Self, high: Self) -> (Self, Self);
+
+    /// Each number twice in a row: the first half of them, and the other.
+    #[inline(always)]
+    fn twice(self) -> (Self, Self) {
+        Self::interleaved(self, self)
+    }
+
+    /// As many vectors from the beginning of a list: their numbers along the first axis, and along the second.
+    #[inline(always)]
+    fn load_pairs(vectors: &[DVec2]) -> (Self, Self) {
+        Vectors::load(vectors).parted()
+    }
+
+    /// Writes vectors to the beginning of a list.
+    #[inline(always)]
+    fn store_pairs(first: Self, second: Self, vectors: &mut [DVec2]) {
+        Vectors::of(first, second).store(vectors);
+    }
 
     /// The records at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
     fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK];
@@ -96,8 +116,8 @@ pub trait Lanes:
         (second, [first[BLOCK - 2], first[BLOCK - 1]])
     }
 
-    /// Writes as many records to the beginning of a list: item `k` holds the `k`th number of each.
-    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]);
+    /// Writes as many records to the beginning of a list: item `k` holds the `k`th two numbers of each.
+    fn store_records(numbers: [Vectors<Self>; BLOCK / 2], records: &mut [Record]);
 
     /// The square root of each.
     fn sqrt(self) -> Self;

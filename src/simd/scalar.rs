@@ -1,8 +1,6 @@
 //! One lane: plain numbers, on any processor.
 
-use glam::DVec2;
-
-use super::{BLOCK, Lanes, Record};
+use super::{BLOCK, Lanes, Record, Vectors};
 
 /// Yes or no for one lane. Unlike `bool` it has the operators that masks have, without branches.
 #[derive(Clone, Copy)]
@@ -53,13 +51,13 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
-    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
-        (pairs[0].x, pairs[0].y)
+    fn interleaved(first: Self, second: Self) -> (Self, Self) {
+        (first, second)
     }
 
     #[inline(always)]
-    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
-        pairs[0] = DVec2::new(first, second);
+    fn parted(low: Self, high: Self) -> (Self, Self) {
+        (low, high)
     }
 
     #[inline(always)]
@@ -68,8 +66,8 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
-    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]) {
-        records[0] = Record(numbers);
+    fn store_records([a, b, c, d]: [Vectors<Self>; BLOCK / 2], records: &mut [Record]) {
+        records[0] = Record([a.0, a.1, b.0, b.1, c.0, c.1, d.0, d.1]);
     }
 
     #[inline(always)]

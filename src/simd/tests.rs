@@ -33,7 +33,8 @@ impl Kernel for Everything<'_> {
             let chosen = V::mask(0b1011_0010 >> lane);
             let both = V::load_pairs(&pairs[lane..]);
             V::store_pairs(both.1, both.0, &mut swapped[lane..]);
-            V::store_records(transposed, &mut written[lane..]);
+            let twos = [0, 2, 4, 6].map(|number| Vectors::of(transposed[number], transposed[number + 1]));
+            V::store_records(twos, &mut written[lane..]);
             let made = [
                 a + b,
                 a - b,

@@ -43,6 +43,8 @@ pub struct Evaluation {
     pub count: u64,
     /// Bodies have moved on since, or a force was switched: forces are those of an earlier state.
     pub stale: bool,
+    /// The state that was evaluated last is evaluated once more, with those awake that were left out.
+    pub(crate) again: bool,
 }
 
 /// How models with a history are evaluated.

@@ -37,6 +37,7 @@ pub(crate) struct State {
 
 impl State {
     fn exchange(&mut self, world: &mut World) {
+        self.bodies.catch_up();
         exchange(world, &mut self.bodies);
         exchange(world, &mut self.balance);
         exchange(world, &mut self.ledger);
@@ -313,6 +314,9 @@ impl Direct {
     /// What [`Stage::Observe`](super::Stage::Observe) does.
     pub fn observe(&mut self, world: &mut World) {
         self.state.turn_to(stopwatch::Part::Observe);
+        if !self.observers.is_empty() {
+            self.state.bodies.catch_up();
+        }
         for number in 0..self.observers.len() {
             let accounts = Accounts::Held(&self.state, &self.parts);
             if !self.observers[number].observe(&self.state, accounts, world) {

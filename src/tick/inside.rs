@@ -101,7 +101,7 @@ impl Tick<'_> {
             let Drive { farthest, travelled, .. } = *self.held();
             self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
         }
-        self.run_evaluation(time, elapsed);
+        self.run_evaluation(Evaluation { time, elapsed, ..Evaluation::default() });
         let bodies = self.bodies();
         if !std::mem::take(&mut bodies.disturbed) {
             return bodies.swap_estimate();
@@ -109,16 +109,17 @@ impl Tick<'_> {
         bodies.wake_all();
         bodies.pose();
         // No time has passed since: histories stay as they are.
-        self.run_evaluation(time, 0.0);
+        let state = Evaluation { time, again: true, ..Evaluation::default() };
+        self.run_evaluation(state);
         self.bodies().swap_estimate();
     }
 
     /// Bodies are posed.
-    fn run_evaluation(&mut self, time: f64, elapsed: f64) {
+    fn run_evaluation(&mut self, state: Evaluation) {
         *self.held_mut() = Balance::default();
         let style = self.style;
         let evaluation: &mut Evaluation = self.held_mut();
-        *evaluation = Evaluation { time, elapsed, style, count: evaluation.count + 1, stale: false };
+        *evaluation = Evaluation { style, count: evaluation.count + 1, ..state };
         match &mut self.direct {
             Some(direct) => direct.evaluate(),
             None => self.evaluate.run(self.world),
@@ -168,7 +169,7 @@ impl Tick<'_> {
             bodies.prescribe(begin, time);
         }
         bodies.pose();
-        self.run_evaluation(time, 0.0);
+        self.run_evaluation(Evaluation { time, ..Evaluation::default() });
     }
 
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
@@ -288,6 +289,13 @@ impl Tick<'_> {
     pub fn kick(&mut self, dt: f64) {
         self.book(dt);
         self.bodies().kick(dt);
+    }
+
+    /// The same at the end of the tick: where nobody looks it is done with the next step.
+    pub fn kick_at_end(&mut self, dt: f64) {
+        self.book(dt);
+        let may_wait = self.direct.is_some() && !self.style.is_staged();
+        if may_wait { self.bodies().kick_later(dt) } else { self.bodies().kick(dt) }
     }
 
     /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities

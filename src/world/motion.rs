@@ -1,6 +1,6 @@
 //! What happens to each body in a step, several bodies at once: kicks, drifts, estimates.
 
-use std::ops::Range;
+use std::ops::{Add, Range, Sub};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::packed::{Bodies, Moved};
 use super::part::{Part, PerBody, parts_of};
 use super::pose::Pose;
-use crate::simd::{self, BLOCK, Kernel, Lanes};
+use crate::simd::{self, BLOCK, Kernel, Lanes, Vectors};
 
 /// How far bodies went.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,6 +28,24 @@ impl Bodies {
         }
     }
 
+    /// The same, but where all bodies are moved by the next step they are kicked on its way, in numbers that are loaded once. Until then
+    /// velocities are those of before: whoever reads them, or changes forces, calls [`Bodies::catch_up`] first.
+    pub(crate) fn kick_later(&mut self, dt: f64) {
+        if self.records.is_empty() || self.flights.some() {
+            return self.kick(dt);
+        }
+        self.note_kick();
+        self.owed = Some(dt);
+    }
+
+    /// Gives the kick that is owed, if one is.
+    #[inline]
+    pub(crate) fn catch_up(&mut self) {
+        if let Some(dt) = self.owed.take() {
+            self.each(Kick { dt }, |_| ());
+        }
+    }
+
     /// Velocities change by the present forces over `kick` seconds, then positions and angles of dynamic bodies by those
     /// velocities over `drift` seconds (compensated summation: what rounding drops is added the next time). With `ahead` the
     /// velocities so many seconds later are estimated from the same forces. Forces are those of a past state then: they are
@@ -43,7 +61,8 @@ impl Bodies {
         let mut travel = Travel::default();
         let mut weighed = (0.0, DVec2::ZERO);
         let pose = Pose::new(self.field);
-        let mut advance = Advance { kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK], pose };
+        let owed = self.owed.take();
+        let mut advance = Advance { owed, kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK], pose };
         let mut found = |part: &Advance| {
             travel.greatest = part.greatest.iter().copied().fold(travel.greatest, f64::max);
             travel.sum = part.sum.iter().fold(travel.sum, |sum, part| sum + part);
@@ -91,19 +110,18 @@ impl PerBody for Kick {
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
         let dt = V::splat(self.dt);
-        let (x, y) = V::load_pairs(&part.velocity[first..]);
-        let (force_x, force_y) = V::load_pairs(&part.force[first..]);
         let (inverse_mass, inverse_inertia) = part.inverses::<V>(first);
-        let weight = inverse_mass * dt;
-        V::store_pairs(x + force_x * weight, y + force_y * weight, &mut part.velocity[first..]);
-        let weight = inverse_inertia * dt;
-        let spin = V::load(&part.spin[first..]) + V::load(&part.torque[first..]) * weight;
+        let kicked = Vectors::load(&part.velocity[first..]) + Vectors::load(&part.force[first..]) * (inverse_mass * dt);
+        kicked.store(&mut part.velocity[first..]);
+        let spin = V::load(&part.spin[first..]) + V::load(&part.torque[first..]) * (inverse_inertia * dt);
         spin.store(&mut part.spin[first..]);
     }
 }
 
 #[derive(Clone)]
 struct Advance {
+    /// See [`Bodies::owed`].
+    owed: Option<f64>,
     kick: f64,
     drift: f64,
     ahead: Option<f64>,
@@ -114,7 +132,7 @@ struct Advance {
 
 /// A number that changes by a step, and what rounding leaves of that (Kahan 1965).
 #[inline(always)]
-fn compensated<V: Lanes>(before: V, rest: V, step: V) -> (V, V) {
+fn compensated<N: Copy + Add<Output = N> + Sub<Output = N>>(before: N, rest: N, step: N) -> (N, N) {
     let step = step + rest;
     let after = before + step;
     (after, step - (after - before))
@@ -131,44 +149,49 @@ impl PerBody for Advance {
 
     #[inline(always)]
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
-        let (force_x, force_y) = V::load_pairs(&part.force[first..]);
+        let force = Vectors::load(&part.force[first..]);
         let (torque, (inverse_mass, inverse_inertia)) = (V::load(&part.torque[first..]), part.inverses::<V>(first));
-        let (u, v) = V::load_pairs(&part.velocity[first..]);
-        let spin = V::load(&part.spin[first..]);
-        let (weight, turning) = (inverse_mass * V::splat(self.kick), inverse_inertia * V::splat(self.kick));
-        let (u, v, spin) = (u + force_x * weight, v + force_y * weight, spin + torque * turning);
-        V::store_pairs(u, v, &mut part.velocity[first..]);
+        let (mut velocity, mut spin) = (Vectors::load(&part.velocity[first..]), V::load(&part.spin[first..]));
+        if let Some(owed) = self.owed {
+            let owed = V::splat(owed);
+            velocity = velocity + force * (inverse_mass * owed);
+            spin = spin + torque * (inverse_inertia * owed);
+        }
+        let kick = V::splat(self.kick);
+        velocity = velocity + force * (inverse_mass * kick);
+        spin = spin + torque * (inverse_inertia * kick);
+        velocity.store(&mut part.velocity[first..]);
         spin.store(&mut part.spin[first..]);
-        let mut seen = (u, v);
+        let mut seen = velocity;
         if let Some(ahead) = self.ahead {
-            let (weight, turning) = (inverse_mass * V::splat(ahead), inverse_inertia * V::splat(ahead));
-            seen = (u + force_x * weight, v + force_y * weight);
-            V::store_pairs(seen.0, seen.1, &mut part.estimated_velocity[first..]);
-            (spin + torque * turning).store(&mut part.estimated_spin[first..]);
+            let ahead = V::splat(ahead);
+            seen = velocity + force * (inverse_mass * ahead);
+            seen.store(&mut part.estimated_velocity[first..]);
+            (spin + torque * (inverse_inertia * ahead)).store(&mut part.estimated_spin[first..]);
         }
         let moves = inverse_mass.gt(V::splat(0.0));
         let dt = V::splat(self.drift).only(moves);
-        let (dx, dy, turn) = (u * dt, v * dt, spin * dt);
+        let (drift, turn) = (velocity * dt, spin * dt);
         if !part.drift.is_empty() {
-            V::store_pairs(dx, dy, &mut part.drift[first..]);
+            drift.store(&mut part.drift[first..]);
             turn.store(&mut part.turn[first..]);
         }
-        let (x, y) = V::load_pairs(&part.position[first..]);
-        let (rest_x, rest_y) = V::load_pairs(&part.position_rest[first..]);
-        let ((x, rest_x), (y, rest_y)) = (compensated(x, rest_x, dx), compensated(y, rest_y, dy));
-        V::store_pairs(x, y, &mut part.position[first..]);
-        V::store_pairs(rest_x, rest_y, &mut part.position_rest[first..]);
+        let (position, rest) = (Vectors::load(&part.position[first..]), Vectors::load(&part.position_rest[first..]));
+        let (position, rest) = compensated(position, rest, drift);
+        position.store(&mut part.position[first..]);
+        rest.store(&mut part.position_rest[first..]);
         let (angle, rest) = (V::load(&part.angle[first..]), V::load(&part.angle_rest[first..]));
         let (angle, rest) = compensated(angle, rest, turn);
         angle.store(&mut part.angle[first..]);
         rest.store(&mut part.angle_rest[first..]);
         if !part.records.is_empty() {
             let radius = V::load(&part.extent[first..]);
-            V::store_records([x, y, dx, dy, seen.0, seen.1, turn, radius], &mut part.records[first..]);
+            V::store_records([position, drift, seen, Vectors::of(turn, radius)], &mut part.records[first..]);
         }
         if part.lone_discs {
-            self.pose.forces(part, first, (x, y), moves);
+            self.pose.forces(part, first, position, moves);
         }
+        let (dx, dy) = drift.parted();
         let (lane, around) = (first % BLOCK, turn.abs() * V::load(&part.extent[first..]));
         // No way is longer than along both axes: roots only of those that may be the longest so far.
         let squared = dx * dx + dy * dy;

@@ -147,6 +147,9 @@ pub struct Bodies {
     /// How often bodies that were asleep have woken: as long as that is the same whoever was asleep stands where it stood.
     pub(crate) rousings: u64,
 
+    /// Seconds for which velocities have yet to change by the present forces: see [`Bodies::kick_later`].
+    pub(crate) owed: Option<f64>,
+
     /// Lent by contacts that need all of them: what they have to know of each disc. Whoever moves all bodies fills them in on the way.
     pub(crate) records: Vec<Record>,
     /// They were filled in, with the present state.

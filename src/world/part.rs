@@ -141,6 +141,23 @@ impl<'a> Part<'a> {
         front
     }
 
+    /// Cuts all lists to the number of bodies, which none is shorter than: then places are looked at once for all of them.
+    #[inline(always)]
+    fn cut_alike(&mut self) {
+        let count = self.mass.len();
+        self.inertia = &self.inertia[..count];
+        self.extent = &self.extent[..count];
+        self.moves = &self.moves[..count];
+        self.position = &mut std::mem::take(&mut self.position)[..count];
+        self.position_rest = &mut std::mem::take(&mut self.position_rest)[..count];
+        self.angle = &mut std::mem::take(&mut self.angle)[..count];
+        self.angle_rest = &mut std::mem::take(&mut self.angle_rest)[..count];
+        self.velocity = &mut std::mem::take(&mut self.velocity)[..count];
+        self.spin = &mut std::mem::take(&mut self.spin)[..count];
+        self.force = &mut std::mem::take(&mut self.force)[..count];
+        self.torque = &mut std::mem::take(&mut self.torque)[..count];
+    }
+
     /// 1/mass and 1/inertia of some bodies from place `first` of the part on.
     #[inline(always)]
     pub fn inverses<V: Lanes>(&self, first: usize) -> (V, V) {
@@ -225,6 +242,7 @@ impl<W: PerBody> Kernel for All<'_, W> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { mut part, work } = self;
+        part.cut_alike();
         let mut number = 0;
         while number < part.blocks() {
             let bodies = part.block(number);

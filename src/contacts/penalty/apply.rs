@@ -312,9 +312,7 @@ pub(super) fn apply<N: NormalForce>(
             deepest,
             moment,
         );
-        if !some_fly {
-            records.lend(sink.bodies);
-        }
+        records.lendable = !some_fly;
     }
     follow_walls::<N>((walls, &pairs.walls), laws, (&mut sink, &mut losses), deepest, Moment { path, time, elapsed });
     ledger.friction.add(losses.friction);

@@ -100,6 +100,7 @@ impl<N: NormalForce> Part for Contacts<N> {
                 let (rolling, forces) = (self.rolling.as_mut(), self.forces.as_mut());
                 let own = Own { pairs: &self.pairs, contacts: &mut self.contacts, rolling, forces };
                 apply::<N>(shared, own, &mut self.deepest, self.touches.as_mut());
+                self.contacts.records.lend(bodies);
                 if let Some(rolling) = &mut self.rolling {
                     let shared = Shared { bodies, balance, ledger, evaluation };
                     rolling::apply(shared, &self.pairs, &self.contacts, rolling);

@@ -189,6 +189,21 @@ impl ContactList {
         })
     }
 
+    /// How many touch, are not asleep and are `counted`; no more once there are more than `enough`.
+    pub(super) fn count_touching(&self, enough: usize, counted: impl Fn(usize) -> bool) -> usize {
+        let mut count = 0;
+        for number in 0..self.awake_blocks() {
+            let block = self.awake_block(number);
+            for lane in lanes(self.phases[block].touching() & !self.asleep_in(block)) {
+                count += usize::from(counted(BLOCK * block + lane));
+            }
+            if count > enough {
+                break;
+            }
+        }
+        count
+    }
+
     /// The blocks that need work, where that is not all.
     #[inline(always)]
     fn few(&self) -> Option<&[u32]> {

@@ -80,6 +80,7 @@ pub(super) fn choose<N: NormalForce>(
         choice.book(ledger);
         return;
     }
+    choice.sink.bodies.catch_up();
     cases.clear();
     moved.forget(choice.sink.bodies.len());
     touching.clear();
@@ -125,14 +126,21 @@ struct Choice<'a> {
 
 impl Choice<'_> {
     /// Whether a body is at rest or does not move by forces.
+    #[inline]
     fn stands(&self, body: usize) -> bool {
         !self.sink.bodies.dynamic[body] || self.contacts.rest.has(body)
     }
 
     /// Bodies at rest that touch one that moves wake, and so do their neighbours.
     fn wake_touched(&mut self, pairs: &CandidatePairs) {
-        let bodies = &*self.sink.bodies;
         let PenaltyContacts { atoms, rest, .. } = &mut *self.contacts;
+        // Whoever was pushed has woken by that.
+        let mut woke = !rest.is_empty() && std::mem::take(&mut rest.woke);
+        if !woke {
+            return;
+        }
+        self.sink.bodies.catch_up();
+        let bodies = &*self.sink.bodies;
         let ends = |place: usize| {
             let AtomPair { a, b } = pairs.atoms[place];
             (bodies.atom_body(a as usize), bodies.atom_body(b as usize))
@@ -141,11 +149,6 @@ impl Choice<'_> {
             let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
             !still || bodies.dynamic[body] && !rest.has(body)
         };
-        // Whoever was pushed has woken by that.
-        let mut woke = !rest.is_empty() && std::mem::take(&mut rest.woke);
-        if !woke {
-            return;
-        }
         while woke {
             woke = false;
             for place in atoms.touching() {
@@ -200,7 +203,7 @@ impl Choice<'_> {
         self.change(case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
     }
 
-    /// How many contacts touch of bodies that are not at rest. Where some rest, counting ends with one more than [`MANY`].
+    /// How many contacts touch of bodies that are not at rest. Where some rest, no more are counted once there are [`MANY`].
     fn restless(&self, pairs: &CandidatePairs) -> usize {
         let PenaltyContacts { atoms, walls, rest, .. } = &*self.contacts;
         if rest.is_empty() {
@@ -208,10 +211,8 @@ impl Choice<'_> {
         }
         let bodies = &*self.sink.bodies;
         let moves = |atom: u32| !self.stands(bodies.atom_body(atom as usize));
-        let of_atoms =
-            atoms.awake_touching().filter(|&place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
-        let of_walls = walls.awake_touching().filter(|&place| moves(pairs.walls[place].atom));
-        of_atoms.chain(of_walls).take(MANY + 1).count()
+        let of_atoms = atoms.count_touching(MANY, |place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
+        of_atoms + walls.count_touching(MANY, |place| moves(pairs.walls[place].atom))
     }
 
     /// What is held follows its law again, but for what holds bodies at rest.
@@ -222,6 +223,7 @@ impl Choice<'_> {
             let pair = pairs.atoms[place as usize];
             let (a, b) = (End::of(self.sink.bodies, pair.a), End::of(self.sink.bodies, pair.b));
             if !(self.stands(a.body) && self.stands(b.body)) {
+                self.sink.bodies.catch_up();
                 let normal = pair.normal(self.sink.bodies);
                 let approach = approach(self.sink.bodies, Some(&a), &b, normal);
                 self.choose_by_velocity::<N>(&Case { place, normal, other: Other::Atom(a), end: b }, approach);
@@ -233,6 +235,7 @@ impl Choice<'_> {
             let WallPair { wall, atom } = pairs.walls[place as usize];
             let (end, normal) = (End::of(self.sink.bodies, atom), self.sink.bodies.walls[wall as usize].normal);
             if !self.stands(end.body) {
+                self.sink.bodies.catch_up();
                 let approach = approach(self.sink.bodies, None, &end, normal);
                 self.choose_by_velocity::<N>(&Case { place, normal, other: Other::Wall(wall), end }, approach);
             }

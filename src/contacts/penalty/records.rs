@@ -29,6 +29,8 @@ pub(super) struct Records {
     sparse: bool,
     /// The last evaluation needed all of them.
     all: bool,
+    /// Nobody flew in it: whoever moves bodies moves all of them.
+    pub lendable: bool,
     /// Those that were lent have come back with the present state.
     current: bool,
     /// Evaluations since it was seen that all are needed.
@@ -36,9 +38,11 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// After an evaluation: lends them, if all were needed, to the bodies until the next one.
+    /// After an evaluation: lends them, if all were needed, to the bodies until the next one. Only where nobody else changes bodies
+    /// between the step and that evaluation: it would not be seen.
     pub fn lend(&mut self, bodies: &mut Bodies) {
-        if self.all && bodies.asleep.is_empty() && matches!(bodies.moved, Moved::For(_)) {
+        let lendable = std::mem::take(&mut self.lendable);
+        if lendable && self.all && bodies.asleep.is_empty() && matches!(bodies.moved, Moved::For(_)) {
             bodies.records = std::mem::take(&mut self.list);
         }
     }

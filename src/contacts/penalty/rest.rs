@@ -17,7 +17,7 @@ use crate::world::Bodies;
 /// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
 const IMBALANCE: f64 = 1e-9;
 
-/// Bodies among which one at least has to sleep for all of them to be asked whether they do.
+/// Bodies that move by forces, among which one at least has to sleep for all to be asked whether they do.
 const FEWEST: usize = 16;
 
 /// A body at rest.
@@ -178,7 +178,7 @@ impl PenaltyContacts {
             asleep[resting.body / BLOCK] |= 1 << (resting.body % BLOCK);
             count += 1;
         }
-        if count == 0 || FEWEST * count < bodies.len() {
+        if count == 0 || FEWEST * count < bodies.dynamic_count() {
             bodies.wake_all();
             atoms.wake_all();
             walls.wake_all();

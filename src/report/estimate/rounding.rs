@@ -5,6 +5,7 @@
 //! 2002, 1.18: beware, the true errors of rounding are no random numbers).
 
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -27,7 +28,9 @@ struct LastBits(ChaCha8Rng);
 /// Moves all numbers of bodies in motion by a unit in the last place.
 fn disturb(mut bodies: ResMut<Bodies>, mut bits: ResMut<LastBits>) {
     for body in 0..bodies.len() {
-        if !bodies.dynamic[body] || bodies.is_asleep(body) {
+        // Whoever is at rest stands still to the last bit.
+        let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
+        if still || !bodies.dynamic[body] {
             continue;
         }
         let mut random = bits.0.next_u32();

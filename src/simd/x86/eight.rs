@@ -3,10 +3,8 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use glam::DVec2;
-
-use super::{F64x4, last_two_of, operators, store_pair};
-use crate::simd::{BLOCK, Lanes, Record};
+use super::{F64x4, last_two_of, operators};
+use crate::simd::{BLOCK, Lanes, Record, Vectors};
 
 /// Eight numbers.
 #[derive(Clone, Copy)]
@@ -84,27 +82,29 @@ impl F64x8 {
             let (even_cd, odd_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
             let (even_ef, odd_ef) = (_mm512_unpacklo_pd(e, f), _mm512_unpackhi_pd(e, f));
             let (even_gh, odd_gh) = (_mm512_unpacklo_pd(g, h), _mm512_unpackhi_pd(g, h));
-            // Quarters 0 and 2, then quarters 1 and 3, of two pairs of rows each.
-            let even_02 = _mm512_shuffle_f64x2::<0x88>(even_ab, even_cd);
-            let even_02_too = _mm512_shuffle_f64x2::<0x88>(even_ef, even_gh);
-            let even_13 = _mm512_shuffle_f64x2::<0xdd>(even_ab, even_cd);
-            let even_13_too = _mm512_shuffle_f64x2::<0xdd>(even_ef, even_gh);
-            let odd_02 = _mm512_shuffle_f64x2::<0x88>(odd_ab, odd_cd);
-            let odd_02_too = _mm512_shuffle_f64x2::<0x88>(odd_ef, odd_gh);
-            let odd_13 = _mm512_shuffle_f64x2::<0xdd>(odd_ab, odd_cd);
-            let odd_13_too = _mm512_shuffle_f64x2::<0xdd>(odd_ef, odd_gh);
-            [
-                Self(_mm512_shuffle_f64x2::<0x88>(even_02, even_02_too)),
-                Self(_mm512_shuffle_f64x2::<0x88>(odd_02, odd_02_too)),
-                Self(_mm512_shuffle_f64x2::<0x88>(even_13, even_13_too)),
-                Self(_mm512_shuffle_f64x2::<0x88>(odd_13, odd_13_too)),
-                Self(_mm512_shuffle_f64x2::<0xdd>(even_02, even_02_too)),
-                Self(_mm512_shuffle_f64x2::<0xdd>(odd_02, odd_02_too)),
-                Self(_mm512_shuffle_f64x2::<0xdd>(even_13, even_13_too)),
-                Self(_mm512_shuffle_f64x2::<0xdd>(odd_13, odd_13_too)),
-            ]
+            let pair = |a, b| quarters(Self(a), Self(b));
+            let ((even_02, even_13), (even_02_too, even_13_too)) = (pair(even_ab, even_cd), pair(even_ef, even_gh));
+            let ((odd_02, odd_13), (odd_02_too, odd_13_too)) = (pair(odd_ab, odd_cd), pair(odd_ef, odd_gh));
+            let ((a, e), (b, f)) = (quarters(even_02, even_02_too), quarters(odd_02, odd_02_too));
+            let ((c, g), (d, h)) = (quarters(even_13, even_13_too), quarters(odd_13, odd_13_too));
+            [a, b, c, d, e, f, g, h]
         }
     }
+}
+
+/// Quarters 0 and 2 of two, then quarters 1 and 3.
+#[inline(always)]
+fn quarters(a: F64x8, b: F64x8) -> (F64x8, F64x8) {
+    // SAFETY: see the head of the folder.
+    unsafe { (F64x8(_mm512_shuffle_f64x2::<0x88>(a.0, b.0)), F64x8(_mm512_shuffle_f64x2::<0xdd>(a.0, b.0))) }
+}
+
+/// A transposition of four by four quarters.
+#[inline(always)]
+fn rows([a, b, c, d]: [F64x8; 4]) -> [F64x8; 4] {
+    let ((ab_02, ab_13), (cd_02, cd_13)) = (quarters(a, b), quarters(c, d));
+    let ((first, third), (second, fourth)) = (quarters(ab_02, cd_02), quarters(ab_13, cd_13));
+    [first, second, third, fourth]
 }
 
 impl Lanes for F64x8 {
@@ -139,23 +139,18 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]) {
+    fn store_records([a, b, c, d]: [Vectors<Self>; BLOCK / 2], records: &mut [Record]) {
         let records = &mut records[..Self::COUNT];
-        for pair in 0..BLOCK / 2 {
-            let (a, b) = (numbers[2 * pair].0, numbers[2 * pair + 1].0);
-            // SAFETY: see the head of the folder.
-            unsafe {
-                let (even, odd) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
-                store_pair(_mm512_castpd512_pd128(even), &mut records[0], pair);
-                store_pair(_mm512_castpd512_pd128(odd), &mut records[1], pair);
-                store_pair(_mm512_extractf64x2_pd::<1>(even), &mut records[2], pair);
-                store_pair(_mm512_extractf64x2_pd::<1>(odd), &mut records[3], pair);
-                store_pair(_mm512_extractf64x2_pd::<2>(even), &mut records[4], pair);
-                store_pair(_mm512_extractf64x2_pd::<2>(odd), &mut records[5], pair);
-                store_pair(_mm512_extractf64x2_pd::<3>(even), &mut records[6], pair);
-                store_pair(_mm512_extractf64x2_pd::<3>(odd), &mut records[7], pair);
-            }
-        }
+        let [first, second, third, fourth] = rows([a.0, b.0, c.0, d.0]);
+        first.store(&mut records[0].0);
+        second.store(&mut records[1].0);
+        third.store(&mut records[2].0);
+        fourth.store(&mut records[3].0);
+        let [first, second, third, fourth] = rows([a.1, b.1, c.1, d.1]);
+        first.store(&mut records[4].0);
+        second.store(&mut records[5].0);
+        third.store(&mut records[6].0);
+        fourth.store(&mut records[7].0);
     }
 
     #[inline(always)]
@@ -177,28 +172,25 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
-        let pairs = &pairs[..Self::COUNT];
-        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
+    fn interleaved(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: see the head of the folder.
         unsafe {
-            let place = pairs.as_ptr().cast::<f64>();
-            let (low, high) = (_mm512_loadu_pd(place), _mm512_loadu_pd(place.add(8)));
-            let first = _mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0);
-            let second = _mm512_set_epi64(15, 13, 11, 9, 7, 5, 3, 1);
-            (Self(_mm512_permutex2var_pd(low, first, high)), Self(_mm512_permutex2var_pd(low, second, high)))
+            let low = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0);
+            let high = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
+            (
+                Self(_mm512_permutex2var_pd(first.0, low, second.0)),
+                Self(_mm512_permutex2var_pd(first.0, high, second.0)),
+            )
         }
     }
 
     #[inline(always)]
-    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
-        let pairs = &mut pairs[..Self::COUNT];
+    fn parted(low: Self, high: Self) -> (Self, Self) {
         // SAFETY: likewise.
         unsafe {
-            let place = pairs.as_mut_ptr().cast::<f64>();
-            let low = _mm512_set_epi64(11, 3, 10, 2, 9, 1, 8, 0);
-            let high = _mm512_set_epi64(15, 7, 14, 6, 13, 5, 12, 4);
-            _mm512_storeu_pd(place, _mm512_permutex2var_pd(first.0, low, second.0));
-            _mm512_storeu_pd(place.add(8), _mm512_permutex2var_pd(first.0, high, second.0));
+            let first = _mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0);
+            let second = _mm512_set_epi64(15, 13, 11, 9, 7, 5, 3, 1);
+            (Self(_mm512_permutex2var_pd(low.0, first, high.0)), Self(_mm512_permutex2var_pd(low.0, second, high.0)))
         }
     }
 

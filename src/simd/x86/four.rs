@@ -3,10 +3,8 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use glam::DVec2;
-
-use super::{F64x2, bit_operators, last_two_of, operators, store_pair};
-use crate::simd::{BLOCK, Lanes, Record};
+use super::{F64x2, bit_operators, last_two_of, operators};
+use crate::simd::{BLOCK, Lanes, Record, Vectors};
 
 /// Four numbers.
 #[derive(Clone, Copy)]
@@ -40,13 +38,17 @@ fn quarters([a, b, c, d]: [F64x4; 4]) -> [F64x4; 4] {
     unsafe {
         let (even, odd) = (_mm256_unpacklo_pd(a.0, b.0), _mm256_unpackhi_pd(a.0, b.0));
         let (even_too, odd_too) = (_mm256_unpacklo_pd(c.0, d.0), _mm256_unpackhi_pd(c.0, d.0));
-        [
-            F64x4(_mm256_permute2f128_pd::<0x20>(even, even_too)),
-            F64x4(_mm256_permute2f128_pd::<0x20>(odd, odd_too)),
-            F64x4(_mm256_permute2f128_pd::<0x31>(even, even_too)),
-            F64x4(_mm256_permute2f128_pd::<0x31>(odd, odd_too)),
-        ]
+        let (first, third) = halves(F64x4(even), F64x4(even_too));
+        let (second, fourth) = halves(F64x4(odd), F64x4(odd_too));
+        [first, second, third, fourth]
     }
+}
+
+/// The first halves of two, and the second ones.
+#[inline(always)]
+fn halves(a: F64x4, b: F64x4) -> (F64x4, F64x4) {
+    // SAFETY: see the head of the folder.
+    unsafe { (F64x4(_mm256_permute2f128_pd::<0x20>(a.0, b.0)), F64x4(_mm256_permute2f128_pd::<0x31>(a.0, b.0))) }
 }
 
 impl Lanes for F64x4 {
@@ -87,19 +89,18 @@ impl Lanes for F64x4 {
     }
 
     #[inline(always)]
-    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]) {
+    fn store_records([a, b, c, d]: [Vectors<Self>; BLOCK / 2], records: &mut [Record]) {
         let records = &mut records[..Self::COUNT];
-        for pair in 0..BLOCK / 2 {
-            let (a, b) = (numbers[2 * pair].0, numbers[2 * pair + 1].0);
-            // SAFETY: see the head of the folder.
-            unsafe {
-                let (even, odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
-                store_pair(_mm256_castpd256_pd128(even), &mut records[0], pair);
-                store_pair(_mm256_castpd256_pd128(odd), &mut records[1], pair);
-                store_pair(_mm256_extractf128_pd::<1>(even), &mut records[2], pair);
-                store_pair(_mm256_extractf128_pd::<1>(odd), &mut records[3], pair);
-            }
-        }
+        let ((ab, ab_too), (cd, cd_too)) = (halves(a.0, b.0), halves(c.0, d.0));
+        ab.store(&mut records[0].0);
+        cd.store(&mut records[0].0[4..]);
+        ab_too.store(&mut records[1].0);
+        cd_too.store(&mut records[1].0[4..]);
+        let ((ab, ab_too), (cd, cd_too)) = (halves(a.1, b.1), halves(c.1, d.1));
+        ab.store(&mut records[2].0);
+        cd.store(&mut records[2].0[4..]);
+        ab_too.store(&mut records[3].0);
+        cd_too.store(&mut records[3].0[4..]);
     }
 
     #[inline(always)]
@@ -124,28 +125,24 @@ impl Lanes for F64x4 {
     }
 
     #[inline(always)]
-    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
-        let pairs = &pairs[..Self::COUNT];
-        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
-        unsafe {
-            let place = pairs.as_ptr().cast::<f64>();
-            let (low, high) = (_mm256_loadu_pd(place), _mm256_loadu_pd(place.add(4)));
-            // Pairs 0 and 2, pairs 1 and 3.
-            let even = _mm256_permute2f128_pd::<0x20>(low, high);
-            let odd = _mm256_permute2f128_pd::<0x31>(low, high);
-            (Self(_mm256_unpacklo_pd(even, odd)), Self(_mm256_unpackhi_pd(even, odd)))
-        }
+    fn interleaved(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: see the head of the folder.
+        let (even, odd) = unsafe { (_mm256_unpacklo_pd(first.0, second.0), _mm256_unpackhi_pd(first.0, second.0)) };
+        halves(Self(even), Self(odd))
     }
 
     #[inline(always)]
-    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
-        let pairs = &mut pairs[..Self::COUNT];
+    fn parted(low: Self, high: Self) -> (Self, Self) {
+        let (even, odd) = halves(low, high);
+        // SAFETY: likewise.
+        unsafe { (Self(_mm256_unpacklo_pd(even.0, odd.0)), Self(_mm256_unpackhi_pd(even.0, odd.0))) }
+    }
+
+    #[inline(always)]
+    fn twice(self) -> (Self, Self) {
         // SAFETY: likewise.
         unsafe {
-            let place = pairs.as_mut_ptr().cast::<f64>();
-            let (even, odd) = (_mm256_unpacklo_pd(first.0, second.0), _mm256_unpackhi_pd(first.0, second.0));
-            _mm256_storeu_pd(place, _mm256_permute2f128_pd::<0x20>(even, odd));
-            _mm256_storeu_pd(place.add(4), _mm256_permute2f128_pd::<0x31>(even, odd));
+            (Self(_mm256_permute4x64_pd::<0b0101_0000>(self.0)), Self(_mm256_permute4x64_pd::<0b1111_1010>(self.0)))
         }
     }
 

@@ -7,7 +7,7 @@ mod eight;
 mod four;
 mod two;
 
-use std::arch::x86_64::{__m128d, _mm_loadu_pd, _mm_storeu_pd};
+use std::arch::x86_64::{__m128d, _mm_loadu_pd};
 
 use super::{BLOCK, Record};
 
@@ -78,12 +78,4 @@ use {bit_operators, operators};
 unsafe fn last_two_of(records: &[Record], place: u32) -> __m128d {
     // SAFETY: as the caller promises; a record has two numbers from the seventh on.
     unsafe { _mm_loadu_pd(records.get_unchecked(place as usize).0.as_ptr().add(BLOCK - 2)) }
-}
-
-/// Writes two numbers of a record, one of the four pairs that make it.
-#[inline(always)]
-fn store_pair(numbers: __m128d, record: &mut Record, pair: usize) {
-    let pair = &mut record.0[2 * pair..2 * pair + 2];
-    // SAFETY: each x86-64 processor has SSE2; there is room for two.
-    unsafe { _mm_storeu_pd(pair.as_mut_ptr(), numbers) };
 }

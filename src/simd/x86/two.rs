@@ -3,10 +3,8 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use glam::DVec2;
-
-use super::{bit_operators, operators, store_pair};
-use crate::simd::{BLOCK, Lanes, Record};
+use super::{bit_operators, operators};
+use crate::simd::{BLOCK, Lanes, Record, Vectors};
 
 /// Two numbers.
 #[derive(Clone, Copy)]
@@ -64,38 +62,23 @@ impl Lanes for F64x2 {
     }
 
     #[inline(always)]
-    fn store_records(numbers: [Self; BLOCK], records: &mut [Record]) {
+    fn store_records(numbers: [Vectors<Self>; BLOCK / 2], records: &mut [Record]) {
         let records = &mut records[..Self::COUNT];
-        for pair in 0..BLOCK / 2 {
-            let (a, b) = (numbers[2 * pair].0, numbers[2 * pair + 1].0);
-            // SAFETY: each x86-64 processor has SSE2.
-            unsafe {
-                store_pair(_mm_unpacklo_pd(a, b), &mut records[0], pair);
-                store_pair(_mm_unpackhi_pd(a, b), &mut records[1], pair);
-            }
+        for (number, Vectors(first, second)) in numbers.into_iter().enumerate() {
+            first.store(&mut records[0].0[2 * number..]);
+            second.store(&mut records[1].0[2 * number..]);
         }
     }
 
     #[inline(always)]
-    fn load_pairs(pairs: &[DVec2]) -> (Self, Self) {
-        let pairs = &pairs[..Self::COUNT];
-        // SAFETY: `DVec2` is two numbers in order, and as many pairs stand there.
-        unsafe {
-            let first = pairs.as_ptr().cast::<f64>();
-            let (a, b) = (_mm_loadu_pd(first), _mm_loadu_pd(first.add(2)));
-            (Self(_mm_unpacklo_pd(a, b)), Self(_mm_unpackhi_pd(a, b)))
-        }
+    fn interleaved(first: Self, second: Self) -> (Self, Self) {
+        // SAFETY: each x86-64 processor has SSE2.
+        unsafe { (Self(_mm_unpacklo_pd(first.0, second.0)), Self(_mm_unpackhi_pd(first.0, second.0))) }
     }
 
     #[inline(always)]
-    fn store_pairs(first: Self, second: Self, pairs: &mut [DVec2]) {
-        let pairs = &mut pairs[..Self::COUNT];
-        // SAFETY: likewise.
-        unsafe {
-            let place = pairs.as_mut_ptr().cast::<f64>();
-            _mm_storeu_pd(place, _mm_unpacklo_pd(first.0, second.0));
-            _mm_storeu_pd(place.add(2), _mm_unpackhi_pd(first.0, second.0));
-        }
+    fn parted(low: Self, high: Self) -> (Self, Self) {
+        Self::interleaved(low, high)
     }
 
     #[inline(always)]
