@@ -100,14 +100,20 @@ pub trait Lanes:
     /// The records at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
     fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK];
 
-    /// The records of two lists of places, transposed: of the first six numbers what the second is more than the first; the
-    /// last two numbers of the second, then those of the first.
+    /// The records of two lists of places, each written as that of the first number, transposed: of the first six numbers what the
+    /// second is more than the first; the last two numbers of the second, then those of the first.
     ///
     /// # Safety
     /// The first [`Lanes::COUNT`] places of both lists are those of records.
     #[inline(always)]
     unsafe fn record_pairs(records: &[Record], first: &[u32], second: &[u32]) -> ([Self; BLOCK], [Self; 2]) {
-        let (first, mut second) = (Self::records(records, first), Self::records(records, second));
+        let (mut own, mut other) = ([0; BLOCK], [0; BLOCK]);
+        let mut lane = 0;
+        while lane < Self::COUNT {
+            (own[lane], other[lane]) = (first[lane] / BLOCK as u32, second[lane] / BLOCK as u32);
+            lane += 1;
+        }
+        let (first, mut second) = (Self::records(records, &own), Self::records(records, &other));
         let mut number = 0;
         while number < BLOCK - 2 {
             second[number] = second[number] - first[number];

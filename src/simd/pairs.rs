@@ -6,7 +6,8 @@ use glam::DVec2;
 
 use super::{BLOCK, Lanes, Record};
 
-/// Eight pairs: the first place of each, then the second. A line of the cache.
+/// Eight pairs: the first place of each, then the second. A line of the cache. A place is written as that of the first number of a
+/// record, [`BLOCK`] times itself: so the processor finds records, forces and torques without working out where they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(64))]
 pub struct PairBlock {
@@ -18,9 +19,12 @@ impl PairBlock {
     /// The two places of a pair.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> (u32, u32) {
-        (self.first[lane], self.second[lane])
+        (self.first[lane] / SCALE, self.second[lane] / SCALE)
     }
 }
+
+/// Numbers of a record.
+const SCALE: u32 = BLOCK as u32;
 
 /// Pairs of places in blocks; the last is filled up with pairs of the place 0 with itself.
 #[derive(Clone, Debug, Default)]
@@ -42,9 +46,10 @@ impl PairBlocks {
         self.bound = 0;
         for (number, (first, second)) in pairs.enumerate() {
             let block = &mut self.blocks[number / BLOCK];
-            (block.first[number % BLOCK], block.second[number % BLOCK]) = (first, second);
+            (block.first[number % BLOCK], block.second[number % BLOCK]) = (SCALE * first, SCALE * second);
             self.bound = self.bound.max(first as usize + 1).max(second as usize + 1);
         }
+        assert!(self.bound <= (u32::MAX / SCALE) as usize, "more places than can be written");
         (self.sides, self.records) = (Vec::new(), self.bound);
     }
 
@@ -53,10 +58,12 @@ impl PairBlocks {
     /// # Panics
     /// If one is not there.
     pub fn find_records(&mut self, of: &[u32], count: usize) {
-        let elsewhere = |places: [u32; BLOCK]| places.map(|place| of[place as usize]);
+        let elsewhere = |places: [u32; BLOCK]| places.map(|place| SCALE * of[(place / SCALE) as usize]);
         let side = |block: &PairBlock| PairBlock { first: elsewhere(block.first), second: elsewhere(block.second) };
         self.sides = self.blocks.iter().map(side).collect();
-        let there = |block: &PairBlock| block.first.iter().chain(&block.second).all(|&place| (place as usize) < count);
+        let there = |block: &PairBlock| {
+            block.first.iter().chain(&block.second).all(|&place| ((place / SCALE) as usize) < count)
+        };
         assert!(self.sides.iter().all(there), "a pair of what is not there");
         self.records = count;
     }
@@ -109,7 +116,7 @@ impl PairedRecords<'_> {
     pub fn fetch(&self, block: usize) {
         if let Some(PairBlock { second, .. }) = self.sides.get(block) {
             for &place in second {
-                super::fetch(self.records.as_ptr().wrapping_add(place as usize));
+                super::fetch(self.records.as_ptr().cast::<f64>().wrapping_add(place as usize));
             }
         }
     }
@@ -123,10 +130,11 @@ impl PairedRecords<'_> {
         let mut farthest = 0;
         for lane in 0..BLOCK {
             // Whoever stands before the first is far behind it.
-            let (a, b) = (pairs.first[lane].wrapping_sub(first as u32), pairs.second[lane].wrapping_sub(first as u32));
+            let first = SCALE * first as u32;
+            let (a, b) = (pairs.first[lane].wrapping_sub(first), pairs.second[lane].wrapping_sub(first));
             farthest = farthest.max(a).max(b);
         }
-        (farthest as usize) < len
+        ((farthest / SCALE) as usize) < len
     }
 }
 
@@ -185,14 +193,16 @@ impl Pushes {
     /// Forces and torques of both sides of the pair stand so many places behind those of body 0.
     #[inline(always)]
     unsafe fn give_one(&self, block: &PairBlock, lane: usize, (force, torque): (*mut DVec2, *mut f64)) {
-        let (a, b) = block.get(lane);
-        let (a, b) = (a as usize, b as usize);
+        let (a, b) = (block.first[lane] as usize, block.second[lane] as usize);
+        // Of eight bytes times its place a body has eight for its torque and twice as many for its force.
+        let force = |place: usize| force.wrapping_byte_add(place * size_of::<DVec2>() / BLOCK);
+        let torque = |place: usize| torque.wrapping_byte_add(place * size_of::<f64>() / BLOCK);
         // SAFETY: as the caller promises. Both may be the same body: one is done after the other.
         unsafe {
-            *force.wrapping_add(a) -= self.force[lane];
-            *torque.wrapping_add(a) += self.torque_first[lane];
-            *force.wrapping_add(b) += self.force[lane];
-            *torque.wrapping_add(b) += self.torque_second[lane];
+            *force(a) -= self.force[lane];
+            *torque(a) += self.torque_first[lane];
+            *force(b) += self.force[lane];
+            *torque(b) += self.torque_second[lane];
         }
     }
 }

@@ -255,7 +255,7 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
         alert: false,
     };
     if tick.fresh {
-        tick.bodies().wake_all();
+        tick.packed().wake_all();
     }
     if tick.fresh && style.is_staged() {
         tick.begin_anew();
@@ -266,7 +266,7 @@ fn advance(world: &mut World, mut direct: Option<&mut Direct>) {
         see_all(tick.world, tick.direct.as_deref_mut(), |world| Ledger::book_exchange(world, before));
     }
     // Where all bodies are asleep the end of the tick is its beginning.
-    if !tick.bodies().all_asleep() {
+    if !tick.packed().all_asleep() {
         if !style.is_staged() {
             tick.choose_modes(tick.begin, tick.end);
         }

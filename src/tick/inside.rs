@@ -79,8 +79,17 @@ impl Tick<'_> {
         held_mut(self.world, self.direct.as_deref_mut())
     }
 
-    /// The packed state.
+    /// The packed state, to be changed by a method: what it holds is up to date, and what was noted of it is found anew.
     pub fn bodies(&mut self) -> &mut Bodies {
+        let bodies = self.packed();
+        bodies.catch_up();
+        bodies.recorded = false;
+        bodies
+    }
+
+    /// The packed state for the tick itself.
+    #[inline(always)]
+    pub(super) fn packed(&mut self) -> &mut Bodies {
         self.held_mut()
     }
 
@@ -89,7 +98,7 @@ impl Tick<'_> {
         // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
         let begin = self.begin;
-        let bodies = self.bodies();
+        let bodies = self.packed();
         if elapsed == 0.0 {
             bodies.accept();
         }
@@ -102,7 +111,7 @@ impl Tick<'_> {
             self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
         }
         self.run_evaluation(Evaluation { time, elapsed, ..Evaluation::default() });
-        let bodies = self.bodies();
+        let bodies = self.packed();
         if !std::mem::take(&mut bodies.disturbed) {
             return bodies.swap_estimate();
         }
@@ -111,7 +120,7 @@ impl Tick<'_> {
         // No time has passed since: histories stay as they are.
         let state = Evaluation { time, again: true, ..Evaluation::default() };
         self.run_evaluation(state);
-        self.bodies().swap_estimate();
+        self.packed().swap_estimate();
     }
 
     /// Bodies are posed.
@@ -133,7 +142,7 @@ impl Tick<'_> {
 
     /// Lets forces and contacts choose their modes from `begin` to `end`.
     pub fn choose_modes(&mut self, begin: f64, end: f64) {
-        let bodies = self.bodies();
+        let bodies = self.packed();
         if !bodies.prescribed.motions.is_empty() {
             let middle = 0.5 * (begin + end);
             let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
@@ -163,7 +172,7 @@ impl Tick<'_> {
     /// it but the rates.
     pub fn evaluate_stage(&mut self, time: f64) {
         let begin = self.begin;
-        let bodies = self.bodies();
+        let bodies = self.packed();
         bodies.wake_all();
         if !bodies.prescribed.motions.is_empty() {
             bodies.prescribe(begin, time);
@@ -247,7 +256,7 @@ impl Tick<'_> {
         if self.looked_at || self.is_watched() {
             return self.evaluate_stage(time);
         }
-        self.bodies().pose();
+        self.packed().pose();
         let evaluation: &mut Evaluation = self.held_mut();
         (evaluation.time, evaluation.stale) = (time, true);
     }
@@ -295,7 +304,7 @@ impl Tick<'_> {
     pub fn kick_at_end(&mut self, dt: f64) {
         self.book(dt);
         let may_wait = self.direct.is_some() && !self.style.is_staged();
-        if may_wait { self.bodies().kick_later(dt) } else { self.bodies().kick(dt) }
+        if may_wait { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
     }
 
     /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
@@ -304,7 +313,7 @@ impl Tick<'_> {
     /// place of the velocities, which stay as they are.
     pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
         self.book(kick);
-        let bodies = self.bodies();
+        let bodies = self.packed();
         let (travelled, smallest) = (bodies.advance(kick, drift, ahead), bodies.smallest_radius);
         self.note_travel(travelled, smallest);
     }

@@ -32,7 +32,7 @@ pub fn far_travel(world: &World) -> Option<FarTravel> {
 impl Tick<'_> {
     /// Books how far bodies have travelled in the tick: `from` are positions and angles at its beginning.
     pub fn book_travel(&mut self, from: &[(DVec2, f64)]) {
-        let bodies = self.bodies();
+        let bodies = self.packed();
         bodies.list_displacements();
         let (mut greatest, mut sum) = (0.0_f64, 0.0);
         for (body, &(position, angle)) in from.iter().enumerate() {

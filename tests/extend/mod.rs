@@ -4,3 +4,4 @@ mod axis_wise;
 mod bevy_app;
 mod contact_events;
 mod film_layer;
+mod integrator;

@@ -180,3 +180,81 @@ fn lists_that_stay_because_most_sleep_change_no_bit() {
         assert!(woken > 1, "sleepers woke {woken} times");
     }
 }
+
+/// Discs that stand on the floor, one beside the other, and a gas that hits them now and then, so that all wake: most of it flies until they
+/// rest again.
+fn shelled(method: &str, seed: u32) -> String {
+    let mut row = String::new();
+    for number in 0..8 {
+        let _ = write!(
+            row,
+            "(name: \"{number}\", at: ({:?}, 0.1), material: \"stone\", atoms: Disc(radius: 0.1)),",
+            3.3 + 0.2 * f64::from(number)
+        );
+    }
+    format!(
+        "Scene(format: 1, clock: (duration: 1.5, tick: 0.0005, method: {method}), gravity: (0, -9.81),
+        materials: {{
+            \"stone\": (stiffness: 20000, friction: 0.5, restitution: 0, density: 10),
+            \"air\": (stiffness: 20000, friction: 0, restitution: 1, density: 10),
+        }},
+        contacts: Penalty(normal: Inelasticity),
+        walls: [(name: \"floor\", left: (8, 0), right: (0, 0), material: \"air\"),
+                (name: \"left\", left: (0, 0), right: (0, 8), material: \"air\"),
+                (name: \"right\", left: (8, 8), right: (8, 0), material: \"air\")],
+        bodies: [{row}],
+        fill: [(name: \"gas\", atoms: Disc(radius: 0.03), material: \"air\", count: 118, within: ((0.1, 2.6), (7.9, 8)),
+            speed: 2, seed: {seed})])"
+    )
+}
+
+/// Sleepers that are hit have all forces evaluated once more: nothing but these may follow from it, not when lists are made, and so
+/// not when others begin to fly.
+#[test]
+fn whoever_flies_does_not_see_who_sleeps() {
+    for method in ["VelocityVerlet", "SemiImplicitEuler"] {
+        let (mut flew, mut woken) = (false, 0);
+        for seed in 1..=8 {
+            let text = shelled(method, seed);
+            let (mut asleep, mut awake) = (load_awake(&text, true), load_awake(&text, false));
+            let mut before = 0;
+            for tick in (10..=asleep.ticks()).step_by(10) {
+                for simulation in [&mut asleep, &mut awake] {
+                    simulation.run_to_tick(tick).expect("numbers stay finite");
+                }
+                let what = format!("{method}, seed {seed}, tick {tick}");
+                assert_eq!(state_hash(asleep.bodies()), state_hash(awake.bodies()), "{what}");
+                assert_eq!(asleep.bodies().flying(), awake.bodies().flying(), "{what}");
+                let sleepers = asleep.bodies().asleep.iter().map(|bits| bits.count_ones()).sum::<u32>();
+                woken += u32::from(sleepers < before);
+                flew |= woken > 0 && asleep.bodies().flying() > 0;
+                before = sleepers;
+            }
+        }
+        assert!(woken > 3, "{method}: sleepers woke {woken} times");
+        assert_eq!(flew, method == "VelocityVerlet", "{method}");
+    }
+}
+
+/// Promise: what is fixed is not counted among those of whom some have to sleep.
+#[test]
+fn a_few_that_rest_among_many_that_are_fixed_sleep() {
+    let mut pegs = String::new();
+    for number in 0..200 {
+        let (x, y) = (0.2 * f64::from(number % 20), 2.0 + 0.2 * f64::from(number / 20));
+        let _ = write!(
+            pegs,
+            "(name: \"peg_{number}\", fixed: true, at: ({x:?}, {y:?}), material: \"stone\", atoms: Disc(radius: 0.05)),"
+        );
+    }
+    let mut simulation = load(&format!(
+        "Scene(format: 1, clock: (duration: 2, tick: 0.001, method: VelocityVerlet), gravity: (0, -9.81),
+        materials: {{ \"stone\": (stiffness: 50000, friction: 0.5, restitution: 0.3, density: 10) }},
+        walls: [(name: \"floor\", left: (4, 0), right: (0, 0), material: \"stone\")],
+        bodies: [{pegs}
+            (name: \"ball\", at: (1, 0.11), material: \"stone\", atoms: Disc(radius: 0.1)),
+            (name: \"other\", at: (2, 0.12), material: \"stone\", atoms: Disc(radius: 0.1))])"
+    ));
+    run_to(&mut simulation, 2.0);
+    assert!(simulation.bodies().all_asleep());
+}

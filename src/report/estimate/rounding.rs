@@ -81,3 +81,29 @@ pub(super) fn estimate(
     (estimate.position.rounding, estimate.velocity.rounding) = (Some(distance), Some(speed));
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    /// Promise: last bits are those of bodies in motion. A ball that rests is left alone, whoever else is there.
+    #[test]
+    fn who_rests_is_not_disturbed() {
+        let text = "Scene(format: 1, clock: (duration: 2, tick: 0.001, method: VelocityVerlet), gravity: (0, -9.81),
+            materials: { \"stone\": (stiffness: 50000, friction: 0.5, restitution: 0.3, density: 10) },
+            walls: [(name: \"floor\", left: (4, 0), right: (0, 0), material: \"stone\")],
+            bodies: [(name: \"ball\", at: (1, 0.11), material: \"stone\", atoms: Disc(radius: 0.1))],
+            fill: [(name: \"rain\", atoms: Disc(radius: 0.01), material: \"stone\", count: 30, within: ((5, 0), (9, 9)))])";
+        let mut simulation = Simulation::load(&Source::new("rest.ron", text)).unwrap_or_else(|wrong| panic!("{wrong}"));
+        simulation.run_to_tick(1000).unwrap();
+        let ball = |simulation: &Simulation| simulation.bodies().position[0];
+        let before = simulation.bodies().position.clone();
+        simulation.world_mut().insert_resource(LastBits(ChaCha8Rng::seed_from_u64(1)));
+        add_packed_observer(simulation.world_mut(), disturb);
+        simulation.run_to_tick(1500).unwrap();
+        assert_eq!(ball(&simulation), before[0]);
+        let fallen = simulation.bodies().position.iter().zip(&before).filter(|(now, before)| now != before).count();
+        assert_eq!(fallen, 30);
+    }
+}

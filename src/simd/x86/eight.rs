@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::{F64x4, last_two_of, operators};
+use super::{F64x4, last_two_of, operators, record_at};
 use crate::simd::{BLOCK, Lanes, Record, Vectors};
 
 /// Eight numbers.
@@ -161,8 +161,8 @@ impl Lanes for F64x8 {
         // SAFETY: the places are those of records, as the caller promises; see the head of the folder.
         unsafe {
             while lane < BLOCK {
-                let own = Self::load(&records.get_unchecked(first[lane] as usize).0);
-                rows[lane] = Self::load(&records.get_unchecked(second[lane] as usize).0).less_in_six(own);
+                let own = Self::load(record_at(records, first[lane]));
+                rows[lane] = Self::load(record_at(records, second[lane])).less_in_six(own);
                 lane += 1;
             }
             let (even, odd) = (Self::last_two(records, first), Self::last_two(records, &first[1..]));

@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::{F64x2, bit_operators, last_two_of, operators};
+use super::{F64x2, bit_operators, last_two_of, operators, record_at};
 use crate::simd::{BLOCK, Lanes, Record, Vectors};
 
 /// Four numbers.
@@ -111,8 +111,8 @@ impl Lanes for F64x4 {
         // SAFETY: the places are those of records, as the caller promises; see the head of the folder.
         unsafe {
             while lane < Self::COUNT {
-                let own = &records.get_unchecked(first[lane] as usize).0;
-                let other = &records.get_unchecked(second[lane] as usize).0;
+                let own = record_at(records, first[lane]);
+                let other = record_at(records, second[lane]);
                 let high = Self::load(&other[Self::COUNT..]);
                 let less = high - Self::load(&own[Self::COUNT..]);
                 rows[lane] = (Self::load(other) - Self::load(own), Self(_mm256_blend_pd::<0b1100>(less.0, high.0)));

@@ -70,12 +70,22 @@ macro_rules! bit_operators {
 
 use {bit_operators, operators};
 
+/// The numbers of a record.
+///
+/// # Safety
+/// The place is that of the first number of a record.
+#[inline(always)]
+unsafe fn record_at(records: &[Record], place: u32) -> &[f64; BLOCK] {
+    // SAFETY: as the caller promises.
+    unsafe { &*records.as_ptr().cast::<f64>().add(place as usize).cast() }
+}
+
 /// The last two numbers of a record.
 ///
 /// # Safety
-/// The place is that of a record.
+/// Likewise.
 #[inline(always)]
 unsafe fn last_two_of(records: &[Record], place: u32) -> __m128d {
     // SAFETY: as the caller promises; a record has two numbers from the seventh on.
-    unsafe { _mm_loadu_pd(records.get_unchecked(place as usize).0.as_ptr().add(BLOCK - 2)) }
+    unsafe { _mm_loadu_pd(record_at(records, place).as_ptr().add(BLOCK - 2)) }
 }

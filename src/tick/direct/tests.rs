@@ -94,6 +94,51 @@ fn both_ways_give_the_same_bits() {
     }
 }
 
+/// Discs that fall, pile up and come to rest in part, at whom nobody looks: so the last kick of each tick waits for the next step.
+/// Beside them a few that rest are hit by others.
+fn heap(method: &str, contacts: &str, count: usize, more: &str) -> Source {
+    let disc = |name: &str, number: u32, place: (f64, f64), more: &str| {
+        let at = format!("at: {place:?}, {more}, material: \"stone\"");
+        format!("(name: \"{name}_{number}\", {at}, atoms: Disc(radius: 0.1, mass: 0.1)),")
+    };
+    let mut bodies = String::new();
+    for number in 0..20 {
+        bodies += &disc("fence", number, (3.1, 0.1 + 0.15 * f64::from(number)), "fixed: true");
+    }
+    for number in 0..8 {
+        let x = 3.4 + 0.3 * f64::from(number);
+        bodies += &disc("resting", number, (x, 0.1), "spin: 0");
+        bodies += &disc("shell", number, (x + 0.03, 2.0 + f64::from(number)), "velocity: (0.1, 0)");
+    }
+    let text = format!(
+        "Scene(format: 1, clock: (duration: 1.5, tick: 0.0005, method: {method}),
+        gravity: (0, -9.81), contacts: Penalty({contacts}),
+        materials: {{ \"stone\": (stiffness: 4000, friction: 0.4, inelasticity: 0.6) }},
+        walls: [
+            (name: \"floor\", left: (3, 0), right: (0, 0), material: \"stone\"),
+            (name: \"left\", left: (0, 0), right: (0, 1), material: \"stone\"),
+        ],
+        bodies: [{bodies}],
+        fill: [(name: \"grain\", atoms: Disc(radius: 0.035, mass: 0.02), material: \"stone\", count: {count},
+            within: ((0.1, 0.1), (2.9, 2.9)))]{more})"
+    );
+    Source::new("heap.ron", text)
+}
+
+/// With a few grains rest is looked for in each tick, with many in some.
+#[test]
+fn both_ways_give_the_same_bits_in_heaps_at_which_nobody_looks() {
+    for (contacts, count) in [("normal: Dashpot", 900), ("normal: Dashpot", 30), ("normal: Inelasticity", 20)] {
+        compare_scene(&heap("VelocityVerlet", contacts, count, ""), &[1, 2, 700, 701]);
+    }
+    for method in ["SemiImplicitEuler", "VelocityVerlet, events: Located"] {
+        compare_scene(&heap(method, "normal: Dashpot", 20, ""), &[1, 700]);
+    }
+    // Whoever looks sees velocities as they are.
+    let looking = ", expect: [AtRest(of: \"resting_3\", from: 0, speed_below: 1e-6)]";
+    compare_scene(&heap("VelocityVerlet", "normal: Dashpot", 900, looking), &[1, 700]);
+}
+
 #[test]
 fn both_ways_give_the_same_bits_where_events_are_located() {
     let methods = [
