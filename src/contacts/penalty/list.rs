@@ -96,6 +96,9 @@ pub struct ContactList {
     asleep_touching: usize,
 }
 
+/// Blocks that are looked at together where something is rarely found.
+const TOGETHER: usize = 64;
+
 impl ContactList {
     /// How many there are.
     pub fn len(&self) -> usize {
@@ -242,11 +245,17 @@ impl ContactList {
 
     /// Places of those that are held along their normal and are not asleep, in order.
     pub(super) fn awake_held(&self) -> impl Iterator<Item = usize> + '_ {
-        let held = |block: &usize| self.phases[*block].loading & self.phases[*block].unloading;
-        let blocks = (0..self.awake_blocks()).map(|number| self.awake_block(number));
-        blocks
-            .filter(move |block| held(block) != 0)
-            .flat_map(move |block| lanes(held(&block) & !self.asleep_in(block)).map(move |lane| BLOCK * block + lane))
+        let held = |block: usize| self.phases[block].loading & self.phases[block].unloading;
+        let blocks = self.awake_blocks();
+        let together = move |first: usize| first..blocks.min(first + TOGETHER);
+        // Mostly none is: it is seen of many blocks at once, where those are all in a row.
+        let some_are = move |first: &usize| {
+            let held = |bits: u8, phases: &Phases| bits | phases.loading & phases.unloading;
+            self.few().is_some() || self.phases[together(*first)].iter().fold(0, held) != 0
+        };
+        let numbers = (0..blocks).step_by(TOGETHER).filter(some_are).flat_map(together);
+        let found = numbers.map(|number| self.awake_block(number)).filter(move |block| held(*block) != 0);
+        found.flat_map(move |block| lanes(held(block) & !self.asleep_in(block)).map(move |lane| BLOCK * block + lane))
     }
 
     /// Whether the contact at a place is asleep.
