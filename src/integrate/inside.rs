@@ -7,7 +7,7 @@
 //! acceleration: on straight ways it bends upwards everywhere. What `c` is between two moments is guessed from both: the
 //! greater, and as much again as they differ by.
 
-use super::locate::Moment;
+use super::locate::{Moment, vanished};
 use crate::tick::Indicator;
 
 /// Looks into one step.
@@ -50,7 +50,7 @@ impl Inside {
             .indicators
             .iter()
             .zip(&self.moments[0].indicators)
-            .any(|(now, begin)| now.value < 0.0 && begin.value > 0.0)
+            .any(|(now, begin)| vanished(now) && begin.value > 0.0)
         {
             self.moments.truncate(place);
         }
@@ -110,14 +110,19 @@ mod tests {
     fn gap(t: f64, r: f64, d: f64) -> Indicator {
         let (x, speed) = (10.0 * (t - 0.3), 10.0);
         let distance = x.hypot(d);
-        Indicator { value: distance - 2.0 * r, slope: x * speed / distance, bend: 0.0 }
+        Indicator { value: distance - 2.0 * r, slope: x * speed / distance, ..Indicator::default() }
     }
 
     /// The gap to a peg on a circle of radius 1, at an angle of 2 rad, of a disc that goes round it once in 6.3 seconds from
     /// the angle `begin` on: it bends downwards everywhere but at the peg.
     fn gap_on_a_circle(t: f64, begin: f64) -> Indicator {
         let half = 0.5 * (t + begin - 2.0);
-        Indicator { value: 2.0 * libm::sin(half).abs() - 0.02, slope: libm::cos(half) * half.signum(), bend: 1.0 }
+        Indicator {
+            value: 2.0 * libm::sin(half).abs() - 0.02,
+            slope: libm::cos(half) * half.signum(),
+            bend: 1.0,
+            ..Indicator::default()
+        }
     }
 
     #[test]
@@ -132,7 +137,12 @@ mod tests {
     /// A parabola over the ground is its own bound.
     #[test]
     fn a_throw_that_does_not_come_down_is_not_looked_at() {
-        let height = |t: f64| Indicator { value: 0.1 + 3.0 * t - 2.0 * t * t, slope: 3.0 - 4.0 * t, bend: 4.0 };
+        let height = |t: f64| Indicator {
+            value: 0.1 + 3.0 * t - 2.0 * t * t,
+            slope: 3.0 - 4.0 * t,
+            bend: 4.0,
+            ..Indicator::default()
+        };
         let (_, high, looks) = look(|t| vec![height(t)]);
         assert!(high.share == 1.0 && looks == 0, "{looks}");
     }
@@ -140,7 +150,7 @@ mod tests {
     /// A way along a surface, nearer than can be told from touching it in two dozen looks.
     #[test]
     fn a_step_ends_where_it_stays_open_whether_bodies_meet() {
-        let (_, high, looks) = look(|_| vec![Indicator { value: 1e-6, slope: 0.0, bend: 1.0 }]);
+        let (_, high, looks) = look(|_| vec![Indicator { value: 1e-6, slope: 0.0, bend: 1.0, ..Indicator::default() }]);
         assert!(high.share > 0.0 && high.share < 1.0 && looks == MOST_LOOKS, "{high:?} {looks}");
     }
 
@@ -164,7 +174,7 @@ mod tests {
 
     #[test]
     fn what_only_rises_or_falls_is_not_looked_at() {
-        let (_, _, looks) = look(|t| vec![Indicator { value: 1.0 - 0.5 * t, slope: -0.5, bend: 0.0 }]);
+        let (_, _, looks) = look(|t| vec![Indicator { value: 1.0 - 0.5 * t, slope: -0.5, ..Indicator::default() }]);
         assert_eq!(looks, 0);
     }
 }

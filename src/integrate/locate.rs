@@ -52,7 +52,7 @@ impl Bracket {
     /// The bracket between two moments of a step of `length` seconds that began with the indicators `begin`; nothing, if
     /// there is no event in it.
     pub fn between(begin: &[Indicator], low: Moment, high: Moment, length: f64) -> Option<Self> {
-        let crossing: Vec<bool> = high.indicators.iter().map(|indicator| indicator.value < 0.0).collect();
+        let crossing: Vec<bool> = high.indicators.iter().map(vanished).collect();
         if !crossing.contains(&true) {
             return None;
         }
@@ -85,13 +85,13 @@ impl Bracket {
         let mut beyond = false;
         let (mut met, mut passed) = (false, false);
         for (place, indicator) in moment.indicators.iter().enumerate() {
-            if indicator.value < 0.0 && self.above[place] {
+            if vanished(indicator) && self.above[place] {
                 self.crossing[place] = true;
             }
             if self.crossing[place] {
-                beyond |= indicator.value < 0.0;
-                met |= indicator.value.abs() <= GOAL * self.scale[place];
-                passed |= indicator.value < -ZERO * self.scale[place];
+                beyond |= vanished(indicator);
+                met |= indicator.value.abs() <= indicator.rounding.max(GOAL * self.scale[place]);
+                passed |= indicator.value < -indicator.rounding.max(ZERO * self.scale[place]);
             }
         }
         self.met = met && !passed;
@@ -111,7 +111,8 @@ impl Bracket {
 
     /// The indicators that vanish together at the end of the step, where they have these values.
     pub fn fired(&self, indicators: &[Indicator]) -> Vec<usize> {
-        let vanishes = |place: &usize| indicators[*place].value <= ZERO * self.scale[*place];
+        let zero = |place: usize| indicators[place].rounding.max(ZERO * self.scale[place]);
+        let vanishes = |place: &usize| indicators[*place].value <= zero(*place);
         (0..indicators.len()).filter(|&place| self.crossing[place]).filter(vanishes).collect()
     }
 
@@ -122,7 +123,7 @@ impl Bracket {
         if middle <= a || middle >= b || b - a <= f64::EPSILON * b {
             return None;
         }
-        let crossed = |place: &usize| self.crossing[*place] && self.high.indicators[*place].value < 0.0;
+        let crossed = |place: &usize| self.crossing[*place] && vanished(&self.high.indicators[*place]);
         let guess = |place: usize| {
             let (low, high) = (&self.low.indicators[place], &self.high.indicators[place]);
             if low.value <= 0.0 || self.replaced.abs() > MOST_ON_ONE_SIDE {
@@ -143,6 +144,11 @@ impl Bracket {
     fn low_is_zero(&self) -> bool {
         !(0..self.scale.len()).any(|place| self.crossing[place] && self.low.indicators[place].value > 0.0)
     }
+}
+
+/// Whether an indicator is below zero by more than rounding.
+pub fn vanished(indicator: &Indicator) -> bool {
+    indicator.value < -indicator.rounding
 }
 
 /// Value of the cubic through both ends at `share`.
@@ -197,11 +203,11 @@ mod tests {
     }
 
     fn known(value: f64, slope: f64) -> Indicator {
-        Indicator { value, slope, bend: 0.0 }
+        Indicator { value, slope, ..Indicator::default() }
     }
 
     fn unknown(value: f64) -> Indicator {
-        Indicator { value, slope: f64::NAN, bend: 0.0 }
+        Indicator { value, slope: f64::NAN, ..Indicator::default() }
     }
 
     #[test]

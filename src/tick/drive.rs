@@ -56,7 +56,7 @@ pub(super) struct Drive {
     /// The first body that travelled farther than the smallest radius in one tick.
     pub(super) far: Option<FarTravel>,
     pub(super) energy: EnergyGuard,
-    failure: Option<Failure>,
+    pub(super) failure: Option<Failure>,
     /// How many indicators each model that is watched told last, in order.
     pub(super) told: Vec<usize>,
 }

@@ -23,6 +23,17 @@ pub enum Wrong {
     NotFinite(&'static str),
     /// Energy came out of nowhere.
     Energy(Created),
+    /// Steps of so many seconds, as short as their error asks for, would not come to an end.
+    Steps(f64),
+}
+
+impl Failure {
+    /// The likely cause and what to try, where the failure itself tells.
+    pub fn why(&self) -> Option<String> {
+        let told =
+            "forces grow without bound as bodies come near: give the attraction a `softening:`, or the scene a tick";
+        matches!(self.wrong, Wrong::Steps(_)).then(|| told.to_owned())
+    }
 }
 
 impl std::fmt::Display for Failure {
@@ -30,6 +41,10 @@ impl std::fmt::Display for Failure {
         let Self { body, wrong, tick, time } = self;
         match wrong {
             Wrong::NotFinite(quantity) => write!(f, "the {quantity} of `{body}` is no longer a finite number")?,
+            Wrong::Steps(step) => write!(
+                f,
+                "steps have become as short as {step:.1e} s, for the acceleration of `{body}` grows beyond all bounds,"
+            )?,
             Wrong::Energy(Created { energy, put_in }) => {
                 write!(
                     f,

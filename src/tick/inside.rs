@@ -4,10 +4,11 @@ use bevy_ecs::prelude::*;
 
 use super::direct::{Direct, Held, State, held, held_mut};
 use super::drive::Drive;
-use super::{Balance, Census, Evaluation, Indicator, Ledger, Models, Span, Style};
+use super::failure::{Failure, Wrong};
+use super::{Balance, Census, Clock, Evaluation, Indicator, Ledger, Models, Span, Style};
 use crate::bounds::Bounds;
 use crate::world::motion::Travel;
-use crate::world::{Bodies, lend};
+use crate::world::{Bodies, Name, lend};
 
 /// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
 /// where choices contradict each other.
@@ -292,6 +293,19 @@ impl Tick<'_> {
             }
             self.evaluate_stage(time);
         }
+    }
+
+    /// Ends the run at the end of this tick: steps of `step` seconds, as short as their error asks for, would take too many.
+    pub fn give_up(&mut self, step: f64) {
+        let bodies: &Bodies = self.held();
+        let acceleration = |body: &usize| bodies.force[*body].length() * bodies.inverse_mass(*body);
+        let worst = (0..bodies.len()).max_by(|a, b| acceleration(a).total_cmp(&acceleration(b)));
+        let name = worst.and_then(|body| self.world.get::<Name>(bodies.entity[body]));
+        let body = name.map(Name::to_string).unwrap_or_default();
+        let Clock { ticks, .. } = *self.held();
+        let time = self.held::<Evaluation>().time;
+        let drive: &mut Drive = self.held_mut();
+        drive.failure.get_or_insert(Failure { body, wrong: Wrong::Steps(step), tick: ticks + 1, time });
     }
 
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.

@@ -63,7 +63,7 @@ pub struct StateBlock {
 }
 
 /// An indicator of an event: it is positive while a mode holds, and the event is where it vanishes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Indicator {
     /// Its value in the state just evaluated.
     pub value: f64,
@@ -71,6 +71,10 @@ pub struct Indicator {
     pub slope: f64,
     /// How strongly it may bend downwards there: its second derivative, per second squared, is not below minus this.
     pub bend: f64,
+    /// What rounding makes of its value: above minus this it has not vanished. Default: nothing.
+    pub rounding: f64,
+    /// Angular frequency in rad/s with which springs swing in this mode: steps resolve it. Default: zero, no spring acts.
+    pub swings: f64,
 }
 
 /// A model whose forces jump, or whose modes end.

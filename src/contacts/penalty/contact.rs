@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::coulomb::Slider;
+use super::hold::Friction;
 use super::law::PairLaw;
 use super::normal::{Approach, Mode, NormalForce, elastic_energy};
 
@@ -51,26 +52,22 @@ impl Contact {
         let before = *self;
         self.mode = chosen;
         self.normal_force = N::force(law, chosen.sign(), self.overlap, approach);
-        self.let_go(law, losses);
+        self.take_on(law, Friction::Follows, losses);
         Some(before)
     }
 
-    /// Holds along the normal with `normal` newtons, and along the tangent if `tangential` newtons are given.
-    pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: Option<f64>, losses: &mut Losses) {
+    /// Holds along the normal with `normal` newtons; `tangential`: what friction does.
+    pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: Friction, losses: &mut Losses) {
         self.mode = Mode::Hold;
         self.normal_force = normal;
-        match tangential {
-            Some(tangential) => self.tangential.hold(tangential),
-            None => self.let_go(law, losses),
-        }
+        self.take_on(law, tangential, losses);
     }
 
-    /// The tangential spring takes over; a weaker normal force holds less friction.
-    fn let_go(&mut self, law: &PairLaw, losses: &mut Losses) {
+    /// Friction does what was found for the tick to come; a weaker normal force holds less of it.
+    fn take_on(&mut self, law: &PairLaw, friction: Friction, losses: &mut Losses) {
         let slider = law.tangential();
         if slider.acts() {
-            losses.friction += self.tangential.let_go(&slider);
-            losses.friction += self.tangential.follow(&slider, None, self.normal_force);
+            losses.friction += self.tangential.take_on(&slider, friction, self.normal_force);
         }
     }
 

@@ -8,6 +8,12 @@
 //! At rest the law is set-valued: any force up to `mu N` keeps the contact there. Which one it is the balance of forces
 //! decides ([`super::hold`]).
 
+use super::hold::Friction;
+use super::switching::Base;
+
+/// A share of a force or of a velocity that counts as rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Phase of a spring with a Coulomb limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grip {
@@ -18,7 +24,8 @@ pub enum Grip {
     Slip,
     /// At rest: the force is whatever keeps it so, up to the static limit.
     Hold,
-    /// It slips in the direction of the force in [`Slider::held`]: only where contacts are stages of a step.
+    /// It slips against the force in [`Slider::held`]: where contacts are stages of a step, and where they rest along the normal
+    /// and gave way without a drawn spring.
     Slide,
 }
 
@@ -75,7 +82,7 @@ impl Slider {
     /// moving back, never by being looked at.
     #[inline(always)]
     pub fn follow(&mut self, law: &SliderLaw, displacement: Option<f64>, normal_force: f64) -> f64 {
-        if self.grip == Grip::Hold {
+        if matches!(self.grip, Grip::Hold | Grip::Slide) {
             return self.held * displacement.unwrap_or(0.0);
         }
         let before = self.elongation;
@@ -94,15 +101,55 @@ impl Slider {
         0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
     }
 
-    /// Holds with `force` newtons.
-    pub fn hold(&mut self, force: f64) {
-        self.grip = Grip::Hold;
-        self.held = force;
+    /// Lets a spring slip that is beyond its cone. Says whether it was.
+    pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base) -> bool {
+        // Where a contact begins or ends rounding may leave a normal force below zero.
+        let (force, limit) = (self.force(law), law.friction_static * base.force.max(0.0));
+        let gives = match self.grip {
+            Grip::Hold => force.abs() > limit,
+            Grip::Stick => force.abs() > limit * (1.0 + ROUNDING),
+            Grip::Slip | Grip::Slide => false,
+        };
+        if gives {
+            (self.grip, self.held) = (Grip::Slide, force);
+        }
+        gives
     }
 
-    /// The spring takes over from a hold, as far as the energy it has allows. Returns the energy lost in J.
+    /// Lets a spring stick that would slip against its force, and one slip that would stick without any normal force. Its ends
+    /// move past each other with `velocity`, a difference of velocities as great as `speed`. Says whether there was either.
+    pub(super) fn settle_motion(&mut self, law: &SliderLaw, base: Base, (velocity, speed): (f64, f64)) -> bool {
+        let follows = law.friction_dynamic.copysign(self.held) * base.rate / law.stiffness;
+        let rounding = ROUNDING * (speed + follows.abs());
+        match self.grip {
+            Grip::Slide if (velocity - follows) * self.held.signum() < -rounding => self.grip = Grip::Stick,
+            Grip::Stick if base.force == 0.0 && velocity.abs() > rounding && !base.bears(law, velocity) => {
+                (self.grip, self.held) = (Grip::Slide, 0.0_f64.copysign(velocity));
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Does what was found for the tick to come, under the normal force `normal_force`. Returns the energy lost in J.
+    pub(super) fn take_on(&mut self, law: &SliderLaw, friction: Friction, normal_force: f64) -> f64 {
+        match friction {
+            Friction::Holds(force) => {
+                (self.grip, self.held) = (Grip::Hold, force);
+                0.0
+            }
+            // Without its spring, which would have to be drawn by energy that nothing gives.
+            Friction::Slides(against) => {
+                (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
+                0.0
+            }
+            Friction::Follows => self.let_go(law) + self.follow(law, None, normal_force),
+        }
+    }
+
+    /// The spring takes over from a hold or a slide, as far as the energy it has allows. Returns the energy lost in J.
     pub fn let_go(&mut self, law: &SliderLaw) -> f64 {
-        if self.grip != Grip::Hold {
+        if !matches!(self.grip, Grip::Hold | Grip::Slide) {
             return 0.0;
         }
         let before = self.energy(law);

@@ -114,6 +114,15 @@ impl NormalForce for Dashpot {
         -law.stiffness * approach.parting - damping * (change.parting - thinning * approach.parting)
     }
 
+    /// The contact itself changes the acceleration of its sides, by its mobility times the rate of its force.
+    fn force_second_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64 {
+        if mode == Mode::Unloading {
+            return 0.0;
+        }
+        let jerk = approach.mobility * Self::force_rate(law, mode, approach, change);
+        -law.stiffness * change.parting - damping(law, approach.mobility) * jerk
+    }
+
     fn remaining(mode: Mode, overlap: f64, force: f64) -> (f64, bool) {
         if mode == Mode::Unloading { (overlap, true) } else { (force, false) }
     }

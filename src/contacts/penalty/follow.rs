@@ -128,9 +128,8 @@ impl<V: Lanes> Followed<V> {
             // contact that slips begins to stick by moving back, never by being looked at.
             let (mut lost, mut springs) = (slipped, acts);
             if V::bits(self.slides) != 0 {
-                let grips = self.slips & self.slides;
-                lost = V::select(grips, self.held * displacement, slipped);
-                springs = acts & !grips;
+                lost = V::select(self.slides, self.held * displacement, slipped);
+                springs = acts & !self.slides;
             }
             friction = lost.only(acts);
             elongation = V::select(springs, drawn, elongation);

@@ -91,10 +91,12 @@ impl Slider {
             self.let_go(law);
         }
         match self.grip {
-            Grip::Slip | Grip::Slide => {
+            Grip::Slip => {
                 self.grip = Grip::Slide;
                 self.held = 0.0_f64.copysign(self.elongation);
             }
+            // It knows its direction.
+            Grip::Slide => {}
             Grip::Stick => self.held = 0.0_f64.copysign(velocity),
             Grip::Hold => {}
         }

@@ -133,6 +133,8 @@ struct Bounded {
     coefficient: f64,
     /// Whether it may hold in the tick to come; if not it stays as it is.
     engaged: bool,
+    /// Whether it slides without its spring.
+    slides: bool,
     /// Whether it would have to be greater than its limit to stop the contact. Comparing the force with the limit would
     /// leave that to rounding.
     at_limit: bool,
@@ -171,6 +173,8 @@ pub struct Seen {
     /// Whether the tangential and the rolling force may hold though their springs are drawn out: not before the normal
     /// force has held for a tick, so that a contact that turns in a collision keeps what its springs hold.
     pub engaged: bool,
+    /// Whether the contact slides and rolls without its springs, under the dynamic coefficient.
+    pub slides: (bool, bool),
     /// Static coefficient of friction, and the present tangential force in newtons, along minus the tangent on B.
     pub tangential: (f64, f64),
     /// Coefficient of rolling friction times rolling radius in metres, and the present torque in N m, against B's turn.
@@ -209,6 +213,18 @@ pub struct Candidate {
     bounded: [Bounded; 2],
 }
 
+/// What friction does in the tick to come, in a contact that rests along its normal. Forces are in N, torques in N m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Friction {
+    /// It holds with this force, or brakes with all that it can hold.
+    Holds(f64),
+    /// It was at rest and could not bear the load, or slid already without its spring: it slides with the dynamic coefficient,
+    /// against the motion, and its force has the sign of this number.
+    Slides(f64),
+    /// Its spring follows the motion.
+    Follows,
+}
+
 /// What becomes of a contact in the tick to come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
@@ -221,10 +237,10 @@ pub enum Verdict {
     Rests {
         /// Normal force in newtons.
         normal: f64,
-        /// Tangential force in newtons if it rests along the tangent too, or is braked by all that friction can hold.
-        tangential: Option<f64>,
-        /// Rolling torque in N m if it does not roll, or is braked likewise.
-        rolling: Option<f64>,
+        /// What friction does along the tangent.
+        tangential: Friction,
+        /// What it does against rolling.
+        rolling: Friction,
         /// Whether nothing in it moves that friction could hold.
         entirely: bool,
     },
@@ -239,12 +255,12 @@ impl Candidate {
             Row::new(&sides, levers, direction)
         };
         let turn = Row::new(&sides, (-1.0, -1.0), DVec2::ZERO);
-        let bounded = |place: usize, row: Row, (coefficient, force): (f64, f64)| {
+        let bounded = |place: usize, row: Row, (coefficient, force): (f64, f64), slides: bool| {
             // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
             let (of_a, of_b) = row.mobilities(&sides);
             let reach = 4.0 * (grips.0[place] * of_a + grips.1[place] * of_b) * dt;
             let engaged = (seen.engaged || force == 0.0) && coefficient > 0.0 && row.velocity(&sides).abs() <= reach;
-            Bounded { row, coefficient, engaged, at_limit: false, force, begin: row.velocity(&begin) }
+            Bounded { row, coefficient, engaged, slides, at_limit: false, force, begin: row.velocity(&begin) }
         };
         Self {
             ends: seen.ends,
@@ -254,7 +270,10 @@ impl Candidate {
             rounding: seen.noise,
             noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
             normal_force: seen.normal_force,
-            bounded: [bounded(0, along(-seen.normal.perp()), seen.tangential), bounded(1, turn, seen.rolling)],
+            bounded: [
+                bounded(0, along(-seen.normal.perp()), seen.tangential, seen.slides.0),
+                bounded(1, turn, seen.rolling, seen.slides.1),
+            ],
         }
     }
 
@@ -315,14 +334,23 @@ impl Candidate {
         if self.at_limit && !self.stands(&self.normal, &sides, dt) {
             return Verdict::Moves { approaches: self.normal_force > self.band.0 };
         }
-        let held = |bounded: &Bounded| {
-            let holds = bounded.engaged && (bounded.is_free() || self.stands(&bounded.row, &sides, dt));
-            let brakes = bounded.brakes(bounded.row.velocity(&sides));
-            (holds || brakes).then_some((bounded.force, holds))
+        let stops = |bounded: &Bounded| bounded.engaged && (bounded.is_free() || self.stands(&bounded.row, &sides, dt));
+        let of = |bounded: &Bounded| {
+            let velocity = bounded.row.velocity(&sides);
+            let stood = bounded.begin.abs() <= self.noise * bounded.row.mobility * dt;
+            let gives_way = bounded.engaged && stood && bounded.force * velocity < 0.0;
+            if stops(bounded) {
+                Friction::Holds(bounded.force)
+            } else if bounded.slides || gives_way {
+                Friction::Slides(-velocity)
+            } else if bounded.brakes(velocity) {
+                Friction::Holds(bounded.force)
+            } else {
+                Friction::Follows
+            }
         };
-        let stops = |bounded: &Bounded| held(bounded).is_some_and(|(_, holds)| holds);
         let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || stops(bounded));
-        let [tangential, rolling] = [0, 1].map(|place| held(&self.bounded[place]).map(|(force, _)| force));
+        let [tangential, rolling] = [0, 1].map(|place| of(&self.bounded[place]));
         Verdict::Rests { normal: self.normal_force, tangential, rolling, entirely }
     }
 }

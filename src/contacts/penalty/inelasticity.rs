@@ -48,6 +48,10 @@ impl NormalForce for Inelasticity {
         -Self::force(law, mode.sign(), approach.parting, approach)
     }
 
+    fn force_second_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64 {
+        -Self::force(law, mode.sign(), change.parting, approach)
+    }
+
     fn stays(law: &PairLaw, mode: Mode, (parting, rate): (f64, f64), _: f64) -> Option<(f64, f64)> {
         let sign = -mode.sign();
         (law.inelasticity > 0.0).then_some((sign * parting, sign * rate))

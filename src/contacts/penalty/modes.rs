@@ -6,9 +6,9 @@ use glam::DVec2;
 use super::apply::{End, Own, PenaltyContacts, Shared, Sink, approach};
 use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
-use super::coulomb::{Slider, SliderLaw};
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::frame::Frame;
-use super::hold::{self, Mover, Seen, Verdict};
+use super::hold::{self, Friction, Mover, Seen, Verdict};
 use super::islands::{Islands, Marked, Members};
 use super::law::PairLaw;
 use super::list::Edited;
@@ -200,7 +200,7 @@ impl Choice<'_> {
     }
 
     fn choose_by_velocity<N: NormalForce>(&mut self, case: &Case, approach: Approach) {
-        self.change(case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
+        self.change(case, Friction::Follows, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
     }
 
     /// How many contacts touch of bodies that are not at rest. Where some rest, no more are counted once there are [`MANY`].
@@ -247,12 +247,11 @@ impl Choice<'_> {
         ledger.inelasticity.add(self.losses.inelasticity);
     }
 
-    /// Changes a contact and corrects the sums of forces by the difference. `rolling` is the torque with which its rolling
-    /// spring holds; if that is `None` the spring takes over.
+    /// Changes a contact and corrects the sums of forces by the difference. `rolling`: what its rolling spring does.
     fn change(
         &mut self,
         case: &Case,
-        rolling: Option<f64>,
+        rolling: Friction,
         change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>,
     ) {
         let mut losses = self.losses;
@@ -266,13 +265,7 @@ impl Choice<'_> {
             case.push(&mut self.sink, &law, after.overlap, difference);
             if let Some((slider, rolling_law)) = self.roller(case, &law) {
                 let before = slider.force(&rolling_law);
-                match rolling {
-                    Some(torque) => slider.hold(torque),
-                    None => {
-                        losses.friction += slider.let_go(&rolling_law);
-                        losses.friction += slider.follow(&rolling_law, None, after.normal_force);
-                    }
-                }
+                losses.friction += slider.take_on(&rolling_law, rolling, after.normal_force);
                 let difference = slider.force(&rolling_law) - before;
                 twist(self.sink.bodies, self.sink.balance, case.other_end(), &case.end, difference);
             }
@@ -283,7 +276,9 @@ impl Choice<'_> {
     /// A contact as the search for rest sees it.
     fn seen<N: NormalForce>(&mut self, case: &Case, ends: (usize, usize)) -> Seen {
         let (contact, law) = self.known(case);
-        let rolling = self.roller(case, &law).map(|(slider, law)| (law.friction_static, slider.force(&law)));
+        let rolling = self.roller(case, &law);
+        let rolls = rolling.as_ref().is_some_and(|(slider, _)| slider.grip == Grip::Slide);
+        let rolling = rolling.map(|(slider, law)| (law.friction_static, slider.force(&law)));
         let place = self.sink.bodies.position[case.end.body] + case.end.arm;
         Seen {
             ends,
@@ -293,6 +288,7 @@ impl Choice<'_> {
             normal_force: contact.normal_force,
             noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
             engaged: contact.mode == Mode::Hold,
+            slides: (contact.tangential.grip == Grip::Slide, rolls),
             tangential: (law.friction_static, contact.tangential_force(&law)),
             rolling: rolling.unwrap_or((0.0, 0.0)),
         }
@@ -348,7 +344,9 @@ impl Choice<'_> {
                     if !N::DEPENDS_ON_VELOCITY {
                         approach.parting = if approaches { -1.0 } else { 1.0 };
                     }
-                    self.change(case, None, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
+                    self.change(case, Friction::Follows, |contact, law, losses| {
+                        contact.choose_mode::<N>(law, approach, losses)
+                    });
                 }
                 Verdict::Rests { normal, tangential, rolling, entirely: stops } => {
                     entirely &= stops;

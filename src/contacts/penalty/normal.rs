@@ -73,6 +73,9 @@ pub trait NormalForce: Send + Sync + 'static {
     /// The rate of [`NormalForce::smooth_force`] in N/s, where the contact moves and is accelerated like this.
     fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64;
 
+    /// The rate of [`NormalForce::force_rate`] in N/s2, but for changes of what else acts on both sides.
+    fn force_second_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64;
+
     /// What is positive while the contact lasts, given overlap, present force and the force that its law would have; and
     /// whether that is the overlap itself.
     fn remaining(_: Mode, overlap: f64, _: f64) -> (f64, bool) {

@@ -4,14 +4,16 @@
 use super::apply::{PenaltyContacts, Sink};
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
+use super::indicators::{Ends, Motion, Pressure, tell_slider};
 use super::law::PairLaw;
-use super::normal::{Approach, Mode, NormalForce};
+use super::normal::Mode;
 use super::rolling::{RollingContacts, twist};
 use super::rows::Rows;
 use super::split::Share;
 use super::staged::Look;
-use super::switching::What;
+use super::switching::{Base, What};
 use crate::contacts::CandidatePairs;
+use crate::tick::Indicator;
 use crate::world::Bodies;
 
 /// A rolling spring with its law.
@@ -113,43 +115,37 @@ pub(super) fn push(slider: &Slider, law: &SliderLaw, look: &Look, sink: &mut Sin
 }
 
 /// What ends the present mode of the spring, and indicators of it.
-pub(super) fn tell<N: NormalForce>(
+pub(super) fn tell(
     (slider, law): &Roller,
-    (contact, pair): (&Contact, &PairLaw),
+    contact: &Contact,
+    pressure: Pressure,
     look: &Look,
     bodies: &Bodies,
-    mut say: impl FnMut(What, f64),
+    mut say: impl FnMut(What, Indicator),
 ) {
-    let turning = look.turning();
-    match slider.grip {
-        Grip::Slide => {
-            let rate = match contact.mode {
-                Mode::Hold => 0.0,
-                mode => N::force_rate(pair, mode, look.approach(bodies), look.change(pair, bodies)),
-            };
-            let slip = turning - law.friction_dynamic.copysign(slider.held) * rate / law.stiffness;
-            say(What::RollingStop, slip * slider.held.signum());
-        }
-        grip => {
-            if grip == Grip::Stick && contact.mode == Mode::Hold {
-                say(What::RollingStop, turning * slider.held.signum());
-            }
-            let (limit, torque) = (law.friction_static * contact.normal_force, slider.force(law));
-            say(What::RollingGive(true), limit - torque);
-            say(What::RollingGive(false), limit + torque);
-        }
-    }
+    let motion = Motion {
+        velocity: look.turning(),
+        rate: look.turning_rate(bodies),
+        speed: look.turning_speed(),
+        mobility: look.mobility_of_turning(bodies),
+    };
+    let modes = (contact.mode, contact.mode == Mode::Hold);
+    tell_slider((slider, law), modes, pressure, motion, |event, indicator| {
+        say(
+            match event {
+                Ends::Gives(positive) => What::RollingGive(positive),
+                Ends::Stops => What::RollingStop,
+            },
+            indicator,
+        );
+    });
 }
 
-/// The modes of a spring whose contact begins.
-pub(super) fn begin<N: NormalForce>((slider, law): Roller, (contact, pair): (&Contact, &PairLaw), look: &Look) {
+/// The modes of a spring whose contact begins, under the normal force of that moment; or, without one, is there at the beginning.
+pub(super) fn begin((slider, law): Roller, contact: &Contact, look: &Look, base: Option<Base>) {
     let turning = look.turning();
     *slider = Slider { held: 0.0_f64.copysign(turning), ..Slider::default() };
-    // Near the touch both torques grow from zero, as tangential forces do.
-    let rate = N::smooth_force(pair, Mode::Loading, 1.0, Approach { parting: 0.0, mobility: 1.0 });
-    let sticks =
-        look.overlap > 0.0 || law.stiffness * turning.abs() <= law.friction_static * rate * look.parting().abs();
-    slider.grip = match sticks {
+    slider.grip = match base.is_none_or(|base| base.bears(&law, turning)) {
         true if turning == 0.0 && contact.mode == Mode::Hold => Grip::Hold,
         true => Grip::Stick,
         false => Grip::Slide,
@@ -181,15 +177,6 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, look: &Look) 
     if slider.grip == Grip::Stick {
         slider.held = 0.0_f64.copysign(look.turning());
     }
-}
-
-/// A spring that is held beyond what it can bear slips. Says whether it does.
-pub(super) fn settle((slider, law): Roller, contact: &Contact) -> bool {
-    let gives = slider.grip == Grip::Hold && slider.held.abs() > law.friction_static * contact.normal_force;
-    if gives {
-        slider.grip = Grip::Slide;
-    }
-    gives
 }
 
 impl Share {

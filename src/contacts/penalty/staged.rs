@@ -73,9 +73,20 @@ impl Look {
         self.velocity.dot(self.case.normal.perp()) - self.spins.0 * radius_a - self.spins.1 * radius_b
     }
 
+    /// The speeds in m/s of which [`Look::sliding`] is a difference.
+    pub fn speed(&self, law: &PairLaw) -> f64 {
+        let (radius_a, radius_b) = self.radii(law);
+        self.velocity.length() + (self.spins.0 * radius_a).abs() + (self.spins.1 * radius_b).abs()
+    }
+
     /// Spin of side B seen from side A, in rad/s.
     pub fn turning(&self) -> f64 {
         self.spins.1 - self.spins.0
+    }
+
+    /// The spins in rad/s of which [`Look::turning`] is a difference.
+    pub fn turning_speed(&self) -> f64 {
+        self.spins.1.abs() + self.spins.0.abs()
     }
 
     /// Distances of the centres from where the sides touch, in metres.
@@ -138,6 +149,42 @@ impl Look {
         };
         let other = self.case.other_end().map_or(DVec2::ZERO, acceleration);
         (acceleration(&self.case.end) - other).dot(self.case.normal) + self.inertial(law, bodies).0
+    }
+
+    /// The rate of [`Look::sliding`] under the present forces, in m/s2.
+    pub fn sliding_rate(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
+        let (arm_a, arm_b) = self.contact_arms(law);
+        let acceleration = |body: usize, arm: DVec2| {
+            bodies.force[body] * bodies.inverse_mass(body)
+                + arm.perp() * (bodies.torque[body] * bodies.inverse_inertia(body))
+        };
+        let other = self.case.other_body().map_or(DVec2::ZERO, |body| acceleration(body, arm_a));
+        let apart = acceleration(self.case.end.body, arm_b) - other;
+        apart.dot(self.case.normal.perp()) + self.inertial(law, bodies).1
+    }
+
+    /// The acceleration along the surface that one newton along it makes, in 1/kg.
+    pub fn mobility_along(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
+        let (arm_a, arm_b) = self.contact_arms(law);
+        let tangent = self.case.normal.perp();
+        let own = |body: usize, arm: DVec2| {
+            let lever = arm.perp_dot(tangent);
+            bodies.inverse_mass(body) + lever * lever * bodies.inverse_inertia(body)
+        };
+        own(self.case.end.body, arm_b) + self.case.other_body().map_or(0.0, |body| own(body, arm_a))
+    }
+
+    /// The angular acceleration of one side seen from the other that one newton metre between them makes, in 1/(kg m2).
+    pub fn mobility_of_turning(&self, bodies: &Bodies) -> f64 {
+        let other = self.case.other_body().map_or(0.0, |body| bodies.inverse_inertia(body));
+        bodies.inverse_inertia(self.case.end.body) + other
+    }
+
+    /// The rate of [`Look::turning`] under the present forces, in rad/s2.
+    pub fn turning_rate(&self, bodies: &Bodies) -> f64 {
+        let own =
+            |body: usize| bodies.torque[body] * bodies.inverse_inertia(body) + bodies.prescribed.acceleration(body).1;
+        own(self.case.end.body) - self.case.other_body().map_or(0.0, own)
     }
 
     /// The greatest acceleration in m/s2 that one side may have seen from the other: the distance of two centres bends no more

@@ -16,7 +16,7 @@
 use super::apply::PenaltyContacts;
 use super::case::Other;
 use super::contact::Contact;
-use super::coulomb::{Grip, Slider};
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::law::{LawTable, PairLaw};
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
@@ -25,8 +25,8 @@ use super::rolling_stages::{self, Roller};
 use super::staged::Look;
 use crate::contacts::events::Touches;
 use crate::contacts::{CandidatePairs, DeepestOverlap};
+use crate::tick::Ledger;
 use crate::tick::balance::{angular_momentum, momentum};
-use crate::tick::{Indicator, Ledger};
 use crate::world::Bodies;
 
 /// What an indicator of a contact stands for.
@@ -137,15 +137,6 @@ pub(super) fn rates((bodies, pairs): (&Bodies, &CandidatePairs), contacts: &Pena
     rates.iter_mut().zip(of_atoms.chain(of_walls)).for_each(|(rate, sliding)| *rate = sliding);
 }
 
-/// The rate at which the elongation of a slipping spring follows the normal force.
-fn following<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodies: &Bodies) -> f64 {
-    if law.exact || contact.mode == Mode::Hold {
-        return 0.0;
-    }
-    let rate = N::force_rate(law, contact.mode, look.approach(bodies), look.change(law, bodies));
-    law.friction_dynamic.copysign(contact.tangential.held) * rate / law.tangential_stiffness
-}
-
 impl PenaltyContacts {
     /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to look.
     pub(super) fn is_idle(&self) -> bool {
@@ -155,65 +146,6 @@ impl PenaltyContacts {
 }
 
 impl View<'_> {
-    /// Indicators of the present modes.
-    pub fn tell<N: NormalForce>(&mut self, told: &mut Vec<Indicator>) {
-        let mut what = std::mem::take(&mut self.contacts.told);
-        what.clear();
-        for place in 0..self.len() {
-            let look = self.look(place);
-            let bodies = self.bodies;
-            let (contact, law, roller) = self.whole(place, &look);
-            if contact.mode == Mode::Open {
-                what.push((place as u32, What::Touch));
-                told.push(Indicator { value: -look.overlap, slope: look.parting(), bend: look.bend(bodies) });
-                continue;
-            }
-            let mut say = |event: What, value: f64, slope: f64| {
-                what.push((place as u32, event));
-                told.push(Indicator { value, slope, bend: 0.0 });
-            };
-            let unknown = f64::NAN;
-            if contact.mode == Mode::Hold {
-                let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-                say(What::Lower, contact.normal_force - least, unknown);
-                say(What::Upper, greatest - contact.normal_force, unknown);
-            } else {
-                let (value, known) = N::remaining(contact.mode, contact.overlap, contact.normal_force);
-                say(What::Part, value, if known { -look.parting() } else { unknown });
-                let parting = (look.parting(), look.parting_rate(law, bodies));
-                let loading = N::smooth_force(law, Mode::Loading, look.overlap, look.approach(bodies));
-                if let Some((value, slope)) = N::stays(law, contact.mode, parting, loading) {
-                    say(What::Turn, value, slope);
-                }
-            }
-            if law.tangential().acts() {
-                let force = contact.tangential_force(law);
-                match contact.tangential.grip {
-                    Grip::Slide => {
-                        let slip = look.sliding(law) - following::<N>(&contact, law, &look, bodies);
-                        say(What::Stop, slip.copysign(slip * contact.tangential.held.signum()), unknown);
-                    }
-                    grip => {
-                        // At rest along the normal friction too may be any force within its cone once the sides stop.
-                        if grip == Grip::Stick && contact.mode == Mode::Hold {
-                            let sliding = look.sliding(law);
-                            say(What::Stop, sliding.copysign(sliding * contact.tangential.held.signum()), unknown);
-                        }
-                        let limit = law.friction_static * contact.normal_force;
-                        say(What::Give(true), limit - force, unknown);
-                        say(What::Give(false), limit + force, unknown);
-                    }
-                }
-            }
-            if let Some(roller) = roller {
-                rolling_stages::tell::<N>(&roller, (&contact, law), &look, bodies, |what, value| {
-                    say(what, value, unknown);
-                });
-            }
-        }
-        self.contacts.told = what;
-    }
-
     /// Changes the modes whose indicators vanished.
     pub fn switch<N: NormalForce>(&mut self, fired: &[usize], ledger: &mut Ledger, touches: Option<&mut Touches>) {
         if let Some(touches) = touches {
@@ -225,11 +157,13 @@ impl View<'_> {
         for &place in fired {
             let (pair, what) = self.contacts.told[place];
             let look = self.look(pair as usize);
+            let bodies = self.bodies;
             let (mut contact, law, roller) = self.whole(pair as usize, &look);
-            contact.switch::<N>(law, what, &look);
+            let base = Base::at_touch::<N>(law, &look, bodies);
+            contact.switch::<N>(law, what, &look, base);
             contact.come_loose(law, &look);
             match (roller, what) {
-                (Some(roller), What::Touch) => rolling_stages::begin::<N>(roller, (&contact, law), &look),
+                (Some(roller), What::Touch) => rolling_stages::begin(roller, &contact, &look, Some(base)),
                 (Some(roller), _) => rolling_stages::switch(roller, &contact, what, &look),
                 (None, _) => {}
             }
@@ -297,68 +231,47 @@ impl View<'_> {
         std::mem::replace(&mut self.contacts.slid, now) - now
     }
 
-    fn sliding_energy(&mut self) -> f64 {
+    pub(super) fn sliding_energy(&mut self) -> f64 {
         self.stored(|grip| grip == Grip::Slide)
     }
 }
 
-impl View<'_> {
-    /// Corrects modes that cannot last under the accelerations just evaluated. Says whether there were any.
-    pub fn settle<N: NormalForce>(&mut self) -> bool {
-        let mut corrected = false;
-        for place in 0..self.len() {
-            let look = self.look(place);
-            let (mut contact, law, mut roller) = self.whole(place, &look);
-            if contact.mode == Mode::Hold {
-                let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-                if contact.normal_force < least || contact.normal_force > greatest {
-                    contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
-                    contact.come_loose(law, &look);
-                    if let Some((slider, law)) = &mut roller {
-                        rolling_stages::come_loose((slider, *law), &contact, &look);
-                    }
-                    corrected = true;
-                }
-            }
-            if let Some(roller) = roller.filter(|_| contact.mode != Mode::Open) {
-                corrected |= rolling_stages::settle(roller, &contact);
-            }
-            if contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold {
-                let force = contact.tangential.held;
-                if force.abs() > law.friction_static * contact.normal_force {
-                    contact.tangential.grip = Grip::Slide;
-                    corrected = true;
-                }
-            }
-        }
-        if !corrected {
-            self.contacts.slid = self.sliding_energy();
-        }
-        corrected
-    }
-
-    /// Chooses all modes of a state that did not follow from the one before.
-    pub fn take_stock<N: NormalForce>(&mut self) {
-        for place in 0..self.len() {
-            let look = self.look(place);
-            let (mut contact, law, roller) = self.whole(place, &look);
-            if contact.mode == Mode::Open && look.overlap > 0.0 {
-                contact.overlap = look.overlap;
-                contact.begin::<N>(law, &look);
-                if let Some(roller) = roller {
-                    rolling_stages::begin::<N>(roller, (&contact, law), &look);
-                }
-            }
-            if contact.mode != Mode::Open && contact.mode != Mode::Hold {
-                contact.mode = standing::<N>(law, contact.mode, look.parting());
-            }
-        }
-    }
+/// The mode of a contact that parts with `parting` m/s; one that does neither is held, for a first try.
+pub(super) fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode {
+    if parting == 0.0 && N::SET_VALUED && N::dissipates(law) { Mode::Hold } else { N::chosen(present, parting) }
 }
 
-/// The mode of a contact that parts with `parting` m/s; one that does neither is held, for a first try.
-fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode {
-    if parting == 0.0 && N::SET_VALUED && N::dissipates(law) { Mode::Hold } else { N::chosen(present, parting) }
+/// What friction is limited by: the normal force in newtons, and its rate in N/s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Base {
+    pub force: f64,
+    pub rate: f64,
+}
+
+impl Base {
+    /// At the touch itself, where a spring holds nothing yet.
+    fn at_touch<N: NormalForce>(law: &PairLaw, look: &Look, bodies: &Bodies) -> Self {
+        let approach = look.approach(bodies);
+        Self {
+            force: N::smooth_force(law, Mode::Loading, 0.0, approach),
+            rate: N::force_rate(law, Mode::Loading, approach, look.change(law, bodies)),
+        }
+    }
+
+    /// Of a contact as it was evaluated; what is held does not change.
+    pub fn of<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodies: &Bodies) -> Self {
+        let rate = match contact.mode {
+            Mode::Hold => 0.0,
+            mode => N::force_rate(law, mode, look.approach(bodies), look.change(law, bodies)),
+        };
+        Self { force: contact.normal_force, rate }
+    }
+
+    /// Whether a spring that begins without elongation, drawn at `velocity`, sticks at first. A damper bears it at once; beside
+    /// a spring alone both forces grow from zero, the spring's with the way along, the limit with the overlap.
+    pub fn bears(self, law: &SliderLaw, velocity: f64) -> bool {
+        self.force > 0.0 || law.stiffness * velocity.abs() <= law.friction_static * self.rate.max(0.0)
+    }
 }
 
 /// After a step: what is held stands, and the deepest overlap is noted. Says whether velocities have changed.
@@ -375,13 +288,21 @@ pub(super) fn tidy(
         view.contacts.slid = view.sliding_energy();
         ledger.friction.add(lost);
     }
-    let moved = !contacts.rows.is_empty() && stop_rows(contacts, bodies, ledger, dt);
+    let moved = stand_still((bodies, ledger), contacts, dt);
     View { bodies, pairs, contacts, rolling }.note_overlaps(time, deepest);
     moved
 }
 
-/// Takes out of velocities what rounding has left along held rows, and books it. Says whether there was anything.
-fn stop_rows(contacts: &mut PenaltyContacts, bodies: &mut Bodies, ledger: &mut Ledger, dt: f64) -> bool {
+/// Takes out of velocities what rounding and the error of a step have left along held rows, and books it: what gives way begins
+/// to move in the direction of the forces, not of an error. Says whether there was anything.
+pub(super) fn stand_still(
+    (bodies, ledger): (&mut Bodies, &mut Ledger),
+    contacts: &mut PenaltyContacts,
+    dt: f64,
+) -> bool {
+    if contacts.rows.is_empty() {
+        return false;
+    }
     let before = (momentum(bodies), angular_momentum(bodies));
     let moved = contacts.rows.stop(bodies, dt, ledger);
     let by = momentum(bodies) - before.0;
@@ -410,22 +331,16 @@ impl View<'_> {
 }
 
 impl Contact {
-    /// A pair begins to touch.
-    fn begin<N: NormalForce>(&mut self, law: &PairLaw, look: &Look) {
+    /// A pair begins to touch, under the normal force of that moment; or, without one, is found in touch where the motion begins.
+    pub(super) fn begin<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, base: Option<Base>) {
         self.mode = standing::<N>(law, Mode::Loading, look.parting());
         self.tangential = Slider::default();
         if !law.tangential().acts() {
             return;
         }
         let sliding = look.sliding(law);
-        let sticks = if law.exact {
-            sliding == 0.0
-        } else {
-            // Near the touch both forces grow from zero: the spring's with the way along, the limit with the overlap.
-            let rate = N::smooth_force(law, Mode::Loading, 1.0, Approach::default());
-            look.overlap > 0.0
-                || law.tangential_stiffness * sliding.abs() <= law.friction_static * rate * look.parting().abs()
-        };
+        let sticks =
+            if law.exact { sliding == 0.0 } else { base.is_none_or(|base| base.bears(&law.tangential(), sliding)) };
         let held = law.exact || sliding == 0.0 && self.mode == Mode::Hold;
         (self.tangential.grip, self.tangential.held) = match (sticks, held) {
             (true, true) => (Grip::Hold, 0.0),
@@ -435,9 +350,9 @@ impl Contact {
     }
 
     /// One of the contact's modes ends.
-    fn switch<N: NormalForce>(&mut self, law: &PairLaw, what: What, look: &Look) {
+    fn switch<N: NormalForce>(&mut self, law: &PairLaw, what: What, look: &Look, base: Base) {
         match what {
-            What::Touch if self.mode == Mode::Open => self.begin::<N>(law, look),
+            What::Touch if self.mode == Mode::Open => self.begin::<N>(law, look, Some(base)),
             What::Part => {
                 self.mode = N::after(self.mode, true);
                 if self.mode == Mode::Open {
@@ -462,7 +377,7 @@ impl Contact {
 
     /// Brings the spring into line with a normal mode that has changed: it takes over from a hold when the normal is held no
     /// longer, and one that holds remembers which way it is going.
-    fn come_loose(&mut self, law: &PairLaw, look: &Look) {
+    pub(super) fn come_loose(&mut self, law: &PairLaw, look: &Look) {
         let slider = &mut self.tangential;
         if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {
             slider.let_go(&law.tangential());

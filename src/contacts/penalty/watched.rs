@@ -105,7 +105,11 @@ fn tell<N: NormalForce>(world: &mut World, told: &mut Vec<Indicator>) {
 }
 
 fn switch<N: NormalForce>(world: &mut World, fired: &[usize]) {
+    let dt = world.resource::<Clock>().dt;
     lend(world, |world, ledger: &mut Ledger| {
+        lend(world, |world, bodies: &mut Bodies| {
+            switching::stand_still((bodies, ledger), &mut world.resource_mut(), dt);
+        });
         lend_any(world, |world, touches: Option<&mut Touches>| {
             view(world, |view| view.switch::<N>(fired, ledger, touches));
         });
@@ -180,6 +184,7 @@ impl<N: NormalForce> Stages for Contacts<N> {
 
     fn switch(&mut self, state: &mut State, fired: &[usize]) {
         let Self { pairs, contacts, rolling, touches, .. } = self;
+        switching::stand_still((&mut state.bodies, &mut state.ledger), contacts, state.clock.dt);
         let mut view = View { bodies: &state.bodies, pairs, contacts, rolling: rolling.as_mut() };
         view.switch::<N>(fired, &mut state.ledger, touches.as_mut());
     }

@@ -1,0 +1,185 @@
+//! Indicators of events: each is positive while a mode of a contact lasts, and its rate says where it may vanish between two
+//! looks.
+
+use super::contact::Contact;
+use super::coulomb::{Grip, Slider, SliderLaw};
+use super::law::PairLaw;
+use super::normal::{Change, Mode, NormalForce};
+use super::rolling_stages;
+use super::staged::Look;
+use super::switching::{View, What};
+use crate::tick::Indicator;
+use crate::world::Bodies;
+
+/// A rate that is not known.
+const UNKNOWN: f64 = f64::NAN;
+
+/// The normal force of a contact: its value in N, and its first two rates per second, the second but for changes of what else
+/// acts on both sides.
+#[derive(Clone, Copy)]
+pub(super) struct Pressure {
+    pub force: f64,
+    pub rate: f64,
+    pub second_rate: f64,
+    /// The square of the angular frequency with which it swings, in 1/s2.
+    pub swings: f64,
+}
+
+impl Pressure {
+    /// Of a contact that touches. A force that is held follows from all others, and its rates are not known.
+    fn of<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodies: &Bodies, change: Change) -> Self {
+        let force = contact.normal_force;
+        if contact.mode == Mode::Hold {
+            return Self { force, rate: UNKNOWN, second_rate: UNKNOWN, swings: 0.0 };
+        }
+        let approach = look.approach(bodies);
+        let (stiffness, damping) = N::response(law, approach.mobility);
+        let damped = damping * approach.mobility;
+        Self {
+            force,
+            rate: N::force_rate(law, contact.mode, approach, change),
+            second_rate: N::force_second_rate(law, contact.mode, approach, change),
+            swings: stiffness * approach.mobility + damped * damped,
+        }
+    }
+}
+
+impl View<'_> {
+    /// Indicators of the present modes.
+    pub fn tell<N: NormalForce>(&mut self, told: &mut Vec<Indicator>) {
+        let mut what = std::mem::take(&mut self.contacts.told);
+        what.clear();
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let bodies = self.bodies;
+            let (contact, law, roller) = self.whole(place, &look);
+            if contact.mode == Mode::Open {
+                what.push((place as u32, What::Touch));
+                let (value, slope, bend) = (-look.overlap, look.parting(), look.bend(bodies));
+                told.push(Indicator { value, slope, bend, ..Indicator::default() });
+                continue;
+            }
+            let change = look.change(law, bodies);
+            let pressure = Pressure::of::<N>(&contact, law, &look, bodies, change);
+            let mut say = |event: What, indicator: Indicator| {
+                what.push((place as u32, event));
+                told.push(indicator);
+            };
+            let known = |value: f64, slope: f64| {
+                let swings = pressure.swings.sqrt();
+                Indicator { value, slope, swings, ..Indicator::default() }
+            };
+            if contact.mode == Mode::Hold {
+                let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+                say(What::Lower, known(contact.normal_force - least, UNKNOWN));
+                say(What::Upper, known(greatest - contact.normal_force, UNKNOWN));
+            } else {
+                let (value, is_overlap) = N::remaining(contact.mode, contact.overlap, contact.normal_force);
+                say(What::Part, known(value, if is_overlap { -look.parting() } else { pressure.rate }));
+                let loading = N::smooth_force(law, Mode::Loading, look.overlap, look.approach(bodies));
+                if let Some((value, slope)) = N::stays(law, contact.mode, (look.parting(), change.parting), loading) {
+                    say(What::Turn, known(value, slope));
+                }
+            }
+            if law.tangential().acts() {
+                tell_friction(&contact, law, pressure, &look, bodies, &mut say);
+            }
+            if let Some(roller) = roller {
+                rolling_stages::tell(&roller, &contact, pressure, &look, bodies, say);
+            }
+        }
+        self.contacts.told = what;
+    }
+}
+
+/// What ends the present mode of friction, and indicators of it.
+fn tell_friction(
+    contact: &Contact,
+    law: &PairLaw,
+    pressure: Pressure,
+    look: &Look,
+    bodies: &Bodies,
+    say: &mut impl FnMut(What, Indicator),
+) {
+    let slider = &contact.tangential;
+    let motion = Motion {
+        velocity: look.sliding(law),
+        rate: look.sliding_rate(law, bodies),
+        speed: look.speed(law),
+        mobility: look.mobility_along(law, bodies),
+    };
+    // Where the normal force is held, or friction has no spring, a spring that slips does not follow the limit.
+    let held = law.exact || contact.mode == Mode::Hold;
+    tell_slider((slider, &law.tangential()), (contact.mode, held), pressure, motion, |event, indicator| {
+        say(
+            match event {
+                Ends::Gives(positive) => What::Give(positive),
+                Ends::Stops => What::Stop,
+            },
+            indicator,
+        );
+    });
+}
+
+/// How the ends of a spring with a Coulomb limit move past each other: a velocity, its rate, the speeds of which it is a
+/// difference, and the rate that a unit of force makes.
+#[derive(Clone, Copy)]
+pub(super) struct Motion {
+    pub velocity: f64,
+    pub rate: f64,
+    pub speed: f64,
+    pub mobility: f64,
+}
+
+/// How a spring with a Coulomb limit ends its phase.
+#[derive(Clone, Copy)]
+pub(super) enum Ends {
+    /// It gives way with a force of this sign.
+    Gives(bool),
+    Stops,
+}
+
+/// A share of a velocity that counts as rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// What ends the present phase of a spring with a Coulomb limit, and indicators of it. `held`: its elongation follows no limit.
+pub(super) fn tell_slider(
+    (slider, law): (&Slider, &SliderLaw),
+    (mode, held): (Mode, bool),
+    pressure: Pressure,
+    motion: Motion,
+    mut say: impl FnMut(Ends, Indicator),
+) {
+    let (sign, rounding) = (slider.held.signum(), ROUNDING * motion.speed);
+    // What a swing with this angular frequency has: the amplitude of the second rate.
+    let stiffness = if slider.grip == Grip::Stick { law.stiffness } else { 0.0 };
+    let squared = pressure.swings + stiffness * motion.mobility;
+    let bend = |slope: f64, second_rate: f64| {
+        let bend = (second_rate * second_rate + squared * slope * slope).sqrt();
+        if bend.is_finite() { bend } else { 0.0 }
+    };
+    match slider.grip {
+        Grip::Slide => {
+            let follows = if held { 0.0 } else { law.friction_dynamic.copysign(sign) / law.stiffness };
+            let (rate, second) = if held { (0.0, 0.0) } else { (pressure.rate, pressure.second_rate) };
+            let (slip, slope) = (motion.velocity - follows * rate, motion.rate - follows * second);
+            let (value, bend) = (sign * slip, bend(slope, squared * slip));
+            say(Ends::Stops, Indicator { value, slope: sign * slope, bend, rounding, ..Indicator::default() });
+        }
+        grip => {
+            // At rest along the normal friction too may be any force within its cone once the sides stop.
+            if grip == Grip::Stick && mode == Mode::Hold {
+                let value = sign * motion.velocity;
+                say(Ends::Stops, Indicator { value, slope: UNKNOWN, rounding, ..Indicator::default() });
+            }
+            let (known, swings) = if grip == Grip::Hold { (UNKNOWN, 0.0) } else { (law.stiffness, squared.sqrt()) };
+            let force = [slider.force(law), known * motion.velocity, known * motion.rate];
+            let limit = [pressure.force, pressure.rate, pressure.second_rate].map(|rate| law.friction_static * rate);
+            for (positive, sign) in [(true, -1.0), (false, 1.0)] {
+                let [value, slope, second_rate] = [0, 1, 2].map(|rate| limit[rate] + sign * force[rate]);
+                let bend = bend(slope, second_rate);
+                say(Ends::Gives(positive), Indicator { value, slope, bend, swings, ..Indicator::default() });
+            }
+        }
+    }
+}

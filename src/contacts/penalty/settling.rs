@@ -1,0 +1,88 @@
+//! Modes that follow from the forces of a state, and not from the mode before: a state that others have made, and the state behind
+//! an event, where forces have jumped.
+
+use super::normal::{Mode, NormalForce};
+use super::rolling_stages;
+use super::switching::{Base, View, standing};
+
+impl View<'_> {
+    /// Corrects modes that cannot last under the forces just evaluated. Says whether there were any.
+    ///
+    /// Friction waits for the normal forces: a contact that is tried as held has a force of its own until it is let go.
+    pub fn settle<N: NormalForce>(&mut self) -> bool {
+        if self.contacts.held_before.is_none() {
+            self.contacts.held_before = Some(self.stored(|_| true));
+        }
+        let corrected = self.settle_normals::<N>() || self.settle_friction::<N>();
+        if !corrected {
+            self.contacts.slid = self.sliding_energy();
+        }
+        corrected
+    }
+
+    /// Lets go of contacts that are held by forces out of their bounds. Says whether there were any.
+    fn settle_normals<N: NormalForce>(&mut self) -> bool {
+        let mut corrected = false;
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let (mut contact, law, mut roller) = self.whole(place, &look);
+            if contact.mode != Mode::Hold {
+                continue;
+            }
+            let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+            if contact.normal_force < least || contact.normal_force > greatest {
+                contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
+                contact.come_loose(law, &look);
+                if let Some((slider, law)) = &mut roller {
+                    rolling_stages::come_loose((slider, *law), &contact, &look);
+                }
+                corrected = true;
+            }
+        }
+        corrected
+    }
+
+    /// Ends phases of friction that have lost their base: the normal force has jumped, at the turn from loading to unloading or as
+    /// a dashpot goes slack. What is beyond the cone slips at once, what would slip backwards sticks. Says whether there was any.
+    fn settle_friction<N: NormalForce>(&mut self) -> bool {
+        let mut corrected = false;
+        for place in 0..self.len() {
+            let (look, bodies) = (self.look(place), self.bodies);
+            let (mut contact, law, roller) = self.whole(place, &look);
+            if contact.mode == Mode::Open {
+                continue;
+            }
+            let base = Base::of::<N>(&contact, law, &look, bodies);
+            if law.tangential().acts() {
+                let motion = (look.sliding(law), look.speed(law));
+                let slider = &mut contact.tangential;
+                // A spring that gives has its new elongation once it was evaluated.
+                corrected |= slider.settle_force(&law.tangential(), base)
+                    || !law.exact && slider.settle_motion(&law.tangential(), base, motion);
+            }
+            if let Some((slider, law)) = roller {
+                let motion = (look.turning(), look.turning_speed());
+                corrected |= slider.settle_force(&law, base) || slider.settle_motion(&law, base, motion);
+            }
+        }
+        corrected
+    }
+
+    /// Chooses all modes of a state that did not follow from the one before.
+    pub fn take_stock<N: NormalForce>(&mut self) {
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let (mut contact, law, roller) = self.whole(place, &look);
+            if contact.mode == Mode::Open && look.overlap > 0.0 {
+                contact.overlap = look.overlap;
+                contact.begin::<N>(law, &look, None);
+                if let Some(roller) = roller {
+                    rolling_stages::begin(roller, &contact, &look, None);
+                }
+            }
+            if contact.mode != Mode::Open && contact.mode != Mode::Hold {
+                contact.mode = standing::<N>(law, contact.mode, look.parting());
+            }
+        }
+    }
+}
