@@ -18,7 +18,7 @@ use bevy_ecs::prelude::*;
 
 pub use control::Allowance;
 pub use semi_implicit_euler::SemiImplicitEuler;
-pub use staged::{LocatedEvents, Pace, Staged, StepCount};
+pub use staged::{Detail, LocatedEvents, Pace, Staged, StepCount};
 pub use velocity_verlet::VelocityVerlet;
 
 use crate::scene::SceneAppExt;
@@ -81,17 +81,22 @@ pub struct Description {
 impl Description {
     /// The method with events where they are wanted, and whether they are located. `None`: it cannot.
     ///
-    /// A pace other than one step per tick is for methods that make steps inside ticks.
-    pub fn make(&self, events: EventTiming, pace: Pace) -> Option<(Method, bool)> {
+    /// A pace other than one step per tick is for methods that make steps inside ticks, and so are steps divided into parts.
+    pub fn make(&self, events: EventTiming, pace: Pace, detail: Detail) -> Option<(Method, bool)> {
+        let limit = if self.stability_limit.is_normal() { self.stability_limit } else { USUAL_LIMIT };
+        let fine = Detail { swing: limit * detail.swing, ..detail };
         let staged = |located: bool| {
-            let staged = Staged::new(self.one_step?(), located, pace);
-            let staged = match self.whole_ticks {
+            let staged = Staged::new(self.one_step?(), located, pace, fine);
+            let staged = match self.whole_ticks.filter(|_| detail == Detail::default()) {
                 Some(make) => staged.with_whole_ticks(make().0),
                 None => staged,
             };
             Some((Method(Box::new(staged)), located))
         };
-        let whole = self.whole_ticks.filter(|_| pace == Pace::Even(1)).map(|make| (make(), false));
+        let whole = self
+            .whole_ticks
+            .filter(|_| pace == Pace::Even(1) && detail == Detail::default())
+            .map(|make| (make(), false));
         match events {
             EventTiming::Auto => whole.or_else(|| staged(true)),
             EventTiming::Located => staged(true),
@@ -99,6 +104,9 @@ impl Description {
         }
     }
 }
+
+/// What stands for the stability limit of methods that have none, or are never stable without losses.
+const USUAL_LIMIT: f64 = 2.0;
 
 /// The methods that may be named. Plugins add their own.
 #[derive(Resource, Default)]

@@ -13,8 +13,8 @@ use super::Integrator;
 use super::control::{Allowance, Control};
 use super::crowd::Crowd;
 use super::inside::Inside;
-use super::locate::{Bracket, Moment};
-use super::steps::{Flow, OneStep, Start};
+use super::locate::{Bracket, Moment, vanished};
+use super::steps::{Divided, Flow, OneStep, Start};
 use super::whole::Whole;
 use crate::tick::{Evaluation, Indicator, Style, Tick, WorldFlow};
 use crate::world::Bodies;
@@ -30,6 +30,10 @@ const MOST_RENEWALS: u32 = 16;
 /// pairs that a step may bring together, and an event ends it soon.
 const MANY_ATOMS: usize = 64;
 const MOST_RADII: f64 = 8.0;
+
+/// Steps between two looks at how far they lead, and the most that may be needed to the end of a tick: more take minutes.
+const STEPS_BETWEEN_LOOKS: u64 = 4096;
+const MOST_STEPS: f64 = 1e8;
 
 /// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
 /// it.
@@ -55,6 +59,8 @@ pub struct StepCount {
     pub longest: f64,
     /// Accepted steps that were allowed a larger error than was asked for: rounding of places leaves no smaller one.
     pub bounded: u64,
+    /// Steps that were made shorter than asked for, so that they resolve contacts.
+    pub shortened: u64,
     /// The tick from which on each is one step, not counted yet.
     pub whole_from: Option<u64>,
 }
@@ -81,6 +87,25 @@ pub enum Pace {
     Allowed(Allowance),
 }
 
+/// How finely a run is made beside its ticks: two runs that differ in it have no step in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detail {
+    /// Equal parts of each step.
+    pub parts: u32,
+    /// Ticks in one in which as many events may be located as in a frame.
+    pub looks: u32,
+    /// The angle over which springs that hold a contact swing in a step, at most, over that at which the method becomes unstable. A
+    /// contact lasts half a turn.
+    pub swing: f64,
+}
+
+impl Default for Detail {
+    /// Whole steps, over a third of what is stable: five or more in a contact under methods of low order, two under `Dop853`.
+    fn default() -> Self {
+        Self { parts: 1, looks: 1, swing: 1.0 / 3.0 }
+    }
+}
+
 /// A one-step method as the integrator of a run.
 pub struct Staged {
     method: Box<dyn OneStep>,
@@ -88,12 +113,17 @@ pub struct Staged {
     /// Steps per tick, where no control says how long they are.
     parts: u32,
     control: Option<Control>,
+    /// The angle in rad over which springs of contacts may swing in a step.
+    swing: f64,
     /// The state at the end of the last tick, or at the beginning of the step that goes beyond it, and what rounding left
     /// over of it.
     state: Vec<f64>,
     rest: Vec<f64>,
     /// The step that goes beyond the last tick.
     under_way: Option<Made>,
+    /// Steps made, and the time in s of the last look at how far they lead.
+    steps: u64,
+    looked: f64,
     work: Work,
     crowd: Crowd,
     whole: Option<Whole>,
@@ -145,15 +175,31 @@ struct Work {
 impl Staged {
     /// A method; `located`: events are located inside ticks. A method that knows no estimate of its error makes one step per
     /// tick where the pace asks for one.
-    pub fn new(method: Box<dyn OneStep>, located: bool, pace: Pace) -> Self {
+    pub fn new(method: Box<dyn OneStep>, located: bool, pace: Pace, detail: Detail) -> Self {
+        let method = if detail.parts > 1 { Box::new(Divided::new(method, detail.parts)) } else { method };
         let estimates = method.order_of_error() > 0;
         let (parts, control) = match pace {
             Pace::Even(parts) => (parts, None),
             Pace::Allowed(allowance) => (1, estimates.then(|| Control::new(allowance))),
         };
         let (state, rest, work) = (Vec::new(), Vec::new(), Work::default());
-        let crowd = Crowd::patient(if control.is_some() { EVENTS_PER_FRAME } else { 1 });
-        Self { method, located, parts, control, state, rest, under_way: None, work, crowd, whole: None }
+        let patience = if control.is_some() { EVENTS_PER_FRAME / detail.looks } else { 1 };
+        let crowd = Crowd::patient(patience.max(1));
+        Self {
+            method,
+            located,
+            parts,
+            control,
+            swing: detail.swing,
+            state,
+            rest,
+            under_way: None,
+            steps: 0,
+            looked: 0.0,
+            work,
+            crowd,
+            whole: None,
+        }
     }
 
     /// The same with ticks in which nothing is watched made by another form of the method, which goes from tick to tick.
@@ -198,6 +244,13 @@ impl Staged {
             let length = control.length(flow, self.method.order_of_error(), start, near.min(until - from));
             until = if length < until - from { from + length } else { until };
             flow.write(&self.state);
+        } else {
+            let fastest = self.work.indicators.iter().map(|indicator| indicator.swings).fold(0.0, f64::max);
+            let short = from + self.swing / fastest;
+            if short < until {
+                until = short;
+                flow.tick.world.get_resource_or_init::<StepCount>().shortened += 1;
+            }
         }
         let mut reach_of_lists = 1.5;
         if flow.tick.reserve(until - from, reach_of_lists) {
@@ -286,7 +339,7 @@ impl Staged {
         };
         let (mut told, mut share, mut fired) = (Vec::new(), 1.0, Vec::new());
         reach(flow, share, &mut told);
-        if !self.crowd.bears(told.iter().filter(|indicator| indicator.value < 0.0).count()) {
+        if !self.crowd.bears(told.iter().filter(|indicator| vanished(indicator)).count()) {
             return None;
         }
         let mut inside = Inside::of(indicators, &told, length);
@@ -407,6 +460,18 @@ impl Staged {
     }
 }
 
+impl Staged {
+    /// Whether steps have become so short that the end of the tick, at `end` seconds, is out of reach.
+    fn leads_nowhere(&mut self, now: f64, end: f64) -> bool {
+        self.steps += 1;
+        if !self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
+            return false;
+        }
+        let way = now - std::mem::replace(&mut self.looked, now);
+        STEPS_BETWEEN_LOOKS as f64 * (end - now) > MOST_STEPS * way
+    }
+}
+
 /// The longest step in s that is worth trying where there are many to be hit.
 fn longest_among_many(flow: &WorldFlow) -> f64 {
     let bodies: &Bodies = flow.tick.held();
@@ -493,6 +558,11 @@ impl Integrator for Staged {
                 }
             };
             now = made.until.min(end);
+            let step = made.until - made.from;
+            if self.leads_nowhere(now, end) {
+                tick.give_up(step);
+                break;
+            }
             if made.until > end { self.show(tick, made) } else { self.finish(tick, made) }
         }
         let crowded = self.crowd.follows();

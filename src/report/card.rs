@@ -228,7 +228,8 @@ impl Card {
         card.notes.extend(world.resource::<Models>().remarks.iter().filter_map(|remark| remark(world)));
         card.warnings = warnings(world, card.remedy());
         let evidence = Evidence { world, card: &card };
-        let (missing, why) = (evidence.missing_energy(), failure.map(|_| evidence.why()));
+        let (missing, why) =
+            (evidence.missing_energy(), failure.map(|failure| failure.why().unwrap_or_else(|| evidence.why())));
         let verdict = match failure.zip(why.as_ref()) {
             Some((failure, why)) => format!("Do not trust it: the run went wrong: {failure}; {why}."),
             None => evidence.verdict(),
@@ -251,6 +252,11 @@ impl Card {
             None if self.critical_tick == Some(0.0) => Some(Remedy::Method),
             None => Some(Remedy::Tick(self.known().advised_tick())),
         }
+    }
+
+    /// Whether its steps were chosen for an error that was asked for.
+    pub(super) fn has_tolerance(&self) -> bool {
+        self.asked.flatten().is_some()
     }
 
     /// Whether its steps are its ticks, as long as they were asked for.

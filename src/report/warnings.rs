@@ -6,8 +6,8 @@ use super::advice::Remedy;
 use super::card::{ChosenMethod, KnownError, name, number};
 use super::estimate::EstimatedError;
 use crate::contacts::ContactLaw;
-use crate::integrate::LocatedEvents;
-use crate::tick::{Clock, Models, Responses, Style, far_travel};
+use crate::integrate::{LocatedEvents, StepCount};
+use crate::tick::{Clock, Models, Responses, Stability, Style, far_travel};
 use crate::world::Bodies;
 
 /// Contacts that last fewer ticks are not resolved.
@@ -39,6 +39,20 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
             ),
         };
         warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
+    }
+    let steps = world.get_resource::<StepCount>().copied().unwrap_or_default();
+    let known = responses.fastest.map(|fastest| fastest.angular_frequency);
+    let stability = world.resource::<Stability>();
+    let critical = known.or(stability.stiffest_contact()).map(|fastest| stability.limit / fastest);
+    if let Some(critical) = critical.filter(|critical| beyond.is_none() && steps.shortened > 0 && *critical < clock.dt)
+    {
+        warnings.push(format!(
+            "the tick of {} s is above the critical one of {} s: {} steps in contacts were made shorter, so that they resolve \
+             them, but not as finely as a shorter tick does{advice}",
+            number(clock.dt),
+            number(critical),
+            steps.shortened,
+        ));
     }
     // Where the tick is above the critical one this goes without saying.
     let brief = responses.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);

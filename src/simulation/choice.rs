@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 
 use super::Overrides;
 use crate::contacts::ContactLaw;
-use crate::integrate::{Allowance, Description, Methods, Pace};
+use crate::integrate::{Allowance, Description, Detail, Methods, Pace};
 use crate::report::card::{ChosenMethod, ErrorEstimate, ErrorParts, KnownError, Notes};
 use crate::scene::SceneError;
 use crate::scene::sections::clock::EventTiming;
@@ -42,6 +42,8 @@ pub struct Plan {
     pub tick: f64,
     /// Steps of a tick.
     pub pace: Pace,
+    /// How finely steps are made beside that.
+    pub detail: Detail,
     /// When forces jump.
     pub events: EventTiming,
     /// What led to it.
@@ -165,7 +167,8 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
         notes.push(format!("method {name} chosen: {why}"));
         method = name.to_owned();
     }
-    Ok(Plan { method, tick, pace: Pace::Even(1), events: clock.events, notes, error: None, warning: None })
+    let (pace, detail, events) = (Pace::Even(1), Detail::default(), clock.events);
+    Ok(Plan { method, tick, pace, detail, events, notes, error: None, warning: None })
 }
 
 /// The method that suits what the scene holds, and why.
@@ -202,6 +205,7 @@ fn plan_for(
         method: String::new(),
         tick,
         pace: Pace::Even(1),
+        detail: Detail::default(),
         events: clock.events,
         notes: Vec::new(),
         error: None,
@@ -284,7 +288,7 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
     world.insert_resource(Clock { dt: plan.tick, ticks: 0 });
     let mut stability = world.resource_mut::<Stability>();
     (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
-    let Some((made, located)) = method.make(plan.events, plan.pace) else {
+    let Some((made, located)) = method.make(plan.events, plan.pace, plan.detail) else {
         let message = format!("`{}` goes from tick to tick: it cannot locate events inside one", method.name);
         return Err(Box::new(
             SceneError::new("clock.events", message).with_help("write `events: Auto`, or leave it out"),

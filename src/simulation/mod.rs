@@ -45,6 +45,8 @@ pub struct Overrides {
     pub stiffness: Option<f64>,
     /// How the scene is run, as found for an earlier run of it ([`Simulation::plan`]): nothing is tried again.
     pub plan: Option<Plan>,
+    /// Whether the scene is read to be looked at, not run: a tolerance is not tried, and its first plan stands.
+    pub untried: bool,
     /// Told of each trial run that a tolerance or a reference run needs.
     pub tell: Option<Tell>,
 }
@@ -117,7 +119,7 @@ impl Simulation {
         let (Some(goal), Some(plan)) = (world.get_resource::<Goal>(), world.get_resource::<Plan>()) else {
             return Ok(first);
         };
-        if overrides.plan.is_some() || plan.error.is_some() {
+        if overrides.untried || overrides.plan.is_some() || plan.error.is_some() {
             return Ok(first);
         }
         let begin = (plan.clone(), choice::order(world, plan), choice::steps_per_tick(world, plan));

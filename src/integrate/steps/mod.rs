@@ -3,6 +3,7 @@
 //! They know nothing of bodies: a [`Flow`] gives the rates of a state, a [`OneStep`] turns a state at one time into the
 //! change until another. The same map that makes a step makes any part of it, which is how events are located.
 
+mod divided;
 mod dop853;
 mod elimination;
 mod explicit_euler;
@@ -23,6 +24,7 @@ mod velocity_verlet;
 
 use std::ops::Range;
 
+pub use divided::Divided;
 pub use dop853::Dop853;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_midpoint::ImplicitMidpoint;

@@ -1,9 +1,9 @@
 //! Trials of a scene, one finer than the other.
 
 use super::Tell;
-use super::trajectory::Trajectory;
+use super::trajectory::{MOST_MOMENTS, Trajectory};
 use crate::Simulation;
-use crate::integrate::Pace;
+use crate::integrate::{Allowance, Pace};
 use crate::report::card::number;
 use crate::scene::SceneErrors;
 use crate::scene::sections::clock::EventTiming;
@@ -20,6 +20,12 @@ pub(super) enum Ladder {
     Ticks,
 }
 
+/// The power of the step by which errors of the methods that estimate them fall.
+const ORDER: f64 = 8.0;
+
+/// Looks of a trial are so many of the steps apart that suit the fastest contact or spring: eight to a contact.
+const STEPS_BETWEEN_LOOKS: u32 = 5;
+
 /// The trials of a scene.
 pub(super) struct Trials<'a> {
     /// The plan they follow.
@@ -31,6 +37,13 @@ pub(super) struct Trials<'a> {
     pub steps: u32,
     make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
     tell: Option<Tell>,
+    /// Ticks of a trial in one of the plan, where its steps do not depend on them: moments at which trials are compared lie within
+    /// contacts, and within swings of springs and drives.
+    looks: u32,
+    /// Whether something moves as prescribed, which is told from tick to tick: then no step goes beyond a tick.
+    by_ticks: bool,
+    /// The fineness of the first.
+    coarsest: f64,
     /// How many were made.
     pub count: u32,
     /// How often forces were evaluated in all of them.
@@ -46,14 +59,41 @@ impl<'a> Trials<'a> {
         tell: Option<Tell>,
     ) -> Self {
         let ladder = if matches!(plan.pace, Pace::Allowed(_)) { Ladder::Allowed } else { Ladder::Steps };
-        Self { plan, ladder, order, steps, make, tell, count: 0, evaluations: 0, sizes: (0.0, 0.0) }
+        let looks = match plan.pace {
+            Pace::Allowed(Allowance { longest, .. }) => {
+                let most = MOST_MOMENTS as f64 * plan.tick / longest;
+                f64::from(steps.div_ceil(STEPS_BETWEEN_LOOKS)).min(most).max(1.0) as u32
+            }
+            Pace::Even(_) => 1,
+        };
+        Self {
+            plan,
+            ladder,
+            order,
+            steps,
+            make,
+            tell,
+            looks,
+            by_ticks: false,
+            coarsest: 0.0,
+            count: 0,
+            evaluations: 0,
+            sizes: (0.0, 0.0),
+        }
     }
 
-    /// From here on ticks become finer, by velocity Verlet with events at their ends.
-    pub fn go_by_ticks(&mut self) {
+    /// From here on ticks become finer, by velocity Verlet with events at their ends. Says whether the scene can be run so: some
+    /// models need located events.
+    pub fn go_by_ticks(&mut self) -> bool {
+        let plan = Plan { method: "VelocityVerlet".to_owned(), events: EventTiming::PerTick, ..self.plan.clone() };
+        let before = (self.ladder, std::mem::replace(&mut self.plan, plan));
         self.ladder = Ladder::Ticks;
-        self.plan.method = "VelocityVerlet".to_owned();
-        self.plan.events = EventTiming::PerTick;
+        let plan = self.planned(1.0);
+        let runs = (self.make)(&plan).is_ok();
+        if !runs {
+            (self.ladder, self.plan) = before;
+        }
+        runs
     }
 
     /// The plan of a trial. `fineness` is the share of error allowed to a step, or one over the number of steps.
@@ -64,6 +104,10 @@ impl<'a> Trials<'a> {
             Ladder::Allowed => {
                 if let Pace::Allowed(allowance) = &mut plan.pace {
                     allowance.share = fineness;
+                    // Where no error bounds a step, two trials would make the same steps, and differ by nothing.
+                    let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
+                    allowance.longest /= finer;
+                    plan.tick /= if self.by_ticks { finer.ceil() } else { 1.0 };
                 }
             }
             Ladder::Steps => plan.pace = Pace::Even(many),
@@ -79,8 +123,16 @@ impl<'a> Trials<'a> {
         what: &str,
         change: impl FnOnce(&mut Simulation),
     ) -> Result<Trajectory, SceneErrors> {
-        let plan = self.planned(fineness);
+        self.coarsest = self.coarsest.max(fineness);
+        if self.count == 0 && self.ladder == Ladder::Allowed {
+            let plan = self.planned(fineness);
+            self.by_ticks = !(self.make)(&plan)?.bodies().prescribed.motions.is_empty();
+        }
+        let mut plan = self.planned(fineness);
         let per_moment = (self.plan.tick / plan.tick).round() as u64;
+        let looks = if self.ladder == Ladder::Allowed && !self.by_ticks { self.looks } else { 1 };
+        plan.tick /= f64::from(looks);
+        plan.detail.looks *= looks;
         let mut simulation = (self.make)(&plan)?;
         self.count += 1;
         if let Some(tell) = self.tell {

@@ -44,8 +44,13 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let growths: Vec<(f64, f64)> = coarse.differences(&beside).map(|(t, far)| (t, far / (BESIDE * distance))).collect();
     let growth = growths.iter().fold(0.0, |most, (_, growth)| growth.max(most));
     let mut known = estimate(error);
-    known.position.rounding = Some(growth.max(1.0) * f64::EPSILON * fine.farthest()).filter(|error| error.is_finite());
-    known.horizon = horizon(&growths);
+    let rounding = growth.max(1.0) * f64::EPSILON * fine.farthest();
+    // Greater errors than that are no places: chaos, or an impact that happens in one run and not in the other.
+    known.position.rounding = Some(rounding).filter(|error| *error <= TELLS_NOTHING * distance);
+    let lost =
+        growths.iter().position(|(_, growth)| growth * f64::EPSILON * fine.farthest() > TELLS_NOTHING * distance);
+    let told = lost.map(|place| place.checked_sub(1).map_or(0.0, |before| growths[before].0));
+    known.horizon = [horizon(&growths), told].into_iter().flatten().reduce(f64::min);
     plan.notes.push(format!(
         "reference run: {}; a run that allows a hundred times that error differs by {} m and {} m/s",
         trials.words(&plan),

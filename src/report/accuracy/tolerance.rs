@@ -23,6 +23,8 @@ const SCATTER: f64 = 3.0;
 const FIRST: f64 = 0.1;
 /// Trials at the most, where the error does not fall as it should.
 const MOST_TRIALS: u32 = 9;
+/// Evaluations of all forces after which no further trial is made: some ten seconds of a small scene.
+const MOST_EVALUATIONS: u64 = 30_000_000;
 
 /// Observed powers beyond these are chance.
 const LEAST_POWER: f64 = 0.5;
@@ -76,8 +78,7 @@ impl Climb {
 pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let mut climb = Climb::of(trials, tolerance);
     let mut coarse = trials.run(climb.first, "a coarse run", |_| {})?;
-    if coarse.crowded && trials.ladder == Ladder::Allowed {
-        trials.go_by_ticks();
+    if coarse.crowded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
         climb = Climb::of(trials, tolerance);
         coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
     }
@@ -116,7 +117,8 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
         if let Some(chosen) = chosen {
             return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
         }
-        if alike || next <= climb.finest || trials.count >= MOST_TRIALS {
+        let dear = trials.evaluations > MOST_EVALUATIONS;
+        if alike || dear || next <= climb.finest || trials.count >= MOST_TRIALS {
             return Ok(missed(trials, next, tolerance, (&coarse, &fine), apart.times(share_at(next))));
         }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };

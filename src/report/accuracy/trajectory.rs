@@ -10,7 +10,9 @@ use crate::tick::{Clock, Evaluation, Failure, add_observer_of_ticks, look_at_tic
 use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
-const MOST_MOMENTS: u64 = 100;
+pub(super) const MOST_MOMENTS: u64 = 20_000;
+/// Parts of a run between which it is asked whether it goes on.
+const PARTS: u64 = 100;
 /// Numbers kept of one run, at most.
 const MOST_NUMBERS: u64 = 4_000_000;
 
@@ -23,9 +25,37 @@ struct Pose {
     spin: f64,
 }
 
+/// Bodies at moments of a run, behind each other.
+#[derive(Clone, Debug, Default)]
+struct Moments {
+    /// Times in s, with the places behind their last poses.
+    ends: Vec<(f64, usize)>,
+    poses: Vec<Pose>,
+}
+
+impl Moments {
+    fn add(&mut self, time: f64, poses: impl Iterator<Item = Pose>) {
+        self.poses.extend(poses);
+        self.ends.push((time, self.poses.len()));
+    }
+
+    fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    fn iter(&self) -> impl Iterator<Item = (f64, &[Pose])> {
+        let begins = std::iter::once(0).chain(self.ends.iter().map(|(_, end)| *end));
+        self.ends.iter().zip(begins).map(|(&(time, end), begin)| (time, &self.poses[begin..end]))
+    }
+
+    fn first(&self) -> Option<&[Pose]> {
+        self.iter().next().map(|(_, poses)| poses)
+    }
+}
+
 /// A run as it went.
 pub(in crate::report) struct Trajectory {
-    moments: Vec<(f64, Vec<Pose>)>,
+    moments: Moments,
     /// Greatest distance of any point of each body from its centre of mass in m.
     extents: Vec<f64>,
     /// Whether it went wrong before its end.
@@ -66,7 +96,7 @@ struct Lookout {
     /// The ticks at whose ends it looks, and how many of them are over.
     ticks: Vec<u64>,
     over: usize,
-    moments: Vec<(f64, Vec<Pose>)>,
+    moments: Moments,
 }
 
 fn look(bodies: Res<Bodies>, clock: Res<Clock>, mut lookout: ResMut<Lookout>) {
@@ -77,7 +107,7 @@ impl Lookout {
     fn look(&mut self, bodies: &Bodies, clock: &Clock) {
         if self.ticks.get(self.over) == Some(&clock.ticks) {
             self.over += 1;
-            self.moments.push((clock.time(), poses(bodies)));
+            self.moments.add(clock.time(), poses(bodies));
         }
     }
 }
@@ -103,17 +133,18 @@ impl Trajectory {
         Self::seen(simulation, stride, |simulation| simulation.run_to_end().err())
     }
 
-    /// Runs a scene to its end and looks at each `stride` ticks. `goes_on` is asked at each of them; nothing, and the share of
-    /// the run that is done, if it says no.
+    /// Runs a scene to its end and looks at each `stride` ticks. `goes_on` is asked a hundred times; nothing, and the share of the
+    /// run that is done, if it says no.
     pub fn while_it(simulation: &mut Simulation, stride: u64, goes_on: &dyn Fn() -> bool) -> Result<Self, f64> {
         let mut stopped = None;
+        let part = (simulation.ticks() / PARTS).max(stride).max(1);
         let trajectory = Self::seen(simulation, stride, |simulation| {
             while simulation.clock().ticks < simulation.ticks() {
                 if !goes_on() {
                     stopped = Some(simulation.clock().ticks as f64 / simulation.ticks() as f64);
                     return None;
                 }
-                let next = (simulation.clock().ticks + stride).min(simulation.ticks());
+                let next = (simulation.clock().ticks + part).min(simulation.ticks());
                 if let Err(failure) = simulation.run_to_tick(next) {
                     return Some(failure);
                 }
@@ -134,10 +165,11 @@ impl Trajectory {
 
     /// Looks at a run that begins, at the ends of these ticks, in ascending order. It may be run in any way.
     pub fn watch(simulation: &mut Simulation, ticks: Vec<u64>) {
-        let begin = (simulation.clock().time(), poses(simulation.bodies()));
+        let mut moments = Moments::default();
+        moments.add(simulation.clock().time(), poses(simulation.bodies()));
         let world = simulation.world_mut();
         look_at_ticks(world, &ticks);
-        let lookout = Lookout { ticks, over: 0, moments: vec![begin] };
+        let lookout = Lookout { ticks, over: 0, moments };
         if let Some(mut there) = world.get_resource_mut::<Lookout>() {
             *there = lookout;
         } else {
@@ -149,7 +181,7 @@ impl Trajectory {
     /// What was seen of a run that was watched, and how it went wrong, if it did. It is watched no longer.
     pub fn watched(simulation: &mut Simulation, failure: Option<Failure>) -> Self {
         let lookout = simulation.world_mut().get_resource_mut::<Lookout>();
-        let moments = lookout.map_or_else(Vec::new, |mut lookout| {
+        let moments = lookout.map_or_else(Moments::default, |mut lookout| {
             lookout.ticks.clear();
             std::mem::take(&mut lookout.moments)
         });
@@ -167,8 +199,10 @@ impl Trajectory {
     /// The same without what comes after `time` seconds, and with each `every`th moment only.
     pub fn part(&self, time: f64, every: usize) -> Self {
         let seen = self.moments.iter().step_by(every);
+        let mut moments = Moments::default();
         // A moment at the time itself may lie behind it by rounding.
-        let moments = seen.take_while(|(at, _)| *at <= time * (1.0 + 1e-9)).cloned().collect();
+        let seen = seen.take_while(|(at, _)| *at <= time * (1.0 + 1e-9));
+        seen.for_each(|(at, poses)| moments.add(at, poses.iter().copied()));
         Self { moments, extents: self.extents.clone(), failure: self.failure.clone(), ..*self }
     }
 
@@ -186,9 +220,9 @@ impl Trajectory {
     /// How far bodies came from where they began, in m, and how fast they were, in m/s. A turn counts as no more than one
     /// radian.
     pub fn sizes(&self) -> (f64, f64) {
-        let Some((_, first)) = self.moments.first() else { return (0.0, 0.0) };
+        let Some(first) = self.moments.first() else { return (0.0, 0.0) };
         let (mut distance, mut speed) = (0.0_f64, 0.0_f64);
-        for (_, poses) in &self.moments {
+        for (_, poses) in self.moments.iter() {
             for ((pose, first), extent) in poses.iter().zip(first).zip(&self.extents) {
                 let (far, fast) = size(pose, first, *extent);
                 (distance, speed) = (distance.max(far), speed.max(fast));
@@ -206,7 +240,7 @@ impl Trajectory {
     /// How far and how fast each body goes, as in [`Trajectory::sizes`].
     pub fn measures(&self) -> Vec<(f64, f64)> {
         let (farthest, fastest) = self.sizes();
-        let Some((_, first)) = self.moments.first() else { return Vec::new() };
+        let Some(first) = self.moments.first() else { return Vec::new() };
         let least = |size: f64, most: f64| if most > 0.0 { size.max(LEAST_SHARE * most) } else { 1.0 };
         let of = |(body, first): (usize, &Pose)| {
             let extent = self.extents[body];
@@ -229,7 +263,7 @@ impl Trajectory {
             return infinite;
         }
         let (mut distance, mut share, mut squares) = (0.0_f64, 0.0_f64, vec![0.0; measures.len()]);
-        for ((_, own), (_, others)) in self.moments.iter().zip(&other.moments) {
+        for ((_, own), (_, others)) in self.moments.iter().zip(other.moments.iter()) {
             for (body, (own, other)) in own.iter().zip(others).enumerate() {
                 let (apart, faster) = difference(own, other, self.extents[body]);
                 distance = greater(distance, apart);
@@ -251,21 +285,21 @@ impl Trajectory {
 
     /// Time, greatest difference of places in m and of velocities in m/s, at each moment that both have.
     pub fn errors<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
-        self.moments.iter().zip(&other.moments).map(|((time, own), (_, others))| {
+        self.moments.iter().zip(other.moments.iter()).map(|((time, own), (_, others))| {
             let pairs = own.iter().zip(others).zip(&self.extents);
             let differences = pairs.map(|((own, other), extent)| difference(own, other, *extent));
             let (far, fast) = differences.fold((0.0, 0.0), |(a, b), (c, d)| (greater(a, c), greater(b, d)));
-            (*time, far, fast)
+            (time, far, fast)
         })
     }
 
     /// The first body whose place is farther than `distance` metres from that of another run, and the moment in s.
     pub fn first_apart(&self, other: &Self, distance: f64) -> Option<(usize, f64)> {
-        self.moments.iter().zip(&other.moments).find_map(|((time, own), (_, others))| {
+        self.moments.iter().zip(other.moments.iter()).find_map(|((time, own), (_, others))| {
             let apart = own.iter().zip(others).zip(&self.extents);
             let far = apart.map(|((own, other), extent)| difference(own, other, *extent).0);
             let farthest = far.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-            farthest.filter(|(_, far)| *far > distance).map(|(body, _)| (body, *time))
+            farthest.filter(|(_, far)| *far > distance).map(|(body, _)| (body, time))
         })
     }
 
@@ -292,12 +326,12 @@ fn greater(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
 
-fn poses(bodies: &Bodies) -> Vec<Pose> {
+fn poses(bodies: &Bodies) -> impl Iterator<Item = Pose> {
     let pose = |body: usize| Pose {
         position: bodies.position[body],
         angle: bodies.angle[body],
         velocity: bodies.velocity[body],
         spin: bodies.spin[body],
     };
-    (0..bodies.len()).map(pose).collect()
+    (0..bodies.len()).map(pose)
 }

@@ -8,34 +8,38 @@ pub mod check;
 mod growth;
 mod model;
 mod rounding;
+mod twins;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use bevy_ecs::prelude::*;
 
 use super::accuracy::trajectory::Trajectory;
 use super::card::{ErrorEstimate, ErrorParts, KnownError, number};
 use crate::Simulation;
-use crate::contacts::{ContactLaw, DeepestOverlap};
-use crate::integrate::{Methods, Pace};
+use crate::contacts::DeepestOverlap;
+use crate::integrate::Methods;
 use crate::report::card::ChosenMethod;
 use crate::scene::SceneErrors;
 use crate::simulation::{Overrides, Plan};
 use crate::tick::Evaluation;
 use growth::{Growth, Seen};
+use twins::{Finer, Told};
 
 /// Work that an estimate may take where nothing more is asked for: this share of that of the run.
 const SHARE: f64 = 0.03;
-/// ... or this many evaluations of the forces of a world without atoms, about a twentieth of a second, if that is more...
-const FREE: f64 = 5e4;
-/// ... or three times as many, where that suffices for the whole run.
-const WHOLE: f64 = 1.5e5;
+/// ... or this many evaluations of the forces of a world without atoms, about a tenth of a second, if that is more...
+const FREE: f64 = 2e5;
+/// ... or four times as many, where that suffices for the whole run.
+const WHOLE: f64 = 8e5;
 /// Work of an evaluation for each atom, over what each evaluation takes whatever there is, and of reading a scene.
 const PER_ATOM: f64 = 0.04;
 const READING: f64 = 8.0;
-/// Moments at which runs are compared, spread evenly, and numbers that are kept of them.
-const EVEN: u64 = 64;
+/// Moments at which runs are compared, spread over the run, and numbers that are kept of them.
+const EVEN: u64 = 4096;
 const MOST_NUMBERS: u64 = 6_000_000;
+/// Its multiples are spread evenly over whatever they are taken modulo.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Share of the motion from which on two runs have parted.
 const PARTED: f64 = 1e-2;
 /// Parts of a run between which it is seen whether it takes too long.
@@ -126,21 +130,33 @@ impl Repeated<'_> {
 pub fn watch(simulation: &mut Simulation, wanted: Wanted) {
     let known = simulation.world().contains_resource::<KnownError>();
     if wanted.rounding || wanted.model || (wanted.effort != Effort::None && !known) {
-        let moments = moments(simulation.ticks(), simulation.bodies().len() as u64);
+        let moments = moments(simulation);
         Trajectory::watch(simulation, moments);
     }
 }
 
-/// Ticks at which runs are compared: evenly spread ones, half as many in the part that a share of the work suffices for, and as many
-/// at equal ratios, of which the first are early.
-fn moments(ticks: u64, bodies: u64) -> Vec<u64> {
+/// Ticks at which runs are compared: half of them spread over the whole run, a quarter over the part that a share of the work
+/// suffices for, and a quarter at equal ratios, of which the first are early. Their distances differ, so that no swing looks the
+/// same at all of them.
+fn moments(simulation: &Simulation) -> Vec<u64> {
+    moments_of(simulation.ticks(), simulation.bodies().len() as u64, u64::from(twins::cycle_of(simulation)))
+}
+
+/// The same for a run of so many ticks of so many bodies, at multiples of `cycle` ticks.
+fn moments_of(ticks: u64, bodies: u64, cycle: u64) -> Vec<u64> {
     let most = (MOST_NUMBERS / (6 * bodies.max(1))).min(2 * EVEN);
     let (even, scales) = (most / 2, most / 4);
-    let until =
-        |part: f64, many: u64| (1..=many).map(move |place| (part * ticks as f64 * place as f64 / many as f64) as u64);
+    let until = |part: f64, many: u64| {
+        (1..=many).map(move |place| {
+            let place = place as f64 - (place as f64 * GOLDEN).fract();
+            (part * ticks as f64 * place / many as f64) as u64
+        })
+    };
     let evenly = until(1.0, even).chain(until(SHARE / 2.0, scales));
     let growing = (1..=scales).map(|place| libm::pow(ticks as f64, place as f64 / scales as f64) as u64);
-    let mut all: Vec<u64> = growing.chain(evenly).chain([ticks]).filter(|tick| (1..=ticks).contains(tick)).collect();
+    let whole = |tick: u64| tick / cycle * cycle;
+    let all = growing.chain(evenly).chain([ticks]).map(whole);
+    let mut all: Vec<u64> = all.filter(|tick| (1..=ticks).contains(tick)).collect();
     all.sort_unstable();
     all.dedup();
     all
@@ -176,35 +192,22 @@ fn work(simulation: &Simulation) -> f64 {
     evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
 }
 
-/// The part of a run that can be run again with half the tick for little work.
-fn affordable(simulation: &Simulation) -> f64 {
+/// The part of a run that can be run again for little work, where twins take `times` the work of the run.
+fn affordable(simulation: &Simulation, times: f64) -> f64 {
     let (work, reading) = (work(simulation), READING * simulation.bodies().atom_count() as f64);
-    let whole = 2.0 * work;
+    let whole = times * work;
     let least = if whole + reading <= WHOLE { WHOLE } else { FREE };
     ((least.max(SHARE * work) - reading) / whole).clamp(0.0, 1.0)
-}
-
-/// The plan of a run with its tick divided by `parts`.
-fn finer(simulation: &Simulation, parts: u32) -> Option<Plan> {
-    let plan = simulation.plan()?.clone();
-    let tick = plan.tick / f64::from(parts);
-    (plan.pace == Pace::Even(1)).then_some(Plan { tick, ..plan })
 }
 
 /// The order with which errors are expected to fall: jumps of forces that are not located leave one.
 fn expected_order(simulation: &Simulation) -> f64 {
     let world = simulation.world();
     let chosen = world.resource::<ChosenMethod>();
-    if world.contains_resource::<ContactLaw>() && !chosen.located {
+    if touches(simulation) && !chosen.located {
         return 1.0;
     }
     world.resource::<Methods>().named(chosen.name).map_or(1.0, |method| f64::from(method.order))
-}
-
-/// Looks at another run at the moments of the first, until the end of its tick `until`; its ticks are divided by `parts`.
-fn watch_beside(other: &mut Simulation, first: &Simulation, parts: u64, until: u64) {
-    let all = moments(first.ticks(), first.bodies().len() as u64);
-    Trajectory::watch(other, all.into_iter().filter(|tick| *tick <= until).map(|tick| tick * parts).collect());
 }
 
 /// Whether anything has touched in a run.
@@ -212,31 +215,7 @@ fn touches(simulation: &Simulation) -> bool {
     simulation.world().get_resource::<DeepestOverlap>().is_some_and(|deepest| deepest.overlap > 0.0)
 }
 
-/// Runs a twin with the tick divided by `parts` until the end of tick `until` of the first; nothing, if it has no such tick or takes
-/// longer than there is patience.
-fn twin(
-    first: &Simulation,
-    (parts, until): (u32, u64),
-    patience: Option<Duration>,
-    scene: &Repeated,
-) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
-    let Some(plan) = finer(first, parts) else { return Ok(None) };
-    let what = format!("once more with a tick of {} s, for its error", number(plan.tick));
-    let mut twin = scene.again(first, plan, 1.0, &what)?;
-    let parts = u64::from(parts);
-    watch_beside(&mut twin, first, parts, until);
-    let (begin, chunk) = (Instant::now(), (until * parts / CHUNKS).max(1));
-    let mut failure = None;
-    while failure.is_none() && twin.clock().ticks < until * parts {
-        if patience.is_some_and(|patience| begin.elapsed() > patience) {
-            return Ok(None);
-        }
-        failure = twin.run_to_tick((twin.clock().ticks + chunk).min(until * parts)).err();
-    }
-    Ok(Some((Trajectory::watched(&mut twin, failure), twin)))
-}
-
-/// The error that the finite tick makes.
+/// The error that finite steps make.
 fn discretisation(
     simulation: &Simulation,
     run: &Trajectory,
@@ -245,10 +224,10 @@ fn discretisation(
     found: &mut EstimatedError,
 ) -> Result<(), SceneErrors> {
     let ticks = simulation.clock().ticks;
-    let part = if effort == Effort::Full { 1.0 } else { affordable(simulation) };
+    let twins = twins::of(simulation);
+    let part = if effort == Effort::Full { 1.0 } else { affordable(simulation, twins::work(&twins)) };
     let until = (part * ticks as f64) as u64;
-    let bodies = simulation.bodies().len() as u64;
-    let seen = moments(simulation.ticks(), bodies).iter().filter(|tick| **tick <= until).count();
+    let seen = moments(simulation).iter().filter(|tick| **tick <= until).count();
     if seen < FEWEST_MOMENTS.min(ticks as usize) {
         let part = SHARE * 100.0;
         found.notes.push(format!(
@@ -257,57 +236,73 @@ fn discretisation(
         return Ok(());
     }
     let patience = (effort != Effort::Full).then(|| Duration::from_secs_f64(1.0 + 0.1 * simulation.seconds_spent()));
-    let Some((half, second)) = twin(simulation, (2, until), patience, scene)? else {
-        found.notes.push("the error is not estimated: that takes long; --estimate takes the time".to_owned());
-        return Ok(());
-    };
-    if let Some(failure) = &half.failure {
-        found.notes.push(format!("the error is not estimated: with half the tick {failure}"));
-        return Ok(());
-    }
-    found.began =
-        run.first_apart(&half, PARTED * run.sizes().0).map(|(body, time)| (simulation.name(body).to_owned(), time));
-    let seen = Seen::between(run, &half);
-    let growth = Growth::of(seen, run.sizes().0);
-    if until < ticks {
-        let (told, all) = (number(second.clock().time()), number(simulation.clock().time()));
-        if touches(simulation) && !touches(&second) {
-            found.notes.push(format!(
-                "the error is not estimated: {:.0} % of the work tell of the first {told} s only, in which nothing touches; \
-                 --estimate runs it all again",
-                SHARE * 100.0
-            ));
-            return Ok(());
-        }
-        found.known_until = Some(second.clock().time());
-        found.notes.push(format!(
-            "the error is that of the first {told} s of {all} s, which were run again with half the tick; --estimate runs it all \
-             again"
-        ));
-    }
-    found.chaotic = growth.is_exponential();
-    let mut order = expected_order(simulation);
-    let mut observed = None;
-    if effort == Effort::Full
-        && let Some((quarter, _)) = twin(simulation, (4, until), None, scene)?
-        && quarter.failure.is_none()
-    {
-        let finer = Growth::of(Seen::between(&half, &quarter), run.sizes().0);
-        observed = growth.order_against(&finer);
+    let (mut told, mut order) = (Told::default(), expected_order(simulation));
+    let (motion, mut observed) = (run.sizes().0, None);
+    if effort == Effort::Full {
+        observed = observed_order(simulation, run, until, scene)?;
         order = observed.unwrap_or(order).clamp(0.5, order.max(1.0));
     }
-    let left = 1.0 / (1.0 - libm::exp2(-order));
-    let part =
-        |error: Option<f64>| ErrorParts { discretisation: error.map(|error| left * error), ..Default::default() };
-    let useless = growth.horizon.is_some_and(|horizon| horizon <= 0.0);
-    found.share = growth.share().map(|share| left * share);
+    for (number, &finer) in twins.iter().enumerate() {
+        let Some((twin, second)) = twins::run(simulation, (finer, until), patience, scene)? else {
+            found.notes.push("the error is not estimated: that takes long; --estimate takes the time".to_owned());
+            return Ok(());
+        };
+        if let Some(failure) = &twin.failure {
+            found.notes.push(format!("the error is not estimated: with finer steps {failure}"));
+            return Ok(());
+        }
+        if found.began.is_none() {
+            let began = run.first_apart(&twin, PARTED * motion);
+            found.began = began.map(|(body, time)| (simulation.name(body).to_owned(), time));
+        }
+        if until < ticks && number == 0 {
+            tell_part(simulation, &second, until, found);
+        }
+        told.add(finer, order, Seen::between(run, &twin), motion);
+    }
+    let known = |error: f64| ErrorParts {
+        discretisation: told.horizon.is_none_or(|horizon| horizon > 0.0).then_some(error),
+        ..Default::default()
+    };
+    (found.share, found.chaotic) = (told.share, told.chaotic);
     found.estimate = Some(ErrorEstimate {
-        position: part(Some(growth.distance).filter(|_| !useless)),
-        velocity: part(Some(growth.speed).filter(|_| !useless)),
+        position: known(told.distance),
+        velocity: known(told.speed),
         observed_order: observed,
-        horizon: growth.horizon.or(found.known_until),
+        horizon: told.horizon.or(found.known_until),
     });
     Ok(())
+}
+
+/// Notes of a run whose beginning alone was made again, as a twin of it is at its end.
+fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &mut EstimatedError) {
+    let last = moments(simulation).into_iter().rfind(|tick| *tick <= until).unwrap_or_default();
+    let known = simulation.clock().time_of(last);
+    let (told, all) = (number(known), number(simulation.clock().time()));
+    let untouched = if touches(simulation) && !touches(second) { ", in which nothing touches" } else { "" };
+    found.known_until = Some(known);
+    found.notes.push(format!(
+        "the error is that of the first {told} s of {all} s{untouched}, which were run again with finer steps; --estimate runs it \
+         all again"
+    ));
+}
+
+/// The order with which the error falls, seen with a half and a quarter of the tick; nothing where it does not.
+fn observed_order(
+    simulation: &Simulation,
+    run: &Trajectory,
+    until: u64,
+    scene: &Repeated,
+) -> Result<Option<f64>, SceneErrors> {
+    let quarter = Finer { ticks: 4, ..Finer::SAME };
+    let Some((half, _)) = twins::run(simulation, (Finer::HALF, until), None, scene)? else { return Ok(None) };
+    let Some((quarter, _)) = twins::run(simulation, (quarter, until), None, scene)? else { return Ok(None) };
+    if half.failure.is_some() || quarter.failure.is_some() {
+        return Ok(None);
+    }
+    let motion = run.sizes().0;
+    let [coarse, fine] = [(run, &half), (&half, &quarter)].map(|(a, b)| Growth::of(Seen::between(a, b), motion));
+    Ok(coarse.order_against(&fine))
 }
 
 #[cfg(test)]
@@ -316,17 +311,17 @@ mod tests {
 
     #[test]
     fn runs_are_compared_at_their_end_and_at_all_scales_of_time() {
-        let all = moments(20_000, 3);
+        let all = moments_of(20_000, 3, 1);
         assert_eq!(all.last(), Some(&20_000));
         assert!(all.windows(2).all(|pair| pair[0] < pair[1]));
         let early = |until: u64| all.iter().filter(|tick| **tick <= until).count();
         assert!(all[0] == 1 && early(200) > 30 && early(300) > 40 && all.len() as u64 <= 2 * EVEN, "{all:?}");
-        assert!(moments(7, 1).contains(&1) && moments(1, 1) == [1]);
+        assert!(moments_of(7, 1, 1).contains(&1) && moments_of(1, 1, 1) == [1]);
     }
 
     #[test]
     fn many_bodies_are_compared_less_often() {
-        assert!((5..=10).contains(&moments(20_000, 100_000).len()), "{:?}", moments(20_000, 100_000));
-        assert_eq!(moments(20_000, 10_000_000), [20_000]);
+        assert!((5..=10).contains(&moments_of(20_000, 100_000, 1).len()), "{:?}", moments_of(20_000, 100_000, 1));
+        assert_eq!(moments_of(20_000, 10_000_000, 1), [20_000]);
     }
 }

@@ -6,7 +6,8 @@
 //! slower fall counts, for it leaves the larger error: twice the difference of the two runs.
 
 use super::growth::{Growth, Seen};
-use super::{EstimatedError, Repeated, finer, touches, watch_beside};
+use super::twins::{Finer, watch_beside};
+use super::{EstimatedError, Repeated, touches};
 use crate::Simulation;
 use crate::contacts::ContactLaw;
 use crate::report::accuracy::trajectory::Trajectory;
@@ -31,11 +32,12 @@ pub(super) fn estimate(
         return Ok(());
     }
     let Some(plan) = simulation.plan() else { return Ok(()) };
-    let (plan, parts) = finer(simulation, 2).map_or((plan.clone(), 1), |plan| (plan, 2));
+    let half = Finer::HALF.plan(simulation).map(|plan| (plan, Finer::HALF));
+    let (plan, finer) = half.unwrap_or_else(|| (plan.clone(), Finer::SAME));
     let mut stiffer = scene.again(simulation, plan, STIFFER, "with contacts four times as stiff")?;
     let ticks = simulation.clock().ticks;
-    watch_beside(&mut stiffer, simulation, parts, ticks);
-    if let Err(failure) = stiffer.run_to_tick(ticks * parts) {
+    watch_beside(&mut stiffer, simulation, finer, ticks);
+    if let Err(failure) = stiffer.run_to_tick(finer.tick(ticks)) {
         found.notes.push(format!("with contacts four times as stiff the run goes wrong: {failure}"));
         return Ok(());
     }

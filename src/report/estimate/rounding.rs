@@ -10,7 +10,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::growth::{Growth, Seen};
-use super::{EstimatedError, Repeated, finer, watch_beside};
+use super::twins::{Finer, watch_beside};
+use super::{EstimatedError, Repeated};
 use crate::Simulation;
 use crate::report::accuracy::trajectory::Trajectory;
 use crate::report::card::ErrorEstimate;
@@ -59,14 +60,13 @@ pub(super) fn estimate(
     found: &mut EstimatedError,
 ) -> Result<(), SceneErrors> {
     let Some(plan) = simulation.plan() else { return Ok(()) };
-    let plan = finer(simulation, 1).unwrap_or_else(|| plan.clone());
     let (mut distance, mut speed) = (0.0_f64, 0.0_f64);
     let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
     for sample in 0..SAMPLES {
         let what = format!("with wrong last bits, {} of {SAMPLES}", sample + 1);
         let mut other = scene.again(simulation, plan.clone(), 1.0, &what)?;
         let ticks = simulation.clock().ticks;
-        watch_beside(&mut other, simulation, 1, ticks);
+        watch_beside(&mut other, simulation, Finer::SAME, ticks);
         other.world_mut().insert_resource(LastBits(ChaCha8Rng::seed_from_u64(sample)));
         add_packed_observer(other.world_mut(), disturb);
         let failure = other.run_to_tick(ticks).err();

@@ -14,7 +14,7 @@ pub use beyond::Apart;
 pub use reference::{NoReference, Reference};
 
 use super::ladder::{Budget, Cost, Course, Legend, Outcome, Rules, Setting, Settings, USELESS, climb, timed};
-use crate::integrate::Pace;
+use crate::integrate::{Detail, Pace};
 use crate::raster::Diagram;
 use crate::scene::SceneErrors;
 use crate::scene::sections::clock::EventTiming;
@@ -90,7 +90,16 @@ impl Measured {
 fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
     // What is known of its error, nothing, keeps others from looking for it.
     let error = Some(crate::report::card::ErrorEstimate::default());
-    Plan { method: method.to_owned(), tick, pace, events, notes: Vec::new(), error, warning: None }
+    Plan {
+        method: method.to_owned(),
+        tick,
+        pace,
+        detail: Detail::default(),
+        events,
+        notes: Vec::new(),
+        error,
+        warning: None,
+    }
 }
 
 /// Measures a scene. `tell` hears from time to time which share of the budget is used.

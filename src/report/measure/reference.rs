@@ -135,7 +135,7 @@ pub(super) fn find(load: Load, scene: &Scene, budget: &Budget) -> Result<Truth, 
 type Attempt = Result<Result<Truth, NoReference>, Unfit>;
 
 fn by_located(load: Load, scene: &Scene, budget: &Budget) -> Result<Attempt, SceneErrors> {
-    let tick = scene.duration / scene.moments as f64;
+    let tick = scene.duration / scene.seen as f64;
     let mut done = 0.0;
     let mut run = |share: f64, change: &dyn Fn(&mut Simulation)| -> Result<Result<Trajectory, Unfit>, SceneErrors> {
         let mut simulation = load(Way::Plan(&located(tick, share, scene.duration)))?;
@@ -185,7 +185,7 @@ fn by_located(load: Load, scene: &Scene, budget: &Budget) -> Result<Attempt, Sce
 }
 
 fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Truth, NoReference> {
-    let mut count = scene.moments;
+    let mut count = scene.seen;
     let wanted = scene.fastest.map_or(0.0, |fastest| TICKS_PER_RADIAN * fastest * scene.duration);
     while (count as f64) < wanted {
         count *= 2;
@@ -198,7 +198,7 @@ fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Tru
         let plan = plan("VelocityVerlet", scene.duration / count as f64, Pace::Even(1), EventTiming::PerTick);
         let mut simulation = load(Way::Plan(&plan))?;
         let within = || budget.within(TICKS_BY);
-        let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, count / scene.moments, &within));
+        let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, count / scene.seen, &within));
         let run = match seen {
             Ok(run) => run,
             Err(_) if runs.len() >= 2 => break,

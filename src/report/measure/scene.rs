@@ -1,5 +1,7 @@
 //! A scene on the ladder: what is known of it before anything runs, its ticks, and how a run of it is compared with the reference.
 
+use std::f64::consts::PI;
+
 use super::reference::{self, Truth};
 use super::{Load, Way};
 use crate::integrate::{Description, LocatedEvents, Methods};
@@ -7,7 +9,7 @@ use crate::report::accuracy::trajectory::Trajectory;
 use crate::report::card::{ChosenMethod, number};
 use crate::report::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
 use crate::scene::SceneErrors;
-use crate::tick::Stability;
+use crate::tick::{Models, Stability};
 
 /// The ladder begins at so many times the critical tick, where there is one: what lies beyond is seen to fail. Where it does not, as
 /// contacts are brief or their forces hardly change, longer ones are tried.
@@ -20,6 +22,13 @@ const FEWEST_TICKS: f64 = 5.0;
 const COARSE: [u64; 6] = [1, 2, 5, 10, 20, 50];
 /// How often ticks are halved at the most.
 const HALVINGS: u32 = 40;
+/// Runs are compared at so many times as many moments, at least and at most: a power of two.
+const FEWEST_MOMENTS: u32 = 4;
+const MOST_MOMENTS: u32 = 8;
+/// Moments in half a swing of the fastest contact, spring or drive.
+const MOMENTS_A_SWING: f64 = 8.0;
+/// Numbers that are kept of a run.
+const MOST_NUMBERS: u64 = 4_000_000;
 /// Beyond so many bodies fewer moments are kept.
 const MANY_BODIES: usize = 6000;
 
@@ -28,8 +37,11 @@ pub(super) struct Scene {
     pub duration: f64,
     /// The fastest of contacts and springs in rad/s, if there are any.
     pub fastest: Option<f64>,
-    /// Moments at which runs are compared.
+    /// Ticks of the coarsest ladder that runs have in common.
     pub moments: u64,
+    /// Moments at which runs are compared, as far as they have them: a power of two for each of those, so that no swing looks as
+    /// if nothing moved.
+    pub seen: u64,
     pub methods: Methods,
 }
 
@@ -39,10 +51,19 @@ impl Scene {
         let probe = |tick| load(Way::Plan(&reference::located(tick, 1.0, tick)));
         let simulation = probe(1e-3).or_else(|wrong| probe(1e-9).or_else(|_| probe(1e3)).map_err(|_| wrong))?;
         let world = simulation.world();
+        let (duration, bodies) = (simulation.duration(), simulation.bodies().len());
+        let fastest = world.resource::<Stability>().fastest_foreseen().map(|fastest| fastest.angular_frequency);
+        let rhythms = world.resource::<Models>().rhythms.iter().map(|rhythm| rhythm.angular_frequency);
+        let swings = rhythms.chain(fastest).fold(0.0, f64::max) * duration / PI;
+        let moments = if bodies > MANY_BODIES { 10 } else { 100 };
+        let fine = |power: &u32| (moments << power) as f64 >= MOMENTS_A_SWING * swings;
+        let power = (FEWEST_MOMENTS..MOST_MOMENTS).find(fine).unwrap_or(MOST_MOMENTS);
+        let kept = (0..=power).rev().find(|power| (moments << power) * 6 * bodies as u64 <= MOST_NUMBERS);
         Ok(Self {
-            duration: simulation.duration(),
-            fastest: world.resource::<Stability>().fastest_foreseen().map(|fastest| fastest.angular_frequency),
-            moments: if simulation.bodies().len() > MANY_BODIES { 10 } else { 100 },
+            duration,
+            fastest,
+            moments,
+            seen: moments << kept.unwrap_or(0),
             methods: Methods(world.resource::<Methods>().0.clone()),
         })
     }
@@ -79,11 +100,11 @@ impl Scene {
 
     /// How many ticks of a run of `count`, and how many moments, lie between two that both have.
     fn strides(&self, count: u64) -> (u64, u64) {
-        let (mut common, mut rest) = (count, self.moments);
+        let (mut common, mut rest) = (count, self.seen);
         while rest > 0 {
             (common, rest) = (rest, common % rest);
         }
-        (count / common, self.moments / common)
+        (count / common, self.seen / common)
     }
 }
 

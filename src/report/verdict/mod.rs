@@ -1,7 +1,7 @@
 //! The verdict: one plain line that says how far to trust a run, what most likely spoils it, where and when that began, and what
 //! would mend it.
 //!
-//! Each cause is a function that looks at the evidence: the card and the world. The first that finds something speaks, so they
+//! Each cause is a function that looks at the evidence: the card and the world. The gravest speaks. Causes that are as grave
 //! stand in the order in which one explains the others: a tick above the critical one makes everything else go wrong too.
 
 mod ahead;
@@ -66,8 +66,14 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 13] = [
 ];
 
 impl Evidence<'_> {
+    /// The gravest, and of several that are as grave the first.
     fn cause(&self) -> Option<Cause> {
-        CAUSES.iter().find_map(|cause| cause(self))
+        let all = CAUSES.iter().filter_map(|cause| cause(self));
+        all.min_by_key(|cause| match cause.trust {
+            Trust::Not => 0,
+            Trust::NotTheModel => 1,
+            Trust::Roughly | Trust::Partly(_) => 2,
+        })
     }
 
     /// The remedy that the card advises, between words that go with it.

@@ -1,7 +1,7 @@
 //! Places that are not exact, as the estimated error tells: chaos, events that ticks do not see, or a tick too long for the
 //! motion itself. And what is said where nothing is wrong.
 
-use super::{Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
+use super::{Card, Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
 use crate::contacts::ContactLaw;
 use crate::report::card::{ErrorEstimate, number, percent};
 use crate::report::estimate::EstimatedError;
@@ -22,7 +22,7 @@ pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let (body, time) = estimated.began.as_ref()?;
     Some(format!(
-        "a run with half the tick is elsewhere by a hundredth of the motion from {} on, `{body}` first",
+        "a run with finer steps is elsewhere by a hundredth of the motion from {} on, `{body}` first",
         at(*time)
     ))
 }
@@ -83,18 +83,18 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn good(evidence: &Evidence) -> String {
     let card = evidence.card;
     if let Some(known) = card.error.as_ref().filter(|_| !card.by_ticks()) {
-        return of_a_tolerance(known, card.time);
-    }
-    if card.energy_error() > MISSING {
-        let advice = evidence.advice("; ", " would improve it");
-        return format!("Trust it to about {} of energy{advice}.", percent(card.energy_error()));
+        return of_a_tolerance(known, card);
     }
     let energy = energy::accounted(evidence);
     match places(card) {
+        Some(places) if card.energy_error() > MISSING => {
+            let advice = evidence.advice("; ", " would improve it");
+            format!("Trust it to about {} of energy: {places}{advice}.", percent(card.energy_error()))
+        }
         Some(places) => {
             match evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.known_until) {
                 Some(until) => format!(
-                    "Trust its beginning: {places} until {}, as far as it was run again with half the tick. Nothing is known of the \
+                    "Trust its beginning: {places} until {}, as far as it was run again with finer steps. Nothing is known of the \
                      rest; `--estimate` runs it all again; {energy}.",
                     at(until)
                 ),
@@ -102,23 +102,28 @@ pub(super) fn good(evidence: &Evidence) -> String {
                     let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
                     let share = share.filter(|share| *share > 0.0);
                     let share = share.map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
-                    format!("Trust it: {places}{share}, as a run with half the tick tells; {energy}.")
+                    format!("Trust it: {places}{share}, as runs with finer steps tell; {energy}.")
                 }
             }
         }
-        None => {
-            let advice = evidence.advice("; ", " would show whether anything changes");
-            format!("Trust it: {energy}{advice}.")
-        }
+        None => format!(
+            "How wrong places are is not known: {energy}, which says nothing of a light body among heavy ones. Use `--estimate`."
+        ),
     }
 }
 
-/// What is said of a run of `end` seconds whose steps were chosen for its error.
-fn of_a_tolerance(error: &ErrorEstimate, end: f64) -> String {
+/// What is said of a run whose steps were chosen for its error.
+fn of_a_tolerance(error: &ErrorEstimate, card: &Card) -> String {
     let Some(places) = places_of(error) else {
         return "Do not trust its places: runs of it differ by more than can be told.".to_owned();
     };
-    let until = error.horizon.filter(|horizon| *horizon < end);
+    let until = error.horizon.filter(|horizon| *horizon < card.time);
     let until = until.map_or_else(String::new, |horizon| format!(" until about {}", at(horizon)));
-    format!("Trust it{until}: {places}, as several runs of it tell.")
+    if card.has_tolerance() {
+        return format!("Trust it{until}: {places}, as several runs of it tell.");
+    }
+    format!(
+        "Trust it{until}: {places} at most. A run that allows a hundred times the error differs by that; where motion is smooth this \
+         one is nearer to the truth by as much."
+    )
 }

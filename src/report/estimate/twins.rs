@@ -1,0 +1,163 @@
+//! Twins: runs of the same scene that have no step in common with the first, and smaller errors.
+//!
+//! Two runs differ by the error of the coarser one, unless both are wrong alike. Where motion is smooth one twin with half the tick
+//! tells it. Where forces jump the error depends on where in its ticks or steps a run meets the jumps, and two runs may meet
+//! them alike by chance: there two twins are made, and the larger difference counts. A twin with half the tick sees every second
+//! jump at the end of the same tick as the first run; so ticks of twins end elsewhere, but for one in ten of the first run.
+
+use std::time::{Duration, Instant};
+
+use super::growth::{Growth, Seen};
+use super::{CHUNKS, Repeated, moments, touches};
+use crate::Simulation;
+use crate::contacts::ContactLaw;
+use crate::integrate::{Detail, LocatedEvents, Pace};
+use crate::report::accuracy::trajectory::Trajectory;
+use crate::report::card::{ChosenMethod, number};
+use crate::scene::SceneErrors;
+use crate::simulation::Plan;
+
+/// Ticks of the first run between two that end with ticks of its twins, at most, and how many such there are at least.
+const LONGEST_CYCLE: u64 = 10;
+const FEWEST_CYCLES: u64 = 24;
+
+/// How much finer a twin is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Finer {
+    /// So many of its ticks...
+    pub ticks: u32,
+    /// ... are as long as so many of the first run. They have no factor in common.
+    pub of: u32,
+    /// Equal parts of each step, and parts of the angle over which contacts swing in one.
+    pub parts: u32,
+}
+
+impl Finer {
+    /// The same run once more.
+    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1 };
+    /// With half the tick.
+    pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
+
+    /// How much shorter its steps are.
+    fn steps(self) -> f64 {
+        f64::from(self.ticks * self.parts) / f64::from(self.of)
+    }
+
+    /// The tick of the twin that ends with tick `tick` of the first run, a multiple of [`Finer::of`].
+    pub fn tick(self, tick: u64) -> u64 {
+        tick / u64::from(self.of) * u64::from(self.ticks)
+    }
+
+    /// What is left of an error that falls with the power `order` of the step, as a multiple of the difference.
+    pub fn left(self, order: f64) -> f64 {
+        1.0 / (1.0 - libm::pow(self.steps(), -order))
+    }
+
+    /// The plan of such a run; nothing, where steps are as long as their error allows.
+    pub fn plan(self, simulation: &Simulation) -> Option<Plan> {
+        let plan = simulation.plan()?.clone();
+        let tick = plan.tick * f64::from(self.of) / f64::from(self.ticks);
+        let detail = Detail {
+            parts: plan.detail.parts * self.parts,
+            looks: plan.detail.looks,
+            swing: plan.detail.swing / f64::from(if self.ticks > 1 { self.parts } else { 1 }),
+        };
+        (plan.pace == Pace::Even(1)).then_some(Plan { tick, detail, ..plan })
+    }
+}
+
+/// Ticks after which all ticks of twins end with one of a run of so many where forces jump at the ends of ticks.
+fn cycle(ticks: u64) -> u32 {
+    let longest = (ticks / FEWEST_CYCLES).clamp(1, LONGEST_CYCLE);
+    let divides = (longest.div_ceil(2)..=longest).rev().find(|cycle| ticks.is_multiple_of(*cycle));
+    divides.unwrap_or(longest) as u32
+}
+
+/// Ticks after which all ticks of the twins that a run may need end with one of it.
+pub(super) fn cycle_of(simulation: &Simulation) -> u32 {
+    let world = simulation.world();
+    let per_tick = world.contains_resource::<ContactLaw>() && !ChosenMethod::locates(world);
+    if per_tick { cycle(simulation.ticks()) } else { 1 }
+}
+
+/// The twins that tell the error of a run that is over.
+pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
+    let world = simulation.world();
+    let located = ChosenMethod::locates(world);
+    let jumped = if located {
+        world.get_resource::<LocatedEvents>().is_some_and(|events| events.count > 0)
+    } else {
+        touches(simulation)
+    };
+    match (jumped, located) {
+        (false, _) => vec![Finer::HALF],
+        // The same ticks, and so the same steps from event to event, in halves; and others.
+        (true, true) => [Finer::SAME, Finer::HALF].map(|ticks| Finer { parts: 2, ..ticks }).to_vec(),
+        (true, false) => {
+            let of = cycle_of(simulation);
+            let apart = u32::from(of > 1);
+            [2, 3].map(|times| Finer { ticks: times * of + apart, of, parts: 1 }).to_vec()
+        }
+    }
+}
+
+/// The work of twins, over that of the first run.
+pub(super) fn work(twins: &[Finer]) -> f64 {
+    twins.iter().map(|twin| twin.steps()).sum()
+}
+
+/// Looks at another run, so much finer, at the moments of the first, until the end of its tick `until`.
+pub(super) fn watch_beside(other: &mut Simulation, first: &Simulation, finer: Finer, until: u64) {
+    let until = moments(first).into_iter().filter(|tick| *tick <= until);
+    Trajectory::watch(other, until.map(|tick| finer.tick(tick)).collect());
+}
+
+/// Runs a twin until the end of tick `until` of the first; nothing, if it has no such tick or takes longer than there is patience.
+pub(super) fn run(
+    first: &Simulation,
+    (finer, until): (Finer, u64),
+    patience: Option<Duration>,
+    scene: &Repeated,
+) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
+    let Some(plan) = finer.plan(first) else { return Ok(None) };
+    let steps = if finer.parts > 1 { format!(" and steps in {} parts", finer.parts) } else { String::new() };
+    let what = format!("once more with a tick of {} s{steps}, for its error", number(plan.tick));
+    let mut twin = scene.again(first, plan, 1.0, &what)?;
+    watch_beside(&mut twin, first, finer, until);
+    let until = finer.tick(until);
+    let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
+    let mut failure = None;
+    while failure.is_none() && twin.clock().ticks < until {
+        if patience.is_some_and(|patience| begin.elapsed() > patience) {
+            return Ok(None);
+        }
+        failure = twin.run_to_tick((twin.clock().ticks + chunk).min(until)).err();
+    }
+    Ok(Some((Trajectory::watched(&mut twin, failure), twin)))
+}
+
+/// What twins say of the error of a run.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Told {
+    /// Greatest error of a place in m, and of velocities in m/s.
+    pub distance: f64,
+    pub speed: f64,
+    /// The greatest error as a share of how far bodies go.
+    pub share: Option<f64>,
+    /// The last moment in s before a twin tells no places any more.
+    pub horizon: Option<f64>,
+    /// Whether that came of exponential growth.
+    pub chaotic: bool,
+}
+
+impl Told {
+    /// Takes up what a twin says, where errors fall with the power `order` of the step.
+    pub fn add(&mut self, finer: Finer, order: f64, seen: Seen, motion: f64) {
+        let (growth, left) = (Growth::of(seen, motion), finer.left(order));
+        self.distance = self.distance.max(left * growth.distance);
+        self.speed = self.speed.max(left * growth.speed);
+        self.share = [self.share, growth.share().map(|share| left * share)].into_iter().flatten().reduce(f64::max);
+        self.horizon = [self.horizon, growth.horizon].into_iter().flatten().reduce(f64::min);
+        self.chaotic |= growth.is_exponential();
+    }
+}
