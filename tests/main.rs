@@ -1,6 +1,7 @@
 //! The integration tests: one binary, a folder per kind of promise.
 
 mod architecture;
+mod audit;
 mod cli;
 mod determinism;
 mod extend;

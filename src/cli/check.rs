@@ -9,7 +9,7 @@ use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail, Ran};
 use super::say::{count, print_line, say};
-use crate::simulation::Simulation;
+use crate::simulation::{Overrides, Simulation};
 
 /// The command `check`.
 #[derive(Args, Debug)]
@@ -37,7 +37,8 @@ impl Check {
     pub(super) fn execute(self) -> Exit {
         let check = |name: &String| {
             let request = Request { name, json: self.json };
-            match request.load(&self.overrides.settings, &self.overrides.overrides()) {
+            let overrides = Overrides { untried: !self.run, ..self.overrides.overrides() };
+            match request.load(&self.overrides.settings, &overrides) {
                 Err(exit) => exit,
                 Ok((_, simulation)) if self.run => self.run(request, simulation),
                 Ok((_, simulation)) if self.json => {

@@ -10,10 +10,11 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
+use crate::simulation::{Finishers, LateErrors};
 use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
 use crate::tick::{Balance, Dependence};
-use crate::world::Bodies;
+use crate::world::{Bodies, Name};
 
 /// Attraction between all bodies, as between the masses of heaven: `F = G m1 m2 / (r^2 + s^2)` for two that are `r` apart
 /// with a softening of `s = 0`, and `F = G m1 m2 r / (r^2 + s^2)^(3/2)` with one. The cost grows with the square of the
@@ -51,13 +52,35 @@ impl Entry for Attraction {
         report.not_negative("softening", self.softening);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let mut paths = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
+        let hard = entries.iter().zip(&mut paths).find(|(entry, _)| entry.value.softening.si() == 0.0);
+        if let Some((_, mention)) = hard {
+            app.insert_resource(Unsoftened(mention.path.clone()));
+            app.world_mut().get_resource_or_init::<Finishers>().0.push(refuse_coincident);
+        }
         let attraction = |Written { value, .. }: Written<Self>| AttractionForce {
             constant: value.constant.si(),
             softening: value.softening.si(),
         };
         install(entries.into_iter().map(attraction).collect(), app);
     }
+}
+
+/// Path of an entry without softening.
+#[derive(Resource)]
+struct Unsoftened(String);
+
+/// Two bodies in one place attract each other infinitely, without a direction.
+fn refuse_coincident(world: &mut World) {
+    let bodies = world.resource::<Bodies>();
+    let same = |(a, b): &(usize, usize)| bodies.position[*a] == bodies.position[*b];
+    let Some((a, b)) = pairs(&bodies.dynamic).find(same) else { return };
+    let name = |body: usize| world.get::<Name>(bodies.entity[body]).map(Name::to_string).unwrap_or_default();
+    let message = format!("`{}` and `{}` stand in one place, where the attraction is infinite", name(a), name(b));
+    let help = "move one of them, or write `softening:`, a length below which the force stops growing";
+    let error = SceneError::new(world.resource::<Unsoftened>().0.clone(), message).with_help(help);
+    world.get_resource_or_init::<LateErrors>().0.push(error);
 }
 
 /// One entry, ready to be applied.
@@ -96,10 +119,6 @@ impl ForceOnBodies for Attractions {
             for (a, b) in pairs(dynamic) {
                 let between = position[b] - position[a];
                 let squared = between.length_squared() + attraction.softening * attraction.softening;
-                // Two bodies in one place do not pull each other anywhere.
-                if squared == 0.0 {
-                    continue;
-                }
                 let strength = attraction.constant * mass[a] * mass[b];
                 let force = between * (strength / (squared * squared.sqrt()));
                 sums[a] += force;
@@ -121,7 +140,7 @@ impl ForceOnBodies for Attractions {
             let between: DVec2 = bodies.position[b] - bodies.position[a];
             let distance = (between.length_squared() + attraction.softening * attraction.softening).sqrt();
             let strength = attraction.constant * bodies.mass[a] * bodies.mass[b];
-            if distance == 0.0 { 0.0 } else { -strength / distance }
+            -strength / distance
         };
         self.0.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
     }

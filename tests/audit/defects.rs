@@ -1,0 +1,193 @@
+//! Scenes on which the engine was found wrong, each with what is right.
+
+use jostle::Simulation;
+use jostle::problems::hard::kinetic;
+use jostle::scene::Source;
+use jostle::simulation::Overrides;
+
+use super::ran::{Ran, run};
+
+fn text(name: &str) -> String {
+    let path = format!("{}/assets/defects/{name}.ron", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(&path).unwrap_or_else(|wrong| panic!("{path}: {wrong}"))
+}
+
+fn load(name: &str, overrides: &Overrides) -> Simulation {
+    let source = Source::new(name, text(name));
+    Simulation::load_with(&source, overrides, |_| {}).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn end(name: &str, overrides: &Overrides) -> Simulation {
+    let mut simulation = load(name, overrides);
+    simulation.run_to_end().unwrap_or_else(|failure| panic!("{name}: {failure}"));
+    simulation
+}
+
+fn method(name: &str) -> Overrides {
+    Overrides { method: Some(name.to_owned()), ..Overrides::default() }
+}
+
+fn tolerance(tolerance: f64) -> Overrides {
+    Overrides { tolerance: Some(tolerance), ..Overrides::default() }
+}
+
+fn ran(name: &str) -> Ran {
+    run(&text(name), 1).unwrap_or_else(|why| panic!("{name}: {why}"))
+}
+
+/// The normal force drops at the turn from loading to unloading: a spring that holds more than the cone slips at once. The spins
+/// are those of an event-driven solution.
+#[test]
+fn friction_keeps_to_the_cone_where_the_normal_force_jumps() {
+    for (name, overrides, spin) in [
+        ("coulomb_tolerance", tolerance(1e-8), 3.723_493_773),
+        ("coulomb_tolerance", method("Dop853"), 3.723_493_773),
+        ("dashpot_located", method("Reference"), -8.680_013_421),
+        ("dashpot_located", method("RungeKutta4"), -8.680_013_421),
+    ] {
+        let found = end(name, &overrides).bodies().spin[0];
+        assert!((found - spin).abs() < 1e-5, "{name}: {found} instead of {spin}");
+    }
+    let two =
+        [method("Reference"), method("Dop853")].map(|overrides| end("coulomb_reference", &overrides).bodies().spin[0]);
+    assert!((two[0] - two[1]).abs() < 1e-9, "{two:?}");
+}
+
+/// A disc that stands on a slope at the start, a little too steep for its friction: it slides from the beginning with
+/// `(g_x m - mu g_y m)/m` under all methods. Its inertia is so great that it does not roll.
+#[test]
+fn a_contact_at_the_start_slides_with_the_same_force_under_all_methods() {
+    for name in ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853", "ImplicitMidpoint"] {
+        let simulation = end("start_at_rest", &method(name));
+        let acceleration = 4.052_554_456_578_755 - 0.45 * 8.933_806_712_508_598;
+        let (x, time) = (simulation.bodies().position[0].x, simulation.clock().time());
+        let exact = 0.5 * acceleration * time * time;
+        // Order 1 of the semi-implicit method: half a tick of the final speed.
+        let allowed = 1e-9 + 0.5 * simulation.clock().dt * acceleration * time * f64::from(name == "SemiImplicitEuler");
+        assert!((x - exact).abs() <= allowed, "{name}: {x} instead of {exact}");
+    }
+}
+
+#[test]
+fn friction_without_a_spring_may_have_a_tolerance() {
+    let two = [1e-6, 1e-9].map(|wanted| end("exact_tolerance", &tolerance(wanted)).bodies().position[0]);
+    assert!((two[0] - two[1]).length() < 1e-6, "{two:?}");
+}
+
+/// Where the static coefficient is above the dynamic one Verlet converges to what located events give.
+#[test]
+fn verlet_converges_where_friction_falls_as_it_slips() {
+    let exact = end("vv_static_dynamic", &method("Dop853")).bodies().position[0];
+    let fine =
+        end("vv_static_dynamic", &Overrides { tick: Some(1e-7), ..method("VelocityVerlet") }).bodies().position[0];
+    assert!((fine - exact).length() < 1e-6, "{fine} instead of {exact}");
+}
+
+/// A contact that fits inside one tick is resolved by shorter steps, its error is stated, and the tick is warned of.
+#[test]
+fn a_contact_inside_one_tick_is_resolved_and_warned_of() {
+    let exact = end("blind", &Overrides { tick: Some(1e-5), ..method("Dop853") }).bodies().velocity[0];
+    let coarse = ran("blind");
+    let error = coarse.card.error.expect("estimated").velocity.discretisation.expect("estimated");
+    let wrong = (coarse.seen[0].1[0].velocity - exact).length();
+    assert!(error > wrong / 10.0, "{error:e} stated, {wrong:e} wrong");
+    assert!(coarse.card.largest_overlap.meters > 0.0);
+    assert!(
+        coarse.card.warnings.iter().any(|warning| warning.contains("above the critical one")),
+        "{:?}",
+        coarse.card.warnings
+    );
+    let bullet = ran("bullet_free_Dop_bigtick");
+    let truth = end("bullet_free_Dop_bigtick", &Overrides { tick: Some(1e-5), ..method("Dop853") });
+    let wrong = (bullet.seen[0].1[0].velocity - truth.bodies().velocity[0]).length();
+    // The impact changes the velocity by up to 2 v.
+    assert!(wrong < 1.0, "{wrong} m/s: the contact was jumped");
+}
+
+/// A swing of 30 Hz, seen at 30 frames a second, and a drive of 60 Hz: errors and sizes are those of the run.
+#[test]
+fn film_rates_do_not_blind_the_estimate() {
+    // `x = 1 + A sin(omega t)` has the amplitude 0.02 m, and 3.77/188.5 = 0.02 m.
+    for name in ["strobe_kick30", "strobe_rest30"] {
+        for wanted in [1e-4, 1e-8] {
+            let simulation = end(name, &tolerance(wanted));
+            let body = simulation.bodies();
+            let error = simulation.card().error.expect("known").position.discretisation.expect("known");
+            // Whole periods: the state is that of the beginning.
+            let begin = load(name, &Overrides::default());
+            let wrong = (body.position[0] - begin.bodies().position[0]).length();
+            assert!(
+                wrong <= 3.0 * wanted * 0.04 && error <= wanted * 0.04 * 3.0,
+                "{name}: {wrong:e}, {error:e} stated"
+            );
+        }
+    }
+    let simulation = end("strobe_drive", &tolerance(1e-6));
+    let error = simulation.card().error.expect("known").position.discretisation.expect("known");
+    // `100 N / (1 kg (2 pi 60 Hz)^2)` is 0.7 mm.
+    assert!(error < 1e-5, "{error:e}");
+}
+
+/// Impacts are short: velocities are compared inside them, too.
+#[test]
+fn velocities_of_impacts_are_within_their_tolerance() {
+    let (coarse, fine) = (end("billiards3", &tolerance(1e-5)), end("billiards3", &tolerance(1e-10)));
+    let stated = coarse.card().error.expect("known").velocity.discretisation.expect("known");
+    let apart = coarse.bodies().velocity.iter().zip(&fine.bodies().velocity).map(|(a, b)| (*a - *b).length());
+    let apart = apart.fold(0.0, f64::max);
+    assert!(apart <= 3.0 * stated, "{apart:e} apart, {stated:e} stated");
+}
+
+/// The gravest cause speaks: energy that is missing, not an overlap at the start.
+#[test]
+fn the_gravest_cause_speaks() {
+    let verdict = ran("shadow").card.verdict;
+    assert!(verdict.starts_with("Do not trust it"), "{verdict}");
+}
+
+#[test]
+fn without_an_estimate_there_is_no_trust() {
+    let simulation = end("verdict_energy", &Overrides::default());
+    assert!(kinetic(simulation.bodies()) > 0.0);
+    let verdict = simulation.card().verdict;
+    assert!(!verdict.starts_with("Trust"), "{verdict}");
+}
+
+#[test]
+fn a_statement_ends_where_the_comparison_ends() {
+    let comet = ran("comet");
+    assert!(comet.card.verdict.starts_with("Do not trust it"), "{}", comet.card.verdict);
+    let until = comet.stated().map(|(_, until)| until).unwrap_or(0.0);
+    // At the time of the passage, half a period of 2 pi, nothing is known.
+    assert!(until < 12.0, "{until}");
+}
+
+/// Errors greater than the motion are no errors but a horizon.
+#[test]
+fn no_error_is_greater_than_the_motion() {
+    for overrides in [tolerance(1e-3), tolerance(1e-6), method("Reference")] {
+        let card = end("absurd_estimate", &overrides).card();
+        let error = card.error.expect("known").position;
+        let parts = [error.discretisation, error.rounding, error.model];
+        assert!(parts.iter().flatten().all(|part| *part < 10.0), "{error:?}: {}", card.verdict);
+    }
+}
+
+/// Two bodies in one place attract each other without bound and without a direction: the scene is refused.
+#[test]
+fn attraction_of_two_bodies_in_one_place_is_refused() {
+    let refused = run(&text("nanv"), 1).err().expect("refused");
+    assert!(refused.contains("`p` and `q` stand in one place") && refused.contains("softening"), "{refused}");
+}
+
+/// A fall into an attraction without softening has no end: the run stops with a sentence. To look at the scene is to try nothing.
+#[test]
+fn steps_that_lead_nowhere_end_the_run() {
+    let mut simulation = load("attr_headon_tol", &Overrides::default());
+    let failure = simulation.run_to_end().expect_err("no end");
+    assert!(failure.to_string().contains("steps have become as short as"), "{failure}");
+    let why = simulation.card().why.expect("a cause");
+    assert!(why.contains("softening"), "{why}");
+    let read = load("head3", &Overrides { untried: true, ..Overrides::default() });
+    assert_eq!(read.bodies().len(), 2);
+}
