@@ -4,7 +4,7 @@
 //! Not tested: packings, and heaps that come to rest (`laws/rest`, `laws/conditioned`).
 
 use super::impact::{Impact, Tangential};
-use super::ran::{Ran, run};
+use super::ran::{Ran, end, run};
 use super::{crowd, draw};
 
 /// Impacts of which each is run under three methods, and of which one in eight is run under all.
@@ -33,7 +33,7 @@ fn impacts_are_those_of_the_reference() {
         }
         solved += 1;
         for (clock, limit) in limits {
-            match run(&drawn.scene(clock), 1) {
+            match end(&drawn.scene(clock)) {
                 Err(why) => wrong.push(format!("{seed}{clock}: {why}")),
                 Ok(ran) => {
                     let error = error(&ran, &drawn.impact).unwrap_or_default();

@@ -123,10 +123,11 @@ impl Impact {
                     now += time;
                 }
             }
-            let (after, spent) = self.touch(disc, self.duration - now)?;
-            (disc, now) = (after, now + spent);
-            if now >= self.duration {
-                return Ok(disc);
+            let (after, parted) = self.touch(disc, self.duration - now)?;
+            disc = after;
+            match parted {
+                Some(spent) => now += spent,
+                None => return Ok(disc),
             }
         }
         Err(Unsolved::Chatters)
@@ -163,15 +164,16 @@ impl Impact {
         roots.into_iter().filter(falls).reduce(f64::min)
     }
 
-    /// Follows a contact from its first touch for no longer than `left` seconds: the disc behind it, and how long it lasted.
-    fn touch(&self, mut disc: Disc, left: f64) -> Result<(Disc, f64), Unsolved> {
+    /// Follows a contact from its first touch for no longer than `left` seconds: the disc behind it, and how long it lasted, or
+    /// nothing if it still lasts.
+    fn touch(&self, mut disc: Disc, left: f64) -> Result<(Disc, Option<f64>), Unsolved> {
         (disc.stretch, disc.roll) = (0.0, 0.0);
         let mut modes = self.first_modes(&disc);
         let step = PI / self.fastest() / STEPS;
         let (mut now, mut events) = (0.0, 0);
         loop {
             if now >= left {
-                return Ok((disc, left));
+                return Ok((disc, None));
             }
             let h = step.min(left - now);
             let next = self.step(&disc, &modes, h);
@@ -191,7 +193,7 @@ impl Impact {
             now += high;
             let ended = self.indicators(&disc, &modes).map(|indicator| indicator < 0.0);
             if !self.change(&mut disc, &mut modes, ended)? {
-                return Ok((disc, now));
+                return Ok((disc, Some(now)));
             }
             events += 1;
             if events > 10_000 {

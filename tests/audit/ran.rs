@@ -24,13 +24,22 @@ pub struct Ran {
     pub card: Card,
 }
 
+/// Runs a scene to its end, and estimates nothing.
+pub fn end(text: &str) -> Result<Ran, String> {
+    run_with(text, 1, Effort::None)
+}
+
 /// Runs a scene to its end, looks at it `looks` times, and estimates its error as `jostle run` does.
 pub fn run(text: &str, looks: u64) -> Result<Ran, String> {
+    run_with(text, looks, Effort::Little)
+}
+
+fn run_with(text: &str, looks: u64, effort: Effort) -> Result<Ran, String> {
     let source = Source::new("audit.ron", text);
     let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
     let overrides = Overrides::default();
     let mut simulation = load(&overrides).map_err(|errors| errors.to_string())?;
-    let wanted = Wanted { effort: Effort::Little, ..Wanted::default() };
+    let wanted = Wanted { effort, ..Wanted::default() };
     watch(&mut simulation, wanted);
     let mut seen = Vec::new();
     for look in 1..=looks {

@@ -40,14 +40,20 @@ fn rounding_and_model_are_told_when_asked_for() {
 }
 
 #[test]
-fn what_the_beginning_cannot_tell_is_not_told() {
+fn a_beginning_without_a_touch_tells_of_the_beginning_alone() {
     let folder = Folder::new("estimate_late").with("late.ron", LATE);
     let ended = folder.jostle("run late.ron --json").code(0).json().remove(0);
-    assert!(ended["card"]["error"].is_null(), "{ended}");
+    let (error, end) = (&ended["card"]["error"], ended["time"].as_f64().unwrap());
+    assert!(error["horizon"].as_f64().unwrap() < 0.9 * end, "{ended}");
     let notes = ended["card"]["notes"].to_string();
-    assert!(notes.contains("the error is not estimated") && notes.contains("--estimate"), "{notes}");
+    assert!(notes.contains("in which nothing touches") && notes.contains("--estimate"), "{notes}");
+    let verdict = ended["card"]["verdict"].as_str().unwrap();
+    assert!(
+        verdict.starts_with("Trust its beginning") && verdict.contains("Nothing is known of the rest"),
+        "{verdict}"
+    );
     let ended = folder.jostle("run late.ron --json --estimate").code(0).json().remove(0);
-    assert!(ended["card"]["error"]["position"]["discretisation"].is_f64(), "{ended}");
+    assert!(ended["card"]["error"]["horizon"].is_null(), "{ended}");
 }
 
 /// Under a tolerance the error is known from the runs that found the steps.

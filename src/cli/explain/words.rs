@@ -147,7 +147,7 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "error",
-        "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with half the tick, \
+        "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with finer steps, \
          as far as that takes 3 % of the work or a tenth of a second (`--estimate` takes all it needs, `--no-estimate` none); \
          `rounding` by runs with wrong last bits (`--rounding`); `model` by a run with contacts four times as stiff \
          (`--model`). In `--json` these are `discretisation`, `rounding` and `model`; under a `tolerance` and `Reference` the runs that find \
