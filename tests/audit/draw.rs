@@ -29,11 +29,6 @@ impl Draw {
     pub fn happens(&mut self, share: f64) -> bool {
         self.between(0.0, 1.0) < share
     }
-
-    /// One of several.
-    pub fn one<T: Copy>(&mut self, of: &[T]) -> T {
-        of[(self.between(0.0, of.len() as f64) as usize).min(of.len() - 1)]
-    }
 }
 
 /// An impact, and the words of its laws in a scene.

@@ -6,13 +6,12 @@ use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 
-/// A body at a moment: place in m, angle in rad, velocity in m/s, spin in rad/s.
+/// A body at a moment: place in m, angle in rad, velocity in m/s.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     pub place: glam::DVec2,
     pub angle: f64,
     pub velocity: glam::DVec2,
-    pub spin: f64,
 }
 
 /// What was seen of a run.
@@ -49,7 +48,6 @@ fn run_with(text: &str, looks: u64, effort: Effort) -> Result<Ran, String> {
             place: bodies.position[body],
             angle: bodies.angle[body],
             velocity: bodies.velocity[body],
-            spin: bodies.spin[body],
         };
         seen.push((simulation.clock().time(), (0..bodies.len()).map(pose).collect()));
     }
