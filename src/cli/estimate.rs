@@ -14,8 +14,8 @@ use crate::simulation::{Overrides, Simulation};
 /// What is to be estimated of a run.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(super) struct EstimateFlags {
-    /// Take the time to estimate the error of the run: it is made again with half and with a quarter of the tick. Otherwise
-    /// as much of that as takes 3 % of the run, or about a tenth of a second
+    /// Take the time to estimate the error of the whole run: it is made again with finer steps, two to four times. Otherwise
+    /// as much of that as takes 3 % of the run, or about half a second
     #[arg(long, conflicts_with = "no_estimate")]
     estimate: bool,
     /// Do not estimate the error of the run

@@ -141,14 +141,14 @@ pub(super) const WORDS: &[Word] = &[
         "the last sentences of the card: how far the run can be trusted, what most likely spoils it, with body and time where that \
          began, and what would mend it. `Do not trust it`: what was computed is not the scene. `Trust the numbers, not the \
          model`: it is, but the scene is not what it is meant to be. `Trust it roughly`, `Trust places until ..`: in part. `Trust it`: \
-         nothing that the engine looks for was found. Causes come before what they bring about: a tick above the critical one, overlaps at the \
+         nothing that the engine looks for was found. The gravest cause speaks, and causes come before what they bring about: a tick above the critical one, overlaps at the \
          start, drag, places too far from the origin, forces that swing too fast, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
          travel beyond a radius, chaos, a tick too long for the motion.",
     ),
     word(
         "error",
         "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with finer steps, \
-         as far as that takes 3 % of the work or a tenth of a second (`--estimate` takes all it needs, `--no-estimate` none); \
+         as far as that takes 3 % of the work or half a second (`--estimate` takes all it needs, `--no-estimate` none); \
          `rounding` by runs with wrong last bits (`--rounding`); `model` by a run with contacts four times as stiff \
          (`--model`). In `--json` these are `discretisation`, `rounding` and `model`; under a `tolerance` and `Reference` the runs that find \
          the steps tell the first. Places: the greatest distance of any point of a body, in m; velocities: the root of its mean square \
