@@ -150,15 +150,13 @@ fn both_ways_give_the_same_bits_where_events_are_located() {
         "ImplicitMidpoint",
         "Symplectic4",
     ];
-    let mut given_up = 0;
     for (law, method) in LAWS.iter().flat_map(|law| methods.map(|method| (law, method))) {
         let clock = format!("duration: 0.5, tick: 0.001, method: {method}");
-        let found = compare(&clock, law, &[1, 2, 9, 240, 241, 242]);
-        assert!(found.count > 0, "{law}, {method}");
-        given_up += found.given_up;
+        assert!(compare(&clock, law, &[1, 2, 9, 240, 241, 242]).count > 0, "{law}, {method}");
     }
-    // Crowds, in which methods change, are among them.
-    assert!(given_up > 0);
+    // Crowds, in which methods change: the same number of events in fewer ticks.
+    let crowded = |law: &&str| compare("duration: 1, tick: 0.25, method: RungeKutta4", law, &[1, 2]).given_up > 0;
+    assert!(LAWS.iter().any(crowded));
     let exact = "tangential: Exact, rolling: Spring(friction: 0.05)";
     assert!(compare("duration: 0.5, tick: 0.001, method: RungeKutta4", exact, &[1, 2, 9]).count > 0);
 }
