@@ -41,17 +41,18 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
     }
     let steps = world.get_resource::<StepCount>().copied().unwrap_or_default();
-    let known = responses.fastest.map(|fastest| fastest.angular_frequency);
+    let known = Responses::of(world).fastest.map(|fastest| fastest.angular_frequency);
     let stability = world.resource::<Stability>();
     let critical = known.or(stability.stiffest_contact()).map(|fastest| stability.limit / fastest);
     if let Some(critical) = critical.filter(|critical| beyond.is_none() && steps.shortened > 0 && *critical < clock.dt)
     {
         warnings.push(format!(
-            "the tick of {} s is above the critical one of {} s: {} steps in contacts were made shorter, so that they resolve \
-             them, but not as finely as a shorter tick does{advice}",
+            "the tick of {} s is above the critical one of {} s: {} in contacts {} made shorter, which resolves them, but not as \
+             finely as a shorter tick does{advice}",
             number(clock.dt),
             number(critical),
-            steps.shortened,
+            if steps.shortened == 1 { "one step".to_owned() } else { format!("{} steps", steps.shortened) },
+            if steps.shortened == 1 { "was" } else { "were" },
         ));
     }
     // Where the tick is above the critical one this goes without saying.

@@ -106,3 +106,14 @@ impl Ran {
         self.seen.last().map_or(0.0, |(time, _)| *time)
     }
 }
+
+/// A spring that stuck behind an event told the way it had slipped before: the same event fired at each moment from then on.
+#[test]
+fn springs_that_stick_remember_which_way_they_go() {
+    let scene = crowd::scene(200_084);
+    let two = [", tolerance: 1e-6", ", method: Dop853"].map(|clock| run(&scene.with(clock), 1));
+    let [first, second] = two.map(|ran| ran.unwrap_or_else(|why| panic!("{why}")));
+    let motion = 1.0;
+    assert!(first.apart(&second) < 10.0 * 1e-6 * motion, "{}", first.apart(&second));
+    assert!(second.card.events_located < 100, "{}", second.card.events_located);
+}

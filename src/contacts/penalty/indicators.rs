@@ -11,6 +11,9 @@ use super::switching::{View, What};
 use crate::tick::Indicator;
 use crate::world::Bodies;
 
+/// A turn of the line of centres counts as so many of a swing: a body that passes another one has turned it by half a turn.
+const TURNS: f64 = 4.0;
+
 /// A rate that is not known.
 const UNKNOWN: f64 = f64::NAN;
 
@@ -65,8 +68,10 @@ impl View<'_> {
                 what.push((place as u32, event));
                 told.push(indicator);
             };
+            // Where a body is fast the line of centres turns faster than springs swing.
+            let turns = if contact.mode == Mode::Hold { 0.0 } else { TURNS * look.velocity.length() / look.distance };
             let known = |value: f64, slope: f64| {
-                let swings = pressure.swings.sqrt();
+                let swings = pressure.swings.sqrt().max(turns);
                 Indicator { value, slope, swings, ..Indicator::default() }
             };
             if contact.mode == Mode::Hold {
