@@ -63,7 +63,7 @@ impl Contact {
         self.normal_force = if first && tangential == Friction::Follows { normal.max(before) } else { normal };
         self.take_on(law, tangential, losses);
         self.normal_force = normal;
-        if first && tangential == Friction::Follows {
+        if first && tangential == Friction::Follows && law.tangential().acts() {
             self.tangential.spare(before);
         }
     }

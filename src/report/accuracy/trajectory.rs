@@ -206,6 +206,14 @@ impl Trajectory {
         Self { moments, extents: self.extents.clone(), failure: self.failure.clone(), ..*self }
     }
 
+    /// The same with those moments only whose times in s are wanted.
+    pub fn at(&self, wanted: impl Fn(f64) -> bool) -> Self {
+        let mut moments = Moments::default();
+        let seen = self.moments.iter().filter(|(time, _)| wanted(*time));
+        seen.for_each(|(time, poses)| moments.add(time, poses.iter().copied()));
+        Self { moments, extents: self.extents.clone(), failure: self.failure.clone(), ..*self }
+    }
+
     /// Places in m and velocities in m/s of all bodies at all moments after a time in s.
     pub fn states_after(&self, time: f64) -> impl Iterator<Item = (DVec2, DVec2)> {
         let after = self.moments.iter().filter(move |(at, _)| *at > time);

@@ -139,11 +139,12 @@ pub fn watch(simulation: &mut Simulation, wanted: Wanted) {
 /// suffices for, and a quarter at equal ratios, of which the first are early. Their distances differ, so that no swing looks the
 /// same at all of them.
 fn moments(simulation: &Simulation) -> Vec<u64> {
-    moments_of(simulation.ticks(), simulation.bodies().len() as u64, u64::from(twins::cycle_of(simulation)))
+    let cycles = twins::cycles_of(simulation).map(u64::from);
+    moments_of(simulation.ticks(), simulation.bodies().len() as u64, cycles)
 }
 
-/// The same for a run of so many ticks of so many bodies, at multiples of `cycle` ticks.
-fn moments_of(ticks: u64, bodies: u64, cycle: u64) -> Vec<u64> {
+/// The same for a run of so many ticks of so many bodies, at multiples of either of the `cycles`.
+fn moments_of(ticks: u64, bodies: u64, cycles: [u64; 2]) -> Vec<u64> {
     let most = (MOST_NUMBERS / (6 * bodies.max(1))).min(2 * EVEN);
     let (even, scales) = (most / 2, most / 4);
     let until = |part: f64, many: u64| {
@@ -154,8 +155,8 @@ fn moments_of(ticks: u64, bodies: u64, cycle: u64) -> Vec<u64> {
     };
     let evenly = until(1.0, even).chain(until(SHARE / 2.0, scales));
     let growing = (1..=scales).map(|place| libm::pow(ticks as f64, place as f64 / scales as f64) as u64);
-    let whole = |tick: u64| tick / cycle * cycle;
-    let all = growing.chain(evenly).chain([ticks]).map(whole);
+    let whole = |tick: u64| cycles.map(|cycle| tick / cycle * cycle);
+    let all = growing.chain(evenly).chain([ticks]).flat_map(whole);
     let mut all: Vec<u64> = all.filter(|tick| (1..=ticks).contains(tick)).collect();
     all.sort_unstable();
     all.dedup();
@@ -251,6 +252,7 @@ fn discretisation(
             found.notes.push(format!("the error is not estimated: with finer steps {failure}"));
             return Ok(());
         }
+        let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));
         if found.began.is_none() {
             let began = run.first_apart(&twin, PARTED * motion);
             found.began = began.map(|(body, time)| (simulation.name(body).to_owned(), time));
@@ -311,17 +313,17 @@ mod tests {
 
     #[test]
     fn runs_are_compared_at_their_end_and_at_all_scales_of_time() {
-        let all = moments_of(20_000, 3, 1);
+        let all = moments_of(20_000, 3, [1, 1]);
         assert_eq!(all.last(), Some(&20_000));
         assert!(all.windows(2).all(|pair| pair[0] < pair[1]));
         let early = |until: u64| all.iter().filter(|tick| **tick <= until).count();
         assert!(all[0] == 1 && early(200) > 30 && early(300) > 40 && all.len() as u64 <= 2 * EVEN, "{all:?}");
-        assert!(moments_of(7, 1, 1).contains(&1) && moments_of(1, 1, 1) == [1]);
+        assert!(moments_of(7, 1, [1, 1]).contains(&1) && moments_of(1, 1, [1, 1]) == [1]);
     }
 
     #[test]
     fn many_bodies_are_compared_less_often() {
-        assert!((5..=10).contains(&moments_of(20_000, 100_000, 1).len()), "{:?}", moments_of(20_000, 100_000, 1));
-        assert_eq!(moments_of(20_000, 10_000_000, 1), [20_000]);
+        assert!((5..=10).contains(&moments_of(20_000, 100_000, [1, 1]).len()), "{:?}", moments_of(20_000, 100_000, 1));
+        assert_eq!(moments_of(20_000, 10_000_000, [1, 1]), [20_000]);
     }
 }

@@ -19,7 +19,7 @@ use crate::simulation::Plan;
 
 /// Ticks of the first run between two that end with ticks of its twins, at most, and how many such there are at least.
 const LONGEST_CYCLE: u64 = 10;
-const FEWEST_CYCLES: u64 = 24;
+const FEWEST_CYCLES: u64 = 10;
 
 /// How much finer a twin is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +41,11 @@ impl Finer {
     /// How much shorter its steps are.
     fn steps(self) -> f64 {
         f64::from(self.ticks * self.parts) / f64::from(self.of)
+    }
+
+    /// Whether a tick of the twin ends with tick `tick` of the first run.
+    pub fn ends_with(self, tick: u64) -> bool {
+        tick.is_multiple_of(u64::from(self.of))
     }
 
     /// The tick of the twin that ends with tick `tick` of the first run, a multiple of [`Finer::of`].
@@ -73,11 +78,16 @@ fn cycle(ticks: u64) -> u32 {
     divides.unwrap_or(longest) as u32
 }
 
-/// Ticks after which all ticks of the twins that a run may need end with one of it.
-pub(super) fn cycle_of(simulation: &Simulation) -> u32 {
+/// Ticks after which ticks of the twins that a run may need end with one of it. The two numbers have no factor in common, so that
+/// hardly a tick of the run ends with one of both.
+pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
     let world = simulation.world();
     let per_tick = world.contains_resource::<ContactLaw>() && !ChosenMethod::locates(world);
-    if per_tick { cycle(simulation.ticks()) } else { 1 }
+    match if per_tick { cycle(simulation.ticks()) } else { 1 } {
+        1 => [1, 1],
+        few @ 2..4 => [few, few + 1],
+        many => [many, many - 1],
+    }
 }
 
 /// The twins that tell the error of a run that is over.
@@ -94,9 +104,9 @@ pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
         // The same ticks, and so the same steps from event to event, in halves; and others.
         (true, true) => [Finer::SAME, Finer::HALF].map(|ticks| Finer { parts: 2, ..ticks }).to_vec(),
         (true, false) => {
-            let of = cycle_of(simulation);
-            let apart = u32::from(of > 1);
-            [2, 3].map(|times| Finer { ticks: times * of + apart, of, parts: 1 }).to_vec()
+            let [first, second] = cycles_of(simulation);
+            let twin = |times: u32, of: u32| Finer { ticks: times * of + u32::from(of > 1), of, parts: 1 };
+            vec![twin(2, first), twin(3, second)]
         }
     }
 }
@@ -108,8 +118,8 @@ pub(super) fn work(twins: &[Finer]) -> f64 {
 
 /// Looks at another run, so much finer, at the moments of the first, until the end of its tick `until`.
 pub(super) fn watch_beside(other: &mut Simulation, first: &Simulation, finer: Finer, until: u64) {
-    let until = moments(first).into_iter().filter(|tick| *tick <= until);
-    Trajectory::watch(other, until.map(|tick| finer.tick(tick)).collect());
+    let common = moments(first).into_iter().filter(|tick| *tick <= until && finer.ends_with(*tick));
+    Trajectory::watch(other, common.map(|tick| finer.tick(tick)).collect());
 }
 
 /// Runs a twin until the end of tick `until` of the first; nothing, if it has no such tick or takes longer than there is patience.
