@@ -323,7 +323,11 @@ mod tests {
 
     #[test]
     fn many_bodies_are_compared_less_often() {
-        assert!((5..=10).contains(&moments_of(20_000, 100_000, [1, 1]).len()), "{:?}", moments_of(20_000, 100_000, 1));
+        assert!(
+            (5..=10).contains(&moments_of(20_000, 100_000, [1, 1]).len()),
+            "{:?}",
+            moments_of(20_000, 100_000, [1, 1])
+        );
         assert_eq!(moments_of(20_000, 10_000_000, [1, 1]), [20_000]);
     }
 }
