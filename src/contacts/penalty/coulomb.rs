@@ -55,7 +55,7 @@ pub struct Slider {
     /// Elongation in metres.
     pub elongation: f64,
     /// Force in newtons while it holds or slides; it counts as the pull of the spring does. Of a spring that sticks or slips from
-    /// tick to tick: the least normal force that friction goes by, see [`Slider::spare`].
+    /// tick to tick: the least normal force that friction goes by.
     pub held: f64,
     /// Its phase.
     pub grip: Grip,

@@ -1,4 +1,4 @@
-//! The error of a run, estimated by the engine itself: the run is made again with finer steps ([`twins`]), and the difference
+//! The error of a run, estimated by the engine itself: the run is made again with finer steps (`twins.rs`), and the difference
 //! tells how far the first is from the exact solution (Richardson 1911; Hairer, Norsett, Wanner, *Solving Ordinary Differential
 //! Equations I*, 1993, II.4). Where that is dear only the beginning is made again, and nothing is said of the rest.
 //!
