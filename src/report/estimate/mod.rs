@@ -40,7 +40,7 @@ const EVEN: u64 = 4096;
 const MOST_NUMBERS: u64 = 6_000_000;
 /// Its multiples are spread evenly over whatever they are taken modulo.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// Share of the motion from which on two runs have parted.
+/// Share of the motion from which on places count as wrong.
 const PARTED: f64 = 1e-2;
 /// Parts of a run between which it is seen whether it takes too long.
 const CHUNKS: u64 = 64;
@@ -254,7 +254,7 @@ fn discretisation(
         }
         let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));
         if found.began.is_none() {
-            let began = run.first_apart(&twin, PARTED * motion);
+            let began = run.first_apart(&twin, PARTED * motion / finer.left(order));
             found.began = began.map(|(body, time)| (simulation.name(body).to_owned(), time));
         }
         if until < ticks && number == 0 {
