@@ -58,14 +58,9 @@ impl Contact {
 
     /// Holds along the normal with `normal` newtons; `tangential`: what friction does.
     pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: Friction, losses: &mut Losses) {
-        let (first, before) = (self.mode != Mode::Hold, self.normal_force);
         self.mode = Mode::Hold;
-        self.normal_force = if first && tangential == Friction::Follows { normal.max(before) } else { normal };
-        self.take_on(law, tangential, losses);
         self.normal_force = normal;
-        if first && tangential == Friction::Follows && law.tangential().acts() {
-            self.tangential.spare(before);
-        }
+        self.take_on(law, tangential, losses);
     }
 
     /// Friction does what was found for the tick to come; a weaker normal force holds less of it.

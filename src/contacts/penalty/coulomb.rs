@@ -54,8 +54,7 @@ impl SliderLaw {
 pub struct Slider {
     /// Elongation in metres.
     pub elongation: f64,
-    /// Force in newtons while it holds or slides; it counts as the pull of the spring does. Of a spring that sticks or slips from
-    /// tick to tick: the least normal force that friction goes by.
+    /// Force in newtons while it holds or slides; it counts as the pull of the spring does.
     pub held: f64,
     /// Its phase.
     pub grip: Grip,
@@ -86,8 +85,6 @@ impl Slider {
         if matches!(self.grip, Grip::Hold | Grip::Slide) {
             return self.held * displacement.unwrap_or(0.0);
         }
-        // See [`Slider::spare`].
-        let normal_force = normal_force.max(self.held);
         let before = self.elongation;
         let trial = before + displacement.unwrap_or(0.0);
         let coefficient = if self.grip == Grip::Slip { law.friction_dynamic } else { law.friction_static };
@@ -137,15 +134,6 @@ impl Slider {
         true
     }
 
-    /// In the tick in which a contact is first held along its normal, friction goes on under the normal force of before, `before`
-    /// newtons: where the contact turns in a collision the force that holds it for that tick lies anywhere between loading and
-    /// unloading, and what slips by that would depend on the phase of the ticks.
-    pub(super) fn spare(&mut self, before: f64) {
-        if matches!(self.grip, Grip::Stick | Grip::Slip) {
-            self.held = before;
-        }
-    }
-
     /// Does what was found for the tick to come, under the normal force `normal_force`. Returns the energy lost in J.
     pub(super) fn take_on(&mut self, law: &SliderLaw, friction: Friction, normal_force: f64) -> f64 {
         match friction {
@@ -158,11 +146,7 @@ impl Slider {
                 (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
                 0.0
             }
-            Friction::Follows => {
-                let lost = self.let_go(law);
-                self.held = 0.0;
-                lost + self.follow(law, None, normal_force)
-            }
+            Friction::Follows => self.let_go(law) + self.follow(law, None, normal_force),
         }
     }
 

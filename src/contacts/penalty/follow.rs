@@ -120,15 +120,8 @@ impl<V: Lanes> Followed<V> {
             };
             let trial = elongation + displacement;
             let coefficient = V::select(self.slips, law.friction_dynamic, law.friction_static);
-            // What friction goes by: in the first tick in which a contact is held that is the force of before.
-            let base = if some_held {
-                let spared = held & !self.slides & self.held.gt(normal_force);
-                V::select(spared, self.held, normal_force)
-            } else {
-                normal_force
-            };
-            let beyond = (law.tangential_stiffness * trial.abs()).gt(coefficient * base);
-            let drawn = V::select(beyond, (law.slip * base).copysign(trial), trial);
+            let beyond = (law.tangential_stiffness * trial.abs()).gt(coefficient * normal_force);
+            let drawn = V::select(beyond, (law.slip * normal_force).copysign(trial), trial);
             // Mean force times the displacement that the spring did not take up.
             let slipped = V::splat(0.5) * law.tangential_stiffness * (elongation + drawn) * (trial - drawn);
             // What holds stays as it is; where no time has passed only the normal force may be another one, and a

@@ -40,7 +40,7 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) 
         view.contacts.rows.clear();
         let slip = |slider: &mut Slider| {
             if slider.grip == Grip::Slide {
-                (slider.grip, slider.held) = (Grip::Slip, 0.0);
+                slider.grip = Grip::Slip;
             }
         };
         for place in 0..view.len() {

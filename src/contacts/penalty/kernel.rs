@@ -392,13 +392,11 @@ impl<N: NormalForce> Pairs<'_, N> {
             rolled_b: (radius.1, V::load(&geometry.turn[1][lane..])),
         };
         let history = &mut self.list.histories[block];
-        // What is held counts where something slides, and where a normal force is held.
-        let holds = phases.slides != 0 || N::SET_VALUED && phases.loading & phases.unloading != 0;
         let mut contacts = Followed::<V> {
             overlap: V::load(&history.overlap[lane..]),
             normal_force: V::load(&history.normal_force[lane..]),
             elongation: V::load(&history.elongation[lane..]),
-            held: if holds { V::load(&self.list.held[block][lane..]) } else { V::splat(0.0) },
+            held: if phases.slides == 0 { V::splat(0.0) } else { V::load(&self.list.held[block][lane..]) },
             loading,
             unloading,
             slips: V::mask(phases.slips >> lane),
@@ -410,7 +408,8 @@ impl<N: NormalForce> Pairs<'_, N> {
         contacts.overlap.store(&mut history.overlap[lane..]);
         contacts.normal_force.store(&mut history.normal_force[lane..]);
         contacts.elongation.store(&mut history.elongation[lane..]);
-        if holds {
+        // What is held counts only where something slides.
+        if phases.slides != 0 {
             contacts.held.store(&mut self.list.held[block][lane..]);
         }
         self.list.phases[block] = Phases {
