@@ -22,7 +22,7 @@ pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let (body, time) = estimated.began.as_ref()?;
     Some(format!(
-        "places are wrong by a hundredth of the motion from {} on, as finer steps tell, `{body}` first",
+        "a run with finer steps is elsewhere by a hundredth of the motion from {} on, `{body}` first",
         at(*time)
     ))
 }
