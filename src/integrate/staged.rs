@@ -31,9 +31,9 @@ const MOST_RENEWALS: u32 = 16;
 const MANY_ATOMS: usize = 64;
 const MOST_RADII: f64 = 8.0;
 
-/// Steps between two looks at how far they lead, and the most that may be needed to the end of a tick: more take minutes.
+/// Steps between two looks at how far they lead, and the most that may be needed to the end of a tick: more take half a minute.
 const STEPS_BETWEEN_LOOKS: u64 = 4096;
-const MOST_STEPS: f64 = 1e8;
+const MOST_STEPS: f64 = 1e7;
 
 /// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
 /// it.
