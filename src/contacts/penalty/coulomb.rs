@@ -146,7 +146,15 @@ impl Slider {
                 (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
                 0.0
             }
-            Friction::Follows => self.let_go(law) + self.follow(law, None, normal_force),
+            // Whether a spring sticks or slips by the same force decides what it bears, where the coefficients differ.
+            Friction::Turns(least) if law.friction_static > law.friction_dynamic => {
+                let lost = self.let_go(law) + self.follow(law, None, least);
+                if self.grip == Grip::Slip {
+                    (self.grip, self.held) = (Grip::Slide, law.stiffness * self.elongation);
+                }
+                lost
+            }
+            Friction::Follows | Friction::Turns(_) => self.let_go(law) + self.follow(law, None, normal_force),
         }
     }
 
@@ -158,7 +166,7 @@ impl Slider {
         let before = self.energy(law);
         let wanted = (self.held / law.stiffness).abs();
         self.elongation = wanted.min(self.elongation.abs()).copysign(self.held);
-        self.grip = Grip::Stick;
+        self.grip = if self.grip == Grip::Slide { Grip::Slip } else { Grip::Stick };
         before - self.energy(law)
     }
 }

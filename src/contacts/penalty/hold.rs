@@ -210,6 +210,8 @@ pub struct Candidate {
     /// Force in newtons too small to be told from none when the verdict is found.
     noise: f64,
     normal_force: f64,
+    /// Whether it held in the tick before.
+    held: bool,
     bounded: [Bounded; 2],
 }
 
@@ -221,6 +223,9 @@ pub enum Friction {
     /// It was at rest and could not bear the load, or slid already without its spring: it slides with the dynamic coefficient,
     /// against the motion, and its force has the sign of this number.
     Slides(f64),
+    /// The contact begins to rest, perhaps for the one tick in which a collision turns: its spring follows the motion, and what
+    /// gives way under this least normal force slides.
+    Turns(f64),
     /// Its spring follows the motion.
     Follows,
 }
@@ -270,6 +275,7 @@ impl Candidate {
             rounding: seen.noise,
             noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
             normal_force: seen.normal_force,
+            held: seen.engaged,
             bounded: [
                 bounded(0, along(-seen.normal.perp()), seen.tangential, seen.slides.0),
                 bounded(1, turn, seen.rolling, seen.slides.1),
@@ -345,8 +351,10 @@ impl Candidate {
                 Friction::Slides(-velocity)
             } else if bounded.brakes(velocity) {
                 Friction::Holds(bounded.force)
-            } else {
+            } else if self.held {
                 Friction::Follows
+            } else {
+                Friction::Turns(self.band.0)
             }
         };
         let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || stops(bounded));
