@@ -93,11 +93,31 @@ pub struct AttractionForce {
 }
 
 #[derive(Resource, Default)]
-struct Attractions(Vec<AttractionForce>);
+struct Attractions {
+    entries: Vec<AttractionForce>,
+    nearest: Nearest,
+}
+
+/// Where two bodies fell most steeply towards each other under an attraction without softening.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Nearest {
+    /// Square of the angular frequency of a circular orbit at that distance, in 1/s2; zero where there was none.
+    pub squared_rate: f64,
+    /// Places of both in [`Bodies`].
+    pub between: (usize, usize),
+}
+
+/// Where an attraction without softening was steepest in all evaluations of a run.
+pub fn nearest(world: &World) -> Option<Nearest> {
+    world
+        .get_resource::<Attractions>()
+        .map(|attractions| attractions.nearest)
+        .filter(|nearest| nearest.squared_rate > 0.0)
+}
 
 /// Installs attraction.
 pub fn install(attractions: Vec<AttractionForce>, app: &mut App) {
-    add_force_on_bodies(app, Attractions(attractions));
+    add_force_on_bodies(app, Attractions { entries: attractions, nearest: Nearest::default() });
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -115,12 +135,17 @@ impl ForceOnBodies for Attractions {
 
     fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
         let Bodies { dynamic, moves, position, velocity, mass, force: sums, .. } = bodies;
-        for attraction in &self.0 {
+        for attraction in &self.entries {
             for (a, b) in pairs(dynamic) {
                 let between = position[b] - position[a];
                 let squared = between.length_squared() + attraction.softening * attraction.softening;
                 let strength = attraction.constant * mass[a] * mass[b];
-                let force = between * (strength / (squared * squared.sqrt()));
+                let stiffness = strength / (squared * squared.sqrt());
+                let force = between * stiffness;
+                let squared_rate = stiffness * (mass[a] + mass[b]) / (mass[a] * mass[b]);
+                if attraction.softening == 0.0 && squared_rate > self.nearest.squared_rate {
+                    self.nearest = Nearest { squared_rate, between: (a, b) };
+                }
                 sums[a] += force;
                 sums[b] -= force;
                 if !dynamic[a] {
@@ -142,6 +167,6 @@ impl ForceOnBodies for Attractions {
             let strength = attraction.constant * bodies.mass[a] * bodies.mass[b];
             -strength / distance
         };
-        self.0.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
+        self.entries.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
     }
 }

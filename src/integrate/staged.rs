@@ -37,7 +37,7 @@ const MOST_STEPS: f64 = 1e7;
 
 /// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
 /// it.
-const MOST_REJECTIONS: u32 = 60;
+const MOST_REJECTIONS: u64 = 60;
 
 /// How many events were located, and how many ticks had too many.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -293,10 +293,10 @@ impl Staged {
         let Work { rates, change, trial, indicators, .. } = &mut self.work;
         let start = Start { time: from, state: &self.state, rates };
         let (method, rest) = (&mut self.method, &self.rest);
-        let mut rejected = 0;
+        let mut rejected = 0_u64;
         if let Some(control) = &mut self.control {
             let (reach, order) = (flow.reach(), method.order_of_error());
-            for _ in 0..MOST_REJECTIONS {
+            loop {
                 let length = until - from;
                 method.step(flow, start, length, change);
                 let mut error = control.error(&**method, flow, (reach, length, change.as_slice())).unwrap_or_default();
@@ -304,7 +304,7 @@ impl Staged {
                     error = control.error_beside(&**method, &rounding_of_time(flow, start, length)).unwrap_or_default();
                 }
                 let next = control.adapt(length, error, order);
-                if error <= 1.0 || from + next <= from {
+                if error <= 1.0 || from + next <= from || rejected == MOST_REJECTIONS {
                     break;
                 }
                 rejected += 1;
@@ -393,7 +393,7 @@ impl Staged {
         let end = match &self.control {
             // A prescribed motion is told from tick to tick.
             Some(control) if tick.held::<Bodies>().prescribed.motions.is_empty() => now + control.longest(),
-            Some(_) => tick.end,
+            Some(control) => tick.end.min(now + control.longest()),
             None if part + 1 >= self.parts => tick.end,
             None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
         };

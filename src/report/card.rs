@@ -86,7 +86,7 @@ pub struct ErrorEstimate {
 
 impl fmt::Display for ErrorEstimate {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let size = |part: f64| if part < NONE { "0".to_owned() } else { rough(part) };
+        let size = |part: f64| if part < LEAST { "0".to_owned() } else { rough(part) };
         let parts = |parts: ErrorParts, unit: &str| {
             let named = [(parts.discretisation, "tick"), (parts.rounding, "rounding"), (parts.model, "model")];
             let told = named.into_iter().filter_map(|(part, from)| Some(format!("+- {} ({from})", size(part?))));
@@ -195,6 +195,7 @@ impl Card {
         let smallest = bodies.smallest_radius;
         let share = |length: f64| if smallest.is_finite() { length / smallest } else { 0.0 };
         let estimated = world.get_resource::<EstimatedError>().cloned().unwrap_or_default();
+        let known = world.get_resource::<KnownError>();
         let mut card = Self {
             method: method.to_owned(),
             tick: clock.dt,
@@ -212,24 +213,23 @@ impl Card {
             verdict: String::new(),
             notes: world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone()),
             warnings: Vec::new(),
-            error: estimated.estimate.or(world.get_resource::<KnownError>().and_then(|known| known.estimate)),
+            error: estimated.estimate.or(known.filter(|_| failure.is_none()).and_then(|known| known.estimate)),
             shortest_contact,
             why: None,
-            missed: world.get_resource::<KnownError>().and_then(|known| known.warning.clone()),
+            missed: known.and_then(|known| known.warning.clone()),
             located: ChosenMethod::locates(world),
             steps: world.get_resource().copied().unwrap_or_default(),
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
             energy_scale: energy.turned_over(world),
-            asked: world.get_resource::<KnownError>().map(|known| known.tolerance),
+            asked: known.map(|known| known.tolerance),
         };
         card.notes.extend(estimated.notes);
         card.notes.extend(world.resource::<Models>().remarks.iter().filter_map(|remark| remark(world)));
         card.warnings = warnings(world, card.remedy());
         let evidence = Evidence { world, card: &card };
-        let (missing, why) =
-            (evidence.missing_energy(), failure.map(|failure| failure.why().unwrap_or_else(|| evidence.why())));
+        let (missing, why) = (evidence.missing_energy(), failure.map(|failure| evidence.why(failure)));
         let verdict = match failure.zip(why.as_ref()) {
             Some((failure, why)) => format!("Do not trust it: the run went wrong: {failure}; {why}."),
             None => evidence.verdict(),
@@ -315,10 +315,11 @@ impl fmt::Display for Card {
             },
         );
         row("method", format!("{}, tick {} s ({critical})", self.method, number(self.tick)))?;
-        let StepCount { rejected, longest, .. } = self.steps;
+        let StepCount { rejected, longest, shortened, .. } = self.steps;
         let accepted = self.steps.until(self.ticks);
         if accepted > 0 {
-            let again = if rejected > 0 { format!(", {rejected} made again") } else { String::new() };
+            let told = |many: u64, what: &str| if many > 0 { format!(", {many} {what}") } else { String::new() };
+            let again = told(rejected, "made again") + &told(shortened, "shortened to resolve contacts");
             let events = self.events_located;
             row("steps", format!("{accepted} of up to {} s{again}; {events} events located", number(longest)))?;
         }
@@ -384,15 +385,16 @@ fn parts(parts: &[(&str, f64)]) -> String {
     if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
 }
 
-/// Errors below this are nothing but rounding.
-const NONE: f64 = 1e-16;
+/// Errors below this are nothing but rounding: no smaller one is told.
+const LEAST: f64 = 1e-16;
 
 /// A number of which only the size counts.
 pub(crate) fn rough(value: f64) -> String {
-    match format!("{value:.0e}").parse() {
-        Ok(short) if value >= NONE => number(short),
-        _ => "0 or rounding".to_owned(),
+    if value.is_nan() {
+        return "unknown".to_owned();
     }
+    let value = value.max(LEAST);
+    format!("{value:.0e}").parse().map_or_else(|_| number(value), number)
 }
 
 /// A number in at most five digits, as people write it.

@@ -27,24 +27,16 @@ pub enum Wrong {
     Steps(f64),
 }
 
-impl Failure {
-    /// The likely cause and what to try, where the failure itself tells.
-    pub fn why(&self) -> Option<String> {
-        let told =
-            "forces grow without bound as bodies come near: give the attraction a `softening:`, or the scene a tick";
-        matches!(self.wrong, Wrong::Steps(_)).then(|| told.to_owned())
-    }
-}
-
 impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { body, wrong, tick, time } = self;
         match wrong {
             Wrong::NotFinite(quantity) => write!(f, "the {quantity} of `{body}` is no longer a finite number")?,
-            Wrong::Steps(step) => write!(
-                f,
-                "steps have become as short as {step:.1e} s, for the acceleration of `{body}` grows beyond all bounds,"
-            )?,
+            Wrong::Steps(step) => {
+                let short =
+                    if *step > 0.0 { format!("as short as {step:.1e} s") } else { "too short to pass time".to_owned() };
+                write!(f, "steps have become {short}, for the acceleration of `{body}` grows beyond all bounds,")?;
+            }
             Wrong::Energy(Created { energy, put_in }) => {
                 write!(
                     f,

@@ -8,7 +8,7 @@ type Broken = (&'static str, &'static str, &'static str, &'static [&'static str]
 
 const FLOOR: &str = r#"walls: [(name: "floor", left: (1, 0), right: (0, 0), material: "m")]"#;
 
-const BROKEN: [Broken; 25] = [
+const BROKEN: [Broken; 26] = [
     (
         "a tick above the critical one of a contact",
         r#"clock: (duration: 1, tick: 0.02, method: VelocityVerlet), gravity: (0, -10), FLOOR,
@@ -183,7 +183,14 @@ const BROKEN: [Broken; 25] = [
            bodies: [(name: "a", at: (-0.5, 0), collides: false, atoms: Disc(radius: 0.01, mass: 1)),
                     (name: "b", at: (0.5, 0.001), collides: false, atoms: Disc(radius: 0.01, mass: 1))]"#,
         "",
-        &["energy is unaccounted for", "elsewhere", "--tick"],
+        &["`a` and `b` fall upon each other", "softening"],
+    ),
+    (
+        "two bodies that attract and stand in almost one place",
+        r#"clock: (duration: 1), contacts: None, forces: [Attraction(constant: 100)],
+           bodies: [(name: "a", at: (0, 0), atoms: Disc(radius: 0.1)), (name: "b", at: (1e-9, 0), atoms: Disc(radius: 0.1))]"#,
+        "",
+        &["energy came out of nowhere", "`a` and `b` fall upon each other", "softening"],
     ),
     (
         "impacts that ticks do not see",

@@ -107,7 +107,11 @@ impl<'a> Trials<'a> {
                     // Where no error bounds a step, two trials would make the same steps, and differ by nothing.
                     let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
                     allowance.longest /= finer;
-                    plan.tick /= if self.by_ticks { finer.ceil() } else { 1.0 };
+                    if self.by_ticks && finer > 1.0 {
+                        plan.tick /= finer.ceil();
+                        // A step from an event to the end of a tick would be the same in both.
+                        allowance.longest = allowance.longest.min(0.5 * plan.tick);
+                    }
                 }
             }
             Ladder::Steps => plan.pace = Pace::Even(many),

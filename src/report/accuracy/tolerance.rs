@@ -168,6 +168,9 @@ fn missed(
             number(fine.farthest()),
             number(trials.sizes().0)
         ),
+        _ if trials.evaluations > MOST_EVALUATIONS => {
+            format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
+        }
         Some(time) => format!("the two finest runs part at t = {} s, by rounding or chaos", number(time)),
         None => "the two finest runs differ in their velocities by more".to_owned(),
     };

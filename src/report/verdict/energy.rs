@@ -1,6 +1,6 @@
 //! Energy that is missing, or came out of nowhere.
 
-use super::{Cause, Evidence, Trust, ticks};
+use super::{Cause, Evidence, Trust, near, ticks};
 use crate::report::Remedy;
 use crate::report::card::percent;
 
@@ -24,12 +24,16 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     if error.is_nan() || error <= UNACCOUNTED {
         return None;
     }
+    let share = format!("{:.1} % of the energy is unaccounted for", error * 100.0);
+    if let Some(Cause { trust, what, remedy }) = near::attraction(evidence) {
+        return Some(Cause { trust, what: format!("{share}: {what}"), remedy });
+    }
     let why = [ticks::brief_contact, ticks::far_travel_unseen].into_iter().find_map(|cause| cause(evidence));
     let why = why.map(|cause| cause.what).or_else(|| super::motion::began(evidence)).map_or_else(
         || ": the tick is too long for the forces, or a plugin does not book its work".to_owned(),
         |why| format!(": {why}"),
     );
-    let what = format!("{:.1} % of the energy is unaccounted for{why}", error * 100.0);
+    let what = format!("{share}{why}");
     let tolerance = evidence.or_tolerance();
     Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`{tolerance}")) })
 }

@@ -7,6 +7,7 @@
 mod ahead;
 mod energy;
 mod motion;
+mod near;
 mod place;
 mod soft;
 mod ticks;
@@ -14,6 +15,7 @@ mod ticks;
 use bevy_ecs::prelude::*;
 
 use super::card::{Card, ErrorEstimate, name, number, percent, rough};
+use crate::tick::{Failure, Wrong};
 use crate::world::Bodies;
 
 /// What a verdict is found from.
@@ -49,10 +51,11 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// What may be to blame, in the order in which one explains the others.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 13] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 14] = [
     ticks::unstable,
     ahead::overlaps_at_the_start,
     ahead::drag,
+    near::attraction,
     place::rounding,
     energy::numbers_that_are_none,
     ticks::unseen_swing,
@@ -99,8 +102,11 @@ impl Evidence<'_> {
     }
 
     /// The likely cause of a run that went wrong, and what to try.
-    pub fn why(&self) -> String {
-        let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, place::rounding];
+    pub fn why(&self, failure: &Failure) -> String {
+        if matches!(failure.wrong, Wrong::Steps(_)) {
+            return near::of_endless_steps(self);
+        }
+        let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, place::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
             return energy::of_unknown_cause(self);
         };

@@ -1,0 +1,44 @@
+//! Forces that grow without bound as bodies come near.
+
+use super::energy::UNACCOUNTED;
+use super::{Cause, Evidence, Trust};
+use crate::forces::attraction::nearest;
+use crate::report::card::number;
+use crate::world::Bodies;
+
+/// An angle in radians over which an orbit goes in a tick that no method follows.
+const LOST: f64 = 1.0;
+
+const REMEDY: &str = "`softening:` for the attraction, a length below which it stops growing";
+
+/// Two bodies that attract came so near that a tick goes past the steepest of it.
+pub(super) fn attraction(evidence: &Evidence) -> Option<Cause> {
+    let card = evidence.card;
+    let near = attracted(evidence)?;
+    // A share that is no number is no good one.
+    let missing = card.energy_error().is_nan() || card.energy_error() > UNACCOUNTED;
+    let lost = missing && card.by_ticks() && near.1 * card.tick > LOST;
+    let what = format!("{} than ticks of {} s can follow", near.0, number(card.tick));
+    lost.then(|| Cause { trust: Trust::Not, what, remedy: Some(REMEDY.to_owned()) })
+}
+
+/// Why steps became ever shorter, and what would help.
+pub(super) fn of_endless_steps(evidence: &Evidence) -> String {
+    match attracted(evidence) {
+        Some((near, _)) => format!("{near} than steps can follow: use {REMEDY}"),
+        None => "a force grows beyond all bounds where bodies come near, or at that time: bound it, or give the scene a tick"
+            .to_owned(),
+    }
+}
+
+/// Who fell upon each other, in words, and the rate in 1/s at which.
+fn attracted(evidence: &Evidence) -> Option<(String, f64)> {
+    let nearest = nearest(evidence.world)?;
+    let bodies = evidence.world.resource::<Bodies>();
+    let name = |body: usize| evidence.name(bodies.entity[body]);
+    let (a, b) = (name(nearest.between.0), name(nearest.between.1));
+    Some((
+        format!("`{a}` and `{b}` fall upon each other, and their attraction grows faster"),
+        nearest.squared_rate.sqrt(),
+    ))
+}
