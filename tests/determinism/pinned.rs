@@ -59,7 +59,7 @@ fn shipped_scenes_end_in_the_hashes_that_are_written_down() {
         differing.is_empty(),
         "these scenes no longer end in the same state:\n\n  {:24}{:>18}{:>18}\n{differing}\n\
          If that is meant, write the new hashes down, and explain the change in the commit that makes it:\n\n  \
-         {REWRITE}=1 cargo test --release --test main pinned\n",
+         {REWRITE}=1 cargo test --test main pinned\n",
         "scene",
         "written down",
         "now"

@@ -25,7 +25,7 @@ fn the_manual_is_fresh() {
     assert!(
         now == written,
         "docs/manual.md differs from the program, first in line {}. Read what the program says now, and write it down:\n\n  \
-         {REWRITE}=1 cargo test --release --test main the_manual\n",
+         {REWRITE}=1 cargo test --test main the_manual\n",
         differs.map_or(now.lines().count().min(written.lines().count()), |line| line) + 1
     );
 }

@@ -48,7 +48,7 @@ fn each_theme_looks_as_it_is_written_down() {
         assert!(
             differing == 0 && now.dimensions() == before.dimensions(),
             "{theme} differs in {differing} pixels from {}\nIf that is meant, write the pictures anew, look at them, and \
-             explain the change in the commit that makes it:\n\n  {REWRITE}=1 cargo test --release --test main pictures\n",
+             explain the change in the commit that makes it:\n\n  {REWRITE}=1 cargo test --test main pictures\n",
             path.display()
         );
     }

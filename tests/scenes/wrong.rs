@@ -75,7 +75,7 @@ fn wrong_scenes_are_refused_with_the_messages_that_are_written_down() {
     assert!(
         list.is_empty(),
         "{list}\nIf that is meant, write the messages down, read them as a newcomer would, and explain the change in the \
-         commit that makes it:\n\n  {REWRITE}=1 cargo test --release --test main wrong_scenes\n"
+         commit that makes it:\n\n  {REWRITE}=1 cargo test --test main wrong_scenes\n"
     );
 }
 
