@@ -9,6 +9,7 @@
 mod changes;
 mod levels;
 mod pinned;
+mod pinned_methods;
 mod plots;
 mod same_bits;
 mod threads;

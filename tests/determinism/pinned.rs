@@ -12,7 +12,7 @@ use jostle::{Simulation, world::hash::state_hash};
 /// Set to anything, it makes the test write the hashes down in place of comparing them.
 const REWRITE: &str = "JOSTLE_REWRITE_HASHES";
 
-fn in_repository(path: &str) -> PathBuf {
+pub(super) fn in_repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
@@ -42,28 +42,32 @@ fn differences(old: &BTreeMap<String, String>, new: &BTreeMap<String, String>) -
     let names: std::collections::BTreeSet<&String> = old.keys().chain(new.keys()).collect();
     let of = |hashes: &BTreeMap<String, String>, name: &String| hashes.get(name).map_or("-", |hash| hash).to_owned();
     let changed = names.into_iter().filter(|name| old.get(*name) != new.get(*name));
-    changed.map(|name| format!("  {name:24}{:>18}{:>18}\n", of(old, name), of(new, name))).collect()
+    changed.map(|name| format!("  {name:32}{:>18}{:>18}\n", of(old, name), of(new, name))).collect()
 }
 
-#[test]
-fn shipped_scenes_end_in_the_hashes_that_are_written_down() {
-    let path = in_repository("tests/determinism/pinned.txt");
-    let new = present();
+/// Compares hashes with those written down in a file of this folder, or writes them down.
+pub(super) fn compare(file: &str, new: &BTreeMap<String, String>) {
+    let path = in_repository(&format!("tests/determinism/{file}.txt"));
     if std::env::var_os(REWRITE).is_some() {
-        let lines: String = new.iter().map(|(name, hash)| format!("{name:24}{hash}\n")).collect();
+        let lines: String = new.iter().map(|(name, hash)| format!("{name:32}{hash}\n")).collect();
         std::fs::write(path, lines).unwrap();
         return;
     }
-    let differing = differences(&written(&std::fs::read_to_string(path).unwrap()), &new);
+    let differing = differences(&written(&std::fs::read_to_string(path).unwrap()), new);
     assert!(
         differing.is_empty(),
-        "these scenes no longer end in the same state:\n\n  {:24}{:>18}{:>18}\n{differing}\n\
+        "these scenes no longer end in the same state:\n\n  {:32}{:>18}{:>18}\n{differing}\n\
          If that is meant, write the new hashes down, and explain the change in the commit that makes it:\n\n  \
          {REWRITE}=1 cargo test --test main pinned\n",
         "scene",
         "written down",
         "now"
     );
+}
+
+#[test]
+fn shipped_scenes_end_in_the_hashes_that_are_written_down() {
+    compare("pinned", &present());
 }
 
 /// The comparison must be able to fail: for another hash, a scene without one, and a hash without its scene.
