@@ -11,7 +11,7 @@ use jostle::scene::values::Names;
 use jostle::scene::{Arity, Entry, Outline, SceneAppExt, Section, Source, Written};
 use jostle::simulation::Overrides;
 use jostle::world::hash::state_hash;
-use jostle::{Simulation, expect, integrate, plugins, scene, sensors, world};
+use jostle::{Simulation, expect, integrate, plugins, sensors, world};
 
 #[derive(serde::Deserialize)]
 struct FreeFall(AccelerationPair);
@@ -46,7 +46,7 @@ impl Entry for Drag {
 }
 
 fn needed(app: &mut App) {
-    scene::sections::plugin(app);
+    plugins::run_and_film(app);
     integrate::plugin(app);
     world::plugin(app);
     app.register_entry_section("forces", Arity::List, "forces: [Drag(linear: 0.1)]");

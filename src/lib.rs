@@ -12,8 +12,8 @@
 //!    +------------------------------ next tick <-------------------------+
 //! ```
 //!
-//! The modules stand in this order. Nothing points back: [`raster`] and [`output`] know no ECS type, and a physical
-//! model knows nothing of pictures.
+//! The modules stand in this order. Nothing points back: a module uses those above it in the list below and none under it, and
+//! a test holds it. [`raster`] and [`output`] know no ECS type, and a physical model knows nothing of pictures.
 //!
 //! ```
 //! use jostle::{Simulation, scene::Source};
@@ -31,28 +31,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[cfg(feature = "bevy")]
-pub mod bevy;
-pub mod cli;
-pub mod plugins;
-pub mod simulation;
-
-pub mod scene;
-pub mod shapes;
-pub mod world;
-
+pub(crate) mod digest;
+pub(crate) mod numbers;
 pub mod simd;
 pub mod threads;
 
+pub mod scene;
+
+pub mod shapes;
+pub mod world;
+
 pub mod tick;
 
+pub mod contacts;
 pub mod forces;
 
-pub mod contacts;
-
 pub mod integrate;
-
-pub mod bounds;
 
 pub mod sensors;
 
@@ -64,9 +58,15 @@ pub mod raster;
 
 pub mod output;
 
-pub mod report;
+pub mod plugins;
+pub mod simulation;
 
 pub mod problems;
+pub mod report;
+
+#[cfg(feature = "bevy")]
+pub mod bevy;
+pub mod cli;
 
 pub use simulation::Simulation;
 

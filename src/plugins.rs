@@ -5,11 +5,34 @@
 
 use bevy_app::App;
 
-use crate::{contacts, expect, forces, integrate, record, scene, sensors, world};
+use crate::raster::{COLOR_NAMES, Theme};
+use crate::record::sections::look::THEMES;
+use crate::scene::SceneAppExt;
+use crate::world::material::COLORS;
+use crate::{contacts, expect, forces, integrate, record, sensors, world};
+
+/// Names of the language that are kept for later.
+const RESERVED: [&str; 4] = ["joints", "randomise", "controllers", "scene"];
+
+/// Registers the sections that describe the run and the film, their words, and the names that are kept for later.
+pub fn run_and_film(app: &mut App) {
+    integrate::clock::plugin(app);
+    record::sections::plugin(app);
+    // The painter knows its names; the language asks for them.
+    for color in COLOR_NAMES {
+        app.register_word(COLORS, color);
+    }
+    for theme in Theme::names() {
+        app.register_word(THEMES, theme);
+    }
+    for later in RESERVED {
+        app.reserve_section(later);
+    }
+}
 
 /// Registers everything the scene language offers.
 pub fn standard(app: &mut App) {
-    scene::sections::plugin(app);
+    run_and_film(app);
     integrate::plugin(app);
     world::plugin(app);
     forces::plugin(app);

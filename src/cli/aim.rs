@@ -7,10 +7,12 @@ use super::film::Order;
 use super::progress::Progress;
 use super::say::say;
 use crate::raster::{Bounds, Camera, Panel};
+use crate::record::Schedule;
 use crate::record::follow::Follower;
-use crate::record::plot::{Board, Legend, Missing, Plot, Sampler};
-use crate::record::{Recorder, Schedule};
-use crate::scene::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};
+use crate::record::plot::{Board, Legend, Plot};
+use crate::record::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};
+use crate::simulation::Recorder;
+use crate::simulation::{Missing, Sampler};
 use crate::simulation::{Overrides, Simulation};
 
 /// How large the picture may grow, in its size at the beginning, when the run is known to go wrong: a body that
@@ -43,7 +45,7 @@ impl Order<'_> {
         let (mut bounds, mut panel) = (None, None);
         if fits || plots.is_some() {
             let mut ahead = self.again(simulation)?;
-            let legend = plots.map(|_| Legend::of(&ahead));
+            let legend = plots.map(|_| Legend::of(ahead.world()));
             let sampler = plots.map(|plots| self.sampler(&mut ahead, &plots.0)).transpose()?;
             let none = Schedule::default();
             let (seen, plots) = self.look_ahead(&mut ahead, if fits { schedule } else { &none }, sampler);

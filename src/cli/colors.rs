@@ -5,8 +5,8 @@ use std::path::Path;
 use super::Exit;
 use super::load::Request;
 use crate::raster::Theme;
+use crate::record::sections::LookSection;
 use crate::scene::Source;
-use crate::scene::sections::LookSection;
 use crate::simulation::Simulation;
 
 /// The colours. A file that the command line names (`asked`) lies where it says, one that the scene names beside the scene.

@@ -13,11 +13,12 @@ use super::wall_clock::WallClock;
 use super::{Exit, colors};
 use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
 use crate::raster::{Camera, View};
+use crate::record::Schedule;
 use crate::record::follow::Follower;
 use crate::record::layers::PictureHeight;
 use crate::record::spool::Spool;
-use crate::record::{Recorder, Schedule};
 use crate::scene::Source;
+use crate::simulation::Recorder;
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::Failure;
 

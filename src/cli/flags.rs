@@ -6,9 +6,10 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use super::say::say;
+use crate::integrate::ClockSection;
 use crate::integrate::Methods;
 use crate::record::layers::WORDS;
-use crate::scene::sections::{ClockSection, film};
+use crate::record::sections::film;
 use crate::scene::units::Time;
 use crate::simd::Level;
 use crate::simulation::Overrides;

@@ -5,10 +5,10 @@ use clap::Args;
 
 use super::say::{count, print_line, say};
 use super::{Exit, examples};
+use crate::integrate::ClockSection;
 use crate::integrate::Methods;
 use crate::raster::Theme;
 use crate::scene::schema::Language;
-use crate::scene::sections::ClockSection;
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, Source, nearest_name};
 use crate::simulation::Simulation;

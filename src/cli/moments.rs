@@ -7,7 +7,7 @@ use super::film::{Order, Shot};
 use super::say::{number, say};
 use crate::contacts::events::{ContactEvents, Touching, watch};
 use crate::record::Schedule;
-use crate::scene::sections::FreezeEntry;
+use crate::record::sections::FreezeEntry;
 use crate::simulation::Simulation;
 use crate::world::Name;
 

@@ -14,12 +14,13 @@ use super::target::{is_directory, takes_no_file};
 use crate::output;
 use crate::raster::{Theme, figure};
 use crate::record::plot::table::{self, Column};
-use crate::record::plot::{Axis, Content, Curve, Missing, Plot, Sample, Sampler, common, with_unit};
-use crate::scene::sections::{PlotEntry, PlotsSection};
+use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit};
+use crate::record::sections::{PlotEntry, PlotsSection};
 use crate::scene::values::Names;
 use crate::scene::{Report, fits, suggest};
 use crate::sensors::{self, Channels};
 use crate::simulation::Simulation;
+use crate::simulation::{Missing, Sampler};
 
 /// The command `plot`.
 #[derive(Args, Debug)]

@@ -10,7 +10,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use super::ContactLaw;
-use crate::report::card::Notes;
+use crate::tick::Notes;
 use crate::tick::{Clock, add_packed_observer};
 use crate::world::Bodies;
 

@@ -6,10 +6,10 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
-use crate::report::energy::EnergyLedger;
 use crate::scene::units::{Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::sensors::{self, energy};
+use crate::tick::energy::EnergyLedger;
 
 /// The magnitude of a channel stays below a bound; looked at every tenth tick and at the end.
 #[derive(Deserialize, JsonSchema)]

@@ -9,9 +9,9 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
-use crate::report::energy::EnergyLedger;
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::direct::{Accounts, Direct, Observer, State, exchange};
+use crate::tick::energy::EnergyLedger;
 use crate::tick::{Clock, SimTick, Stage, TickAppExt};
 use crate::world::Bodies;
 

@@ -6,9 +6,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, places};
-use crate::record::between::{Moment, position_between};
 use crate::scene::units::{Length, Position as Place, Time};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::world::between::{Moment, position_between};
 
 /// A body is at a place at a time, which may lie between ticks.
 #[derive(Deserialize, JsonSchema)]

@@ -12,10 +12,11 @@ use serde::{Deserialize, Serialize};
 use super::ballistics::{Arc, Flight, Miss, Shot};
 use super::gravity::Gravity;
 use super::{drag, wind};
-use crate::report::card::{Notes, number};
+use crate::numbers::number;
 use crate::scene::units::{Position, Speed};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, SceneError, Written};
-use crate::simulation::{Finishers, LateErrors};
+use crate::tick::Notes;
+use crate::tick::{AfterLoad, LoadErrors};
 use crate::world::{Bodies, Velocity};
 
 /// Gives a body the velocity at the start with which its centre of mass flies through a place. Gravity, drag and wind of the
@@ -78,7 +79,7 @@ impl Entry for Aim {
         others.sort();
         others.dedup();
         app.insert_resource(Aims { aims, others });
-        app.world_mut().get_resource_or_init::<Finishers>().0.push(aim_bodies);
+        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(aim_bodies);
     }
 }
 
@@ -132,7 +133,7 @@ fn aim_bodies(world: &mut World) {
         notes.push(format!("the aim reckons with gravity, drag and wind, not with {}", others.join(", ")));
     }
     world.resource_mut::<Notes>().0.extend(notes);
-    world.get_resource_or_init::<LateErrors>().0.extend(errors);
+    world.get_resource_or_init::<LoadErrors>().0.extend(errors);
 }
 
 impl AimedBody {

@@ -11,8 +11,8 @@ use serde::Deserialize;
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
-use crate::simulation::{Finishers, LateErrors};
 use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
+use crate::tick::{AfterLoad, LoadErrors};
 use crate::tick::{Balance, Dependence};
 use crate::world::{Bodies, Name};
 
@@ -57,7 +57,7 @@ impl Entry for Attraction {
         let hard = entries.iter().zip(&mut paths).find(|(entry, _)| entry.value.softening.si() == 0.0);
         if let Some((_, mention)) = hard {
             app.insert_resource(Unsoftened(mention.path.clone()));
-            app.world_mut().get_resource_or_init::<Finishers>().0.push(refuse_coincident);
+            app.world_mut().get_resource_or_init::<AfterLoad>().0.push(refuse_coincident);
         }
         let attraction = |Written { value, .. }: Written<Self>| AttractionForce {
             constant: value.constant.si(),
@@ -80,7 +80,7 @@ fn refuse_coincident(world: &mut World) {
     let message = format!("`{}` and `{}` stand in one place, where the attraction is infinite", name(a), name(b));
     let help = "move one of them, or write `softening:`, a length below which the force stops growing";
     let error = SceneError::new(world.resource::<Unsoftened>().0.clone(), message).with_help(help);
-    world.get_resource_or_init::<LateErrors>().0.push(error);
+    world.get_resource_or_init::<LoadErrors>().0.push(error);
 }
 
 /// One entry, ready to be applied.

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 
-use crate::report::card::number;
+use crate::numbers::number;
 use crate::scene::Outline;
 use crate::tick::{Clock, Style};
 

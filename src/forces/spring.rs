@@ -15,10 +15,10 @@ use serde::Deserialize;
 use super::link::{self, End, Link, Partner};
 use crate::scene::units::{Damping, Length, Position, Stiffness};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
-use crate::simulation::{Finishers, LateErrors};
 use crate::tick::balance::EnergyTerms;
 use crate::tick::response;
 use crate::tick::steady::{SteadySpring, add_steady_springs};
+use crate::tick::{AfterLoad, LoadErrors};
 use crate::tick::{Balance, Dependence, TickAppExt};
 use crate::world::Bodies;
 
@@ -105,7 +105,7 @@ pub fn install(springs: Vec<SpringForce>, app: &mut App) {
     let world = app.world_mut();
     world.get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
     // Before the frequencies are measured, which needs the lengths.
-    world.get_resource_or_init::<Finishers>().0.push(measure_lengths);
+    world.get_resource_or_init::<AfterLoad>().0.push(measure_lengths);
     add_steady_springs(app, list_springs);
 }
 
@@ -164,7 +164,7 @@ fn measure_lengths(world: &mut World) {
             }
         }
     });
-    world.get_resource_or_init::<LateErrors>().0.extend(errors);
+    world.get_resource_or_init::<LoadErrors>().0.extend(errors);
 }
 
 /// Along the spring it has its stiffness, across it that of its tension, `F/l`, where it pulls.

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::link::{self, End, Link, Partner};
 use crate::scene::units::{Angle, Dimension, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::simulation::Finishers;
+use crate::tick::AfterLoad;
 use crate::tick::balance::EnergyTerms;
 use crate::tick::response;
 use crate::tick::steady::{SteadySpring, add_steady_springs};
@@ -108,7 +108,7 @@ pub fn install(springs: Vec<TorsionSpringForce>, app: &mut App) {
     app.add_packed_force(dependence, apply_torsion_springs);
     let world = app.world_mut();
     world.get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
-    world.get_resource_or_init::<Finishers>().0.push(measure_angles);
+    world.get_resource_or_init::<AfterLoad>().0.push(measure_angles);
     add_steady_springs(app, list_springs);
 }
 

@@ -8,7 +8,8 @@
 
 use glam::DVec2;
 
-use super::steps::{Flow, OneStep};
+use super::steps::OneStep;
+use crate::tick::Flow;
 use crate::tick::{Reach, WorldFlow};
 
 /// A step aims at this share of the length at which its error would be what is allowed.

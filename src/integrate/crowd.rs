@@ -6,7 +6,8 @@
 //! as if it were under velocity Verlet with contacts that follow from state to state, and so do ticks behind it; then events
 //! are tried again. Each try that ends in a crowd doubles the stretch until the next, so that trying costs little.
 
-use super::{Integrator, VelocityVerlet};
+use super::VelocityVerlet;
+use crate::tick::Integrator;
 use crate::tick::Tick;
 
 /// Events that may be located in one tick after quiet ones.

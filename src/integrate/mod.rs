@@ -3,6 +3,8 @@
 //! An integrator advances the state by one tick. Forces of the state at the beginning are there when it is called;
 //! forces of the state at the end must be there when it returns.
 
+mod chosen;
+pub mod clock;
 mod control;
 mod crowd;
 mod inside;
@@ -16,48 +18,17 @@ mod whole;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
+pub use chosen::ChosenMethod;
+pub use clock::{ClockSection, EventTiming};
 pub use control::Allowance;
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use staged::{Detail, LocatedEvents, Pace, Staged, StepCount};
 pub use velocity_verlet::VelocityVerlet;
 
 use crate::scene::SceneAppExt;
-use crate::scene::sections::ClockSection;
-use crate::scene::sections::clock::EventTiming;
-use crate::tick::{Style, Tick};
+use crate::tick::set_method;
+pub use crate::tick::{Integrator, Method};
 use steps::OneStep;
-
-/// A method that advances the state by one tick.
-pub trait Integrator: Send + Sync + 'static {
-    /// Advances the state by `tick.dt`.
-    fn advance(&mut self, tick: &mut Tick);
-
-    /// How it wants models with a history to be evaluated.
-    fn style(&self) -> Style {
-        Style::Following
-    }
-
-    /// Whether each tick is one step of velocity Verlet, so that a body moves along a parabola as long as nothing but its weight
-    /// acts on it.
-    fn flies(&self) -> bool {
-        false
-    }
-
-    /// Whether it changes the state through the methods of [`Tick`] alone and looks for it nowhere else, such as in
-    /// [`Tick::world`]: then ticks need no schedules where all models are the engine's own.
-    fn is_direct(&self) -> bool {
-        false
-    }
-}
-
-/// The integrator of a run.
-pub struct Method(pub Box<dyn Integrator>);
-
-impl Default for Method {
-    fn default() -> Self {
-        Self(Box::new(VelocityVerlet))
-    }
-}
 
 /// What is known of a method, and how it is made.
 #[derive(Clone, Copy)]
@@ -175,6 +146,7 @@ pub fn plugin(app: &mut App) {
     for description in METHODS {
         app.register_method(description);
     }
+    set_method(app.world_mut(), Method(Box::new(VelocityVerlet)));
 }
 
 /// How plugins add an integrator.

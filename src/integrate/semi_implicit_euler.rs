@@ -3,8 +3,9 @@
 //! Order 1, symplectic, one evaluation per tick, stable while `omega dt < 2` (Hairer, Lubich, Wanner, *Geometric
 //! Numerical Integration*, 2006, I.1), with damping `c` while `(omega dt)^2 + 2 c/m dt < 4`. The method of most games, and of the first recorded trajectories.
 
-use super::{Description, Integrator, Method};
+use super::Description;
 use crate::tick::Tick;
+use crate::tick::{Integrator, Method};
 
 /// Semi-implicit Euler.
 pub struct SemiImplicitEuler;

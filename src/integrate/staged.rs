@@ -9,13 +9,14 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::Integrator;
 use super::control::{Allowance, Control};
 use super::crowd::Crowd;
 use super::inside::Inside;
 use super::locate::{Bracket, Moment, vanished};
-use super::steps::{Divided, Flow, OneStep, Start};
+use super::steps::{Divided, OneStep, Start};
 use super::whole::Whole;
+use crate::tick::Flow;
+use crate::tick::Integrator;
 use crate::tick::{Evaluation, Indicator, Style, Tick, WorldFlow};
 use crate::world::Bodies;
 

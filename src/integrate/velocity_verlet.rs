@@ -7,8 +7,9 @@
 //! order dt²: that keeps order 2 for drag and anything a plugin adds, where `v½` alone would fall to order 1. With damping
 //! `c` it is stable while `(omega dt)^2 + 4 c/m dt < 4` but for a part in 400 (the roots of its recurrence).
 
-use super::{Description, Integrator, Method};
+use super::Description;
 use crate::tick::Tick;
+use crate::tick::{Integrator, Method};
 
 /// Velocity Verlet.
 pub struct VelocityVerlet;

@@ -4,8 +4,8 @@
 //! tick to tick is the same step as one that looks for events, but costs no looking. Bodies that come near in such a tick are
 //! seen when candidate lists are renewed; then it is taken back, and made again as a step that may end at an event.
 
-use super::Integrator;
 use super::staged::StepCount;
+use crate::tick::Integrator;
 use crate::tick::{Clock, Indicator, Tick, Undo};
 use crate::world::Bodies;
 

@@ -44,12 +44,12 @@ pub mod truth;
 use std::error::Error;
 
 use crate::Simulation;
+use crate::integrate::ClockSection;
 use crate::integrate::{Description, Methods};
 use crate::scene::Source;
-use crate::scene::sections::ClockSection;
 use crate::tick::Failure;
 
-pub use crate::scene::sections::clock::EventTiming;
+pub use crate::integrate::clock::EventTiming;
 pub use truth::Truth;
 
 /// All problems.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::card::number;
+use crate::numbers::number;
 
 /// What to try next.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,38 +7,21 @@ use bevy_ecs::prelude::*;
 use serde::Serialize;
 
 use super::advice::{Known, Remedy, rounded_down};
-use super::energy::EnergyLedger;
 use super::estimate::EstimatedError;
 use super::verdict::Evidence;
 use super::warnings::warnings;
 use crate::contacts::DeepestOverlap;
+use crate::integrate::ChosenMethod;
 use crate::integrate::{LocatedEvents, StepCount};
+use crate::numbers::{number, percent};
+use crate::simulation::Simulation;
+use crate::simulation::error::{ErrorEstimate, KnownError};
+use crate::tick::Notes;
 use crate::tick::balance::Totals;
-use crate::tick::{Clock, Failure, Ledger, Models, Responses, Stability, Style, largest_travel};
+use crate::tick::energy::EnergyLedger;
+use crate::tick::{Clock, Failure, Ledger, Models, Responses, Stability, largest_travel};
 use crate::world::hash::state_hash;
 use crate::world::{Bodies, Name};
-
-/// Notes on every choice the engine made and every limit it applied.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Notes(pub Vec<String>);
-
-/// The method of the run.
-#[derive(Resource, Clone, Copy, Debug)]
-pub struct ChosenMethod {
-    /// Its name.
-    pub name: &'static str,
-    /// Whether events are located inside ticks.
-    pub located: bool,
-    /// How it evaluates models with a history.
-    pub style: Style,
-}
-
-impl ChosenMethod {
-    /// Whether events are located inside ticks: then nothing passes through others unseen.
-    pub(super) fn locates(world: &World) -> bool {
-        world.get_resource::<Self>().is_some_and(|method| method.located)
-    }
-}
 
 /// The deepest overlap of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -51,65 +34,6 @@ pub struct LargestOverlap {
     pub bodies: Vec<String>,
     /// When, in seconds.
     pub time: f64,
-}
-
-/// An error and where it comes from; `null` until it is estimated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct ErrorParts {
-    /// From the finite tick.
-    pub discretisation: Option<f64>,
-    /// From finite digits.
-    pub rounding: Option<f64>,
-    /// From the model.
-    pub model: Option<f64>,
-}
-
-impl ErrorParts {
-    /// All parts that are known; nothing without that of the tick.
-    pub fn sum(&self) -> Option<f64> {
-        Some(self.discretisation? + self.rounding.unwrap_or(0.0) + self.model.unwrap_or(0.0))
-    }
-}
-
-/// The estimated error of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct ErrorEstimate {
-    /// Of positions in metres.
-    pub position: ErrorParts,
-    /// Of velocities in m/s.
-    pub velocity: ErrorParts,
-    /// Order of accuracy that was seen.
-    pub observed_order: Option<f64>,
-    /// Time in seconds until which the error is that: after it chaos has eaten all digits, or nothing was run again.
-    pub horizon: Option<f64>,
-}
-
-impl fmt::Display for ErrorEstimate {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let size = |part: f64| if part < LEAST { "0".to_owned() } else { rough(part) };
-        let parts = |parts: ErrorParts, unit: &str| {
-            let named = [(parts.discretisation, "tick"), (parts.rounding, "rounding"), (parts.model, "model")];
-            let told = named.into_iter().filter_map(|(part, from)| Some(format!("+- {} ({from})", size(part?))));
-            let told: Vec<String> = told.collect();
-            if told.is_empty() { "unknown".to_owned() } else { format!("{} {unit}", told.join(" ")) }
-        };
-        write!(f, "places {}, velocities {}", parts(self.position, "m"), parts(self.velocity, "m/s"))?;
-        if let Some(order) = self.observed_order {
-            write!(f, ", order {order:.1}")?;
-        }
-        self.horizon.map_or(Ok(()), |horizon| write!(f, ", until t = {} s", number(horizon)))
-    }
-}
-
-/// The error that a run is known to have.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct KnownError {
-    /// The error; nothing, if no runs were compared.
-    pub estimate: Option<ErrorEstimate>,
-    /// Why it is not what was asked for.
-    pub warning: Option<String>,
-    /// The tolerance that was asked for; nothing, if it was the smallest error there is.
-    pub tolerance: Option<f64>,
 }
 
 /// The error card.
@@ -173,6 +97,13 @@ pub struct Card {
     /// Whether its steps were chosen for an error, and which that was.
     #[serde(skip)]
     asked: Option<Option<f64>>,
+}
+
+impl Simulation {
+    /// The error card of the present state.
+    pub fn card(&self) -> Card {
+        Card::of(self.world(), self.seconds_spent(), self.failure())
+    }
 }
 
 impl Card {
@@ -275,18 +206,6 @@ impl Card {
     }
 }
 
-pub(super) fn percent(share: f64) -> String {
-    if share == 0.0 {
-        "nothing".to_owned()
-    } else if share >= 0.1 {
-        format!("{:.0} %", share * 100.0)
-    } else if share >= 1e-4 {
-        format!("{:.2} %", share * 100.0)
-    } else {
-        format!("{share:.0e}")
-    }
-}
-
 /// What a body or wall is called.
 pub(super) fn name(world: &World, entity: Entity) -> String {
     world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), Name::to_string)
@@ -383,43 +302,4 @@ fn parts(parts: &[(&str, f64)]) -> String {
         .map(|(name, value)| format!("{name} {} J", number(*value)))
         .collect();
     if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
-}
-
-/// Errors below this are nothing but rounding: no smaller one is told.
-const LEAST: f64 = 1e-16;
-
-/// A number of which only the size counts.
-pub(crate) fn rough(value: f64) -> String {
-    if value.is_nan() {
-        return "unknown".to_owned();
-    }
-    let value = value.max(LEAST);
-    format!("{value:.0e}").parse().map_or_else(|_| number(value), number)
-}
-
-/// A number in at most five digits, as people write it.
-pub(crate) fn number(value: f64) -> String {
-    let short = |text: &str| {
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
-    };
-    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
-        let digits = (4 - value.abs().max(1e-300).log10().floor() as i32).clamp(0, 8) as usize;
-        return short(&format!("{value:.digits$}"));
-    }
-    let text = format!("{value:.4e}");
-    text.split_once('e').map_or_else(|| text.clone(), |(digits, exponent)| format!("{}e{exponent}", short(digits)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_written_as_people_do() {
-        assert_eq!(number(20.0), "20");
-        assert_eq!(number(0.001), "0.001");
-        assert_eq!(number(0.0123456), "0.012346");
-        assert_eq!(number(1.5e-7), "1.5e-7");
-        assert_eq!(number(5e-7), "5e-7");
-    }
 }

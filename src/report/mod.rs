@@ -1,10 +1,8 @@
 //! How wrong the result is.
 
-pub mod accuracy;
 mod advice;
 pub mod bench;
 pub mod card;
-pub mod energy;
 pub mod estimate;
 pub mod ladder;
 pub mod measure;

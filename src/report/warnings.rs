@@ -3,10 +3,13 @@
 use bevy_ecs::prelude::*;
 
 use super::advice::Remedy;
-use super::card::{ChosenMethod, KnownError, name, number};
+use super::card::name;
 use super::estimate::EstimatedError;
 use crate::contacts::ContactLaw;
+use crate::integrate::ChosenMethod;
 use crate::integrate::{LocatedEvents, StepCount};
+use crate::numbers::number;
+use crate::simulation::error::KnownError;
 use crate::tick::{Clock, Models, Responses, Stability, Style, far_travel};
 use crate::world::Bodies;
 

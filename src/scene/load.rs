@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use bevy_app::App;
+use bevy_ecs::world::World;
 
 use super::error::{SceneError, SceneErrors};
 use super::expand::{self, Tables};
@@ -45,6 +46,7 @@ pub struct SceneHeader {
 /// hide mistakes in other sections.
 pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> {
     let registry = app.world().get_resource::<SceneRegistry>().cloned().unwrap_or_default();
+    let embeddings = &registry.embeddings;
     if source.text.len() > LARGEST_SCENE {
         let message = format!("the scene is too large: the limit is {} MiB", LARGEST_SCENE >> 20);
         let error = SceneError::new("", message).with_help("many bodies are shorter with `fill`");
@@ -54,11 +56,11 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
     if let Some(fault) = found.fault {
         return Err(SceneErrors::new(source.clone(), vec![fault], Vec::new()));
     }
-    if !expand::is_wanted(source, &found.tree) {
+    if !expand::is_wanted(source, &found.tree, embeddings) {
         return load_text(app, &registry, &source.text, &found.tree, found.errors, Tables::new())
             .map_err(|(errors, notes)| SceneErrors::new(source.clone(), errors, notes));
     }
-    let mut expanded = expand::expand(source, found)?;
+    let mut expanded = expand::expand(source, found, embeddings)?;
     let tables = std::mem::take(&mut expanded.tables);
     let mut found = scan(&expanded.text);
     if let Some(fault) = found.fault.take() {
@@ -102,9 +104,15 @@ fn load_text(
 }
 
 /// Mistakes that only turned out when the scene was put together, at their places in the text.
-pub(crate) fn found_later(source: &Source, mut errors: Vec<SceneError>) -> SceneErrors {
+pub(crate) fn found_later(world: &World, source: &Source, mut errors: Vec<SceneError>) -> SceneErrors {
+    let registry = world.get_resource::<SceneRegistry>();
+    let embeddings = registry.map_or(&[][..], |registry| &registry.embeddings);
     let mut found = scan(&source.text);
-    let expanded = if expand::is_wanted(source, &found.tree) { expand::expand(source, found).ok() } else { None };
+    let expanded = if expand::is_wanted(source, &found.tree, embeddings) {
+        expand::expand(source, found, embeddings).ok()
+    } else {
+        None
+    };
     let text = expanded.as_ref().map_or(&source.text, |expanded| &expanded.text);
     found = scan(text);
     for error in &mut errors {

@@ -57,6 +57,7 @@
 
 mod cells;
 mod edit;
+pub(crate) mod embed;
 mod error;
 mod expand;
 mod explain;
@@ -70,7 +71,6 @@ mod report;
 mod scan;
 pub mod schema;
 mod section;
-pub mod sections;
 mod source;
 pub(crate) mod suggest;
 mod tree;
@@ -79,14 +79,15 @@ pub mod values;
 
 pub(crate) use cells::{cells, drop_empty_ends, separator};
 pub use error::{SceneError, SceneErrors};
+pub(crate) use explain::read as read_value;
 pub(crate) use layout::laid_out;
 pub(crate) use load::found_later;
 pub use load::{SceneHeader, load};
 pub(crate) use number::{count, number};
 pub(crate) use outline::fits;
 pub use outline::{Kind, Mention, Obstacle, Outline};
-pub(crate) use registry::install_word;
 pub use registry::{Arity, Known, SceneAppExt, SceneRegistry};
+pub(crate) use registry::{install_word, register_embedding};
 pub use report::{Problem, Report};
 pub use section::{Entry, Section, Written};
 pub use source::{LARGEST_SCENE, Source};

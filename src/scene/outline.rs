@@ -1,5 +1,6 @@
 //! The names a scene brings, before anything is built: who there is, in which order, and who was meant.
 
+use std::any::Any;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,7 +10,6 @@ use glam::DVec2;
 use super::expand::Tables;
 use super::names::{self, Names};
 use super::report::Report;
-use super::sections::packing::PackingTable;
 use super::suggest;
 
 /// What a name stands for. Plugins may make kinds of their own.
@@ -287,9 +287,9 @@ impl Outline {
         Self { words, tables, ..Self::default() }
     }
 
-    /// A table of bodies that was read with the scene.
-    pub(super) fn table(&self, key: u64) -> Option<Arc<PackingTable>> {
-        self.tables.get(&key).map(Arc::clone)
+    /// What a file beside the scene became, by its key.
+    pub(crate) fn embedded<T: Any + Send + Sync>(&self, key: u64) -> Option<Arc<T>> {
+        Arc::clone(self.tables.get(&key)?).downcast().ok()
     }
 
     /// Lets go what only the building of the scene needs.

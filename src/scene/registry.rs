@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 
+use super::embed::Embedding;
 use super::explain::{self, Fault};
 use super::outline::{Outline, Words, join};
 use super::report::Report;
@@ -135,6 +136,8 @@ pub struct Known {
 pub struct SceneRegistry {
     pub(crate) sections: BTreeMap<&'static str, SectionReader>,
     pub(crate) words: Words,
+    /// Entries that name files beside the scene.
+    pub(crate) embeddings: Vec<Embedding>,
     count: usize,
 }
 
@@ -278,6 +281,11 @@ pub trait SceneAppExt {
 
     /// Keeps a word for later: using it is the error "not available yet".
     fn reserve_word(&mut self, list: &'static str, word: &'static str) -> &mut Self;
+}
+
+/// Makes an entry known that names a file beside the scene.
+pub(crate) fn register_embedding(app: &mut App, embedding: Embedding) {
+    registry(app).embeddings.push(embedding);
 }
 
 fn registry(app: &mut App) -> &mut SceneRegistry {

@@ -118,8 +118,12 @@ impl Source {
     }
 
     /// The whole text with what it includes and makes; empty if it cannot be made.
-    pub(crate) fn made(&self) -> String {
-        super::expand::made(self).into_iter().flatten().map(|(name, text)| format!("{name}: {text},\n")).collect()
+    pub(crate) fn made(&self, registry: &super::SceneRegistry) -> String {
+        super::expand::made(self, &registry.embeddings)
+            .into_iter()
+            .flatten()
+            .map(|(name, text)| format!("{name}: {text},\n"))
+            .collect()
     }
 
     /// Takes a file's bytes as UTF-8 text, without the mark some editors put in front.

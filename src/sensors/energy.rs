@@ -7,8 +7,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
-use crate::report::energy::EnergyLedger;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::tick::energy::EnergyLedger;
 
 const CHANNELS: &[&str] = &[
     "energy.kinetic",

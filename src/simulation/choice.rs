@@ -4,11 +4,14 @@ use bevy_ecs::prelude::*;
 
 use super::Overrides;
 use crate::contacts::ContactLaw;
+use crate::integrate::ChosenMethod;
+use crate::integrate::ClockSection;
+use crate::integrate::clock::EventTiming;
 use crate::integrate::{Allowance, Description, Detail, Methods, Pace};
-use crate::report::card::{ChosenMethod, ErrorEstimate, ErrorParts, KnownError, Notes};
+use crate::record::sections::FilmSection;
 use crate::scene::SceneError;
-use crate::scene::sections::clock::EventTiming;
-use crate::scene::sections::{ClockSection, FilmSection};
+use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
+use crate::tick::Notes;
 use crate::tick::{Census, Clock, Holder, Models, Stability};
 
 /// Ticks per half period of the fastest contact or spring when the engine chooses the tick.

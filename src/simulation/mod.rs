@@ -1,8 +1,14 @@
 //! A scene, ready to run: the door through which programs use the engine.
 
+pub mod accuracy;
 mod choice;
+pub mod error;
+mod recorder;
+mod sampler;
 
 pub use choice::{Goal, Plan};
+pub use recorder::Recorder;
+pub use sampler::{Missing, Sampler};
 
 use std::time::{Duration, Instant};
 
@@ -11,16 +17,15 @@ use bevy_ecs::prelude::*;
 
 use crate::contacts;
 use crate::expect::{Expectations, Outcome, observe_all};
+use crate::numbers::number;
 use crate::record::layers::{self, WantedLayers};
-use crate::report::Card;
-use crate::report::accuracy::{self, Tell};
-use crate::report::card::{Notes, number};
-use crate::scene::sections::FilmSection;
-use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
+use crate::record::sections::FilmSection;
+use crate::scene::{self, SceneErrors, SceneHeader, Source};
 use crate::simd::{Level, give_back};
 use crate::threads::Threads;
-use crate::tick::{Clock, Failure, TickAppExt, foresee_components, step};
+use crate::tick::{AfterLoad, Clock, Failure, LoadErrors, Notes, TickAppExt, foresee_components, step};
 use crate::world::{Bodies, Name, atom, packed};
+use accuracy::Tell;
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
 #[derive(Clone, Debug, Default)]
@@ -50,15 +55,6 @@ pub struct Overrides {
     /// Told of each trial run that a tolerance or a reference run needs.
     pub tell: Option<Tell>,
 }
-
-/// Work to be done once when the whole scene stands: plugins add functions that need bodies and contacts.
-#[derive(Resource, Default)]
-pub struct Finishers(pub Vec<fn(&mut World)>);
-
-/// Mistakes of the scene that show only when the whole scene stands: [`Finishers`] write them down, with their paths, and
-/// the scene is refused.
-#[derive(Resource, Default)]
-pub struct LateErrors(pub Vec<SceneError>);
 
 /// A scene, ready to run.
 ///
@@ -225,9 +221,9 @@ impl Simulation {
         self.run_to_tick(self.ticks)
     }
 
-    /// The error card of the present state.
-    pub fn card(&self) -> Card {
-        Card::of(self.world(), self.spent.as_secs_f64(), self.failure.as_ref())
+    /// How the run went wrong, if it did.
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 
     /// Seconds spent computing so far.
@@ -255,7 +251,7 @@ impl Simulation {
 /// Reads a scene into an app: afterwards everything in it is installed.
 pub(crate) fn read(app: &mut App, source: &Source, plugins: impl Fn(&mut App)) -> Result<SceneHeader, SceneErrors> {
     app.add_tick();
-    app.init_resource::<Notes>().init_resource::<Finishers>();
+    app.init_resource::<Notes>().init_resource::<AfterLoad>();
     plugins(app);
     foresee_components(app.world_mut());
     let header = scene::load(app, source)?;
@@ -276,14 +272,14 @@ pub(crate) fn begin(
         atom::stiffen(world, factor);
     }
     packed::rebuild(world);
-    for finish in std::mem::take(&mut world.resource_mut::<Finishers>().0) {
+    for finish in std::mem::take(&mut world.resource_mut::<AfterLoad>().0) {
         finish(world);
     }
-    let late = world.remove_resource::<LateErrors>().unwrap_or_default().0;
+    let late = world.remove_resource::<LoadErrors>().unwrap_or_default().0;
     if !late.is_empty() {
-        return Err(scene::found_later(source, late));
+        return Err(scene::found_later(world, source, late));
     }
-    let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(source, vec![*error]))?;
+    let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(world, source, vec![*error]))?;
     if world.contains_resource::<Goal>() {
         look_at_frames(world);
     }

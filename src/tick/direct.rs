@@ -17,7 +17,7 @@ use super::drive::Drive;
 use super::stages::Stages;
 use super::stopwatch::{self, Stopwatch};
 use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Models, Responses, Span, Stability};
-use crate::bounds::Bounds;
+use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 
 /// What every part works on. While it is here, the world holds nothing of it.

@@ -13,8 +13,8 @@ use super::inside::Tick;
 use super::stopwatch;
 use super::travel::FarTravel;
 use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
-use crate::bounds::update_bounding_boxes;
-use crate::integrate::Method;
+use crate::tick::Method;
+use crate::tick::bounds::update_bounding_boxes;
 use crate::world::{Bodies, Force, Name, Torque, finite, packed};
 
 /// What is taken out of the world while a batch of ticks runs.
@@ -70,7 +70,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut sim = take(world, SimTick);
     let evaluate = take(world, Evaluate);
     let modes = take(world, Modes);
-    let method = world.resource_mut::<Drive>().method.take().unwrap_or_default();
+    let method = world.resource_mut::<Drive>().method.take().expect("the plugin of integrators sets a method");
     let has_modes = !modes.graph().systems.is_empty();
     let velocity_dependent = world.resource::<Census>().velocity_dependent;
     let mut running = Box::new(Running { method, evaluate, modes, has_modes, velocity_dependent });
@@ -383,7 +383,7 @@ fn note_failure(world: &mut World) {
 
 /// Sets the integrator.
 pub fn set_method(world: &mut World, method: Method) {
-    world.resource_mut::<Drive>().method = Some(method);
+    world.get_resource_or_init::<Drive>().method = Some(method);
 }
 
 /// The greatest energy that was seen to go round so far, in J, looked for every few hundred ticks: of motion and springs, and

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::balance::Ledger;
 use super::stages::Block;
 use super::{Balance, Tick};
-use crate::integrate::steps::Flow;
+use crate::tick::Flow;
 use crate::world::Bodies;
 
 /// Accounts at the end of a state: drag, work, friction, inelasticity, impulse (2), angular impulse.

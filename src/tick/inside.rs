@@ -6,7 +6,7 @@ use super::direct::{Direct, Held, State, held, held_mut};
 use super::drive::Drive;
 use super::failure::{Failure, Wrong};
 use super::{Balance, Census, Clock, Evaluation, Indicator, Ledger, Models, Span, Style};
-use crate::bounds::Bounds;
+use crate::tick::bounds::Bounds;
 use crate::world::motion::Travel;
 use crate::world::{Bodies, Name, lend};
 

@@ -25,18 +25,24 @@
 //! **Direct forms.** Where all systems are the engine's own and have one, ticks call them without these schedules: see
 //! `direct.rs`.
 
+pub mod after_load;
 pub mod balance;
+pub mod bounds;
 pub mod clock;
 pub(crate) mod direct;
 pub(crate) mod direct_force;
 mod drive;
+pub mod energy;
 mod failure;
 mod flight;
 pub mod flow;
 mod following;
 mod guard;
 mod inside;
+mod method;
 pub mod models;
+mod notes;
+mod ode;
 pub mod response;
 pub mod stability;
 mod stages;
@@ -50,6 +56,7 @@ use bevy_ecs::intern::Interned;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
+pub use after_load::{AfterLoad, LoadErrors};
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
 use direct::{Direct, Systems};
@@ -60,7 +67,10 @@ pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use inside::Tick;
+pub use method::{Integrator, Method};
 pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
+pub use notes::Notes;
+pub use ode::Flow;
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub(crate) use stages::Stages;
 pub use travel::{FarTravel, far_travel, largest_travel};
@@ -90,6 +100,14 @@ pub enum Stage {
     /// Sensors, expectations and guards look at the new state.
     Observe,
 }
+
+/// Within [`EvaluateStage::Contacts`], before any contact law: where candidate pairs are found, with what looks on.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FindPairs;
+
+/// Within [`FindPairs`]: the search itself.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SearchPairs;
 
 /// The stages of [`Evaluate`], in order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]

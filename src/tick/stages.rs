@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 
 use super::direct::State;
 use super::{Indicator, Models, Responses, StateBlock, Style, Tick, Watch};
-use crate::bounds::Bounds;
+use crate::tick::bounds::Bounds;
 
 /// The direct form of what a model registers in [`Models`]: state of its own and one [`Watch`], a handover and a crowd.
 pub(crate) trait Stages {

@@ -13,7 +13,7 @@ use bevy_ecs::prelude::*;
 
 use super::response::{Spring, Springs};
 use super::{Balance, Clock, Fastest, Foreseen, Holder, Responses, SimTick, Stability, Stage, TickAppExt};
-use crate::simulation::Finishers;
+use crate::tick::AfterLoad;
 use crate::world::Bodies;
 
 /// Ticks after which the springs are looked at again.
@@ -53,7 +53,7 @@ pub fn add_steady_springs(app: &mut App, lister: Lister) {
     if !app.world().contains_resource::<SteadySprings>() {
         app.init_resource::<SteadySprings>();
         app.add_packed_systems(SimTick, 1, watch_springs.in_set(Stage::Observe));
-        app.world_mut().get_resource_or_init::<Finishers>().0.push(foresee_springs);
+        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(foresee_springs);
         let sources = &mut app.world_mut().get_resource_or_init::<Stability>().into_inner().sources;
         sources.push(|world| world.resource::<SteadySprings>().found);
     }

@@ -7,8 +7,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 
 use super::direct::{Direct, Systems};
-use super::{Census, Evaluate, EvaluateStage, Modes, SimTick, Stage};
-use crate::contacts::search::{FindPairs, find_pairs};
+use super::{Census, Evaluate, EvaluateStage, FindPairs, Modes, SearchPairs, SimTick, Stage};
 
 /// Parts of a tick, in the order in which it goes through them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -127,7 +126,7 @@ pub fn watch(world: &mut World) {
         turn_to::<FORCES>.after(Of::Bounds).before(Of::Forces),
         turn_to::<SEARCH>.after(Of::Forces).before(Of::Contacts),
         // Laws run after all that finds pairs.
-        turn_to::<CONTACTS>.in_set(Of::Contacts).in_set(FindPairs).after(find_pairs),
+        turn_to::<CONTACTS>.in_set(Of::Contacts).in_set(FindPairs).after(SearchPairs),
         turn_to::<JOINTS>.after(Of::Contacts).before(Of::Joints),
         turn_to::<INTEGRATE>.after(Of::Joints),
     );

@@ -1,13 +1,7 @@
 //! One number for the whole state: two runs are the same if and only if (as good as) their hashes are.
 
 use super::packed::Bodies;
-
-/// FNV-1a, 64 bits (Fowler, Noll, Vo 1991).
-pub(crate) fn of_bytes(bytes: impl IntoIterator<Item = u8>) -> u64 {
-    bytes
-        .into_iter()
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-}
+use crate::digest::of_bytes;
 
 /// Hash of positions, angles, velocities and spins of all bodies in canonical order, to the last bit: FNV-1a over
 /// the little-endian bytes. It is the same on every machine.

@@ -2,6 +2,7 @@
 
 mod aloft;
 pub mod atom;
+pub mod between;
 pub mod body;
 pub mod finite;
 mod flight;

@@ -1,7 +1,7 @@
 //! Plots read and never change: the run is the same, to the last bit, with and without them.
 
-use jostle::record::plot::Sampler;
-use jostle::scene::sections::PlotsSection;
+use jostle::record::sections::PlotsSection;
+use jostle::simulation::Sampler;
 
 use super::{clumps, hash, load, run, scene};
 

@@ -10,9 +10,10 @@ use glam::DVec2;
 use jostle::Simulation;
 use jostle::raster::{Camera, Painter, Scratch, Theme, View};
 use jostle::record::frame::Frame;
-use jostle::record::{FilmAppExt, Mark, MarkShape, Recorder};
+use jostle::record::{FilmAppExt, Mark, MarkShape};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::simulation::Recorder;
 use jostle::world::{Body, Position};
 
 const SCENE: &str = "Scene(format: 1, clock: (duration: 1, tick: 1e-3), bodies: [

@@ -5,8 +5,8 @@
 
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::integrate::{Integrator, Method};
 use jostle::scene::Source;
+use jostle::tick::{Integrator, Method};
 use jostle::tick::{Tick, set_method};
 
 /// Semi-implicit Euler that stops all motion before forces are evaluated. `direct`: it promises what [`Integrator::is_direct`] asks

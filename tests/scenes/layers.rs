@@ -1,11 +1,12 @@
 //! Layers of films show what is there and change nothing.
 
 use jostle::Simulation;
+use jostle::record::MarkShape;
 use jostle::record::frame::Frame;
 use jostle::record::layers::PictureHeight;
-use jostle::record::{MarkShape, Recorder};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::simulation::Recorder;
 use jostle::world::hash::state_hash;
 
 fn load(sections: &str, look: &str) -> Simulation {

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use jostle::Simulation;
 use jostle::raster::{Camera, Painter, Scratch, Theme, View};
-use jostle::record::Recorder;
 use jostle::record::layers::PictureHeight;
 use jostle::scene::Source;
+use jostle::simulation::Recorder;
 
 /// Set to anything, it makes the test write the pictures in place of comparing them.
 const REWRITE: &str = "JOSTLE_REWRITE_PICTURES";

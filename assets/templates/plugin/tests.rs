@@ -6,7 +6,7 @@
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::raster::{Camera, Painter, Scratch, Theme, View};
-use jostle::record::Recorder;
+use jostle::simulation::Recorder;
 use jostle::scene::{SceneErrors, Source};
 use jostle::simulation::Overrides;
 

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use crate::cli::flags::OverrideFlags;
 use crate::cli::trial::Trial;
-use crate::record::Recorder;
 use crate::record::follow::Follower;
 use crate::record::frame::{Cast, Frame};
+use crate::record::sections::CameraChoice;
 use crate::report::Card;
-use crate::scene::sections::CameraChoice;
 use crate::scene::{SceneError, SceneErrors, Source};
 use crate::sensors::Channels;
+use crate::simulation::Recorder;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 

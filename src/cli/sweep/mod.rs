@@ -24,10 +24,10 @@ use super::say::{count, print_line, say};
 use super::side_by_side::{all_cores, in_order};
 use super::target::Place;
 use super::trial::Verdict;
+use crate::digest::of_bytes;
 use crate::output::{Target, write_whole};
 use crate::scene::{SceneRegistry, Source, suggest};
 use crate::simulation::Simulation;
-use crate::world::hash::of_bytes;
 
 /// The command `sweep`.
 #[derive(Args, Debug)]
@@ -144,7 +144,7 @@ impl Sweep {
         let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
         let path = folder.join(self.file("table", "csv"));
-        let sweep = self.shard.map(|_| self.fingerprint(&source));
+        let sweep = self.shard.map(|_| self.fingerprint(&source, plain.world().resource()));
         write_whole(&path, &Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
         let image = folder.join(self.file("contact_sheet", "png"));
         if sheet {
@@ -178,10 +178,10 @@ impl Sweep {
     }
 
     /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
-    fn fingerprint(&self, source: &Source) -> String {
+    fn fingerprint(&self, source: &Source, registry: &SceneRegistry) -> String {
         let OverrideFlags { duration, tick, method, tolerance, settings, simd: _ } = &self.overrides;
         let flags = format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
-        let texts = [&source.text, &source.made(), &flags, env!("CARGO_PKG_VERSION")];
+        let texts = [&source.text, &source.made(registry), &flags, env!("CARGO_PKG_VERSION")];
         // No text has a byte 255 in it.
         let bytes = texts.into_iter().flat_map(|text| text.bytes().chain([255]));
         format!("{:016x}", of_bytes(bytes))

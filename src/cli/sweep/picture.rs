@@ -5,7 +5,7 @@ use std::path::Path;
 use super::attempt::Attempt;
 use crate::output::{OutputError, Target, sheet};
 use crate::raster::{Bounds, Camera, Theme, View};
-use crate::scene::sections::{CameraChoice, FitCamera};
+use crate::record::sections::{CameraChoice, FitCamera};
 
 /// More pictures on one sheet nobody can tell apart.
 pub(super) const MOST_PICTURES: usize = 100;

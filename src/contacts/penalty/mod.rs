@@ -48,10 +48,10 @@ use normal::NormalForce;
 use super::points::TellContacts;
 use super::search::{self, FindPairs};
 use super::{ContactLaw, DeepestOverlap};
-use crate::report::card::Notes;
 use crate::scene::units::{Damping, Rate};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::simulation::Finishers;
+use crate::tick::AfterLoad;
+use crate::tick::Notes;
 use crate::tick::balance::EnergyTerms;
 use crate::tick::direct::{Direct, Systems};
 use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Models, Modes, Stability, TickAppExt};
@@ -173,7 +173,7 @@ fn add_systems<N: NormalForce>(app: &mut App) {
     if N::DEPENDS_ON_VELOCITY {
         app.need_velocities();
     }
-    app.world_mut().get_resource_or_init::<Finishers>().0.push(prepare::<N>);
+    app.world_mut().get_resource_or_init::<AfterLoad>().0.push(prepare::<N>);
 }
 
 /// Where penalty contacts are applied.

@@ -5,7 +5,8 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::cells;
-use crate::report::card::{Notes, number};
+use crate::numbers::number;
+use crate::tick::Notes;
 use crate::world::{Bodies, Name};
 
 /// What overlaps by no more than this share of the smaller radius is not told: contacts at rest bear their loads so.

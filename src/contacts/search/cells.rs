@@ -396,7 +396,7 @@ pub(super) mod tests {
 
     use super::super::{Search, sweep};
     use super::*;
-    use crate::bounds::Bounds;
+    use crate::tick::bounds::Bounds;
 
     /// Discs strewn over a square; some are a hundred times as large, some do not collide, some stand.
     pub(in super::super) fn strewn(seed: u64, count: usize, side: f64) -> (Bodies, Bounds) {

@@ -22,9 +22,9 @@ use glam::DVec2;
 use self::cells::Sorted;
 use self::identity::Identities;
 use self::still::Still;
-use crate::bounds::{self, Bounds};
-use crate::simulation::Finishers;
-use crate::tick::{Evaluate, EvaluateStage, TickAppExt};
+pub use crate::tick::FindPairs;
+use crate::tick::bounds::{self, Bounds};
+use crate::tick::{AfterLoad, Evaluate, EvaluateStage, SearchPairs, TickAppExt};
 use crate::world::Bodies;
 
 /// Marks a pair that was not in the list before.
@@ -90,18 +90,14 @@ pub struct CandidatePairs {
     still: Option<Still>,
 }
 
-/// Where candidate pairs are found.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct FindPairs;
-
 /// Registers the search. Contact laws add it and order themselves after [`FindPairs`]. Adding it twice does nothing.
 pub fn plugin(app: &mut App) {
     bounds::plugin(app);
     if !app.world().contains_resource::<CandidatePairs>() {
         app.init_resource::<CandidatePairs>();
-        let system = find_pairs.in_set(FindPairs).in_set(EvaluateStage::Contacts);
+        let system = find_pairs.in_set(SearchPairs).in_set(FindPairs).in_set(EvaluateStage::Contacts);
         app.add_flight_systems(Evaluate, 1, system);
-        app.world_mut().get_resource_or_init::<Finishers>().0.push(at_start::note_overlaps);
+        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(at_start::note_overlaps);
     }
 }
 

@@ -7,8 +7,8 @@
 
 use super::cells::Sorted;
 use super::{AtomPair, WallPair, each_wall_pair, group_of};
-use crate::bounds::Bounds;
 use crate::simd::BLOCK;
+use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 
 /// Bodies for each one that may move, at least: with fewer the search spares too little.

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::AtomPair;
-use crate::bounds::Bounds;
+use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 
 /// All pairs of atoms nearer than the margin, in canonical order.

@@ -3,7 +3,8 @@
 //! A run estimates its own error by such steps. Where two events lie in one tick the step between them is the same with any
 //! tick, and so would be its error.
 
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// A method whose steps are so many of another one.
 pub struct Divided {

@@ -4,7 +4,8 @@
 //! by `1 + (omega h)^2` in energy with each step, so there is no stable step for it; pure damping is stable for
 //! `h c/m < 2`. For teaching (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section I.7).
 
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// Explicit Euler.
 #[derive(Default)]

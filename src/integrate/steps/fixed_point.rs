@@ -9,8 +9,8 @@
 
 use std::ops::Range;
 
-use super::Flow;
 use super::settling::{LIMIT, Settling};
+use crate::tick::Flow;
 
 /// Working memory of the iteration.
 #[derive(Default)]

@@ -16,7 +16,8 @@
 use super::elimination::Elimination;
 use super::fixed_point::FixedPoint;
 use super::settling::{LIMIT, Settling};
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// Implicit midpoint rule.
 #[derive(Default)]

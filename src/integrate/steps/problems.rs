@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Flow;
+use crate::tick::Flow;
 
 /// A motion whose state is known at all times.
 #[derive(Clone, Copy)]

@@ -5,7 +5,8 @@
 //! `(omega h)^6/72` of an oscillation's energy with each step, and is stable for `omega h < 2.83`; damping alone for
 //! `h c/m < 2.78` (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.1).
 
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// The classical Runge-Kutta method.
 #[derive(Default)]

@@ -8,7 +8,8 @@
 //! has to be advanced as coordinates are. With the rates of the beginning its oscillation would be that of explicit Euler,
 //! which gains energy with each step.
 
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// Semi-implicit Euler.
 #[derive(Default)]

@@ -12,8 +12,9 @@
 
 use std::ops::Range;
 
+use super::Start;
 use super::fixed_point::FixedPoint;
-use super::{Flow, Start};
+use crate::tick::Flow;
 
 /// Working memory of a step that is made of parts.
 #[derive(Default)]

@@ -14,7 +14,8 @@
 //! symmetry in time. Two halves go backwards, where damping drives; damping alone is stable for `h c/m < 5.4` all the same.
 
 use super::splitting::Splitting;
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// Lengths of the first six halves, as shares of the step; the other six are their mirror image.
 const HALVES: [f64; 6] = [

@@ -9,7 +9,8 @@
 //! more if their rates depend on themselves.
 
 use super::splitting::Splitting;
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 
 /// Velocity Verlet.
 #[derive(Default)]

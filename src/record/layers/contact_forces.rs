@@ -19,7 +19,7 @@ use crate::forces::gravity::Gravity;
 use crate::scene::units::Force;
 use crate::scene::values::Names;
 use crate::scene::{Outline, Report, SceneAppExt};
-use crate::simulation::Finishers;
+use crate::tick::AfterLoad;
 use crate::world::Bodies;
 
 /// The forces with which things touch, as arrows on the body that feels them.
@@ -48,7 +48,7 @@ impl OfBodies for ContactForces {
     }
 
     fn prepare(app: &mut App) {
-        app.world_mut().get_resource_or_init::<Finishers>().0.push(note_start);
+        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(note_start);
     }
 
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {

@@ -22,7 +22,7 @@ use bevy_ecs::prelude::*;
 
 pub use mark::{Mark, MarkShape};
 
-use crate::scene::sections::look::LAYERS;
+use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, install_word};
 use crate::world::Bodies;
@@ -86,7 +86,7 @@ impl Layers {
     }
 
     /// The next tick after `seen` at which some layer looks, on the way to a frame at `time` s, in ticks of `dt` s.
-    pub(super) fn next_look(world: &World, seen: Option<u64>, time: f64, dt: f64) -> Option<u64> {
+    pub(crate) fn next_look(world: &World, seen: Option<u64>, time: f64, dt: f64) -> Option<u64> {
         let layers = world.get_resource::<Self>()?;
         let next = |memory: Memory| {
             let early = ((time - memory.length) / dt).floor().max(0.0) as u64;
@@ -97,7 +97,7 @@ impl Layers {
     }
 
     /// Lets the layers look whose turn it is in this tick.
-    pub(super) fn look(world: &mut World, tick: u64, dt: f64) {
+    pub(crate) fn look(world: &mut World, tick: u64, dt: f64) {
         let Some(mut layers) = world.remove_resource::<Self>() else { return };
         for layer in &mut layers.0 {
             if layer.memory().is_some_and(|memory| tick.is_multiple_of(stride(memory, dt))) {

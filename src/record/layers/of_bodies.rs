@@ -5,7 +5,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
 use super::{FilmAppExt, Layer, Shown};
-use crate::scene::sections::look::LAYERS;
+use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, Written};
 

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{FilmAppExt, Mark, MarkShape};
-use crate::scene::sections::look::LAYERS;
+use crate::record::sections::look::LAYERS;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
 /// A bar of a round length in the corner of the picture.

@@ -12,7 +12,7 @@ use crate::forces::gravity::Gravity;
 use crate::scene::units::Speed;
 use crate::scene::values::Names;
 use crate::scene::{Outline, Report, SceneAppExt};
-use crate::simulation::Finishers;
+use crate::tick::AfterLoad;
 use crate::world::Bodies;
 
 /// The velocities of the centres of bodies, as arrows.
@@ -41,7 +41,7 @@ impl OfBodies for Velocities {
     }
 
     fn prepare(app: &mut App) {
-        app.world_mut().get_resource_or_init::<Finishers>().0.push(note_start);
+        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(note_start);
     }
 
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {

@@ -7,8 +7,8 @@ use bevy_ecs::prelude::*;
 
 use crate::forces::gravity::Gravity;
 use crate::scene::count;
-use crate::simulation::Simulation;
-use crate::world::{Body, Materials, Motion, Name};
+use crate::tick::Clock;
+use crate::world::{Bodies, Body, Materials, Motion, Name};
 
 /// Lines of bodies that are kept.
 const MOST_LINES: usize = 24;
@@ -68,8 +68,8 @@ impl Legend {
     ///
     /// Bodies of one material with a colour of its own look alike, so they share a line; a material of a single body
     /// goes by the body's name. Fixed bodies stand last.
-    pub fn of(simulation: &Simulation) -> Legend {
-        let (world, bodies) = (simulation.world(), simulation.bodies());
+    pub fn of(world: &World) -> Legend {
+        let bodies = world.resource::<Bodies>();
         let materials = world.get_resource::<Materials>();
         let mut lines: Vec<Line> = Vec::new();
         let mut known_lines: BTreeMap<(String, bool), usize> = BTreeMap::new();
@@ -112,7 +112,7 @@ impl Legend {
         let more = lines.len().saturating_sub(MOST_LINES);
         lines.truncate(MOST_LINES);
         let entries = lines.into_iter().map(entry).chain(added.iter().cloned()).collect();
-        Legend { entries, more, facts: facts(simulation, moving) }
+        Legend { entries, more, facts: facts(world, moving) }
     }
 }
 
@@ -125,8 +125,8 @@ struct Line {
     bodies: usize,
 }
 
-fn facts(simulation: &Simulation, moving: usize) -> Vec<String> {
-    let (world, bodies) = (simulation.world(), simulation.bodies());
+fn facts(world: &World, moving: usize) -> Vec<String> {
+    let bodies = world.resource::<Bodies>();
     let mut things = vec![count(moving, "body", "bodies")];
     if bodies.len() > moving {
         things.push(format!("{} fixed", bodies.len() - moving));
@@ -136,7 +136,7 @@ fn facts(simulation: &Simulation, moving: usize) -> Vec<String> {
     if let Some(gravity) = world.get_resource::<Gravity>() {
         numbers.push(format!("g = {} m/s²", brief(gravity.0.length())));
     }
-    let tick = simulation.clock().dt;
+    let tick = world.resource::<Clock>().dt;
     let (tick, unit) = match tick {
         tick if tick < 1e-3 => (tick * 1e6, "µs"),
         tick if tick < 1.0 => (tick * 1e3, "ms"),
@@ -172,10 +172,11 @@ mod tests {
         )"#;
         let arrow = LegendEntry { label: "contact force".into(), mark: LegendMark::Arrow(Some("red".into())) };
         let added = arrow.clone();
-        let simulation = Simulation::load_with(&Source::new("legend.ron", scene), &Default::default(), move |app| {
-            app.add_legend(added.clone());
-        });
-        let legend = Legend::of(&simulation.unwrap_or_else(|errors| panic!("{errors}")));
+        let simulation =
+            crate::Simulation::load_with(&Source::new("legend.ron", scene), &Default::default(), move |app| {
+                app.add_legend(added.clone());
+            });
+        let legend = Legend::of(simulation.unwrap_or_else(|errors| panic!("{errors}")).world());
         let line = |label: &str, place| LegendEntry { label: label.into(), mark: LegendMark::Body(place) };
         // Bodies without a colour of their own get one each, so they have a line each.
         let bodies = [line("first", 1), line("second", 2), line("third", 3), line("gas", 4), line("pegs", 0)];

@@ -2,14 +2,12 @@
 
 mod decimate;
 pub mod legend;
-mod names;
-mod sampler;
+pub(crate) mod names;
 pub mod table;
 
 pub use decimate::Decimator;
 pub use legend::{Legend, LegendAppExt, LegendEntry, LegendMark};
 pub use names::{common, with_unit};
-pub use sampler::{Missing, Sampler};
 
 /// A point of a curve, with the time at which it was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -20,7 +20,7 @@ pub fn common(names: &[&str]) -> (String, Vec<String>) {
 }
 
 /// The first words that two names share, and what is left of each: at least one word.
-pub(super) fn headed(names: [&str; 2]) -> (String, [String; 2]) {
+pub(crate) fn headed(names: [&str; 2]) -> (String, [String; 2]) {
     let [one, other] = names.map(|name| name.split('.').collect::<Vec<_>>());
     let most = one.len().min(other.len()) - 1;
     let head = one.iter().zip(&other).take(most).take_while(|(a, b)| a == b).count();

@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::cells::Cells;
 use crate::contacts::penalty::{NormalLaw, Penalty, RollingLaw};
 use crate::forces::gravity::Gravity;
-use crate::report::card::ChosenMethod;
+use crate::integrate::ChosenMethod;
 use crate::simulation::Simulation;
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials, PackedWall};

@@ -4,11 +4,11 @@ use std::error::Error;
 
 use super::{Effort, Repeated, Wanted, estimate, watch};
 use crate::Simulation;
+use crate::integrate::ClockSection;
 use crate::problems::{EventTiming, Problem, Setting};
-use crate::report::accuracy::trajectory::Trajectory;
 use crate::scene::Source;
-use crate::scene::sections::ClockSection;
 use crate::simulation::Overrides;
+use crate::simulation::accuracy::trajectory::Trajectory;
 
 /// Methods whose estimates are compared.
 pub const METHODS: [&str; 3] = ["VelocityVerlet", "RungeKutta4", "Dop853"];

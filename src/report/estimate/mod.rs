@@ -14,13 +14,14 @@ use std::time::Duration;
 
 use bevy_ecs::prelude::*;
 
-use super::accuracy::trajectory::Trajectory;
-use super::card::{ErrorEstimate, ErrorParts, KnownError, number};
 use crate::Simulation;
 use crate::contacts::DeepestOverlap;
+use crate::integrate::ChosenMethod;
 use crate::integrate::Methods;
-use crate::report::card::ChosenMethod;
+use crate::numbers::number;
 use crate::scene::SceneErrors;
+use crate::simulation::accuracy::trajectory::Trajectory;
+use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::simulation::{Overrides, Plan};
 use crate::tick::Evaluation;
 use growth::{Growth, Seen};

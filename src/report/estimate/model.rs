@@ -10,9 +10,9 @@ use super::twins::{Finer, watch_beside};
 use super::{EstimatedError, Repeated, touches};
 use crate::Simulation;
 use crate::contacts::ContactLaw;
-use crate::report::accuracy::trajectory::Trajectory;
-use crate::report::card::ErrorEstimate;
 use crate::scene::SceneErrors;
+use crate::simulation::accuracy::trajectory::Trajectory;
+use crate::simulation::error::ErrorEstimate;
 
 /// How many times as stiff.
 const STIFFER: f64 = 4.0;

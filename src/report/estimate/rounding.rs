@@ -13,9 +13,9 @@ use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};
 use super::{EstimatedError, Repeated};
 use crate::Simulation;
-use crate::report::accuracy::trajectory::Trajectory;
-use crate::report::card::ErrorEstimate;
 use crate::scene::SceneErrors;
+use crate::simulation::accuracy::trajectory::Trajectory;
+use crate::simulation::error::ErrorEstimate;
 use crate::tick::add_packed_observer;
 use crate::world::Bodies;
 

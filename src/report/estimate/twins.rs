@@ -11,11 +11,12 @@ use super::growth::{Growth, Seen};
 use super::{CHUNKS, Repeated, moments, touches};
 use crate::Simulation;
 use crate::contacts::ContactLaw;
+use crate::integrate::ChosenMethod;
 use crate::integrate::{Detail, LocatedEvents, Pace};
-use crate::report::accuracy::trajectory::Trajectory;
-use crate::report::card::{ChosenMethod, number};
+use crate::numbers::number;
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
+use crate::simulation::accuracy::trajectory::Trajectory;
 
 /// Ticks of the first run between two that end with ticks of its twins, at most, and how many such there are at least.
 const LONGEST_CYCLE: u64 = 10;

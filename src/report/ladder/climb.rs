@@ -2,7 +2,7 @@
 //! or time is up.
 
 use super::{Budget, Course, Outcome, Setting, USELESS};
-use crate::report::card::number;
+use crate::numbers::number;
 
 /// Courses that fail so many times one after the other are left.
 const MOST_FAILURES: u32 = 12;

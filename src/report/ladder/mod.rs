@@ -17,7 +17,7 @@ pub(super) use climb::{Rules, Rungs, Subject, climb};
 pub use diagram::{Legend, Peer, diagram};
 pub(super) use timing::least;
 
-use crate::scene::sections::clock::EventTiming;
+use crate::integrate::clock::EventTiming;
 use crate::tick::Failure;
 
 /// A method, and how it goes through events.

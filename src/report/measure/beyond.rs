@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use crate::report::accuracy::trajectory::Trajectory;
+use crate::simulation::accuracy::trajectory::Trajectory;
 
 /// Means of a run over time and bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,10 +14,10 @@ pub use beyond::Apart;
 pub use reference::{NoReference, Reference};
 
 use super::ladder::{Budget, Cost, Course, Legend, Outcome, Rules, Setting, Settings, USELESS, climb, timed};
+use crate::integrate::clock::EventTiming;
 use crate::integrate::{Detail, Pace};
 use crate::raster::Diagram;
 use crate::scene::SceneErrors;
-use crate::scene::sections::clock::EventTiming;
 use crate::simulation::{Plan, Simulation};
 use scene::{Compared, Scene};
 
@@ -89,7 +89,7 @@ impl Measured {
 /// A plan with equal ticks, or steps as long as their error allows.
 fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
     // What is known of its error, nothing, keeps others from looking for it.
-    let error = Some(crate::report::card::ErrorEstimate::default());
+    let error = Some(crate::simulation::error::ErrorEstimate::default());
     Plan {
         method: method.to_owned(),
         tick,

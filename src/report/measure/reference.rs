@@ -9,13 +9,13 @@ use super::beyond::{Apart, Beyond};
 use super::scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
 use crate::Simulation;
+use crate::integrate::clock::EventTiming;
 use crate::integrate::{Allowance, Pace};
-use crate::report::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
-use crate::report::accuracy::trajectory::Trajectory;
-use crate::report::card::number;
+use crate::numbers::number;
 use crate::scene::SceneErrors;
-use crate::scene::sections::clock::EventTiming;
 use crate::simulation::Plan;
+use crate::simulation::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
+use crate::simulation::accuracy::trajectory::Trajectory;
 use crate::tick::Failure;
 
 /// Shares of the budget by which the located runs have to be done, and those by ticks that may take their place.

@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 
 use super::reference::{self, Truth};
 use super::{Load, Way};
+use crate::integrate::ChosenMethod;
 use crate::integrate::{Description, LocatedEvents, Methods};
-use crate::report::accuracy::trajectory::Trajectory;
-use crate::report::card::{ChosenMethod, number};
+use crate::numbers::number;
 use crate::report::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
 use crate::scene::SceneErrors;
+use crate::simulation::accuracy::trajectory::Trajectory;
 use crate::tick::{Models, Stability};
 
 /// The ladder begins at so many times the critical tick, where there is one: what lies beyond is seen to fail. Where it does not, as

@@ -22,10 +22,10 @@ pub use peers::Peers;
 
 use super::estimate::check::{Checked, check};
 use super::ladder::{Budget, Course, Legend, Outcome, Peer, Rules, Setting, Settings, TARGETS, climb, least};
+use crate::integrate::ClockSection;
 use crate::problems::hard::{Case, Extent, Reading, Verdict, rounded};
 use crate::problems::{self, Problem, methods};
 use crate::raster::Diagram;
-use crate::scene::sections::ClockSection;
 use subject::Asked;
 
 /// Ticks of the ladder over that of the problem.

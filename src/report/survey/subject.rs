@@ -2,8 +2,9 @@
 
 use std::convert::Infallible;
 
+use crate::integrate::ChosenMethod;
+use crate::numbers::number;
 use crate::problems::{Problem, Setting as Run};
-use crate::report::card::{ChosenMethod, number};
 use crate::report::ladder::{Course, Deviation, Outcome, Setting, Subject, timed};
 use crate::tick::Evaluation;
 

@@ -3,8 +3,8 @@
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust};
 use crate::contacts::search::OverlapAtStart;
+use crate::numbers::{number, percent};
 use crate::report::Remedy;
-use crate::report::card::{number, percent};
 use crate::tick::Ledger;
 
 /// Share of the energy that went round which springs may hold at the start without a word: what lies on the ground holds some.

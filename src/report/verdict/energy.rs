@@ -1,8 +1,8 @@
 //! Energy that is missing, or came out of nowhere.
 
 use super::{Cause, Evidence, Trust, near, ticks};
+use crate::numbers::percent;
 use crate::report::Remedy;
-use crate::report::card::percent;
 
 /// Share of the energy that went round which may be missing.
 pub(in crate::report) const UNACCOUNTED: f64 = 0.05;

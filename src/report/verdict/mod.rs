@@ -14,7 +14,9 @@ mod ticks;
 
 use bevy_ecs::prelude::*;
 
-use super::card::{Card, ErrorEstimate, name, number, percent, rough};
+use super::card::{Card, name};
+use crate::numbers::{number, percent, rough};
+use crate::simulation::error::ErrorEstimate;
 use crate::tick::{Failure, Wrong};
 use crate::world::Bodies;
 

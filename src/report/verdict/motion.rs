@@ -3,8 +3,9 @@
 
 use super::{Card, Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
 use crate::contacts::ContactLaw;
-use crate::report::card::{ErrorEstimate, number, percent};
+use crate::numbers::{number, percent};
 use crate::report::estimate::EstimatedError;
+use crate::simulation::error::ErrorEstimate;
 
 /// Share of how far bodies go by which places may be wrong without a cause.
 const INEXACT: f64 = 1e-2;

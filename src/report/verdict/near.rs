@@ -3,7 +3,7 @@
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust};
 use crate::forces::attraction::nearest;
-use crate::report::card::number;
+use crate::numbers::number;
 use crate::world::Bodies;
 
 /// An angle in radians over which an orbit goes in a tick that no method follows.

@@ -1,7 +1,7 @@
 //! Digits: places far from the origin have few of them left.
 
 use super::{Cause, Evidence, Trust};
-use crate::report::card::{number, percent, rough};
+use crate::numbers::{number, percent, rough};
 use crate::world::Bodies;
 
 /// A last digit of a place that is so large a share of what contacts do makes them rattle.

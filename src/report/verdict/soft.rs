@@ -2,7 +2,7 @@
 
 use super::{Cause, Evidence, Trust};
 use crate::contacts::DeepestOverlap;
-use crate::report::card::{number, percent};
+use crate::numbers::{number, percent};
 use crate::world::{Bodies, packed};
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::{Cause, Evidence, Trust, at};
 use crate::contacts::ContactLaw;
+use crate::numbers::number;
 use crate::report::Remedy;
 use crate::report::advice::rounded_down;
-use crate::report::card::number;
 use crate::report::estimate::EstimatedError;
 use crate::report::warnings::FEWEST_TICKS;
 use crate::tick::{Holder, Models, Responses, far_travel};

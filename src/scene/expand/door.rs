@@ -4,21 +4,21 @@ use std::io::Read;
 use std::path::Path;
 
 /// What is wrong with a file, and what to do.
-pub(super) type Wrong = (String, String);
+pub(crate) type Wrong = (String, String);
 
 /// What is read.
-pub(super) struct Wanted {
+pub(crate) struct Wanted {
     /// The largest file, in bytes.
-    pub(super) most: u64,
+    pub(crate) most: u64,
     /// What a folder of that name should have been: `a PNG picture`.
-    pub(super) noun: &'static str,
+    pub(crate) noun: &'static str,
     /// How to make a file smaller.
-    pub(super) smaller: &'static str,
+    pub(crate) smaller: &'static str,
 }
 
 impl Wanted {
     /// Reads the file at a path that messages call `name`.
-    pub(super) fn read(&self, path: &Path, name: &str) -> Result<Vec<u8>, Wrong> {
+    pub(crate) fn read(&self, path: &Path, name: &str) -> Result<Vec<u8>, Wrong> {
         let here = "the path begins at the folder of the file in which this stands";
         match std::fs::metadata(path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
@@ -34,7 +34,7 @@ impl Wanted {
     }
 
     /// All that a reader gives.
-    pub(super) fn bytes(&self, reader: impl Read, name: &str) -> Result<Vec<u8>, Wrong> {
+    pub(crate) fn bytes(&self, reader: impl Read, name: &str) -> Result<Vec<u8>, Wrong> {
         let mut bytes = Vec::new();
         reader.take(self.most + 1).read_to_end(&mut bytes).map_err(|error| self.unreadable(name, &error))?;
         if bytes.len() as u64 > self.most {

@@ -5,7 +5,8 @@ use std::rc::Rc;
 
 use super::scope::{Failed, Filled, Value, is_quantity};
 use super::write::Buffer;
-use super::{Expander, File, Outcome, packing, picture, table};
+use super::{Expander, File, Outcome, Reader, table};
+use crate::scene::embed::EmbeddingPlace;
 use crate::scene::outline::fits;
 use crate::scene::scan::skip_blank;
 use crate::scene::tree::{Form, Id, Tree};
@@ -111,11 +112,13 @@ fn fits_numbered(pattern: &str, stem: &str) -> bool {
 }
 
 /// Of each value, whether it can be copied as it stands.
-pub(super) fn plain(tree: &Tree, text: &str) -> Vec<bool> {
+pub(super) fn plain(tree: &Tree, text: &str, readers: &[Reader]) -> Vec<bool> {
     let mut plain = vec![true; tree.next() as usize];
     for id in (0..tree.next()).rev() {
+        let name = tree.name(id, text);
+        let read = |(known, _): &Reader| known.place == EmbeddingPlace::Atoms && known.name == name;
         let changes =
-            tree.node(id).form == Form::Text || matches!(tree.name(id, text), "Repeat" | picture::NAME | table::NAME);
+            tree.node(id).form == Form::Text || matches!(name, "Repeat" | table::NAME) || readers.iter().any(read);
         plain[id as usize] = !changes && tree.children(id).iter().all(|&child| plain[child as usize]);
     }
     plain
@@ -214,10 +217,8 @@ impl Expander {
                     self.child(context, out, child, key, patches, is_entry)?;
                 }
                 self.added(context, out, id, patches)?;
-                if key == "atoms" && tree.name(id, text) == picture::NAME {
-                    self.picture(context, out, id, start)?;
-                } else if is_entry && key == packing::SECTION {
-                    self.packing(context, out, id, start)?;
+                if let Some(reader) = self.reader_of(tree.name(id, text), key, is_entry) {
+                    self.embed(context, out, (id, reader), start)?;
                 }
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())

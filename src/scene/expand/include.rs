@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::emit::{Context, Place};
 use super::scope::Scope;
 use super::write::Merged;
-use super::{Cause, Expander, File, MOST_FILES, Outcome, SECTIONS, packing};
+use super::{Cause, Expander, File, MOST_FILES, Outcome, SECTIONS};
 use crate::scene::error::SceneError;
 use crate::scene::scan::scan;
 use crate::scene::source::Source;
@@ -29,6 +29,9 @@ pub(super) enum Holder {
     Included,
     Template,
 }
+
+/// Sections whose entries are many things with numbered names.
+const SERIES: [&str; 2] = ["fill", "packings"];
 
 impl Expander {
     /// Takes note of a file's parameters and templates, and opens what it includes.
@@ -404,7 +407,7 @@ impl Expander {
                     let _ = self.each(context, tree.children(section), &mut |expander, context, item| {
                         expander.spend(context, item, 0, 64)?;
                         if let Some(name) = expander.name_of(context, item)? {
-                            if ["fill", packing::SECTION].contains(&key) {
+                            if SERIES.contains(&key) {
                                 numbered.insert(name)
                             } else {
                                 names.insert(name)

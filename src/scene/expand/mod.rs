@@ -6,6 +6,7 @@
 //! which piece of which file it comes from, and through which instances and repetitions: mistakes are told where the
 //! author has to mend them. A scene that uses nothing of it is not touched.
 
+mod beside;
 mod door;
 mod emit;
 mod expression;
@@ -13,24 +14,24 @@ mod include;
 mod instance;
 mod locate;
 mod number;
-mod packing;
-mod picture;
 mod repeat;
 mod scope;
 mod table;
 mod write;
 
+use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::embed::{Embed, Embedding, EmbeddingPlace};
 use super::error::{Mark, SceneError, SceneErrors};
 use super::scan::{Scan, scan};
-use super::sections::packing::PackingTable;
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
+pub(crate) use door::Wanted;
 use emit::{Context, Place};
 use instance::Template;
 use scope::Scope;
@@ -50,8 +51,10 @@ const MOST_FILES: usize = 1000;
 /// More mistakes than this are not looked for.
 const MOST_ERRORS: usize = 50;
 
-/// Tables of bodies, by key.
-pub(super) type Tables = BTreeMap<u64, Arc<PackingTable>>;
+/// What files beside the scene became, by the keys that stand in the text.
+pub(super) type Tables = BTreeMap<u64, Arc<dyn Any + Send + Sync>>;
+/// An entry that names files, with what reads them.
+type Reader = (Embedding, Box<dyn Embed>);
 type Outcome<T> = Result<T, Box<SceneError>>;
 
 /// A file with its tree.
@@ -86,7 +89,6 @@ struct Step {
 pub(super) struct Expanded {
     pub(super) text: String,
     pub(super) notes: Vec<String>,
-    /// The tables of `packings`, by the keys that stand in the text.
     pub(super) tables: Tables,
     files: Vec<Rc<File>>,
     steps: Vec<Step>,
@@ -96,34 +98,37 @@ pub(super) struct Expanded {
 }
 
 /// Whether there is anything to be made.
-pub(super) fn is_wanted(source: &Source, tree: &Tree) -> bool {
+pub(super) fn is_wanted(source: &Source, tree: &Tree, embeddings: &[Embedding]) -> bool {
     if tree.node(0).form != Form::Round || tree.name(0, &source.text) != "Scene" {
         return false;
     }
     let mut sections = tree.children(0).iter().map(|&id| &source.text[tree.key(id)]);
     !source.settings.is_empty()
-        || sections.any(|name| SECTIONS.contains(&name) || name == packing::SECTION)
+        || sections.any(|name| SECTIONS.contains(&name) || embeddings.iter().any(|known| known.name == name))
         || source.text.contains("Repeat")
         || source.text.contains("repeat(")
-        || source.text.contains(picture::NAME)
+        || embeddings.iter().any(|known| known.place == EmbeddingPlace::Atoms && source.text.contains(known.name))
         || source.text.contains(table::NAME)
 }
 
-/// The sections that a scene has when everything is made, by name; none if it cannot be made.
-pub(super) fn made(source: &Source) -> Option<BTreeMap<String, String>> {
+/// The sections that a scene has when everything is made, by name; none if it cannot be made. Entries that name files become
+/// what `embeddings` know.
+pub(super) fn made(source: &Source, embeddings: &[Embedding]) -> Option<BTreeMap<String, String>> {
     let found = scan(&source.text);
     if found.fault.is_some() {
         return None;
     }
-    let text = if is_wanted(source, &found.tree) { expand(source, found).ok()?.text } else { source.text.clone() };
+    let wanted = is_wanted(source, &found.tree, embeddings);
+    let text = if wanted { expand(source, found, embeddings).ok()?.text } else { source.text.clone() };
     let tree = scan(&text).tree;
     let section = |&id: &Id| (text[tree.key(id)].to_owned(), text[tree.span(id)].to_owned());
     Some(tree.children(0).iter().map(section).collect())
 }
 
 /// Makes what the scene asks for, from what the walk over its text found.
-pub(super) fn expand(source: &Source, found: Scan) -> Result<Expanded, SceneErrors> {
-    let mut expander = Expander::default();
+pub(super) fn expand(source: &Source, found: Scan, embeddings: &[Embedding]) -> Result<Expanded, SceneErrors> {
+    let readers = embeddings.iter().map(|known| (*known, (known.reader)())).collect();
+    let mut expander = Expander { readers, ..Expander::default() };
     expander.steps.push(Step { before: 0, depth: 0, file: 0, at: (0, 0), cause: None });
     expander.errors = found.errors;
     let file = expander.add_file(source.clone(), found.tree);
@@ -154,8 +159,8 @@ struct Expander {
     instances: BTreeSet<String>,
     /// The files that are being opened, each included by the one before.
     open_files: Vec<PathBuf>,
-    silhouettes: Vec<picture::Known>,
-    packings: Vec<packing::Known>,
+    /// Entries that name files, with what reads them.
+    readers: Vec<Reader>,
     tables: Tables,
     made: u64,
     work: usize,
@@ -167,7 +172,7 @@ struct Expander {
 
 impl Expander {
     fn add_file(&mut self, source: Source, tree: Tree) -> Rc<File> {
-        let plain = emit::plain(&tree, &source.text);
+        let plain = emit::plain(&tree, &source.text, &self.readers);
         let file = Rc::new(File { number: self.files.len(), source, tree, plain });
         self.files.push(Rc::clone(&file));
         file

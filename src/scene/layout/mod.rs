@@ -27,7 +27,7 @@ pub(crate) fn laid_out(source: &Source) -> Result<String, SceneErrors> {
         return Ok(as_it_stands);
     }
     let sorted = write::write(&file);
-    let same = |text: &String| super::expand::made(&Source { text: text.clone(), ..source.clone() });
+    let same = |text: &String| super::expand::made(&Source { text: text.clone(), ..source.clone() }, &[]);
     Ok(match (same(&as_it_stands), same(&sorted)) {
         (Some(before), Some(after)) if before == after => sorted,
         _ => as_it_stands,

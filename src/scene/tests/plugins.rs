@@ -5,13 +5,13 @@ use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use serde::{Deserialize, Deserializer};
 
-use crate::scene::sections::{
-    BodiesSection, ClockSection, FillSection, FilmSection, FitCamera, LookCamera, WallsSection, camera,
-};
+use crate::integrate::ClockSection;
+use crate::record::sections::{FilmSection, FitCamera, LookCamera, camera};
 use crate::scene::units::{Position, QuadraticDamping, Speed};
 use crate::scene::values::Names;
 use crate::scene::{Arity, Entry, Kind, Outline, Report, SceneAppExt, Section, Written};
 use crate::world::material::{MaterialsSection, PairsSection};
+use crate::world::sections::{BodiesSection, FillSection, WallsSection};
 
 #[derive(Resource, Default)]
 pub(super) struct Log(pub(super) Vec<String>);

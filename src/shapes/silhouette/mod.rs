@@ -9,7 +9,9 @@
 //! magnified. Counting by pixels knows areas to about one pixel times the length of the outline.
 
 mod cover;
+mod embed;
 mod mask;
 
 pub(crate) use cover::{Covering, Fineness};
+pub(crate) use embed::EMBEDDING;
 pub(crate) use mask::Mask;

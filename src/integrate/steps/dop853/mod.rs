@@ -14,7 +14,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::{Flow, OneStep, Start};
+use super::{OneStep, Start};
+use crate::tick::Flow;
 use table::{ALL_STAGES, DENSE, ERROR_5, POLYNOMIALS, RESULT, RESULT_3, STAGES, STEP, Stage, Sum};
 
 /// DOP853.

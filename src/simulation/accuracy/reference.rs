@@ -7,17 +7,17 @@
 use super::fineness::Trials;
 use super::tolerance::estimate;
 use crate::Simulation;
-use crate::report::card::{number, rough};
+use crate::numbers::{number, rough};
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
 use crate::world::Position;
 
 /// Error of a step of the finer run, as a share of the motion.
-pub(in crate::report) const FINE: f64 = 1e-14;
+pub(crate) const FINE: f64 = 1e-14;
 /// That of the coarser one, a hundred times as much.
-pub(in crate::report) const COARSE: f64 = 1e-12;
+pub(crate) const COARSE: f64 = 1e-12;
 /// Share of the motion by which the third run begins beside the first.
-pub(in crate::report) const BESIDE: f64 = 1e-10;
+pub(crate) const BESIDE: f64 = 1e-10;
 /// Share of the motion at which an error is seen.
 const SEEN: f64 = 1e-3;
 /// A disturbance that grows by less is no chaos.
@@ -26,7 +26,7 @@ const CHAOS: f64 = 1e4;
 /// the `1/p`-th power of that factor as many times: more than this for `p` up to 2.
 const TWICE: f64 = 5.0;
 /// Runs that differ by more than this share of the motion tell no places.
-pub(in crate::report) const TELLS_NOTHING: f64 = 0.1;
+pub(crate) const TELLS_NOTHING: f64 = 0.1;
 
 /// Runs that differ by less than this share of the distance from the origin are alike but for a few roundings of places.
 const ALIKE: f64 = 8.0 * f64::EPSILON;
@@ -89,7 +89,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
 }
 
 /// When rounding is seen, in s, if a disturbance grows by these factors until these times, and does so exponentially.
-pub(in crate::report) fn horizon(growths: &[(f64, f64)]) -> Option<f64> {
+pub(crate) fn horizon(growths: &[(f64, f64)]) -> Option<f64> {
     // Once it is seen it can grow no more.
     let most = growths.iter().fold(0.0, |most, (_, growth)| growth.max(most)).min(SEEN / BESIDE);
     let reaches = |factor: f64| growths.iter().find(|(_, growth)| *growth >= factor).map(|(time, _)| *time);
@@ -98,7 +98,7 @@ pub(in crate::report) fn horizon(growths: &[(f64, f64)]) -> Option<f64> {
 }
 
 /// Moves each dynamic body by `distance` metres, in turns along x and y.
-pub(in crate::report) fn disturb(simulation: &mut Simulation, distance: f64) {
+pub(crate) fn disturb(simulation: &mut Simulation, distance: f64) {
     let entities: Vec<_> = {
         let bodies = simulation.bodies();
         (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(|body| bodies.entity[body]).collect()

@@ -1,5 +1,19 @@
 //! From the scene's `materials`, `pairs`, `walls`, `bodies`, `packings` and `fill` to entities.
 
+pub mod bodies;
+pub mod fill;
+pub mod kinematic;
+pub mod packing;
+pub mod region;
+pub mod walls;
+
+pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
+pub use fill::{FillEntry, FillSection};
+pub use kinematic::{KinematicEntry, PathEntry};
+pub use packing::{PackingEntry, PackingsSection};
+pub use region::Region;
+pub use walls::{WallEntry, WallsSection};
+
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -8,10 +22,9 @@ use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::{NextKey, Series, after_others, spawn_series};
 use super::{Atom, Motion, Name, NewBody, Wall};
 use crate::scene::names::of_series;
-use crate::scene::sections::{BodiesSection, FillSection, PackingsSection, WallsSection};
-use crate::scene::{Kind, Outline, SceneAppExt};
-use crate::shapes::AtomSpec;
+use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::{self, MassProperties};
+use crate::shapes::{AtomSpec, silhouette};
 
 /// Registers the sections. Materials come first: the others name them.
 pub fn plugin(app: &mut App) {
@@ -21,6 +34,8 @@ pub fn plugin(app: &mut App) {
     app.register_section::<WallsSection>();
     app.register_section::<BodiesSection>();
     app.register_section::<PackingsSection>();
+    register_embedding(app, packing::EMBEDDING);
+    register_embedding(app, silhouette::EMBEDDING);
     app.register_section::<FillSection>();
 }
 

@@ -11,7 +11,7 @@ use crate::shapes::Atoms;
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::world::{Kinematic, material, sections};
 
-use super::KinematicEntry;
+use crate::world::sections::KinematicEntry;
 
 pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 

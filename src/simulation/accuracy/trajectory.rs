@@ -54,7 +54,7 @@ impl Moments {
 }
 
 /// A run as it went.
-pub(in crate::report) struct Trajectory {
+pub(crate) struct Trajectory {
     moments: Moments,
     /// Greatest distance of any point of each body from its centre of mass in m.
     extents: Vec<f64>,
@@ -73,7 +73,7 @@ const LEAST_SHARE: f64 = 1e-2;
 
 /// How far two runs are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::report) struct Apart {
+pub(crate) struct Apart {
     /// The greater of both as shares: of how far each body goes, and of how fast it is.
     pub share: f64,
     /// Greatest distance between the places of a point of a body, in m.

@@ -3,10 +3,10 @@
 use super::Tell;
 use super::trajectory::{MOST_MOMENTS, Trajectory};
 use crate::Simulation;
+use crate::integrate::clock::EventTiming;
 use crate::integrate::{Allowance, Pace};
-use crate::report::card::number;
+use crate::numbers::number;
 use crate::scene::SceneErrors;
-use crate::scene::sections::clock::EventTiming;
 use crate::simulation::Plan;
 
 /// What is made finer from trial to trial.

@@ -7,9 +7,10 @@
 
 use super::fineness::{Ladder, Trials};
 use super::trajectory::{Apart, Trajectory};
-use crate::report::card::{ErrorEstimate, ErrorParts, number, rough};
+use crate::numbers::{number, rough};
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
+use crate::simulation::error::{ErrorEstimate, ErrorParts};
 
 /// A trial is good where a finer one differs from it by this share of the tolerance; and the finer one is where they differ by so
 /// many tolerances: it is wrong by more only if both are wrong by as much, and alike.

@@ -3,21 +3,21 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::door::Wanted;
-use super::emit::{Context, WORK};
-use super::write::Buffer;
-use super::{Expander, Outcome};
-use crate::scene::Report;
-use crate::scene::explain;
-use crate::scene::suggest;
-use crate::scene::tree::Id;
+use super::{Covering, Fineness, Mask};
+use crate::scene::embed::{Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
 use crate::scene::values::WholeNumber;
+use crate::scene::{Report, read_value, suggest};
 use crate::shapes::png::{MOST_ATOMS, Png};
-use crate::shapes::silhouette::{Covering, Fineness, Mask};
 
-/// The leading name of a silhouette.
-pub(super) const NAME: &str = "Png";
-const FIELDS: [&str; 5] = ["file", "height", "count", "radius", "stiffness"];
+/// `atoms: Png(..)`.
+pub(crate) const EMBEDDING: Embedding = Embedding {
+    name: "Png",
+    place: EmbeddingPlace::Atoms,
+    fields: &["file", "height", "count", "radius", "stiffness"],
+    required: &["file", "height"],
+    example: Png::EXAMPLE,
+    reader: || Box::<Pictures>::default(),
+};
 /// What pictures that come with the program are called by.
 const SHIPPED: &str = "example:";
 /// Name and contents of each picture in `assets/silhouettes/`.
@@ -27,8 +27,11 @@ const PICTURE: Wanted =
 /// So many different silhouettes are worked out, each in up to half a second.
 const MOST_DIFFERENT: usize = 50;
 
-/// What was found for a silhouette before.
-pub(super) struct Known {
+/// What was found for silhouettes before.
+#[derive(Default)]
+struct Pictures(Vec<Known>);
+
+struct Known {
     file: String,
     fineness: Fineness,
     covering: Covering,
@@ -37,44 +40,29 @@ pub(super) struct Known {
 /// A mistake: its words, what to do, and the field it is about.
 type Wrong = (String, String, &'static str);
 
-impl Expander {
-    /// Adds the discs to a silhouette whose fields were just copied; `start` is where its leading name begins.
-    pub(super) fn picture(&mut self, context: &Context, out: &mut Buffer, id: Id, start: usize) -> Outcome<()> {
-        self.fields(context, id, &FIELDS, Png::EXAMPLE)?;
-        let written = format!("{})", &out.text[start + NAME.len()..]);
+impl Embed for Pictures {
+    fn embed(&mut self, entry: &str, folder: Option<&Path>) -> Result<Option<Embedded>, Unfit> {
         // What the shape's own reading and check find is told by them, in their words.
-        let Ok(png) = explain::read::<Png>(&written) else {
-            self.required(context, id, "file", Png::EXAMPLE)?;
-            self.required(context, id, "height", Png::EXAMPLE)?;
-            return Ok(());
+        let Some(png) = read_value::<Png>(entry).ok().filter(|png| png.numbers_are_good(&mut Report::new())) else {
+            return Ok(None);
         };
-        if !png.numbers_are_good(&mut Report::new()) {
-            return Ok(());
-        }
-        let found = self.covering(context, &png).map_err(|(message, help, field)| {
-            let (tree, text) = (&context.file.tree, &context.file.source.text);
-            let at = self.field(context, id, field).unwrap_or(id);
-            let mut error = self.wrong(context, tree.head_or_value(at), message);
-            error.path = tree.path(at, text);
-            error.label = "this value".into();
-            Box::new(error.with_help(help))
-        })?;
-        let height = png.height.si();
-        let mut discs = String::from(", discs: [");
-        for disc in &self.silhouettes[found].covering.discs {
+        let (found, note) =
+            self.covering(folder, &png).map_err(|(message, help, field)| Unfit { message, help, field })?;
+        let (height, covered) = (png.height.si(), &self.0[found].covering.discs);
+        let mut fields = String::from("discs: [");
+        for disc in covered {
             let (x, y, radius) = (disc.x * height, disc.y * height, disc.radius * height);
             // Writing to a text cannot fail.
-            let _ = write!(discs, "({x:?}, {y:?}, {radius:?}),");
+            let _ = write!(fields, "({x:?}, {y:?}, {radius:?}),");
         }
-        discs.push(']');
-        self.spend(context, id, 0, WORK * self.silhouettes[found].covering.discs.len() + discs.len())?;
-        out.made(&discs, context.file.number, context.file.tree.head(id), context.step);
-        Ok(())
+        fields.push(']');
+        Ok(Some(Embedded { fields, work: covered.len(), note, data: None }))
     }
+}
 
-    /// The discs of a silhouette: which of the known ones.
-    fn covering(&mut self, context: &Context, png: &Png) -> Result<usize, Wrong> {
-        let folder = context.file.source.folder.as_ref();
+impl Pictures {
+    /// The discs of a silhouette: which of the known ones, and a note if it was not known before.
+    fn covering(&mut self, folder: Option<&Path>, png: &Png) -> Result<(usize, Option<String>), Wrong> {
         let shipped = png.file.starts_with(SHIPPED);
         let file = match folder {
             Some(folder) if !shipped => folder.join(&png.file).display().to_string(),
@@ -84,11 +72,10 @@ impl Expander {
             (Some(WholeNumber(count)), _) => Fineness::Count(count as usize),
             (None, radius) => Fineness::Radius(radius.unwrap_or_default().si() / png.height.si()),
         };
-        if let Some(known) = self.silhouettes.iter().position(|known| known.file == file && known.fineness == fineness)
-        {
-            return Ok(known);
+        if let Some(known) = self.0.iter().position(|known| known.file == file && known.fineness == fineness) {
+            return Ok((known, None));
         }
-        if self.silhouettes.len() == MOST_DIFFERENT {
+        if self.0.len() == MOST_DIFFERENT {
             let message = format!("the scene has more than {MOST_DIFFERENT} different silhouettes");
             return Err((message, "use the same picture and `count` again".into(), "file"));
         }
@@ -104,9 +91,9 @@ impl Expander {
         };
         let mask = Mask::read(&bytes).map_err(|(why, help)| (format!("`{name}` {why}"), help.to_owned(), "file"))?;
         let covering = cover(&mask, fineness, png)?;
-        self.notes.push(note(name, fineness, &covering));
-        self.silhouettes.push(Known { file, fineness, covering });
-        Ok(self.silhouettes.len() - 1)
+        let note = note(name, fineness, &covering);
+        self.0.push(Known { file, fineness, covering });
+        Ok((self.0.len() - 1, Some(note)))
     }
 }
 

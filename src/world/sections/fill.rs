@@ -7,12 +7,12 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::Region;
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::Atoms;
 use crate::shapes::mass_properties;
+use crate::world::sections::Region;
 use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read, and a film reads its

@@ -5,9 +5,11 @@ use bevy_ecs::resource::Resource;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use crate::raster::Theme;
 use crate::scene::values::Elsewhere;
 use crate::scene::{Outline, Report, Section, suggest};
+
+/// The list of words for themes that come with the program.
+pub const THEMES: &str = "theme";
 
 /// The list of entries inside this section: the layers of a film.
 pub const LAYERS: &str = "look.layers";
@@ -48,9 +50,14 @@ impl Section for LookSection {
     /// Reports an unknown theme, and layers that stand there twice.
     fn check(&self, outline: &Outline, report: &mut Report) {
         if let Some(theme) = self.theme.as_deref().filter(|theme| !Self::is_file(theme))
-            && !Theme::names().contains(&theme)
+            && outline.word(THEMES, theme).is_none()
         {
-            let known = suggest::among(theme, Theme::names().into_iter(), "themes", '"');
+            let known = suggest::among(
+                theme,
+                outline.words(THEMES).map(|(name, _)| name).collect::<Vec<_>>().into_iter(),
+                "themes",
+                '"',
+            );
             let help = format!("{known}; a theme of your own is a file such as \"mine.ron\"");
             report.error("theme", format!("there is no theme \"{theme}\"")).help(help);
         }

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 
-use super::between::{Moment, angle_between, position_between};
-use super::frame::{BodyLook, Cast, Disc, Frame, Pose, WallLook};
-use super::layers::Layers;
+use crate::record::frame::{BodyLook, Cast, Disc, Frame, Pose, WallLook};
+use crate::record::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
+use crate::world::between::{Moment, angle_between, position_between};
 use crate::world::{Bodies, Materials, Motion, Name, Wall};
 
 /// Takes frames of a running simulation.

@@ -1,9 +1,9 @@
 //! Runs that know their error: a scene is run in several ways, and what they differ by says how wrong they are.
 
 mod fineness;
-pub(super) mod reference;
+pub(crate) mod reference;
 mod tolerance;
-pub(super) mod trajectory;
+pub(crate) mod trajectory;
 
 use crate::Simulation;
 use crate::scene::SceneErrors;

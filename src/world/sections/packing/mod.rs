@@ -1,5 +1,6 @@
 //! `packings`: many bodies whose places stand in a table beside the scene.
 
+mod embed;
 mod table;
 
 use std::sync::Arc;
@@ -12,6 +13,7 @@ use crate::scene::names;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
+pub(in crate::world) use embed::EMBEDDING;
 pub use table::{PackedBody, PackingTable, Wrong};
 
 /// The largest number of atoms of all entries together.
@@ -109,6 +111,6 @@ impl PackingEntry {
 
     /// Its table, as it was read.
     pub fn read(&self, outline: &Outline) -> Option<Arc<PackingTable>> {
-        self.table.and_then(|table| outline.table(table))
+        self.table.and_then(|table| outline.embedded(table))
     }
 }

@@ -5,10 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use super::names::{common, headed, with_unit};
-use super::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
+use crate::record::plot::names::{common, headed, with_unit};
+use crate::record::plot::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
+use crate::record::sections::PlotEntry;
 use crate::scene::Outline;
-use crate::scene::sections::PlotEntry;
 use crate::sensors::{self, Channel};
 use crate::simulation::Simulation;
 use crate::tick::Failure;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::Word;
-use crate::scene::{Outline, Report, Section};
+use crate::scene::{Outline, Report, SceneAppExt, Section};
 
 /// When forces jump (touch, part, stick, slip), inside a tick or at its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -109,4 +109,11 @@ impl Section for ClockSection {
     fn install(self, _: &Outline, app: &mut App) {
         app.insert_resource(self);
     }
+}
+
+/// Registers the section, and the words that name no method of their own.
+pub(crate) fn plugin(app: &mut App) {
+    app.register_word(ClockSection::METHODS, ClockSection::AUTO);
+    app.register_word(ClockSection::METHODS, ClockSection::REFERENCE);
+    app.register_section::<ClockSection>();
 }

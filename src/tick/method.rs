@@ -1,0 +1,29 @@
+//! What a method of integration is to the tick.
+
+use super::{Style, Tick};
+
+/// A method that advances the state by one tick.
+pub trait Integrator: Send + Sync + 'static {
+    /// Advances the state by `tick.dt`.
+    fn advance(&mut self, tick: &mut Tick);
+
+    /// How it wants models with a history to be evaluated.
+    fn style(&self) -> Style {
+        Style::Following
+    }
+
+    /// Whether each tick is one step of velocity Verlet, so that a body moves along a parabola as long as nothing but its weight
+    /// acts on it.
+    fn flies(&self) -> bool {
+        false
+    }
+
+    /// Whether it changes the state through the methods of [`Tick`] alone and looks for it nowhere else, such as in
+    /// [`Tick::world`]: then ticks need no schedules where all models are the engine's own.
+    fn is_direct(&self) -> bool {
+        false
+    }
+}
+
+/// The integrator of a run.
+pub struct Method(pub Box<dyn Integrator>);
