@@ -191,8 +191,9 @@ impl PlotCommand {
             return Err(request.refuse(Exit::Usage, flag, &problem.message, help));
         }
         let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
-        for name in named {
-            let unit = sensors::find(simulation.world_mut(), &name).map_or("", |channel| channel.unit);
+        let found = sensors::find_all(simulation.world_mut(), &named);
+        for (name, channel) in named.into_iter().zip(found) {
+            let unit = channel.map_or("", |channel| channel.unit);
             match groups.iter_mut().find(|(known, _)| *known == unit) {
                 Some((_, names)) => names.push(name),
                 None => groups.push((unit, vec![name])),

@@ -36,6 +36,17 @@ pub struct LargestOverlap {
     pub time: f64,
 }
 
+/// How far the two bodies of a joint were from where it holds them, at most.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LargestDrift {
+    /// In metres.
+    pub meters: f64,
+    /// The joint.
+    pub joint: String,
+    /// When, in seconds.
+    pub time: f64,
+}
+
 /// The error card.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Card {
@@ -56,8 +67,8 @@ pub struct Card {
     pub angular_momentum_residual: f64,
     /// The deepest overlap.
     pub largest_overlap: LargestOverlap,
-    /// The largest joint drift in metres.
-    pub largest_joint_drift: f64,
+    /// The largest drift of a joint; nothing, as long as a scene has none.
+    pub largest_joint_drift: Option<LargestDrift>,
     /// Greatest travel of any point in one tick over the smallest radius.
     pub largest_travel_share: f64,
     /// Simulated over spent time.
@@ -136,7 +147,7 @@ impl Card {
             momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
             angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
             largest_overlap: largest_overlap(world),
-            largest_joint_drift: 0.0,
+            largest_joint_drift: None,
             largest_travel_share: share(largest_travel(world)),
             real_time_factor: if seconds_spent > 0.0 { clock.time() / seconds_spent } else { 0.0 },
             ns_per_atom_tick: seconds_spent * 1e9 / atoms,

@@ -7,10 +7,10 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found, entity_named};
+use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactForces;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
-use crate::world::{Bodies, Body, Wall, packed};
+use crate::world::{Bodies, packed};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
 
@@ -48,8 +48,8 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         "force.y" => |force| force.y,
         _ => return None,
     };
-    let wall = entity_named::<Wall>(world, owner);
-    let entity = wall.or_else(|| entity_named::<Body>(world, owner))?;
+    let wall = wall_named(world, owner);
+    let entity = wall.or_else(|| body_named(world, owner))?;
     world.init_resource::<ContactForces>();
     let force = move |world: &World| {
         let (bodies, forces) = (world.resource::<Bodies>(), world.resource::<ContactForces>());

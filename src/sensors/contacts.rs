@@ -8,13 +8,12 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found, entity_named};
+use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::add_packed_observer;
-use crate::world::{Body, Wall};
 
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 
@@ -77,7 +76,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     if !QUANTITIES.contains(&quantity) {
         return None;
     }
-    let entity = entity_named::<Body>(world, owner).or_else(|| entity_named::<Wall>(world, owner))?;
+    let entity = body_named(world, owner).or_else(|| wall_named(world, owner))?;
     watch(world);
     if quantity == "contacts" {
         let count = move |world: &World| world.resource::<ContactEvents>().count(entity) as f64;

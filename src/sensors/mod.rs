@@ -10,14 +10,14 @@ mod overlap;
 mod pose;
 mod velocity;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::scene::values::Word;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
-use crate::world::{Bodies, Name, packed};
+use crate::world::{Bodies, Body, Name, Wall, packed};
 
 /// One measured number: its name, its unit and how it is read.
 pub struct Channel {
@@ -133,7 +133,8 @@ pub fn expanded(pattern: &str, world: &mut World, outline: &Outline) -> Vec<Stri
     let owners = owners.filter(|name| fits(owner, name));
     let own = owners.flat_map(|name| outline.words(QUANTITIES).map(move |(quantity, _)| format!("{name}.{quantity}")));
     let fitting: Vec<String> = whole.chain(own).filter(|name| fits(pattern, name)).collect();
-    fitting.into_iter().filter(|name| find(world, name).is_some()).collect()
+    let found = find_all(world, &fitting);
+    fitting.into_iter().zip(found).filter(|(_, channel)| channel.is_some()).map(|(name, _)| name).collect()
 }
 
 /// The channel called `name`, for example `ball.position.x` or `energy.residual`. Bodies and walls must have been
@@ -148,17 +149,52 @@ pub fn find(world: &mut World, name: &str) -> Option<Channel> {
 fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
     let channels = world.get_resource_or_init::<Channels>();
     let mut there: BTreeSet<String> = channels.0.iter().map(|channel| channel.name.clone()).collect();
-    for name in names {
-        if there.insert(name.clone())
-            && let Some(channel) = find(world, &name)
-        {
-            world.get_resource_or_init::<Channels>().0.push(channel);
+    let names: Vec<String> = names.into_iter().filter(|name| there.insert(name.clone())).collect();
+    let found: Vec<Channel> = find_all(world, &names).into_iter().flatten().collect();
+    world.resource_mut::<Channels>().0.extend(found);
+}
+
+/// The channels of these names, each as [`find`] finds it, in a time that grows with their number and that of bodies.
+pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
+    let mut query = world.query::<(Entity, &Name, Has<Body>, Has<Wall>)>();
+    let mut index = NameIndex::default();
+    for (entity, name, body, wall) in query.iter(world) {
+        for (list, has) in [(&mut index.bodies, body), (&mut index.walls, wall)] {
+            if has {
+                list.entry(name.to_string()).or_insert(entity);
+            }
         }
+    }
+    world.insert_resource(index);
+    let found = names.iter().map(|name| find(world, name)).collect();
+    world.remove_resource::<NameIndex>();
+    found
+}
+
+/// Bodies and walls by name, while many are looked for.
+#[derive(Resource, Default)]
+struct NameIndex {
+    bodies: BTreeMap<String, Entity>,
+    walls: BTreeMap<String, Entity>,
+}
+
+/// The entity of the body called `name`.
+fn body_named(world: &mut World, name: &str) -> Option<Entity> {
+    match world.get_resource::<NameIndex>() {
+        Some(index) => index.bodies.get(name).copied(),
+        None => search::<Body>(world, name),
     }
 }
 
-/// Entity of the body or wall called `name`.
-fn entity_named<C: Component>(world: &mut World, name: &str) -> Option<Entity> {
+/// The entity of the wall called `name`.
+fn wall_named(world: &mut World, name: &str) -> Option<Entity> {
+    match world.get_resource::<NameIndex>() {
+        Some(index) => index.walls.get(name).copied(),
+        None => search::<Wall>(world, name),
+    }
+}
+
+fn search<C: Component>(world: &mut World, name: &str) -> Option<Entity> {
     let mut query = world.query_filtered::<(Entity, &Name), With<C>>();
     query.iter(world).find(|(_, found)| **found == *name).map(|(entity, _)| entity)
 }
@@ -171,7 +207,7 @@ fn of_body(
     unit: &'static str,
     read: fn(&Bodies, usize) -> f64,
 ) -> Option<Channel> {
-    let entity = entity_named::<crate::world::Body>(world, name)?;
+    let entity = body_named(world, name)?;
     let value = move |world: &World| {
         let bodies = world.resource::<Bodies>();
         packed::place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))

@@ -154,9 +154,12 @@ impl Sampler {
 
 fn gauge(simulation: &mut Simulation, entry: &PlotEntry, outline: &Outline) -> Result<Gauge, String> {
     let world = simulation.world_mut();
-    let mut find = |name: String| sensors::find(world, &name).ok_or(name);
+    let mut find = |names: Vec<String>| {
+        let found = sensors::find_all(world, &names).into_iter().zip(names);
+        found.map(|(channel, name)| channel.ok_or(name)).collect::<Result<Vec<_>, _>>()
+    };
     if let Some(histogram) = &entry.histogram {
-        let mut channels = histogram.channels(outline).into_iter().map(find).collect::<Result<Vec<_>, _>>()?;
+        let mut channels = find(histogram.channels(outline))?;
         return Ok(match (&histogram.channel, channels.pop()) {
             (Some(_), Some(channel)) => Gauge::Values(channel, empty(entry), Vec::new()),
             (_, last) => {
@@ -165,8 +168,8 @@ fn gauge(simulation: &mut Simulation, entry: &PlotEntry, outline: &Outline) -> R
             }
         });
     }
-    let x = entry.x.clone().map(&mut find).transpose()?;
-    let upward = entry.channels(outline).into_iter().map(find).collect::<Result<Vec<_>, _>>()?;
+    let x = find(entry.x.iter().cloned().collect())?.pop();
+    let upward = find(entry.channels(outline))?;
     Ok(match x {
         Some(x) => Gauge::Phases(x, upward.into_iter().map(|channel| (channel, Vec::new())).collect()),
         None => Gauge::Times(upward.into_iter().map(|channel| (channel, Decimator::default())).collect()),
