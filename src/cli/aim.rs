@@ -6,6 +6,7 @@ use super::Exit;
 use super::film::Order;
 use super::progress::Progress;
 use super::say::say;
+use crate::cli::author;
 use crate::raster::{Bounds, Camera, Panel};
 use crate::record::Schedule;
 use crate::record::follow::Follower;
@@ -131,7 +132,7 @@ impl Order<'_> {
     /// The scene once more, from its beginning.
     pub(super) fn again(&self, simulation: &Simulation) -> Result<Simulation, Exit> {
         let overrides = Overrides { plan: simulation.plan().cloned(), ..self.overrides.clone() };
-        let again = Simulation::load_with(self.source, &overrides, |_| {});
+        let again = Simulation::load_with(self.source, &overrides, author::plugin);
         again.map_err(|errors| self.request.refuse_scene(&errors))
     }
 }

@@ -7,6 +7,7 @@ use clap::Args;
 use super::Exit;
 use super::load::Request;
 use super::say::say;
+use crate::cli::author;
 use crate::report::estimate::{self, Effort, Repeated, Wanted};
 use crate::scene::Source;
 use crate::simulation::{Overrides, Simulation};
@@ -51,7 +52,7 @@ impl EstimateFlags {
         request: Request,
         (source, overrides): (&Source, &Overrides),
     ) -> Result<(), Exit> {
-        let load = |overrides: &Overrides| Simulation::load_with(source, overrides, |_| {});
+        let load = |overrides: &Overrides| Simulation::load_with(source, overrides, author::plugin);
         let scene = Repeated { overrides, load: &load, tell: Some(tell) };
         estimate::estimate(simulation, self.wanted(), &scene).map_err(|errors| request.refuse_scene(&errors))
     }

@@ -82,6 +82,7 @@ fn registered() -> Vec<&'static str> {
     let mut app = bevy_app::App::empty();
     app.add_tick();
     crate::plugins::standard(&mut app);
+    crate::cli::author::plugin(&mut app);
     let registered = app.world().get_resource::<Methods>().map_or_else(Vec::new, |methods| methods.0.clone());
     registered.into_iter().map(|method| method.name).collect()
 }

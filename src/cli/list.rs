@@ -5,12 +5,14 @@ use clap::Args;
 
 use super::say::{count, print_line, say};
 use super::{Exit, examples};
+use crate::cli::author;
 use crate::integrate::ClockSection;
 use crate::integrate::Methods;
 use crate::raster::Theme;
 use crate::scene::schema::Language;
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, Source, nearest_name};
+use crate::simulation::Overrides;
 use crate::simulation::Simulation;
 use crate::tick::TickAppExt;
 
@@ -76,6 +78,7 @@ impl List {
         let mut app = App::empty();
         app.add_tick();
         crate::plugins::standard(&mut app);
+        author::plugin(&mut app);
         let registry = app.world().resource::<SceneRegistry>();
         let Some(mut items) = self.items(&app, registry) else {
             let all = kinds(registry);
@@ -149,7 +152,7 @@ fn kinds(registry: &SceneRegistry) -> Vec<String> {
 
 /// A scene that comes with the program. That it can be read is tested.
 fn scene(name: &str, text: &str) -> Item {
-    let simulation = Simulation::load(&Source::new(name, text));
+    let simulation = Simulation::load_with(&Source::new(name, text), &Overrides::default(), author::plugin);
     let header = simulation.as_ref().map(Simulation::header).ok();
     let notes = header.and_then(|header| header.notes.clone()).unwrap_or_default();
     // The first sentence fits into a line.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::say::{print_line, say};
 use super::{Exit, examples};
+use crate::cli::author;
 use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
 
@@ -34,7 +35,7 @@ impl Request<'_> {
         overrides: &Overrides,
     ) -> Result<(Source, Simulation), SceneErrors> {
         let source = source(self.name)?.with_settings(settings);
-        let simulation = Simulation::load_with(&source, overrides, |_| {})?;
+        let simulation = Simulation::load_with(&source, overrides, author::plugin)?;
         Ok((source, simulation))
     }
 

@@ -1,6 +1,7 @@
 //! The command line: one file per command.
 
 mod aim;
+mod author;
 mod bench;
 mod check;
 mod colors;
@@ -87,6 +88,8 @@ fn after_help() -> String {
     let names: Vec<&str> = examples::SCENES.iter().map(|(name, _)| *name).collect();
     EXAMPLES.replace("{scenes}", &names.join(", "))
 }
+
+pub use author::main_with;
 
 /// 2D physics without a window: a scene in a RON file goes in; films, numbers and a statement of how wrong they are
 /// come out.

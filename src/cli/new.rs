@@ -11,9 +11,11 @@ use super::say::{print_line, say};
 
 /// What the templates are called by until they get a name of their own.
 const TEMPLATE: [&str; 2] = ["home_spring", "HomeSpring"];
-const PLUGIN_FILES: [(&str, &str); 3] = [
+const PLUGIN_FILES: [(&str, &str); 5] = [
     ("src/lib.rs", include_str!("../../assets/templates/plugin/lib.rs")),
+    ("src/main.rs", include_str!("../../assets/templates/plugin/main.rs")),
     ("src/tests.rs", include_str!("../../assets/templates/plugin/tests.rs")),
+    ("scene.ron", include_str!("../../assets/templates/plugin/scene.ron")),
     ("README.md", include_str!("../../assets/templates/plugin/README.md")),
 ];
 const MANIFEST: &str = include_str!("../../assets/templates/plugin/manifest.txt");

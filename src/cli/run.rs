@@ -15,6 +15,7 @@ use super::say::say;
 use super::side_by_side::all_cores;
 use super::target::{is_directory, takes_no_file};
 use super::wall_clock::WallClock;
+use crate::cli::author;
 use crate::output::OutputError;
 use crate::output::csv::Table;
 use crate::report::reversal::Reversal;
@@ -134,7 +135,7 @@ impl Run {
             }
         }
         let back = if self.reverse && failure.is_none() {
-            let again = Simulation::load_with(&source, &self.overrides(simulation.plan().cloned()), |_| {});
+            let again = Simulation::load_with(&source, &self.overrides(simulation.plan().cloned()), author::plugin);
             match again.map_err(|errors| request.refuse_scene(&errors)) {
                 Ok(mut again) => Some(Reversal::of(&mut again)),
                 Err(exit) => return exit,

@@ -34,6 +34,7 @@ impl SchemaCommand {
     pub(super) fn execute(self) -> Exit {
         let mut app = App::empty();
         plugins::standard(&mut app);
+        super::author::plugin(&mut app);
         let language = Language::of(app.world().resource::<SceneRegistry>());
         let text = if self.manual { language.manual() } else { format!("{:#}\n", language.json()) };
         let Some(path) = self.output else { return print_line(text.trim_end()) };

@@ -33,7 +33,13 @@ fn a_new_plugin_is_the_template_by_another_name() {
     assert!(ended.out.contains("cd rubber_band && cargo test"), "{ended:?}");
     let read = |name: &str| String::from_utf8(folder.read(&format!("rubber_band/{name}"))).unwrap();
     let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/templates/plugin");
-    for (file, template) in [("src/lib.rs", "lib.rs"), ("src/tests.rs", "tests.rs"), ("README.md", "README.md")] {
+    for (file, template) in [
+        ("src/lib.rs", "lib.rs"),
+        ("src/main.rs", "main.rs"),
+        ("src/tests.rs", "tests.rs"),
+        ("scene.ron", "scene.ron"),
+        ("README.md", "README.md"),
+    ] {
         let text = read(file);
         assert!(!text.to_lowercase().replace('_', "").contains("homespring"), "{file}: {text}");
         let back = text.replace("rubber_band", "home_spring").replace("RubberBand", "HomeSpring");

@@ -6,9 +6,8 @@
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::raster::{Camera, Painter, Scratch, Theme, View};
-use jostle::simulation::Recorder;
 use jostle::scene::{SceneErrors, Source};
-use jostle::simulation::Overrides;
+use jostle::simulation::{Overrides, Recorder};
 
 use super::Channels;
 

@@ -4,9 +4,11 @@ use std::process::{Command, Stdio};
 
 use super::Bench;
 use crate::cli::Exit;
+use crate::cli::author;
 use crate::cli::load;
 use crate::cli::say::print_line;
 use crate::report::bench::resident;
+use crate::simulation::Overrides;
 use crate::simulation::Simulation;
 
 /// Bytes that another process needs to read a scene and run a round of it; nothing where the system does not tell.
@@ -38,14 +40,16 @@ impl Bench {
     /// Reads and runs a scene, and prints by how many bytes this process has grown meanwhile.
     pub(super) fn print_memory(&self, scene: &str) -> Exit {
         let (example, ticks) = WARM_UP;
-        let warm_up = load::source(example).and_then(|source| Simulation::load(&source));
+        let warm_up = load::source(example)
+            .and_then(|source| Simulation::load_with(&source, &Overrides::default(), author::plugin));
         let Ok(mut warm_up) = warm_up else { return Exit::SceneWrong };
         if warm_up.run_to_tick(ticks).is_err() {
             return Exit::RunWrong;
         }
         let before = resident();
-        let simulation =
-            self.source(scene).and_then(|source| Simulation::load_with(&source, &self.overrides.overrides(), |_| {}));
+        let simulation = self
+            .source(scene)
+            .and_then(|source| Simulation::load_with(&source, &self.overrides.overrides(), author::plugin));
         let Ok(mut simulation) = simulation else { return Exit::SceneWrong };
         let ticks = self.order().ticks_of(&simulation);
         if simulation.run_to_tick(ticks).is_err() {

@@ -10,6 +10,7 @@ use super::flags::{self, OverrideFlags};
 use super::load::{self, Request};
 use super::progress::Progress;
 use super::say::{print_line, say};
+use crate::cli::author;
 use crate::report::bench::{self, Measured, Order, Stopped};
 use crate::scene::{SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
@@ -128,7 +129,7 @@ impl Bench {
         let source = self.source(scene)?;
         let load = |plan| {
             let overrides = Overrides { plan, threads: Some(self.threads), ..self.overrides.overrides() };
-            Simulation::load_with(&source, &overrides, |_| {})
+            Simulation::load_with(&source, &overrides, author::plugin)
         };
         let measured = bench::measure(load, order, || progress.step())?;
         let bytes = memory::of_other_process(self, scene, measured.ticks);

@@ -20,6 +20,7 @@ pub(super) fn explain(what: &str) -> Exit {
     let mut app = App::empty();
     app.add_tick();
     crate::plugins::standard(&mut app);
+    crate::cli::author::plugin(&mut app);
     let (mut found, names) = look_up(what, &app);
     for other in [plural(what), singular(what)] {
         if found.is_empty() {

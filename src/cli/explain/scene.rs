@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 
 use crate::cli::Exit;
+use crate::cli::author;
 use crate::cli::flags::OverrideFlags;
 use crate::cli::load::Request;
 use crate::cli::say::{count, number};
@@ -65,8 +66,8 @@ impl Anatomy {
         let failure = run_for(&mut plain, BUDGET).err().map(|failure| failure.to_string());
         let ticks = plain.clock().ticks;
         let overrides = Overrides { plan: plain.plan().cloned(), ..flags.overrides() };
-        let mut watched =
-            Simulation::load_with(&source, &overrides, |_| {}).map_err(|errors| request.refuse_scene(&errors))?;
+        let mut watched = Simulation::load_with(&source, &overrides, author::plugin)
+            .map_err(|errors| request.refuse_scene(&errors))?;
         stopwatch::watch(watched.world_mut());
         // It fails where the other one did.
         let _ = watched.run_to_tick(ticks);

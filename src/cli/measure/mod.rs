@@ -13,6 +13,7 @@ use super::load::{self, Request};
 use super::progress::Progress;
 use super::say::{number, print_line, say};
 use super::target::{is_directory, takes_no_file};
+use crate::cli::author;
 use crate::output::{OutputError, write_picture, write_whole};
 use crate::raster::{Theme, draw_diagram};
 use crate::report::ladder::Cost;
@@ -103,7 +104,7 @@ impl Measure {
                     (overrides.method, overrides.tick) = (Some(method.to_owned()), Some(tick));
                 }
             }
-            Simulation::load_with(&source, &overrides, |_| {})
+            Simulation::load_with(&source, &overrides, author::plugin)
         };
         let order = Order {
             budget: self.budget,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::cli::author;
 use crate::cli::flags::OverrideFlags;
 use crate::cli::trial::Trial;
 use crate::record::follow::Follower;
@@ -56,7 +57,7 @@ pub(super) fn refused(source: &Source, message: String) -> Attempt {
 
 /// Runs a scene to its end. `title` stands on its picture, if one is wanted.
 pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, title: Option<&str>) -> Attempt {
-    let mut simulation = match Simulation::load_with(scene, &flags.overrides(), |_| {}) {
+    let mut simulation = match Simulation::load_with(scene, &flags.overrides(), author::plugin) {
         Ok(simulation) => simulation,
         Err(errors) => return Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None },
     };

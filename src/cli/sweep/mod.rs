@@ -24,6 +24,7 @@ use super::say::{count, print_line, say};
 use super::side_by_side::{all_cores, in_order};
 use super::target::Place;
 use super::trial::Verdict;
+use crate::cli::author;
 use crate::digest::of_bytes;
 use crate::output::{Target, write_whole};
 use crate::scene::{SceneRegistry, Source, suggest};
@@ -120,7 +121,7 @@ impl Sweep {
             Err(errors) => return Ok(request.refuse_scene(&errors)),
         };
         // What is wrong with the scene itself is told once, with its place.
-        let plain = match Simulation::load_with(&source, &self.overrides.overrides(), |_| {}) {
+        let plain = match Simulation::load_with(&source, &self.overrides.overrides(), author::plugin) {
             Ok(plain) => plain,
             Err(errors) => return Ok(request.refuse_scene(&errors)),
         };
@@ -264,7 +265,8 @@ impl Sweep {
         let path = folder.join(format!("run_{:0digits$}.gif", run + 1));
         let name = format!("{} ({label})", scene.name);
         let request = Request { name: &name, json: false };
-        let (Ok(mut simulation), Ok(target)) = (Simulation::load_with(scene, &overrides, |_| {}), Target::new(path))
+        let (Ok(mut simulation), Ok(target)) =
+            (Simulation::load_with(scene, &overrides, author::plugin), Target::new(path))
         else {
             // The run itself has told why.
             return Exit::Good;
