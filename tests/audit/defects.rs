@@ -209,3 +209,46 @@ fn a_fall_past_each_other_is_followed_and_its_error_stated() {
     let wrong = (simulation.bodies().position[0].x + 0.570259814982807 / 2.0).abs();
     assert!(error < 1e-3 && wrong < 3.0 * error, "{wrong:e} m wrong, {error:e} m stated");
 }
+
+/// A disc that lands with friction that falls as it slips keeps its drawn spring: the tick in which the collision turned had made
+/// it slide without one, against the motion.
+#[test]
+fn a_landing_keeps_the_spring_that_slipped() {
+    let text = "Scene(format: 1, clock: (duration: 0.03), gravity: (0, -9.81),
+        materials: {\"m\": (stiffness: 5000, friction: (static: 1.2, dynamic: 0.6), restitution: 0.3)},
+        walls: [(name: \"floor\", left: (4, 0), right: (0, 0), material: \"m\")],
+        bodies: [(name: \"b\", at: (0, 0.0851), velocity: (0.6, -0.7), material: \"m\", atoms: Disc(radius: 0.085, mass: 1.05))])";
+    let end = |overrides: &Overrides| {
+        let mut simulation = Simulation::load_with(&Source::new("landing.ron", text), overrides, |_| {}).unwrap();
+        simulation.run_to_end().unwrap();
+        simulation.bodies().position[0]
+    };
+    let exact = end(&Overrides { tick: Some(1e-4), ..method("Dop853") });
+    let verlet = end(&Overrides { tick: Some(1e-5), ..method("VelocityVerlet") });
+    // What is left comes of the tick in which the spring is held at rest.
+    assert!((verlet - exact).length() < 4e-4, "{verlet} instead of {exact}");
+}
+
+/// Ticks with too many events go on by another method: two trials that both do so tell nothing of their error.
+#[test]
+fn crowded_trials_reach_no_tolerance() {
+    let text = "Scene(format: 1, clock: (duration: 0.2), gravity: (0, -9.81),
+        contacts: Penalty(normal: Dashpot, tangential: Exact),
+        materials: {\"m\": (stiffness: 20000, friction: (static: 1.2, dynamic: 0.6), restitution: 0.3)},
+        walls: [(name: \"floor\", left: (4, 0), right: (0, 0), material: \"m\")],
+        bodies: [(name: \"b\", at: (0, 0.25), velocity: (0.252, -3.054), spin: -8.21, material: \"m\", atoms: List([
+            (at: (0, 0), radius: 0.1, mass: 0.4), (at: (0.15, 0), radius: 0.08, mass: 0.3),
+            (at: (-0.15, 0), radius: 0.06, mass: 0.2)]))])";
+    let run = |overrides: &Overrides| {
+        let mut simulation = Simulation::load_with(&Source::new("clump.ron", text), overrides, |_| {}).unwrap();
+        simulation.run_to_end().unwrap();
+        simulation
+    };
+    let exact = run(&method("Dop853")).bodies().position[0];
+    for wanted in [1e-3, 1e-4] {
+        let simulation = run(&tolerance(wanted));
+        let wrong = (simulation.bodies().position[0] - exact).length();
+        let told = simulation.card().warnings.iter().any(|warning| warning.contains("is not reached"));
+        assert!(wrong < wanted || told, "{wanted:e}: {wrong:e} m off\n{}", simulation.card());
+    }
+}

@@ -70,6 +70,11 @@ impl Slider {
         }
     }
 
+    /// Whether it slides with a force that its spring is not drawn to.
+    pub(super) fn slides_without_spring(&self, law: &SliderLaw) -> bool {
+        self.grip == Grip::Slide && law.stiffness * self.elongation != self.held
+    }
+
     /// Elastic energy in J.
     #[inline]
     pub fn energy(&self, law: &SliderLaw) -> f64 {

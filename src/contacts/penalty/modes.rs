@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::apply::{End, Own, PenaltyContacts, Shared, Sink, approach};
 use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
-use super::coulomb::{Grip, Slider, SliderLaw};
+use super::coulomb::{Slider, SliderLaw};
 use super::frame::Frame;
 use super::hold::{self, Friction, Mover, Seen, Verdict};
 use super::islands::{Islands, Marked, Members};
@@ -277,7 +277,7 @@ impl Choice<'_> {
     fn seen<N: NormalForce>(&mut self, case: &Case, ends: (usize, usize)) -> Seen {
         let (contact, law) = self.known(case);
         let rolling = self.roller(case, &law);
-        let rolls = rolling.as_ref().is_some_and(|(slider, _)| slider.grip == Grip::Slide);
+        let rolls = rolling.as_ref().is_some_and(|(slider, law)| slider.slides_without_spring(law));
         let rolling = rolling.map(|(slider, law)| (law.friction_static, slider.force(&law)));
         let place = self.sink.bodies.position[case.end.body] + case.end.arm;
         Seen {
@@ -288,7 +288,7 @@ impl Choice<'_> {
             normal_force: contact.normal_force,
             noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
             engaged: contact.mode == Mode::Hold,
-            slides: (contact.tangential.grip == Grip::Slide, rolls),
+            slides: (contact.tangential.slides_without_spring(&law.tangential()), rolls),
             tangential: (law.friction_static, contact.tangential_force(&law)),
             rolling: rolling.unwrap_or((0.0, 0.0)),
         }

@@ -110,6 +110,8 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
         let alike = coarse.bounded && fine.bounded;
         let chosen = match difference {
             _ if alike => None,
+            // Ticks with too many events went on by another method, of which two runs make the same errors.
+            _ if coarse.crowded || fine.crowded => None,
             _ if difference <= MEASURED * tolerance => Some(fineness),
             _ if difference <= BETWEEN * tolerance => Some(next),
             _ if confirmed && wanted >= (next * climb.trusted).max(climb.finest) => Some(wanted.min(next)),
@@ -171,6 +173,9 @@ fn missed(
         ),
         _ if trials.evaluations > MOST_EVALUATIONS => {
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
+        }
+        _ if coarse.crowded || fine.crowded => {
+            "some ticks have too many contacts to locate all, and went on under velocity Verlet".to_owned()
         }
         Some(time) => format!("the two finest runs part at t = {} s, by rounding or chaos", number(time)),
         None => "the two finest runs differ in their velocities by more".to_owned(),
