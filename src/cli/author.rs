@@ -1,4 +1,4 @@
-//! Commands for a program of somebody's own: every command knows its plugin.
+//! The command line for programs with a plugin of their own: each command knows what the plugin registers.
 
 use std::process::ExitCode;
 use std::sync::OnceLock;
