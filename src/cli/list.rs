@@ -8,7 +8,6 @@ use super::{Exit, examples};
 use crate::cli::author;
 use crate::integrate::ClockSection;
 use crate::integrate::Methods;
-use crate::raster::Theme;
 use crate::scene::schema::Language;
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, Source, nearest_name};
@@ -44,7 +43,6 @@ Examples:
 
 const SCENES: &str = "scenes";
 const SECTIONS: &str = "sections";
-const THEMES: &str = "themes";
 /// Who brings the sections that are there before any plugin.
 pub(super) const READER: &str = "jostle::scene";
 
@@ -121,7 +119,6 @@ impl List {
                 });
                 return Some(own.chain(registry.sections().into_iter().map(Item::of)).collect());
             }
-            THEMES => return Some(Theme::names().into_iter().map(|name| Item::word(name, String::new())).collect()),
             _ => {}
         }
         let mut entries = registry.sections().into_iter().filter(|known| known.takes_entries);
@@ -147,7 +144,7 @@ fn kinds(registry: &SceneRegistry) -> Vec<String> {
     let entries = sections.iter().filter(|known| known.takes_entries).map(|known| known.name.to_owned());
     let words = registry.word_lists();
     let fixed = [SCENES, SECTIONS].into_iter().map(str::to_owned);
-    fixed.chain(entries).chain([THEMES.to_owned()]).chain(words.into_iter().map(plural)).collect()
+    fixed.chain(entries).chain(words.into_iter().map(plural)).collect()
 }
 
 /// A scene that comes with the program. That it can be read is tested.

@@ -151,15 +151,16 @@ impl Slider {
                 (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
                 0.0
             }
-            // Whether a spring sticks or slips by the same force decides what it bears, where the coefficients differ.
-            Friction::Turns(least) if law.friction_static > law.friction_dynamic => {
-                let lost = self.let_go(law) + self.follow(law, None, least);
+            // The normal force of that tick depends on where in it the contact turned. A spring that stuck by it would bear more than
+            // what slips does, where the coefficients differ.
+            Friction::Turns if law.friction_static > law.friction_dynamic => {
+                let lost = self.let_go(law) + self.follow(law, None, normal_force);
                 if self.grip == Grip::Slip {
                     (self.grip, self.held) = (Grip::Slide, law.stiffness * self.elongation);
                 }
                 lost
             }
-            Friction::Follows | Friction::Turns(_) => self.let_go(law) + self.follow(law, None, normal_force),
+            Friction::Follows | Friction::Turns => self.let_go(law) + self.follow(law, None, normal_force),
         }
     }
 

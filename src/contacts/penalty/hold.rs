@@ -224,8 +224,8 @@ pub enum Friction {
     /// against the motion, and its force has the sign of this number.
     Slides(f64),
     /// The contact begins to rest, perhaps for the one tick in which a collision turns: its spring follows the motion, and what
-    /// gives way under this least normal force slides.
-    Turns(f64),
+    /// gives way slides on until the force of the next tick is known.
+    Turns,
     /// Its spring follows the motion.
     Follows,
 }
@@ -354,7 +354,7 @@ impl Candidate {
             } else if self.held {
                 Friction::Follows
             } else {
-                Friction::Turns(self.band.0)
+                Friction::Turns
             }
         };
         let entirely = self.bounded.iter().all(|bounded| bounded.coefficient == 0.0 || stops(bounded));
