@@ -42,7 +42,12 @@ pub struct Allowance {
     pub share: f64,
     /// The longest step in s.
     pub longest: f64,
+    /// The most steps that may be needed to the end of a tick, about: where more are, the run ends and says so.
+    pub most_steps: f64,
 }
+
+/// Steps that no tick needs where bodies do not fall upon each other: more take half a minute.
+pub const MOST_STEPS: f64 = 1e7;
 
 /// The control of a run.
 #[derive(Clone, Debug)]
@@ -82,6 +87,11 @@ impl Control {
     /// The longest step that is tried.
     pub fn longest(&self) -> f64 {
         self.next.map_or(self.allowance.longest, |next| next.min(self.allowance.longest))
+    }
+
+    /// The most steps that may be needed to the end of a tick.
+    pub fn most_steps(&self) -> f64 {
+        self.allowance.most_steps
     }
 
     /// Whether rounding of places allowed the last step a larger error than was asked for.

@@ -20,7 +20,7 @@ use bevy_ecs::prelude::*;
 
 pub use chosen::ChosenMethod;
 pub use clock::{ClockSection, EventTiming};
-pub use control::Allowance;
+pub use control::{Allowance, MOST_STEPS};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use staged::{Detail, LocatedEvents, Pace, Staged, StepCount};
 pub use velocity_verlet::VelocityVerlet;

@@ -9,7 +9,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::control::{Allowance, Control};
+use super::control::{Allowance, Control, MOST_STEPS};
 use super::crowd::Crowd;
 use super::inside::Inside;
 use super::locate::{Bracket, Moment, vanished};
@@ -32,9 +32,8 @@ const MOST_RENEWALS: u32 = 16;
 const MANY_ATOMS: usize = 64;
 const MOST_RADII: f64 = 8.0;
 
-/// Steps between two looks at how far they lead, and the most that may be needed to the end of a tick: more take half a minute.
+/// Steps between two looks at how far they lead.
 const STEPS_BETWEEN_LOOKS: u64 = 4096;
-const MOST_STEPS: f64 = 1e7;
 
 /// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
 /// it.
@@ -469,7 +468,8 @@ impl Staged {
             return false;
         }
         let way = now - std::mem::replace(&mut self.looked, now);
-        STEPS_BETWEEN_LOOKS as f64 * (end - now) > MOST_STEPS * way
+        let most = self.control.as_ref().map_or(MOST_STEPS, Control::most_steps);
+        STEPS_BETWEEN_LOOKS as f64 * (end - now) > most * way
     }
 }
 

@@ -7,7 +7,7 @@ use crate::contacts::ContactLaw;
 use crate::integrate::ChosenMethod;
 use crate::integrate::ClockSection;
 use crate::integrate::clock::EventTiming;
-use crate::integrate::{Allowance, Description, Detail, Methods, Pace};
+use crate::integrate::{Allowance, Description, Detail, MOST_STEPS, Methods, Pace};
 use crate::record::sections::FilmSection;
 use crate::scene::SceneError;
 use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
@@ -230,7 +230,7 @@ fn plan_for(
     let estimates = description.one_step.is_some_and(|make| make().order_of_error() > 0);
     plan.pace = if estimates {
         // Trials say how much a step may err.
-        Pace::Allowed(Allowance { share: 1e-3, longest: duration })
+        Pace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps: MOST_STEPS })
     } else {
         Pace::Even(steps_per_tick(world, &plan))
     };

@@ -10,7 +10,7 @@ use super::scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
 use crate::Simulation;
 use crate::integrate::clock::EventTiming;
-use crate::integrate::{Allowance, Pace};
+use crate::integrate::{Allowance, MOST_STEPS, Pace};
 use crate::numbers::number;
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
@@ -90,7 +90,12 @@ pub(super) struct Truth {
 
 /// The plan of a run of `duration` seconds with located events, whose steps may err by a share of the motion.
 pub(super) fn located(tick: f64, share: f64, duration: f64) -> Plan {
-    plan("Dop853", tick, Pace::Allowed(Allowance { share, longest: duration }), EventTiming::Located)
+    plan(
+        "Dop853",
+        tick,
+        Pace::Allowed(Allowance { share, longest: duration, most_steps: MOST_STEPS }),
+        EventTiming::Located,
+    )
 }
 
 /// Why runs with located events are no reference.

@@ -26,6 +26,10 @@ const ORDER: f64 = 8.0;
 /// Looks of a trial are so many of the steps apart that suit the fastest contact or spring: eight to a contact.
 const STEPS_BETWEEN_LOOKS: u32 = 5;
 
+/// Steps of a tick at which a hasty trial ends, and how many more it may take for each that suits the fastest contact or spring.
+const HASTY_STEPS: f64 = 1e4;
+const STEPS_OF_A_SWING: f64 = 10.0;
+
 /// The trials of a scene.
 pub(super) struct Trials<'a> {
     /// The plan they follow.
@@ -42,6 +46,10 @@ pub(super) struct Trials<'a> {
     looks: u32,
     /// Whether something moves as prescribed, which is told from tick to tick: then no step goes beyond a tick.
     by_ticks: bool,
+    /// Whether a trial ends where a tick takes many steps: errors that let bodies meet in a way they never would take most of them.
+    pub hasty: bool,
+    /// Whether the last one ended so.
+    pub cut: bool,
     /// The fineness of the first.
     coarsest: f64,
     /// How many were made.
@@ -75,6 +83,8 @@ impl<'a> Trials<'a> {
             tell,
             looks,
             by_ticks: false,
+            hasty: false,
+            cut: false,
             coarsest: 0.0,
             count: 0,
             evaluations: 0,
@@ -137,6 +147,13 @@ impl<'a> Trials<'a> {
         let looks = if self.ladder == Ladder::Allowed && !self.by_ticks { self.looks } else { 1 };
         plan.tick /= f64::from(looks);
         plan.detail.looks *= looks;
+        let mut hastened = false;
+        if let Pace::Allowed(allowance) = &mut plan.pace
+            && self.hasty
+        {
+            allowance.most_steps = HASTY_STEPS + STEPS_OF_A_SWING * f64::from(self.steps);
+            hastened = true;
+        }
         let mut simulation = (self.make)(&plan)?;
         self.count += 1;
         if let Some(tell) = self.tell {
@@ -145,6 +162,7 @@ impl<'a> Trials<'a> {
         change(&mut simulation);
         let trajectory = Trajectory::record(&mut simulation, per_moment);
         self.evaluations += trajectory.evaluations;
+        self.cut = hastened && trajectory.failure.is_some();
         if trajectory.failure.is_none() {
             let (distance, speed) = trajectory.sizes();
             if distance > 0.0 || speed > 0.0 {

@@ -27,6 +27,9 @@ const MOST_TRIALS: u32 = 9;
 /// Evaluations of all forces after which no further trial is made: some ten seconds of a small scene.
 const MOST_EVALUATIONS: u64 = 30_000_000;
 
+/// A scene so many times as far from the origin as its bodies go loses digits that it would have there.
+const FAR: f64 = 10.0;
+
 /// Observed powers beyond these are chance.
 const LEAST_POWER: f64 = 0.5;
 const MOST_POWER: f64 = 9.0;
@@ -75,8 +78,18 @@ impl Climb {
     }
 }
 
-/// Finds the plan.
+/// Finds the plan: with hasty trials, and with patient ones where hasty ones ended before they told anything.
 pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
+    trials.hasty = true;
+    let plan = climb(tolerance, trials)?;
+    if plan.warning.is_none() || !trials.cut || trials.evaluations > MOST_EVALUATIONS {
+        return Ok(plan);
+    }
+    (trials.hasty, trials.count) = (false, 0);
+    climb(tolerance, trials)
+}
+
+fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let mut climb = Climb::of(trials, tolerance);
     let mut coarse = trials.run(climb.first, "a coarse run", |_| {})?;
     if coarse.crowded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
@@ -105,7 +118,9 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
         }
         // The finer run's own error is in the difference too.
         let left = 1.0 - (next / fineness).powf(climb.power);
-        let share_at = |then: f64| (then / fineness).powf(climb.power) / left;
+        let foretold_at = |then: f64| (then / fineness).powf(climb.power) / left;
+        // What rounding bounds no longer falls with fineness.
+        let share_at = |then: f64| if fine.bounded { foretold_at(then).max(1.0) } else { foretold_at(then) };
         let wanted = fineness * (FORETOLD * tolerance * left / difference).powf(1.0 / climb.power);
         let alike = coarse.bounded && fine.bounded;
         let chosen = match difference {
@@ -127,7 +142,11 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
         before = Some((fineness, difference, difference * share_at(next)));
         (fineness, coarse) = (next, fine);
-        next = wanted.clamp(next * least, next * climb.finer).max(climb.finest);
+        next = wanted.clamp(next * least, next * climb.finer);
+        // Two trials that are finest but for rounding would differ by nothing.
+        if next < 2.0 * climb.finest {
+            next = climb.finest;
+        }
     }
 }
 
@@ -155,6 +174,18 @@ fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: Apart) -> Plan
     plan
 }
 
+/// Why there are no smaller steps for bodies that come `farthest` metres from the origin and go `distance`.
+fn bounded(farthest: f64, distance: f64) -> String {
+    if farthest > FAR * distance {
+        let (farthest, distance) = (number(farthest), number(distance));
+        format!(
+            "rounding of places {farthest} m from the origin leaves no smaller steps for bodies that go {distance} m; move the scene to the origin"
+        )
+    } else {
+        "rounding leaves no smaller steps, and the motion magnifies it".to_owned()
+    }
+}
+
 /// No run was fine enough: the finest is taken, and the card says from when on it is wrong.
 fn missed(
     trials: &Trials,
@@ -166,11 +197,7 @@ fn missed(
     let mut plan = trials.planned(fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
     let why = match lost {
-        _ if coarse.bounded && fine.bounded => format!(
-            "rounding of places {} m from the origin leaves no smaller steps for bodies that go {} m; move the scene to the origin",
-            number(fine.farthest()),
-            number(trials.sizes().0)
-        ),
+        _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
         _ if trials.evaluations > MOST_EVALUATIONS => {
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
         }
