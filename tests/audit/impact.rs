@@ -354,8 +354,12 @@ impl Impact {
         modes: &mut Modes,
         [normal, along, rolling]: [bool; 3],
     ) -> Result<bool, Unsolved> {
+        let before = self.push(disc, modes.phase).0;
         if normal && !self.end_phase(disc, modes)? {
             return Ok(false);
+        }
+        if self.push(disc, modes.phase).0 > before {
+            self.keep_springs(disc, modes, before);
         }
         if along {
             self.end_along(disc, modes);
@@ -380,6 +384,19 @@ impl Impact {
             }
         }
         Ok(true)
+    }
+
+    /// The normal force has jumped up from `before`: no energy draws the springs that slipped to its new limit, so that they stick.
+    fn keep_springs(&self, disc: &mut Disc, modes: &mut Modes, before: f64) {
+        if let (Grip::Slip(sign), Tangential::Spring(ratio)) = (modes.along, self.tangential) {
+            disc.stretch = sign * self.friction.1 * before / (ratio * self.stiffness);
+            modes.along = Grip::Stick;
+        }
+        let (arm, stiffness) = self.rolling_law();
+        if let Grip::Slip(sign) = modes.rolling {
+            disc.roll = sign * arm * before / stiffness;
+            modes.rolling = Grip::Stick;
+        }
     }
 
     fn end_along(&self, disc: &mut Disc, modes: &mut Modes) {

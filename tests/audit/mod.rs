@@ -6,5 +6,6 @@ mod crowd;
 mod defects;
 mod draw;
 mod impact;
+mod landings;
 mod ran;
 mod statements;

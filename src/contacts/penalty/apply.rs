@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::Penalty;
 use super::contact::Losses;
+use super::coulomb::Slider;
 use super::critical::Watch;
 use super::follow::Touch;
 use super::kernel::{self, Moment};
@@ -50,6 +51,9 @@ pub struct PenaltyContacts {
     pub(super) told: Told,
     /// Energy in J of the tangential springs before modes were switched.
     pub(super) held_before: Option<f64>,
+    /// As an event begins: the tangential and the rolling spring of each contact, where they stick, or slip beside a normal force
+    /// that is not held.
+    pub(super) before: Vec<[Option<Slider>; 2]>,
     /// Energy in J of the tangential springs that slip, at the beginning of the step.
     pub(super) slid: f64,
 }
@@ -73,6 +77,7 @@ impl Default for PenaltyContacts {
             rows: Rows::default(),
             told: Told::default(),
             held_before: None,
+            before: Vec::new(),
             slid: 0.0,
         }
     }

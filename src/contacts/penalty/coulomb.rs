@@ -8,11 +8,15 @@
 //! At rest the law is set-valued: any force up to `mu N` keeps the contact there. Which one it is the balance of forces
 //! decides ([`super::hold`]).
 
-use super::hold::Friction;
+use super::hold::{Drawn, Friction};
 use super::switching::Base;
 
 /// A share of a force or of a velocity that counts as rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// A spring that begins to stick has the force it slipped with; the normal force that rows then answer is another one by this share
+/// at the most.
+const BEYOND: f64 = 1e-9;
 
 /// Phase of a spring with a Coulomb limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,6 +79,13 @@ impl Slider {
         self.grip == Grip::Slide && law.stiffness * self.elongation != self.held
     }
 
+    /// The spring as the search for rest sees it.
+    pub(super) fn drawn(&self, law: &SliderLaw) -> Drawn {
+        let SliderLaw { friction_static: limit, friction_dynamic: slips, .. } = *law;
+        let gives = if self.grip == Grip::Slip { slips } else { limit };
+        Drawn { limit, gives, slips, force: self.force(law) }
+    }
+
     /// Elastic energy in J.
     #[inline]
     pub fn energy(&self, law: &SliderLaw) -> f64 {
@@ -106,16 +117,38 @@ impl Slider {
         0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
     }
 
-    /// Lets a spring slip that is beyond its cone. Says whether it was.
-    pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base) -> bool {
+    /// Lets a spring stick that slipped as it was `before` and whose limit has jumped beyond that: only the motion of its ends draws
+    /// it farther. They move past each other with `velocity`. Says whether it was so.
+    pub(super) fn settle_jump(&mut self, law: &SliderLaw, before: Option<Self>, velocity: f64) -> bool {
+        let Some(drawn) = before.filter(|before| before.grip == Grip::Slide).map(|before| before.elongation) else {
+            return false;
+        };
+        let short = self.grip == Grip::Slide && self.held.abs() > law.stiffness * drawn.abs() * (1.0 + ROUNDING);
+        if short {
+            *self = Self { grip: Grip::Stick, elongation: drawn, held: 0.0_f64.copysign(velocity) };
+        }
+        short
+    }
+
+    /// Lets a spring swing back that stuck `before`, and was tried as held where it came to a stand. Says whether it was so.
+    pub(super) fn swing_back(&mut self, before: Option<Self>) -> bool {
+        let Some(before) = before.filter(|before| before.grip == Grip::Stick && self.grip == Grip::Hold) else {
+            return false;
+        };
+        *self = Self { held: 0.0_f64.copysign(-before.held), ..before };
+        true
+    }
+
+    /// Lets a spring slip that is beyond its cone, or swing back if it stuck `before`. Says whether it was.
+    pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base, before: Option<Self>) -> bool {
         // Where a contact begins or ends rounding may leave a normal force below zero.
         let (force, limit) = (self.force(law), law.friction_static * base.force.max(0.0));
         let gives = match self.grip {
             Grip::Hold => force.abs() > limit,
-            Grip::Stick => force.abs() > limit * (1.0 + ROUNDING),
+            Grip::Stick => force.abs() > limit * (1.0 + BEYOND),
             Grip::Slip | Grip::Slide => false,
         };
-        if gives {
+        if gives && !self.swing_back(before) {
             (self.grip, self.held) = (Grip::Slide, force);
         }
         gives
@@ -160,7 +193,23 @@ impl Slider {
                 }
                 lost
             }
-            Friction::Follows | Friction::Turns => self.let_go(law) + self.follow(law, None, normal_force),
+            Friction::Lands if self.grip == Grip::Slip => {
+                self.grip = Grip::Stick;
+                self.follow(law, None, normal_force)
+            }
+            Friction::Stays => {
+                let before = self.energy(law);
+                self.let_go(law);
+                if self.grip == Grip::Slip {
+                    self.elongation = (law.friction_dynamic * normal_force / law.stiffness).copysign(self.elongation);
+                } else {
+                    self.follow(law, None, normal_force);
+                }
+                before - self.energy(law)
+            }
+            Friction::Follows | Friction::Lands | Friction::Turns => {
+                self.let_go(law) + self.follow(law, None, normal_force)
+            }
         }
     }
 

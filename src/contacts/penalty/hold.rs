@@ -139,6 +139,8 @@ struct Bounded {
     /// leave that to rounding.
     at_limit: bool,
     force: f64,
+    /// Its spring.
+    drawn: Drawn,
     /// Velocity at the beginning of the tick.
     begin: f64,
 }
@@ -152,6 +154,27 @@ impl Bounded {
     /// is against it. So a body that is taken by surprise is caught within some ticks by what could hold it.
     fn brakes(&self, velocity: f64) -> bool {
         self.engaged && self.force * velocity < 0.0 && velocity.abs() < self.begin.abs()
+    }
+}
+
+/// A spring with a Coulomb limit as it comes to the search for rest: a force in N, or a torque in N m with lengths for coefficients.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drawn {
+    /// Share of the normal force that it may hold.
+    pub limit: f64,
+    /// Share of the normal force beyond which it gives way, or slips on.
+    pub gives: f64,
+    /// Share of the normal force that it has in slip.
+    pub slips: f64,
+    /// The present force.
+    pub force: f64,
+}
+
+impl Drawn {
+    /// What the spring has left under a normal force.
+    fn under(&self, normal_force: f64) -> f64 {
+        let beyond = self.force.abs() > self.gives * normal_force;
+        if beyond { (self.slips * normal_force).copysign(self.force) } else { self.force }
     }
 }
 
@@ -173,12 +196,14 @@ pub struct Seen {
     /// Whether the tangential and the rolling force may hold though their springs are drawn out: not before the normal
     /// force has held for a tick, so that a contact that turns in a collision keeps what its springs hold.
     pub engaged: bool,
+    /// Whether the contact parts.
+    pub parts: bool,
     /// Whether the contact slides and rolls without its springs, under the dynamic coefficient.
     pub slides: (bool, bool),
-    /// Static coefficient of friction, and the present tangential force in newtons, along minus the tangent on B.
-    pub tangential: (f64, f64),
-    /// Coefficient of rolling friction times rolling radius in metres, and the present torque in N m, against B's turn.
-    pub rolling: (f64, f64),
+    /// The tangential spring; its force acts along minus the tangent on B.
+    pub tangential: Drawn,
+    /// The rolling spring; its torque acts against B's turn.
+    pub rolling: Drawn,
 }
 
 /// An island: its contacts and the bodies around them. What memory it has it keeps for the next.
@@ -212,6 +237,8 @@ pub struct Candidate {
     normal_force: f64,
     /// Whether it held in the tick before.
     held: bool,
+    /// Whether it parted.
+    parted: bool,
     bounded: [Bounded; 2],
 }
 
@@ -226,6 +253,10 @@ pub enum Friction {
     /// The contact begins to rest, perhaps for the one tick in which a collision turns: its spring follows the motion, and what
     /// gives way slides on until the force of the next tick is known.
     Turns,
+    /// The contact begins to rest after it parted: the normal force grows, and what slipped is no longer drawn to its limit.
+    Lands,
+    /// The contact rests on: its spring follows the motion, and what slips has the limit of the normal force, which depends on it.
+    Stays,
     /// Its spring follows the motion.
     Follows,
 }
@@ -260,12 +291,13 @@ impl Candidate {
             Row::new(&sides, levers, direction)
         };
         let turn = Row::new(&sides, (-1.0, -1.0), DVec2::ZERO);
-        let bounded = |place: usize, row: Row, (coefficient, force): (f64, f64), slides: bool| {
+        let bounded = |place: usize, row: Row, drawn: Drawn, slides: bool| {
+            let Drawn { limit: coefficient, force, .. } = drawn;
             // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
             let (of_a, of_b) = row.mobilities(&sides);
             let reach = 4.0 * (grips.0[place] * of_a + grips.1[place] * of_b) * dt;
             let engaged = (seen.engaged || force == 0.0) && coefficient > 0.0 && row.velocity(&sides).abs() <= reach;
-            Bounded { row, coefficient, engaged, slides, at_limit: false, force, begin: row.velocity(&begin) }
+            Bounded { row, coefficient, engaged, slides, at_limit: false, force, drawn, begin: row.velocity(&begin) }
         };
         Self {
             ends: seen.ends,
@@ -276,6 +308,7 @@ impl Candidate {
             noise: seen.noise.max(1e3 * ROUNDING * seen.band.1),
             normal_force: seen.normal_force,
             held: seen.engaged,
+            parted: seen.parts,
             bounded: [
                 bounded(0, along(-seen.normal.perp()), seen.tangential, seen.slides.0),
                 bounded(1, turn, seen.rolling, seen.slides.1),
@@ -291,10 +324,13 @@ impl Candidate {
         let wanted = self.normal_force - self.normal.velocity(&sides) / (self.normal.mobility * dt);
         let mut change = self.set_normal(&mut sides, wanted, dt);
         for place in 0..self.bounded.len() {
-            let Bounded { row, engaged, force, .. } = &self.bounded[place];
+            let Bounded { row, engaged, force, drawn, .. } = &self.bounded[place];
             if *engaged {
                 let wanted = force - row.velocity(&sides) / (row.mobility * dt);
                 change = change.max(self.set_bounded(&mut sides, place, wanted, dt));
+            } else if drawn.force != 0.0 {
+                let left = drawn.under(self.normal_force);
+                change = change.max(self.set_drawn(&mut sides, place, left, dt));
             }
         }
         sides.put_back(movers, self.ends);
@@ -318,6 +354,13 @@ impl Candidate {
         let limit = bounded.coefficient * self.normal_force;
         let force = nearest(wanted, (-limit, limit));
         bounded.at_limit = force != wanted;
+        self.set_drawn(sides, place, force, dt)
+    }
+
+    /// Sets a force to what its spring has. Returns the change over what counts as rounding.
+    #[inline(always)]
+    fn set_drawn(&mut self, sides: &mut Sides, place: usize, force: f64, dt: f64) -> f64 {
+        let bounded = &mut self.bounded[place];
         let change = force - bounded.force;
         bounded.force = force;
         bounded.row.push(sides, change * dt);
@@ -352,7 +395,9 @@ impl Candidate {
             } else if bounded.brakes(velocity) {
                 Friction::Holds(bounded.force)
             } else if self.held {
-                Friction::Follows
+                Friction::Stays
+            } else if self.parted {
+                Friction::Lands
             } else {
                 Friction::Turns
             }
@@ -384,8 +429,8 @@ impl Island {
         grips.resize(movers.len(), [0.0; 2]);
         for Seen { ends, band, tangential, rolling, .. } in &*seen {
             for place in [ends.0, ends.1] {
-                grips[place][0] += tangential.0 * band.1;
-                grips[place][1] += rolling.0 * band.1;
+                grips[place][0] += tangential.limit * band.1;
+                grips[place][1] += rolling.limit * band.1;
             }
         }
         candidates.clear();

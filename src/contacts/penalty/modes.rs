@@ -278,7 +278,7 @@ impl Choice<'_> {
         let (contact, law) = self.known(case);
         let rolling = self.roller(case, &law);
         let rolls = rolling.as_ref().is_some_and(|(slider, law)| slider.slides_without_spring(law));
-        let rolling = rolling.map(|(slider, law)| (law.friction_static, slider.force(&law)));
+        let rolling = rolling.map(|(slider, law)| slider.drawn(&law));
         let place = self.sink.bodies.position[case.end.body] + case.end.arm;
         Seen {
             ends,
@@ -288,9 +288,10 @@ impl Choice<'_> {
             normal_force: contact.normal_force,
             noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
             engaged: contact.mode == Mode::Hold,
+            parts: contact.mode == Mode::Unloading,
             slides: (contact.tangential.slides_without_spring(&law.tangential()), rolls),
-            tangential: (law.friction_static, contact.tangential_force(&law)),
-            rolling: rolling.unwrap_or((0.0, 0.0)),
+            tangential: contact.tangential.drawn(&law.tangential()),
+            rolling: rolling.unwrap_or_default(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Modes that follow from the forces of a state, and not from the mode before: a state that others have made, and the state behind
 //! an event, where forces have jumped.
 
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::normal::{Mode, NormalForce};
 use super::rolling_stages;
 use super::switching::{Base, View, standing};
@@ -12,6 +13,7 @@ impl View<'_> {
     pub fn settle<N: NormalForce>(&mut self) -> bool {
         if self.contacts.held_before.is_none() {
             self.contacts.held_before = Some(self.stored(|_| true));
+            self.contacts.before.clear();
         }
         let corrected = self.settle_normals::<N>() || self.settle_friction::<N>();
         if !corrected {
@@ -23,7 +25,9 @@ impl View<'_> {
     /// Lets go of contacts that are held by forces out of their bounds. Says whether there were any.
     fn settle_normals<N: NormalForce>(&mut self) -> bool {
         let mut corrected = false;
+        let springs = std::mem::take(&mut self.contacts.before);
         for place in 0..self.len() {
+            let before = springs.get(place).copied().unwrap_or_default();
             let look = self.look(place);
             let (mut contact, law, mut roller) = self.whole(place, &look);
             if contact.mode != Mode::Hold {
@@ -31,6 +35,18 @@ impl View<'_> {
             }
             let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
             if contact.normal_force < least || contact.normal_force > greatest {
+                let (base, is_below) = (Base { force: least, rate: 0.0 }, contact.normal_force < least);
+                // Springs that were held for a first try, or that stick under no force within the bounds, may be what moves it.
+                let gives = |slider: &mut Slider, law: &SliderLaw, before: Option<Slider>| {
+                    let below = is_below && slider.grip == Grip::Stick;
+                    slider.swing_back(before) || below && slider.settle_force(law, base, None)
+                };
+                let rolls = roller.as_mut().is_some_and(|(slider, law)| gives(slider, law, before[1]));
+                let slider_law = law.tangential();
+                if slider_law.acts() && gives(&mut contact.tangential, &slider_law, before[0]) || rolls {
+                    corrected = true;
+                    continue;
+                }
                 contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
                 contact.come_loose(law, &look);
                 if let Some((slider, law)) = &mut roller {
@@ -39,14 +55,18 @@ impl View<'_> {
                 corrected = true;
             }
         }
+        self.contacts.before = springs;
         corrected
     }
 
     /// Ends phases of friction that have lost their base: the normal force has jumped, at the turn from loading to unloading or as
-    /// a dashpot goes slack. What is beyond the cone slips at once, what would slip backwards sticks. Says whether there was any.
+    /// a dashpot goes slack. What is beyond the cone slips at once; what would slip backwards, or is not drawn to its limit, sticks.
+    /// Says whether there was any.
     fn settle_friction<N: NormalForce>(&mut self) -> bool {
         let mut corrected = false;
+        let springs = std::mem::take(&mut self.contacts.before);
         for place in 0..self.len() {
+            let before = springs.get(place).copied().unwrap_or_default();
             let (look, bodies) = (self.look(place), self.bodies);
             let (mut contact, law, roller) = self.whole(place, &look);
             if contact.mode == Mode::Open {
@@ -57,14 +77,18 @@ impl View<'_> {
                 let motion = (look.sliding(law), look.speed(law));
                 let slider = &mut contact.tangential;
                 // A spring that gives has its new elongation once it was evaluated.
-                corrected |= slider.settle_force(&law.tangential(), base)
+                corrected |= slider.settle_jump(&law.tangential(), before[0], motion.0)
+                    || slider.settle_force(&law.tangential(), base, before[0])
                     || !law.exact && slider.settle_motion(&law.tangential(), base, motion);
             }
             if let Some((slider, law)) = roller {
                 let motion = (look.turning(), look.turning_speed());
-                corrected |= slider.settle_force(&law, base) || slider.settle_motion(&law, base, motion);
+                corrected |= slider.settle_jump(&law, before[1], motion.0)
+                    || slider.settle_force(&law, base, before[1])
+                    || slider.settle_motion(&law, base, motion);
             }
         }
+        self.contacts.before = springs;
         corrected
     }
 

@@ -154,6 +154,7 @@ impl View<'_> {
         let slid = self.close_slides();
         // What springs hold before and no longer after is lost; it is booked when all modes have settled.
         self.contacts.held_before = Some(self.stored(|_| true));
+        self.note_springs();
         for &place in fired {
             let (pair, what) = self.contacts.told[place];
             let look = self.look(pair as usize);
@@ -169,6 +170,23 @@ impl View<'_> {
             }
         }
         ledger.friction.add(slid);
+    }
+
+    /// Notes the springs that stick, or slip beside a normal force that is not held.
+    fn note_springs(&mut self) {
+        let mut before = std::mem::take(&mut self.contacts.before);
+        before.clear();
+        for place in 0..self.len() {
+            let look = self.look(place);
+            let (contact, law, roller) = self.whole(place, &look);
+            let noted = |slider: &Slider| match (contact.mode, slider.grip) {
+                (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Hold | Grip::Slip) => None,
+                _ => Some(*slider),
+            };
+            let tangential = if law.exact { None } else { noted(&contact.tangential) };
+            before.push([tangential, roller.and_then(|(slider, _)| noted(slider))]);
+        }
+        self.contacts.before = before;
     }
 
     /// Notes which bodies begin to touch, for who asks: those of open contacts that are touched now, if no other contact between
