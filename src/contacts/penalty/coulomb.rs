@@ -51,6 +51,11 @@ impl SliderLaw {
     pub fn acts(&self) -> bool {
         self.friction_static > 0.0
     }
+
+    /// Elongation in metres of a spring that slips.
+    fn slipped(&self, normal_force: f64) -> f64 {
+        self.friction_dynamic * normal_force / self.stiffness
+    }
 }
 
 /// A spring with a Coulomb limit.
@@ -109,7 +114,7 @@ impl Slider {
             return 0.0;
         }
         (self.grip, self.elongation) = if beyond {
-            (Grip::Slip, (law.friction_dynamic * normal_force / law.stiffness).copysign(trial))
+            (Grip::Slip, law.slipped(normal_force).copysign(trial))
         } else {
             (Grip::Stick, trial)
         };
@@ -201,7 +206,7 @@ impl Slider {
                 let before = self.energy(law);
                 self.let_go(law);
                 if self.grip == Grip::Slip {
-                    self.elongation = (law.friction_dynamic * normal_force / law.stiffness).copysign(self.elongation);
+                    self.elongation = law.slipped(normal_force).copysign(self.elongation);
                 } else {
                     self.follow(law, None, normal_force);
                 }
