@@ -126,7 +126,7 @@ fn find_contact_events(
 ) {
     if let Some(law) = law.filter(|_| !touches.told && !*warned) {
         *warned = true;
-        let name = law.0;
+        let name = law.name();
         notes
             .0
             .push(format!("contacts: `{name}` does not tell who touches: contact events and `Contacts` see nothing"));

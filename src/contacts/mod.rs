@@ -1,6 +1,7 @@
 //! Contacts: who may touch whom ([`search`]), and what follows from it: one contact law per scene.
 
 pub mod events;
+mod law;
 pub mod penalty;
 pub mod points;
 pub mod search;
@@ -13,11 +14,8 @@ use crate::scene::{Arity, Outline, SceneAppExt};
 use crate::world::{Bodies, Body, Wall, atom};
 
 pub use events::{ContactEvents, ContactEventsAppExt};
+pub use law::{ContactLaw, Law, Touching, add_law};
 pub use search::{AtomPair, CandidatePairs, FindPairs, WallPair};
-
-/// The contact law of a run, by name. Present when some law is installed.
-#[derive(Resource, Clone, Debug, PartialEq, Eq)]
-pub struct ContactLaw(pub &'static str);
 
 /// The deepest overlap so far, as a share of the smaller radius.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]

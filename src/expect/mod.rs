@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::direct::{Accounts, Direct, Observer, State, exchange};
 use crate::tick::energy::EnergyLedger;
+use crate::tick::registered::Registered;
 use crate::tick::{Clock, SimTick, Stage, TickAppExt};
 use crate::world::Bodies;
 
@@ -84,8 +85,9 @@ impl Expectations {
     pub fn add(app: &mut App, text: String, watch: impl Watch) {
         if !app.world().contains_resource::<Self>() {
             app.init_resource::<Self>();
-            app.add_packed_systems(SimTick, 1, observe_tick.in_set(Stage::Observe));
-            Direct::add_observer(app.world_mut(), Watcher::default());
+            let mark = Registered::mark(app.world());
+            app.add_packed_systems(SimTick, observe_tick.in_set(Stage::Observe));
+            Direct::add_observer(app.world_mut(), mark, Watcher::default());
         }
         app.world_mut().resource_mut::<Self>().watches.push((text, Box::new(watch)));
     }

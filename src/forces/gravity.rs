@@ -9,7 +9,8 @@ use serde::Deserialize;
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
 use crate::tick::balance::EnergyTerms;
-use crate::tick::direct::{Direct, Energies, Part, State, Systems};
+use crate::tick::direct::{Asked, Direct, Energies, Part, State};
+use crate::tick::registered::Registered;
 use crate::tick::{Balance, Census, Evaluate, EvaluateStage, ForceSlot, TickAppExt};
 use crate::world::Bodies;
 
@@ -39,12 +40,13 @@ pub struct Gravity(pub DVec2);
 pub fn install(gravity: Gravity, app: &mut App) {
     app.insert_resource(gravity);
     app.world_mut().get_resource_or_init::<EnergyTerms>().potential.push(potential_energy);
-    app.add_flight_systems(Evaluate, 1, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
+    let mark = Registered::mark(app.world());
+    app.add_flight_systems(Evaluate, apply_gravity.in_set(EvaluateStage::Forces).before(ForceSlot(0)));
     // Direct forms act in the order in which they are added, and the weight before all other forces.
     if app.world().get_resource::<Census>().is_some_and(|census| census.force_slots > 0) {
         return;
     }
-    Direct::add(app.world_mut(), Systems { evaluate: 1, energies: 1, ..Systems::default() }, Weight(gravity));
+    Direct::add(app.world_mut(), mark, Asked { energies: 1, ..Asked::default() }, Weight(gravity));
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -71,7 +71,7 @@ pub struct Bounds {
 pub fn plugin(app: &mut App) {
     if !app.world().contains_resource::<Bounds>() {
         app.init_resource::<Bounds>();
-        app.add_flight_systems(Evaluate, 1, update_bounding_boxes.in_set(EvaluateStage::Bounds));
+        app.add_flight_systems(Evaluate, update_bounding_boxes.in_set(EvaluateStage::Bounds));
     }
 }
 

@@ -14,6 +14,7 @@ use bevy_ecs::schedule::Schedule;
 
 use super::balance::{EnergyTerms, Totals};
 use super::drive::Drive;
+use super::registered::Registered;
 use super::stages::Stages;
 use super::stopwatch::{self, Stopwatch};
 use super::{Balance, Clock, EvaluateStage, Evaluation, Ledger, Models, Responses, Span, Stability};
@@ -149,13 +150,9 @@ impl<'a> Accounts<'a> {
     }
 }
 
-/// How many systems there are in [`SimTick`](super::SimTick), [`Evaluate`](super::Evaluate) and [`Modes`](super::Modes), how
-/// many energies in [`EnergyTerms`], and what else is asked of models inside a tick.
+/// How many energies there are in [`EnergyTerms`], and what else is asked of models inside a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Systems {
-    pub tick: usize,
-    pub evaluate: usize,
-    pub modes: usize,
+pub(crate) struct Asked {
     pub energies: usize,
     /// See [`Models::blocks`].
     pub blocks: usize,
@@ -168,17 +165,13 @@ pub(crate) struct Systems {
     pub sources: usize,
 }
 
-impl Systems {
-    /// Those of these schedules.
-    pub fn of(world: &World, tick: &Schedule, evaluate: &Schedule, modes: &Schedule) -> Self {
-        let count = |schedule: &Schedule| schedule.graph().systems.len();
+impl Asked {
+    /// What is asked of all models of a world.
+    fn of(world: &World) -> Self {
         let terms = world.get_resource::<EnergyTerms>();
         let energies = terms.map_or(0, |terms| terms.potential.len() + terms.elastic.len());
         let models = world.resource::<Models>();
         Self {
-            tick: count(tick),
-            evaluate: count(evaluate),
-            modes: count(modes),
             energies,
             blocks: models.blocks.len(),
             watches: models.watches.len(),
@@ -190,48 +183,46 @@ impl Systems {
     }
 }
 
+/// Whether there is a part for each of the systems in the schedules of ticks, evaluations and modes, and for all else that models
+/// are asked.
+pub(crate) fn stands_for_all(world: &World, schedules: [&Schedule; 3]) -> bool {
+    world.resource::<Direct>().asked == Asked::of(world) && world.resource::<Registered>().all_direct(schedules)
+}
+
 /// The parts of a world, and what they work on.
 #[derive(Resource, Default)]
 pub(crate) struct Direct {
     pub state: Box<State>,
     parts: Vec<Box<dyn Part>>,
     observers: Vec<Box<dyn Observer>>,
-    /// Systems for which the parts stand.
-    systems: Systems,
+    /// What the parts answer besides systems.
+    asked: Asked,
 }
 
 impl Direct {
-    /// Adds a part that stands for so many systems.
-    pub fn add(world: &mut World, systems: Systems, part: impl Part) {
+    /// Adds a part that stands for the systems registered since the `mark`.
+    pub fn add(world: &mut World, mark: usize, asked: Asked, part: impl Part) {
+        Registered::cover(world, mark);
         let mut direct = world.get_resource_or_init::<Self>();
         direct.parts.push(Box::new(part));
-        direct.stand_for(systems);
+        direct.answer(asked);
     }
 
-    /// Adds the direct form of one system in [`Stage::Observe`](super::Stage::Observe).
-    pub fn add_observer(world: &mut World, observer: impl Observer) {
-        let mut direct = world.get_resource_or_init::<Self>();
-        direct.observers.push(Box::new(observer));
-        direct.stand_for(Systems { tick: 1, ..Systems::default() });
+    /// Adds the direct form of the system in [`Stage::Observe`](super::Stage::Observe) registered since the `mark`.
+    pub fn add_observer(world: &mut World, mark: usize, observer: impl Observer) {
+        Registered::cover(world, mark);
+        world.get_resource_or_init::<Self>().observers.push(Box::new(observer));
     }
 
-    /// So many systems more are stood for.
-    pub fn stand_for(&mut self, systems: Systems) {
-        self.systems.tick += systems.tick;
-        self.systems.evaluate += systems.evaluate;
-        self.systems.modes += systems.modes;
-        self.systems.energies += systems.energies;
-        self.systems.blocks += systems.blocks;
-        self.systems.watches += systems.watches;
-        self.systems.edges += systems.edges;
-        self.systems.handovers += systems.handovers;
-        self.systems.crowds += systems.crowds;
-        self.systems.sources += systems.sources;
-    }
-
-    /// Whether there is a part for each of the systems that there are.
-    pub fn stands_for_all(&self, systems: Systems) -> bool {
-        self.systems == systems
+    /// So much more is answered.
+    pub fn answer(&mut self, asked: Asked) {
+        self.asked.energies += asked.energies;
+        self.asked.blocks += asked.blocks;
+        self.asked.watches += asked.watches;
+        self.asked.edges += asked.edges;
+        self.asked.handovers += asked.handovers;
+        self.asked.crowds += asked.crowds;
+        self.asked.sources += asked.sources;
     }
 
     /// Takes the state out of the world while `see` goes on.

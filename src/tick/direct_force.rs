@@ -5,7 +5,8 @@ use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 
 use super::balance::EnergyTerms;
-use super::direct::{Direct, Energies, Part, State, Systems, exchange};
+use super::direct::{Asked, Direct, Energies, Part, State, exchange};
+use super::registered::Registered;
 use super::{Balance, Dependence, EvaluateStage, TickAppExt};
 use crate::world::Bodies;
 
@@ -30,6 +31,7 @@ pub(crate) fn add_force_on_bodies<F: ForceOnBodies>(app: &mut App, force: F) {
     // Two systems of one resource have no direct form together.
     let first = !app.world().contains_resource::<F>();
     app.insert_resource(force);
+    let mark = Registered::mark(app.world());
     app.add_packed_force(F::DEPENDENCE, apply::<F>);
     if F::HAS_ENERGY {
         let energy = |world: &World| world.resource::<F>().energy(world.resource());
@@ -38,8 +40,8 @@ pub(crate) fn add_force_on_bodies<F: ForceOnBodies>(app: &mut App, force: F) {
     if !first {
         return;
     }
-    let systems = Systems { evaluate: 1, energies: usize::from(F::HAS_ENERGY), ..Systems::default() };
-    Direct::add(app.world_mut(), systems, Held(F::default()));
+    let asked = Asked { energies: usize::from(F::HAS_ENERGY), ..Asked::default() };
+    Direct::add(app.world_mut(), mark, asked, Held(F::default()));
 }
 
 fn apply<F: ForceOnBodies>(mut force: ResMut<F>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {

@@ -5,11 +5,12 @@ use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 use glam::DVec2;
 
 use super::balance::Totals;
-use super::direct::{Direct, Systems, held, held_mut};
+use super::direct::{Direct, held, held_mut, stands_for_all};
 use super::failure::{Failure, Wrong};
 use super::flight;
 use super::guard::EnergyGuard;
 use super::inside::Tick;
+use super::registered::Registered;
 use super::stopwatch;
 use super::travel::FarTravel;
 use super::{Balance, Census, Clock, Evaluate, EvaluateStage, Evaluation, Ledger, Modes, SimTick, Stage};
@@ -76,8 +77,7 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut running = Box::new(Running { method, evaluate, modes, has_modes, velocity_dependent });
     keep_components_current(world, &mut sim, &mut running.evaluate);
     flight::allow(world, running.method.0.flies(), &sim, [&running.evaluate, &running.modes]);
-    let systems = Systems::of(world, &sim, &running.evaluate, &running.modes);
-    let all_direct = world.resource::<Direct>().stands_for_all(systems);
+    let all_direct = stands_for_all(world, [&sim, &running.evaluate, &running.modes]);
     let may_be_direct = all_direct && {
         // Where others have put conditions on stages. The schedules hand them on when they are made ready.
         let conditional = [&sim, &running.evaluate, &running.modes].into_iter().any(has_conditions);
@@ -130,10 +130,9 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
 /// Before bodies are spawned: sees whether systems that work on components are there already, so that bodies are
 /// spawned with all that those need.
 pub(crate) fn foresee_components(world: &mut World) {
-    let (census, schedules) = (world.resource::<Census>(), world.resource::<Schedules>());
-    let count = |schedule: Option<&Schedule>| schedule.map_or(0, |schedule| schedule.graph().systems.len());
-    let ordinary = count(schedules.get(SimTick)) > census.packed_in_tick
-        || count(schedules.get(Evaluate)) > census.packed_in_evaluate;
+    let (registered, schedules) = (world.resource::<Registered>(), world.resource::<Schedules>());
+    let ordinary = schedules.get(SimTick).is_some_and(|schedule| !registered.all_packed(SimTick, schedule))
+        || schedules.get(Evaluate).is_some_and(|schedule| !registered.all_packed(Evaluate, schedule));
     world.resource_mut::<Bodies>().pushed |= ordinary;
 }
 
@@ -163,9 +162,8 @@ fn apply_only_what_is_deferred(world: &mut World, schedule: &mut Schedule) {
 
 /// Sees whether systems were added that work on components, and puts the copying around them.
 fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut Schedule) {
-    let counted = (sim.graph().systems.len(), evaluate.graph().systems.len());
-    let census = world.resource::<Census>();
-    let ordinary = (counted.0 > census.packed_in_tick, counted.1 > census.packed_in_evaluate);
+    let registered = world.resource::<Registered>();
+    let ordinary = (!registered.all_packed(SimTick, sim), !registered.all_packed(Evaluate, evaluate));
     if (ordinary.0 || ordinary.1) && !world.resource::<Bodies>().pushed {
         packed::make_pushable(world);
     }

@@ -6,17 +6,19 @@ use bevy_ecs::system::ScheduleSystem;
 
 use super::direct::{Direct, Observer, held_mut};
 use super::drive::Drive;
-use super::{Census, add_packed_observer};
+use super::registered::{Registered, register};
+use super::{Evaluate, Modes, SimTick, Stage};
 use crate::world::Bodies;
 
 /// Before a batch of ticks: sees whether all that makes forces is right while bodies fly, and whether others look at the bodies at
 /// each tick. `flies`: the method is one under which they may.
 pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, evaluation: [&Schedule; 2]) {
-    let count = |schedule: &Schedule| schedule.graph().systems.len();
-    let Census { of_flights: [in_tick, in_evaluation], .. } = *world.resource::<Census>();
-    let flies = flies && evaluation.into_iter().map(count).sum::<usize>() == in_evaluation;
+    let registered = world.resource::<Registered>();
+    let [evaluate, modes] = evaluation;
+    let flies = flies && registered.all_fly(Evaluate, evaluate) && registered.all_fly(Modes, modes);
+    let looked_at = flies && !registered.all_fly(SimTick, sim);
     world.resource_mut::<Bodies>().allow_flights(flies);
-    world.resource_mut::<Drive>().looked_at = flies && count(sim) > in_tick;
+    world.resource_mut::<Drive>().looked_at = looked_at;
     note_looks(world);
 }
 
@@ -41,9 +43,11 @@ pub(crate) fn add_observer_of_ticks<M>(
     system: impl IntoScheduleConfigs<ScheduleSystem, M>,
     direct: impl Observer,
 ) {
-    add_packed_observer(world, system);
-    Direct::add_observer(world, direct);
-    world.resource_mut::<Census>().of_flights[0] += 1;
+    let mark = Registered::mark(world);
+    register(world, SimTick, true, |schedule| {
+        schedule.add_systems(system.in_set(Stage::Observe));
+    });
+    Direct::add_observer(world, mark, direct);
 }
 
 /// Somebody looks at the packed state at the ends of these ticks.

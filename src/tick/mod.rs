@@ -43,6 +43,7 @@ mod method;
 pub mod models;
 mod notes;
 mod ode;
+pub(crate) mod registered;
 pub mod response;
 pub mod stability;
 mod stages;
@@ -52,14 +53,13 @@ mod travel;
 mod undo;
 
 use bevy_app::App;
-use bevy_ecs::intern::Interned;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use after_load::{AfterLoad, LoadErrors};
 pub use balance::{Balance, Ledger};
 pub use clock::{Clock, Evaluation, Span, Style};
-use direct::{Direct, Systems};
+use direct::Direct;
 pub(crate) use drive::foresee_components;
 pub use drive::{energy_seen, set_method, step};
 pub use failure::{Failure, Wrong};
@@ -71,6 +71,7 @@ pub use method::{Integrator, Method};
 pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
 pub use notes::Notes;
 pub use ode::Flow;
+use registered::{Registered, register};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub(crate) use stages::Stages;
 pub use travel::{FarTravel, far_travel, largest_travel};
@@ -142,10 +143,6 @@ pub struct ForceSlot(pub u32);
 /// What the engine knows of its systems.
 #[derive(Resource, Debug, Default)]
 pub(crate) struct Census {
-    pub packed_in_tick: usize,
-    pub packed_in_evaluate: usize,
-    /// Systems that are right while bodies fly: in the tick, and in evaluations and choices of modes.
-    pub of_flights: [usize; 2],
     pub ordinary_forces: usize,
     pub force_slots: u32,
     pub velocity_dependent: bool,
@@ -168,12 +165,9 @@ pub trait TickAppExt {
     fn add_tick(&mut self) -> &mut Self;
 
     /// Adds systems that work on the packed state only. They may not spawn or despawn.
-    ///
-    /// `count` is the number of systems given; it lets the engine tell them from ordinary ones.
     fn add_packed_systems<M>(
         &mut self,
         schedule: impl ScheduleLabel,
-        count: usize,
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self;
 
@@ -183,7 +177,6 @@ pub trait TickAppExt {
     fn add_flight_systems<M>(
         &mut self,
         schedule: impl ScheduleLabel,
-        count: usize,
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self;
 
@@ -228,36 +221,33 @@ impl TickAppExt for App {
             .init_resource::<Stability>()
             .init_resource::<drive::Drive>()
             .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
-        Direct::stand_for(&mut self.world_mut().get_resource_or_init(), Systems { tick: 1, ..Default::default() });
-        self.add_flight_systems(SimTick, 1, drive::integrate.in_set(Stage::Integrate))
+        self.init_resource::<Direct>();
+        let mark = Registered::mark(self.world());
+        self.add_flight_systems(SimTick, drive::integrate.in_set(Stage::Integrate));
+        Registered::cover(self.world_mut(), mark);
+        self
     }
 
     fn add_packed_systems<M>(
         &mut self,
         schedule: impl ScheduleLabel,
-        count: usize,
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self {
-        let label: Interned<dyn ScheduleLabel> = schedule.intern();
-        let mut census = self.world_mut().get_resource_or_init::<Census>();
-        if label == SimTick.intern() {
-            census.packed_in_tick += count;
-        } else if label == Evaluate.intern() {
-            census.packed_in_evaluate += count;
-        }
-        self.add_systems(label, systems)
+        register(self.world_mut(), schedule, false, |schedule| {
+            schedule.add_systems(systems);
+        });
+        self
     }
 
     fn add_flight_systems<M>(
         &mut self,
         schedule: impl ScheduleLabel,
-        count: usize,
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self {
-        let label: Interned<dyn ScheduleLabel> = schedule.intern();
-        let of_evaluation = usize::from(label != SimTick.intern());
-        self.world_mut().get_resource_or_init::<Census>().of_flights[of_evaluation] += count;
-        self.add_packed_systems(label, count, systems)
+        register(self.world_mut(), schedule, true, |schedule| {
+            schedule.add_systems(systems);
+        });
+        self
     }
 
     fn need_velocities(&mut self) -> &mut Self {
@@ -277,7 +267,7 @@ impl TickAppExt for App {
         system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self {
         let slot = next_force_slot(self, dependence);
-        self.add_packed_systems(Evaluate, 1, system.in_set(slot))
+        self.add_packed_systems(Evaluate, system.in_set(slot))
     }
 }
 
@@ -286,8 +276,7 @@ pub fn add_packed_observer<M>(
     world: &mut World,
     system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
 ) {
-    world.get_resource_or_init::<Census>().packed_in_tick += 1;
-    world.schedule_scope(SimTick, |_, schedule| {
+    register(world, SimTick, false, |schedule| {
         schedule.add_systems(system.in_set(Stage::Observe));
     });
 }

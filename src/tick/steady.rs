@@ -52,7 +52,7 @@ pub struct SteadySprings {
 pub fn add_steady_springs(app: &mut App, lister: Lister) {
     if !app.world().contains_resource::<SteadySprings>() {
         app.init_resource::<SteadySprings>();
-        app.add_packed_systems(SimTick, 1, watch_springs.in_set(Stage::Observe));
+        app.add_packed_systems(SimTick, watch_springs.in_set(Stage::Observe));
         app.world_mut().get_resource_or_init::<AfterLoad>().0.push(foresee_springs);
         let sources = &mut app.world_mut().get_resource_or_init::<Stability>().into_inner().sources;
         sources.push(|world| world.resource::<SteadySprings>().found);

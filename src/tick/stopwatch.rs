@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 
-use super::direct::{Direct, Systems};
-use super::{Census, Evaluate, EvaluateStage, FindPairs, Modes, SearchPairs, SimTick, Stage};
+use super::registered::{Registered, register};
+use super::{Evaluate, EvaluateStage, FindPairs, Modes, SearchPairs, SimTick, Stage};
 
 /// Parts of a tick, in the order in which it goes through them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,28 +135,21 @@ pub fn watch(world: &mut World) {
         turn_to::<MODES_OF_CONTACTS>.after(Of::Forces).before(Of::Contacts),
         turn_to::<INTEGRATE>.after(Of::Contacts),
     );
-    // Direct forms tell the time on their own.
-    let mut direct = world.get_resource_or_init::<Direct>();
-    direct.stand_for(Systems { tick: 4, evaluate: 6, ..Systems::default() });
-    let mut census = world.get_resource_or_init::<Census>();
-    census.packed_in_tick += 4;
-    census.packed_in_evaluate += 6;
-    census.of_flights[0] += 4;
-    census.of_flights[1] += 6;
-    world.schedule_scope(SimTick, |_, schedule| {
+    let mark = Registered::mark(world);
+    register(world, SimTick, true, |schedule| {
         schedule.add_systems(in_tick);
     });
-    world.schedule_scope(Evaluate, |_, schedule| {
+    register(world, Evaluate, true, |schedule| {
         schedule.add_systems(in_evaluation);
     });
-    world.schedule_scope(Modes, |world, schedule| {
-        // A schedule without systems is not run at all.
-        if !schedule.graph().systems.is_empty() {
+    // A schedule without systems is not run at all.
+    if world.resource::<Schedules>().get(Modes).is_some_and(|schedule| !schedule.graph().systems.is_empty()) {
+        register(world, Modes, true, |schedule| {
             schedule.add_systems(in_modes);
-            world.resource_mut::<Census>().of_flights[1] += 3;
-            world.resource_mut::<Direct>().stand_for(Systems { modes: 3, ..Systems::default() });
-        }
-    });
+        });
+    }
+    // Direct forms tell the time on their own.
+    Registered::cover(world, mark);
 }
 
 /// The names of the systems of each part, in the order in which they run. Only a world that is watched and has run at least

@@ -14,7 +14,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use jostle::contacts::{AtomPair, CandidatePairs, ContactLaw, FindPairs, WallPair, search};
+use jostle::contacts::{AtomPair, CandidatePairs, FindPairs, Law, Touching, WallPair, add_law};
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::{Overrides, Simulation};
 use jostle::tick::{Balance, Evaluate, EvaluateStage, TickAppExt};
@@ -32,10 +32,10 @@ impl Entry for AxisWise {
     const EXAMPLE: &'static str = "AxisWise()";
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        search::plugin(app);
-        app.insert_resource(ContactLaw("AxisWise")).need_velocities();
+        add_law(app, Law { name: "AxisWise", elastic_energy, stiffness });
+        app.need_velocities();
         let system = apply_axis_wise.after(FindPairs).in_set(EvaluateStage::Contacts);
-        app.add_packed_systems(Evaluate, 1, system);
+        app.add_packed_systems(Evaluate, system);
     }
 }
 
@@ -53,7 +53,7 @@ fn apply_axis_wise(
         if compression <= 0.0 {
             continue;
         }
-        let stiffness = 1.0 / (1.0 / bodies.atom_stiffness(a) + 1.0 / bodies.atom_stiffness(b));
+        let stiffness = series(&bodies, a, b);
         let pair = materials.pair(bodies.atom_material(a).place(), bodies.atom_material(b).place());
         let normal_force = between * (stiffness * compression / distance);
         let approach = sign(velocity(&bodies, a) - velocity(&bodies, b));
@@ -78,6 +78,32 @@ fn apply_axis_wise(
         let force = normal_force - friction - normal_force * motion * sign(wall.normal) * pair.inelasticity;
         push(&mut bodies, &mut balance, atom, force);
     }
+}
+
+/// The law has no potential: what its springs alone would hold.
+fn elastic_energy(world: &World) -> f64 {
+    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+    let energy = |stiffness: f64, compression: f64| 0.5 * stiffness * compression.max(0.0).powi(2);
+    let of_atoms = pairs.atoms.iter().map(|&AtomPair { a, b }| {
+        let (a, b) = (a as usize, b as usize);
+        let distance = (bodies.atom_place(a) - bodies.atom_place(b)).length();
+        energy(series(bodies, a, b), bodies.atom_radius[a] + bodies.atom_radius[b] - distance)
+    });
+    let of_walls = pairs.walls.iter().map(|&WallPair { wall, atom }| {
+        let (wall, atom) = (bodies.walls[wall as usize], atom as usize);
+        let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
+        energy(bodies.atom_stiffness(atom), bodies.atom_radius[atom] - height)
+    });
+    of_atoms.chain(of_walls).sum()
+}
+
+fn stiffness(world: &World, pair: &Touching) -> (f64, f64) {
+    let bodies = world.resource::<Bodies>();
+    (pair.a.map_or(bodies.atom_stiffness(pair.b), |a| series(bodies, a, pair.b)), 0.0)
+}
+
+fn series(bodies: &Bodies, a: usize, b: usize) -> f64 {
+    1.0 / (1.0 / bodies.atom_stiffness(a) + 1.0 / bodies.atom_stiffness(b))
 }
 
 fn velocity(bodies: &Bodies, atom: usize) -> DVec2 {

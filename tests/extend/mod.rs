@@ -3,5 +3,7 @@
 mod axis_wise;
 mod bevy_app;
 mod contact_events;
+mod contact_law;
 mod film_layer;
 mod integrator;
+mod replaced_system;

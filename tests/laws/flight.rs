@@ -131,7 +131,7 @@ fn what_others_write_into_the_packed_state_counts() {
     let text = cloud(20, 10, 0.2, CLOCK);
     let begin = load(&text);
     let mut end = load_with(&text, |app| {
-        app.add_packed_systems(SimTick, 1, throw.in_set(Stage::Begin));
+        app.add_packed_systems(SimTick, throw.in_set(Stage::Begin));
     });
     end.run_to_tick(1000).unwrap();
     for body in 0..200 {
@@ -151,7 +151,7 @@ fn what_others_write_at_the_end_of_a_tick_counts_in_every_tick() {
     let text = cloud(20, 10, 0.2, CLOCK);
     let run = |pieces: u64| {
         let mut simulation = load_with(&text, |app| {
-            app.add_packed_systems(SimTick, 1, blow.in_set(Stage::Observe));
+            app.add_packed_systems(SimTick, blow.in_set(Stage::Observe));
         });
         let before: Vec<f64> = simulation.bodies().velocity.iter().map(|velocity| velocity.x).collect();
         for piece in 1..=pieces {

@@ -113,11 +113,8 @@ impl Slider {
         if !beyond && displacement.is_none() {
             return 0.0;
         }
-        (self.grip, self.elongation) = if beyond {
-            (Grip::Slip, law.slipped(normal_force).copysign(trial))
-        } else {
-            (Grip::Stick, trial)
-        };
+        (self.grip, self.elongation) =
+            if beyond { (Grip::Slip, law.slipped(normal_force).copysign(trial)) } else { (Grip::Stick, trial) };
         // Mean force times the displacement that the spring did not take up.
         0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
     }

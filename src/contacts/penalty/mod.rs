@@ -53,7 +53,8 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::AfterLoad;
 use crate::tick::Notes;
 use crate::tick::balance::EnergyTerms;
-use crate::tick::direct::{Direct, Systems};
+use crate::tick::direct::{Asked, Direct};
+use crate::tick::registered::Registered;
 use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Models, Modes, Stability, TickAppExt};
 use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
@@ -155,21 +156,20 @@ fn default_ratio() -> f64 {
 }
 
 impl NormalLaw {
-    fn add_systems(self, app: &mut App) {
+    fn add_systems(self, app: &mut App, mark: usize) {
         match self {
-            Self::Inelasticity => add_systems::<Inelasticity>(app),
-            Self::Dashpot => add_systems::<Dashpot>(app),
+            Self::Inelasticity => add_systems::<Inelasticity>(app, mark),
+            Self::Dashpot => add_systems::<Dashpot>(app, mark),
         }
     }
 }
 
-fn add_systems<N: NormalForce>(app: &mut App) {
+fn add_systems<N: NormalForce>(app: &mut App, mark: usize) {
     let system = apply::apply_penalty::<N>.in_set(ApplyPenalty).after(FindPairs).in_set(EvaluateStage::Contacts);
-    app.add_flight_systems(Evaluate, 1, system);
-    app.add_flight_systems(Modes, 1, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
-    // Bounds, search, contacts and rest.
-    let systems = Systems { evaluate: 4, modes: 1, energies: 1, ..Systems::default() };
-    Direct::add(app.world_mut(), systems, direct::Contacts::<N>::default());
+    app.add_flight_systems(Evaluate, system);
+    app.add_flight_systems(Modes, modes::choose_modes::<N>.in_set(EvaluateStage::Contacts));
+    let asked = Asked { energies: 1, ..Asked::default() };
+    Direct::add(app.world_mut(), mark, asked, direct::Contacts::<N>::default());
     if N::DEPENDS_ON_VELOCITY {
         app.need_velocities();
     }
@@ -182,30 +182,31 @@ struct ApplyPenalty;
 
 /// Installs penalty contacts with these settings.
 pub fn install(settings: Penalty, app: &mut App) {
+    // Bounds, search, contacts, rolling and rest.
+    let mark = Registered::mark(app.world());
     search::plugin(app);
     app.insert_resource(settings)
-        .insert_resource(ContactLaw("Penalty"))
+        .insert_resource(ContactLaw::of_engine("Penalty"))
         .init_resource::<Materials>()
         .init_resource::<PenaltyContacts>()
         .init_resource::<DeepestOverlap>()
         .insert_resource(TellContacts(apply::contact_points));
-    settings.normal.add_systems(app);
-    app.add_flight_systems(Evaluate, 1, rest::settle_rest.after(EvaluateStage::Joints));
+    settings.normal.add_systems(app, mark);
+    app.add_flight_systems(Evaluate, rest::settle_rest.after(EvaluateStage::Joints));
     app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
     if let RollingLaw::Spring { friction, ratio } = settings.rolling {
         app.insert_resource(RollingContacts::new(friction, ratio));
         let system = rolling::apply_rolling.after(ApplyPenalty).in_set(EvaluateStage::Contacts);
-        app.add_packed_systems(Evaluate, 1, system);
-        let systems = Systems { evaluate: 1, energies: 1, ..Systems::default() };
-        app.world_mut().get_resource_or_init::<Direct>().stand_for(systems);
+        app.add_packed_systems(Evaluate, system);
+        app.world_mut().get_resource_or_init::<Direct>().answer(Asked { energies: 1, ..Asked::default() });
         app.world_mut().get_resource_or_init::<EnergyTerms>().elastic.push(rolling_energy);
     }
     app.world_mut()
         .get_resource_or_init::<Stability>()
         .sources
         .push(|world| world.resource::<PenaltyContacts>().watch.found);
-    let systems = Systems { sources: 1, ..Systems::default() };
-    app.world_mut().get_resource_or_init::<Direct>().stand_for(systems);
+    app.world_mut().get_resource_or_init::<Direct>().answer(Asked { sources: 1, ..Asked::default() });
+    Registered::cover(app.world_mut(), mark);
 }
 
 impl Entry for Penalty {

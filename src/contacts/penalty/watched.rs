@@ -11,7 +11,7 @@ use super::switching::{self, View};
 use super::{Penalty, RollingLaw, TangentialLaw, rolling_stages};
 use crate::contacts::DeepestOverlap;
 use crate::contacts::events::Touches;
-use crate::tick::direct::{Direct, State, Systems};
+use crate::tick::direct::{Asked, Direct, State};
 use crate::tick::{Clock, Evaluation, Indicator, Ledger, Models, Objection, Stages, StateBlock, Style, Watch};
 use crate::world::{Bodies, lend, lend_any};
 
@@ -58,8 +58,8 @@ pub(super) fn install<N: NormalForce>(world: &mut World) {
     });
     models.crowds.push(|world| handover::crowded(world.resource(), world.get_resource()));
     let blocks = 1 + usize::from(rolls);
-    let systems = Systems { blocks, watches: 1, handovers: 1, crowds: 1, ..Systems::default() };
-    world.get_resource_or_init::<Direct>().stand_for(systems);
+    let asked = Asked { blocks, watches: 1, handovers: 1, crowds: 1, ..Asked::default() };
+    world.get_resource_or_init::<Direct>().answer(asked);
 }
 
 /// What these contacts cannot do yet, or cannot do at all.

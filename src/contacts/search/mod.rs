@@ -96,7 +96,7 @@ pub fn plugin(app: &mut App) {
     if !app.world().contains_resource::<CandidatePairs>() {
         app.init_resource::<CandidatePairs>();
         let system = find_pairs.in_set(SearchPairs).in_set(FindPairs).in_set(EvaluateStage::Contacts);
-        app.add_flight_systems(Evaluate, 1, system);
+        app.add_flight_systems(Evaluate, system);
         app.world_mut().get_resource_or_init::<AfterLoad>().0.push(at_start::note_overlaps);
     }
 }

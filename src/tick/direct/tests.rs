@@ -50,9 +50,8 @@ fn is_direct(world: &World) -> bool {
     let schedules = world.resource::<Schedules>();
     let [tick, evaluate, modes] =
         [SimTick.intern(), Evaluate.intern(), Modes.intern()].map(|label| schedules.get(label).unwrap());
-    let systems = Systems::of(world, tick, evaluate, modes);
     let method = world.resource::<Drive>().method.as_ref();
-    method.is_none_or(|method| method.0.is_direct()) && world.resource::<Direct>().stands_for_all(systems)
+    method.is_none_or(|method| method.0.is_direct()) && stands_for_all(world, [tick, evaluate, modes])
 }
 
 /// Runs the scene in both ways, in batches that end at these ticks and at its end. How many events were located, and how many
