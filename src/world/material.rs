@@ -1,8 +1,7 @@
 //! What bodies and walls are made of, and what two materials do to each other.
 //!
-//! The pair takes the mean of the two materials' friction and inelasticity unless `pairs` says otherwise. Restitution
-//! e (ratio of the speeds after and before) is kept as inelasticity mu_e = (1 - e^2) / (1 + e^2): the normal force is
-//! 1 + mu_e times the spring's while loading and 1 - mu_e times while unloading.
+//! The pair takes the mean of the two materials' friction unless `pairs` says otherwise. How it rebounds is kept as the scene says
+//! it of both: the contact law makes one number of the two.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -32,8 +31,8 @@ pub struct Material {
     pub friction_static: f64,
     /// Coefficient of dynamic friction. Default: 0.
     pub friction_dynamic: f64,
-    /// Inelasticity from 0 (nothing is lost) to 1 (no rebound). Default: 0.
-    pub inelasticity: f64,
+    /// How it rebounds. Default: nothing is lost.
+    pub rebound: Rebound,
     /// Mass per area in kg/m2, for atoms without a mass. Default: 1.
     pub density: f64,
     /// A colour of the theme's palette or `#rrggbb`. Default: the theme chooses.
@@ -47,10 +46,27 @@ impl Default for Material {
             stiffness: 1000.0,
             friction_static: 0.0,
             friction_dynamic: 0.0,
-            inelasticity: 0.0,
+            rebound: Rebound::Restitution(1.0),
             density: 1.0,
             color: None,
         }
+    }
+}
+
+/// How a material rebounds, as the scene says it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rebound {
+    /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (nothing is lost).
+    Restitution(f64),
+    /// What the normal force is greater by while loading, and less while unloading, as a share: from 0 (nothing is lost) to 1 (no
+    /// rebound).
+    Inelasticity(f64),
+}
+
+impl Rebound {
+    fn of(restitution: Option<Scalar>, inelasticity: Option<Scalar>) -> Option<Self> {
+        let inelasticity = inelasticity.map(|inelasticity| Self::Inelasticity(inelasticity.si()));
+        inelasticity.or_else(|| restitution.map(|restitution| Self::Restitution(restitution.si())))
     }
 }
 
@@ -77,18 +93,8 @@ pub struct PairCoefficients {
     pub friction_static: f64,
     /// Coefficient of dynamic friction.
     pub friction_dynamic: f64,
-    /// Inelasticity from 0 to 1.
-    pub inelasticity: f64,
-}
-
-/// The inelasticity that gives a restitution.
-pub fn inelasticity_of(restitution: f64) -> f64 {
-    (1.0 - restitution * restitution) / (1.0 + restitution * restitution)
-}
-
-/// The restitution that an inelasticity gives.
-pub fn restitution_of(inelasticity: f64) -> f64 {
-    ((1.0 - inelasticity) / (1.0 + inelasticity)).sqrt()
+    /// How the first and the second rebound; the same twice where `pairs` says it of both.
+    pub rebounds: [Rebound; 2],
 }
 
 /// All materials of a scene.
@@ -104,7 +110,7 @@ pub struct Materials {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Override {
     friction: Option<Friction>,
-    inelasticity: Option<f64>,
+    rebound: Option<Rebound>,
 }
 
 impl Default for Materials {
@@ -135,8 +141,8 @@ impl Materials {
     pub fn set_pairs(&mut self, pairs: &PairsSection) {
         for pair in &pairs.0 {
             if let (Some(a), Some(b)) = (self.find(&pair.between.0), self.find(&pair.between.1)) {
-                let inelasticity = inelasticity(pair.restitution, pair.inelasticity);
-                self.overrides.insert(ordered(a, b), Override { friction: pair.friction, inelasticity });
+                let rebound = Rebound::of(pair.restitution, pair.inelasticity);
+                self.overrides.insert(ordered(a, b), Override { friction: pair.friction, rebound });
             }
         }
     }
@@ -150,7 +156,7 @@ impl Materials {
         name.and_then(|name| self.find(name)).unwrap_or(0)
     }
 
-    /// What two materials, given by their places, do to each other: the means of the two, unless `pairs` says
+    /// What two materials, given by their places, do to each other: the means of their frictions, unless `pairs` says
     /// otherwise. A place that is not there counts as the default.
     pub fn pair(&self, a: usize, b: usize) -> PairCoefficients {
         let default = &self.by_index[0];
@@ -161,16 +167,16 @@ impl Materials {
         PairCoefficients {
             friction_static: friction.map_or_else(|| mean(|material| material.friction_static), |both| both.0),
             friction_dynamic: friction.map_or_else(|| mean(|material| material.friction_dynamic), |both| both.1),
-            inelasticity: other.inelasticity.unwrap_or_else(|| mean(|material| material.inelasticity)),
+            rebounds: other.rebound.map_or([first.rebound, second.rebound], |both| [both; 2]),
         }
     }
 }
 
 impl Materials {
-    /// The greatest inelasticity that any pair may have.
-    pub fn largest_inelasticity(&self) -> f64 {
-        let own = self.by_index.iter().map(|material| material.inelasticity);
-        own.chain(self.overrides.values().filter_map(|pair| pair.inelasticity)).fold(0.0, f64::max)
+    /// How all materials rebound, and all pairs that say it of themselves.
+    pub fn rebounds(&self) -> impl Iterator<Item = Rebound> + '_ {
+        let own = self.by_index.iter().map(|material| material.rebound);
+        own.chain(self.overrides.values().filter_map(|pair| pair.rebound))
     }
 
     /// Whether any pair may have friction.
@@ -182,10 +188,6 @@ impl Materials {
 
 fn ordered(a: usize, b: usize) -> (usize, usize) {
     (a.min(b), a.max(b))
-}
-
-fn inelasticity(restitution: Option<Scalar>, inelasticity: Option<Scalar>) -> Option<f64> {
-    inelasticity.map(f64::from).or_else(|| restitution.map(|restitution| inelasticity_of(restitution.si())))
 }
 
 /// Friction as it stands in a scene: one number, or `(static: 0.5, dynamic: 0.4)`.
@@ -318,7 +320,7 @@ impl MaterialEntry {
             stiffness: self.stiffness.map_or(default.stiffness, f64::from),
             friction_static: self.friction.map_or(default.friction_static, |friction| friction.sticking.si()),
             friction_dynamic: self.friction.map_or(default.friction_dynamic, |friction| friction.sliding.si()),
-            inelasticity: inelasticity(self.restitution, self.inelasticity).unwrap_or(default.inelasticity),
+            rebound: Rebound::of(self.restitution, self.inelasticity).unwrap_or(default.rebound),
             density: self.density.map_or(default.density, f64::from),
             color: self.color.clone(),
         }
@@ -472,14 +474,15 @@ mod tests {
         let mut materials = Materials::new(Some(&section), None);
         let (a, b) = (materials.index(Some("a")), materials.index(Some("b")));
         assert_eq!((a, b, materials.index(None)), (1, 2, 0));
-        let pair = PairCoefficients { friction_static: 0.4, friction_dynamic: (0.2 + 0.4) / 2.0, inelasticity: 0.25 };
+        let rebounds = [Rebound::Inelasticity(0.5), Rebound::Restitution(1.0)];
+        let pair = PairCoefficients { friction_static: 0.4, friction_dynamic: (0.2 + 0.4) / 2.0, rebounds };
         assert_eq!(materials.pair(a, b), pair);
-        assert_eq!(materials.pair(b, a), pair);
+        assert_eq!(materials.pair(b, a), PairCoefficients { rebounds: [rebounds[1], rebounds[0]], ..pair });
         materials.set_pairs(&read("[(between: (\"b\", \"a\"), friction: 0.1)]"));
-        assert_eq!(
-            materials.pair(a, b),
-            PairCoefficients { friction_static: 0.1, friction_dynamic: 0.1, inelasticity: 0.25 }
-        );
+        let slippery = PairCoefficients { friction_static: 0.1, friction_dynamic: 0.1, rebounds };
+        assert_eq!(materials.pair(a, b), slippery);
+        materials.set_pairs(&read("[(between: (\"a\", \"b\"), restitution: 0.3)]"));
+        assert_eq!(materials.pair(a, b).rebounds, [Rebound::Restitution(0.3); 2]);
     }
 
     #[test]
@@ -489,13 +492,5 @@ mod tests {
         assert_eq!(materials.names, ["default", "a"]);
         assert_eq!(materials.by_index[0].stiffness, 5.0);
         assert_eq!(materials.by_index[1], Material::default());
-    }
-
-    #[test]
-    fn restitution_and_inelasticity_are_one_thing() {
-        for restitution in [0.0, 0.3, 0.8, 1.0] {
-            // Rounding of three operations.
-            assert!((restitution_of(inelasticity_of(restitution)) - restitution).abs() < 1e-15);
-        }
     }
 }

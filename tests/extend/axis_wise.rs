@@ -18,6 +18,7 @@ use jostle::contacts::{AtomPair, CandidatePairs, FindPairs, Law, Touching, WallP
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::{Overrides, Simulation};
 use jostle::tick::{Balance, Evaluate, EvaluateStage, TickAppExt};
+use jostle::world::material::Rebound;
 use jostle::world::{Bodies, Materials};
 use serde::Deserialize;
 
@@ -59,7 +60,7 @@ fn apply_axis_wise(
         let approach = sign(velocity(&bodies, a) - velocity(&bodies, b));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * approach * pair.friction_dynamic;
-        let force = normal_force - friction - normal_force * approach * pair.inelasticity;
+        let force = normal_force - friction - normal_force * approach * inelasticity(pair.rebounds);
         push(&mut bodies, &mut balance, a, force);
         push(&mut bodies, &mut balance, b, -force);
     }
@@ -75,7 +76,7 @@ fn apply_axis_wise(
         let motion = sign(velocity(&bodies, atom));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * motion * pair.friction_dynamic;
-        let force = normal_force - friction - normal_force * motion * sign(wall.normal) * pair.inelasticity;
+        let force = normal_force - friction - normal_force * motion * sign(wall.normal) * inelasticity(pair.rebounds);
         push(&mut bodies, &mut balance, atom, force);
     }
 }
@@ -100,6 +101,15 @@ fn elastic_energy(world: &World) -> f64 {
 fn stiffness(world: &World, pair: &Touching) -> (f64, f64) {
     let bodies = world.resource::<Bodies>();
     (pair.a.map_or(bodies.atom_stiffness(pair.b), |a| series(bodies, a, pair.b)), 0.0)
+}
+
+/// The law knows inelasticities only, as its scenes do.
+fn inelasticity(rebounds: [Rebound; 2]) -> f64 {
+    let of = |rebound: Rebound| match rebound {
+        Rebound::Inelasticity(inelasticity) => inelasticity,
+        Rebound::Restitution(restitution) => 1.0 - restitution,
+    };
+    (of(rebounds[0]) + of(rebounds[1])) / 2.0
 }
 
 fn series(bodies: &Bodies, a: usize, b: usize) -> f64 {

@@ -14,10 +14,10 @@
 //! `m x^2 = I`, rebound as one does). The run notes it on its card.
 
 use super::Penalty;
+use super::inelasticity::restitution_of;
 use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, lost_work};
 use crate::simd::Lanes;
-use crate::world::material::restitution_of;
 
 /// The least restitution that is converted; zero would need infinite damping.
 pub const LEAST_RESTITUTION: f64 = 0.01;

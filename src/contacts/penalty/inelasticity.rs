@@ -13,6 +13,31 @@ use super::Penalty;
 use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, elastic_energy};
 use crate::simd::Lanes;
+use crate::world::Materials;
+use crate::world::material::Rebound;
+
+/// The inelasticity of a material, from 0 to 1: `mu_e = (1 - e^2)/(1 + e^2)` where it says its restitution `e`.
+pub(crate) fn inelasticity_of(rebound: Rebound) -> f64 {
+    match rebound {
+        Rebound::Inelasticity(inelasticity) => inelasticity,
+        Rebound::Restitution(restitution) => (1.0 - restitution * restitution) / (1.0 + restitution * restitution),
+    }
+}
+
+/// The restitution that an inelasticity gives.
+pub(crate) fn restitution_of(inelasticity: f64) -> f64 {
+    ((1.0 - inelasticity) / (1.0 + inelasticity)).sqrt()
+}
+
+/// The inelasticity of a pair: the mean of both.
+pub(super) fn mean_inelasticity([a, b]: [Rebound; 2]) -> f64 {
+    (inelasticity_of(a) + inelasticity_of(b)) / 2.0
+}
+
+/// The greatest inelasticity that any pair may have.
+pub(super) fn largest_inelasticity(materials: &Materials) -> f64 {
+    materials.rebounds().map(inelasticity_of).fold(0.0, f64::max)
+}
 
 /// The law.
 pub struct Inelasticity;
@@ -79,5 +104,24 @@ impl NormalForce for Inelasticity {
 
     fn dissipates(law: &PairLaw) -> bool {
         law.inelasticity > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn restitution_and_inelasticity_are_one_thing() {
+        for restitution in [0.0, 0.3, 0.8, 1.0] {
+            // Rounding of three operations.
+            let inelasticity = inelasticity_of(Rebound::Restitution(restitution));
+            assert!((restitution_of(inelasticity) - restitution).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_pair_has_the_mean_inelasticity() {
+        assert_eq!(mean_inelasticity([Rebound::Inelasticity(0.5), Rebound::Restitution(1.0)]), 0.25);
     }
 }

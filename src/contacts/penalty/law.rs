@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coulomb::SliderLaw;
 use super::dashpot::Damping;
+use super::inelasticity::mean_inelasticity;
 use super::normal::NormalForce;
 use super::{Penalty, TangentialLaw};
 use crate::simd::{Lanes, Record};
@@ -152,6 +153,6 @@ fn pair_law<N: NormalForce>(a: Side, b: Side, materials: &Materials, settings: &
         share_b: stiffness / b.stiffness,
         ..PairLaw::default()
     };
-    N::set_up(&mut law, pair.inelasticity, settings);
+    N::set_up(&mut law, mean_inelasticity(pair.rebounds), settings);
     law
 }

@@ -40,6 +40,8 @@ use serde::{Deserialize, Serialize};
 pub use apply::PenaltyContacts;
 pub use dashpot::Dashpot;
 pub use inelasticity::Inelasticity;
+use inelasticity::largest_inelasticity;
+pub(crate) use inelasticity::{inelasticity_of, restitution_of};
 pub use rolling::RollingContacts;
 
 use law::PairLaw;
@@ -56,7 +58,6 @@ use crate::tick::balance::EnergyTerms;
 use crate::tick::direct::{Asked, Direct};
 use crate::tick::registered::Registered;
 use crate::tick::{Evaluate, EvaluateStage, Foreseen, Holder, Models, Modes, Stability, TickAppExt};
-use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials};
 
 /// Contacts as springs: overlap makes force.
@@ -284,7 +285,7 @@ fn note_limits(world: &mut World) {
     }
     let bodies = world.resource::<Bodies>();
     let clumps = (0..bodies.len()).any(|body| bodies.atoms_of(body).len() > 1);
-    let least = restitution_of(world.resource::<Materials>().largest_inelasticity());
+    let least = restitution_of(largest_inelasticity(world.resource()));
     let mut notes = Vec::new();
     if clumps {
         notes.push("contacts: under Dashpot the restitution is that of one atom; a body that lands on n at once rebounds less, its damping ratio is up to sqrt(n) times as large".to_owned());
@@ -310,7 +311,7 @@ fn stiffest_contact<N: NormalForce>(bodies: &Bodies, materials: &Materials, sett
     let turning = settings.rolling.ratio().unwrap_or(0.0);
     let weight = Stability::default().weight_of_damping();
     let mut law = PairLaw::default();
-    N::set_up(&mut law, materials.largest_inelasticity(), settings);
+    N::set_up(&mut law, largest_inelasticity(materials), settings);
     let mut frequency = |atom: usize| {
         let body = bodies.atom_body(atom);
         let distance = bodies.atom_offset(atom).length();

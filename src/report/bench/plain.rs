@@ -10,10 +10,10 @@ use glam::DVec2;
 
 use super::cells::Cells;
 use crate::contacts::penalty::{NormalLaw, Penalty, RollingLaw};
+use crate::contacts::penalty::{inelasticity_of, restitution_of};
 use crate::forces::gravity::Gravity;
 use crate::integrate::ChosenMethod;
 use crate::simulation::Simulation;
-use crate::world::material::restitution_of;
 use crate::world::{Bodies, Materials, PackedWall};
 
 /// The skin, as a share of the smallest radius: pairs are listed that are as near as that, and listed anew when an atom has moved
@@ -401,7 +401,7 @@ fn laws(bodies: &Bodies, penalty: &Penalty, materials: &Materials) -> (Law, Law)
     let material = |atom: usize| &materials.by_index[bodies.atom_material(atom).place()];
     let stiffness = mean(&|atom| bodies.atom_stiffness(atom));
     let friction = mean(&|atom| material(atom).friction_dynamic);
-    let inelasticity = mean(&|atom| material(atom).inelasticity);
+    let inelasticity = mean(&|atom| inelasticity_of(material(atom).rebound));
     let moving: Vec<f64> = (0..bodies.len()).filter(|&b| bodies.dynamic[b]).map(|b| bodies.mass[b]).collect();
     let mass = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
     let ratio = penalty.tangential.ratio();
