@@ -375,10 +375,11 @@ impl Impact {
                 Grip::Stick => value < -1e-12 * limit,
                 Grip::Slip(_) => value < -1e-12 * speed,
             };
-            if over(modes.along, along, self.friction.0 * force, speed) {
-                self.end_along(disc, modes);
-            } else if over(modes.rolling, rolling, self.rolling_law().0 * force, speed / self.radius) {
+            // What friction without a spring has to bear depends on the rolling spring.
+            if over(modes.rolling, rolling, self.rolling_law().0 * force, speed / self.radius) {
                 self.end_rolling(disc, modes);
+            } else if over(modes.along, along, self.friction.0 * force, speed) {
+                self.end_along(disc, modes);
             } else {
                 break;
             }

@@ -15,7 +15,9 @@ impl View<'_> {
             self.contacts.held_before = Some(self.stored(|_| true));
             self.contacts.before.clear();
         }
-        let corrected = self.settle_normals::<N>() || self.settle_friction::<N>();
+        let corrected = self.settle_normals::<N>()
+            || self.settle_friction::<N>(|grip| grip != Grip::Hold)
+            || self.settle_friction::<N>(|grip| grip == Grip::Hold);
         if !corrected {
             self.contacts.slid = self.sliding_energy();
         }
@@ -61,8 +63,8 @@ impl View<'_> {
 
     /// Ends phases of friction that have lost their base: the normal force has jumped, at the turn from loading to unloading or as
     /// a dashpot goes slack. What is beyond the cone slips at once; what would slip backwards, or is not drawn to its limit, sticks.
-    /// Says whether there was any.
-    fn settle_friction<N: NormalForce>(&mut self) -> bool {
+    /// Says whether there was any. `which`: only of those grips. What holds waits for springs: what it has to bear depends on them.
+    fn settle_friction<N: NormalForce>(&mut self, which: impl Fn(Grip) -> bool) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
         for place in 0..self.len() {
@@ -73,7 +75,7 @@ impl View<'_> {
                 continue;
             }
             let base = Base::of::<N>(&contact, law, &look, bodies);
-            if law.tangential().acts() {
+            if law.tangential().acts() && which(contact.tangential.grip) {
                 let motion = (look.sliding(law), look.speed(law));
                 let slider = &mut contact.tangential;
                 // A spring that gives has its new elongation once it was evaluated.
@@ -81,7 +83,7 @@ impl View<'_> {
                     || slider.settle_force(&law.tangential(), base, before[0])
                     || !law.exact && slider.settle_motion(&law.tangential(), base, motion);
             }
-            if let Some((slider, law)) = roller {
+            if let Some((slider, law)) = roller.filter(|(slider, _)| which(slider.grip)) {
                 let motion = (look.turning(), look.turning_speed());
                 corrected |= slider.settle_jump(&law, before[1], motion.0)
                     || slider.settle_force(&law, base, before[1])
