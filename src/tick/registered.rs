@@ -56,9 +56,9 @@ impl Registered {
     }
 
     fn knows(&self, label: Interned<dyn ScheduleLabel>, schedule: &Schedule, which: impl Fn(&Known) -> bool) -> bool {
-        let known: BTreeSet<SystemKey> =
-            self.0.iter().filter(|known| known.schedule == label && which(known)).map(|known| known.system).collect();
-        keys(schedule).all(|key| known.contains(&key))
+        // A dozen systems: a list is searched sooner than a set is made, once a batch.
+        let known = |key| self.0.iter().any(|known| known.system == key && known.schedule == label && which(known));
+        keys(schedule).all(known)
     }
 
     /// Whether all systems of a schedule work on the packed state only.
