@@ -4,12 +4,13 @@
 
 use bevy_app::App;
 use jostle::forces::Targets;
-use jostle::forces::drag::{self, DragForce};
-use jostle::forces::gravity::{self, Gravity};
+use jostle::forces::drag::DragForce;
+use jostle::forces::gravity;
 use jostle::scene::units::{AccelerationPair, Damping};
 use jostle::scene::values::Names;
 use jostle::scene::{Arity, Entry, Outline, SceneAppExt, Section, Source, Written};
 use jostle::simulation::Overrides;
+use jostle::tick::TickAppExt;
 use jostle::world::hash::state_hash;
 use jostle::{Simulation, expect, integrate, plugins, sensors, world};
 
@@ -21,7 +22,7 @@ impl Section for FreeFall {
     const EXAMPLE: &'static str = "gravity: (0, -9.81)";
 
     fn install(self, _: &Outline, app: &mut App) {
-        gravity::install(Gravity(self.0.si()), app);
+        gravity::install(self.0.si(), app);
     }
 }
 
@@ -37,11 +38,10 @@ impl Entry for Drag {
     const EXAMPLE: &'static str = "Drag(linear: 0.1, of: \"ball\")";
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let drag = |Written { value, .. }: Written<Self>| {
+        for Written { value, .. } in entries {
             let of = Targets::named(Some(&value.of), outline);
-            DragForce { linear: value.linear.si(), quadratic: 0.0, of }
-        };
-        drag::install(entries.into_iter().map(drag).collect(), app);
+            app.add_model(DragForce { linear: value.linear.si(), quadratic: 0.0, of });
+        }
     }
 }
 

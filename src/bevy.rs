@@ -9,7 +9,7 @@
 //! ```
 //! use bevy_app::{App, FixedPostUpdate};
 //! use jostle::bevy::{Pace, PhysicsPlugin, Run};
-//! use jostle::{scene::Source, tick::Clock};
+//! use jostle::{scene::Source, tick::State};
 //!
 //! let scene = r#"Scene(
 //!     format: 1,
@@ -22,7 +22,7 @@
 //! // With Bevy's `TimePlugin`, the app does this by itself.
 //! app.world_mut().run_schedule(FixedPostUpdate);
 //! assert!(matches!(app.world().resource::<Run>(), Run::Running));
-//! assert_eq!(app.world().resource::<Clock>().ticks, 1);
+//! assert_eq!(app.world().resource::<State>().clock().ticks, 1);
 //! ```
 
 use std::time::Duration;
@@ -33,7 +33,7 @@ use bevy_ecs::prelude::*;
 use crate::expect::observe_all;
 use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::{self, Overrides};
-use crate::tick::{Clock, Failure, step};
+use crate::tick::{Failure, State, step};
 
 /// The system set in `FixedPostUpdate` in which the tick runs: order systems of the same schedule by it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -151,7 +151,7 @@ impl Plugin for PhysicsPlugin {
 
 /// The physics clock's tick as the app's fixed timestep should be, to the nanosecond.
 pub fn timestep(world: &World) -> Duration {
-    Duration::from_secs_f64(world.get_resource::<Clock>().map_or(0.0, |clock| clock.dt))
+    Duration::from_secs_f64(world.get_resource::<State>().map_or(0.0, |state| state.clock.dt))
 }
 
 fn tick(world: &mut World, pace: Pace) {
@@ -163,11 +163,11 @@ fn tick(world: &mut World, pace: Pace) {
     let next = match pace {
         // Timesteps are whole nanoseconds.
         Pace::Checked(fixed) if fixed(world).abs_diff(timestep(world)) > Duration::from_nanos(1) => {
-            Run::OutOfStep { fixed: fixed(world), tick: world.resource::<Clock>().dt }
+            Run::OutOfStep { fixed: fixed(world), tick: world.resource::<State>().clock.dt }
         }
         _ => match step(world, 1) {
             Err(failure) => Run::Failed(failure),
-            Ok(()) if world.resource::<Clock>().ticks >= world.resource::<End>().0 => {
+            Ok(()) if world.resource::<State>().clock.ticks >= world.resource::<End>().0 => {
                 observe_all(world);
                 Run::Ended
             }

@@ -9,10 +9,7 @@ use std::collections::BTreeSet;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
-use super::ContactLaw;
-use crate::tick::Notes;
-use crate::tick::{Clock, add_packed_observer};
-use crate::world::Bodies;
+use crate::tick::{Notes, State, add_packed_observer};
 
 /// A body and another body or a wall. Of two bodies the first stands before the second in canonical order; a wall stands
 /// second.
@@ -22,45 +19,6 @@ pub struct Touching {
     pub a: Entity,
     /// The second body, or the wall.
     pub b: Entity,
-}
-
-/// Who touches in the present state: contact laws fill it in each evaluation, if it is there.
-#[derive(Resource, Debug, Default)]
-pub struct Touches {
-    /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
-    pairs: Vec<(bool, u32, u32)>,
-    /// Those that began to touch at located events since the last tick, once for each time.
-    begun: Vec<(bool, u32, u32)>,
-    /// Whether a law has ever begun a list.
-    told: bool,
-}
-
-impl Touches {
-    /// Begins a new list.
-    pub fn clear(&mut self) {
-        self.pairs.clear();
-        self.told = true;
-    }
-
-    /// Two bodies touch, given by their places.
-    pub fn bodies(&mut self, a: usize, b: usize) {
-        self.pairs.push((false, a.min(b) as u32, a.max(b) as u32));
-    }
-
-    /// A body touches a wall, given by their places.
-    pub fn wall(&mut self, body: usize, wall: u32) {
-        self.pairs.push((true, body as u32, wall));
-    }
-
-    /// Two bodies began to touch at an event inside a tick, given by their places.
-    pub fn bodies_begin(&mut self, a: usize, b: usize) {
-        self.begun.push((false, a.min(b) as u32, a.max(b) as u32));
-    }
-
-    /// A body and a wall did, given by their places.
-    pub fn wall_begins(&mut self, body: usize, wall: u32) {
-        self.begun.push((true, body as u32, wall));
-    }
 }
 
 /// What the last tick changed: an observer reads it in [`crate::tick::Stage::Observe`] after [`FindContactEvents`], or between ticks.
@@ -107,26 +65,23 @@ pub fn watch(world: &mut World) {
         return;
     }
     world.init_resource::<ContactEvents>();
-    world.init_resource::<Touches>();
-    // Who touches already is found by an evaluation, also where all bodies are asleep.
-    if let Some(mut bodies) = world.get_resource_mut::<Bodies>() {
-        bodies.touched = true;
-    }
+    let mut state = world.get_resource_or_init::<State>();
+    state.touches.get_or_insert_default();
+    // The pairs that touch already are found by an evaluation, also where all bodies are asleep.
+    state.bodies.touched = true;
     add_packed_observer(world, find_contact_events.in_set(FindContactEvents));
 }
 
 fn find_contact_events(
-    bodies: Res<Bodies>,
-    mut touches: ResMut<Touches>,
+    mut state: ResMut<State>,
     mut events: ResMut<ContactEvents>,
-    clock: Res<Clock>,
-    law: Option<Res<ContactLaw>>,
     mut notes: ResMut<Notes>,
     mut warned: Local<bool>,
 ) {
-    if let Some(law) = law.filter(|_| !touches.told && !*warned) {
+    let law = state.contact_law();
+    let State { bodies, clock, touches: Some(touches), .. } = state.bypass_change_detection() else { return };
+    if let Some(name) = law.filter(|_| !touches.told && !*warned) {
         *warned = true;
-        let name = law.name();
         notes
             .0
             .push(format!("contacts: `{name}` does not tell who touches: contact events and `Contacts` see nothing"));

@@ -66,10 +66,6 @@ impl Watch for Watching {
         }
     }
 
-    fn needs_world(&self) -> bool {
-        false
-    }
-
     fn verdict(&self) -> (Option<bool>, String) {
         let Some((speed, time)) = self.fastest else {
             return (None, format!("nothing before t = {} s counts", self.from));

@@ -59,9 +59,13 @@ struct Watching {
 }
 
 impl Watch for Watching {
+    fn needs_world(&self) -> bool {
+        self.energy.is_none()
+    }
+
     fn observe(&mut self, sight: &Sight) {
         let Some(channel) = self.channel.as_ref().filter(|_| sight.time >= self.from) else { return };
-        let value = self.energy.map_or_else(|| (channel.read)(sight.world), |entry| entry(&sight.energy())).abs();
+        let value = self.energy.map_or_else(|| (channel.read)(sight.world()), |entry| entry(&sight.energy())).abs();
         if self.largest.is_none_or(|(largest, _)| value > largest || value.is_nan()) {
             self.largest = Some((value, sight.time));
         }
@@ -70,10 +74,6 @@ impl Watch for Watching {
     /// Energies take a sum over all bodies and contacts: every tenth tick is enough to see where they go.
     fn every(&self) -> u64 {
         10
-    }
-
-    fn needs_world(&self) -> bool {
-        self.energy.is_none()
     }
 
     fn verdict(&self) -> (Option<bool>, String) {

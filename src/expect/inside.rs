@@ -77,10 +77,6 @@ impl Watch for Watching {
         }
     }
 
-    fn needs_world(&self) -> bool {
-        false
-    }
-
     fn verdict(&self) -> (Option<bool>, String) {
         match &self.escaped {
             None => (Some(true), "never left the box".to_owned()),

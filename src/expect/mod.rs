@@ -10,27 +10,38 @@ use bevy_ecs::prelude::*;
 use serde::Serialize;
 
 use crate::scene::{Arity, SceneAppExt};
-use crate::tick::direct::{Accounts, Direct, Observer, State, exchange};
 use crate::tick::energy::EnergyLedger;
-use crate::tick::registered::Registered;
-use crate::tick::{Clock, SimTick, Stage, TickAppExt};
+use crate::tick::{State, add_looker};
 use crate::world::Bodies;
 
 /// What an expectation sees.
 pub struct Sight<'a> {
-    /// The world, for channels; of no use to those that say that they do not need it.
-    pub world: &'a World,
-    /// The state.
+    /// The world; only for those that say that they need it.
+    world: Option<&'a World>,
+    /// The state of the run.
+    pub state: &'a State,
+    /// All bodies.
     pub bodies: &'a Bodies,
-    /// Its time in seconds.
+    /// The time of the state in seconds.
     pub time: f64,
-    pub(crate) accounts: Accounts<'a>,
 }
 
-impl Sight<'_> {
+impl<'a> Sight<'a> {
+    fn of(state: &'a State, world: Option<&'a World>) -> Self {
+        Self { world, state, bodies: &state.bodies, time: state.clock.time() }
+    }
+
     /// The energy ledger.
     pub fn energy(&self) -> EnergyLedger {
-        EnergyLedger::with(self.accounts.totals(), self.accounts.ledger())
+        EnergyLedger::of(self.state)
+    }
+
+    /// The world, for channels.
+    ///
+    /// # Panics
+    /// Where [`Watch::needs_world`] says no.
+    pub fn world(&self) -> &'a World {
+        self.world.expect("`needs_world` says so")
     }
 }
 
@@ -44,9 +55,9 @@ pub trait Watch: Send + Sync + 'static {
         1
     }
 
-    /// Whether it looks at [`Sight::world`].
+    /// Whether it looks at [`Sight::world`], which takes longer. Default: no.
     fn needs_world(&self) -> bool {
-        true
+        false
     }
 
     /// Whether it claims something of all times, which it knows only at those at which it looks.
@@ -81,15 +92,17 @@ pub struct Outcome {
 }
 
 impl Expectations {
-    /// Adds an expectation; the first one schedules the watching.
+    /// Adds an expectation; the first one of a kind schedules the watching.
     pub fn add(app: &mut App, text: String, watch: impl Watch) {
-        if !app.world().contains_resource::<Self>() {
-            app.init_resource::<Self>();
-            let mark = Registered::mark(app.world());
-            app.add_packed_systems(SimTick, observe_tick.in_set(Stage::Observe));
-            Direct::add_observer(app.world_mut(), mark, Watcher::default());
+        let needs_world = watch.needs_world();
+        let mut expectations = app.world_mut().get_resource_or_init::<Self>();
+        let first = expectations.watches.iter().all(|(_, other)| other.needs_world() != needs_world);
+        expectations.watches.push((text, Box::new(watch)));
+        match (first, needs_world) {
+            (false, _) => {}
+            (true, false) => add_looker(app.world_mut(), observe_state),
+            (true, true) => add_looker(app.world_mut(), observe_world),
         }
-        app.world_mut().resource_mut::<Self>().watches.push((text, Box::new(watch)));
     }
 
     /// Whether any claims something of all times.
@@ -115,55 +128,36 @@ impl Expectations {
     }
 }
 
-fn observe_tick(world: &mut World) {
-    look(world, false);
+/// Those that need nothing but the state look at it.
+fn observe_state(state: Res<State>, mut expectations: ResMut<Expectations>) {
+    let Expectations { watches, all_ticks } = &mut *expectations;
+    let sight = Sight::of(&state, None);
+    due(watches, *all_ticks, state.clock.ticks).filter(|watch| !watch.needs_world()).for_each(|w| w.observe(&sight));
+}
+
+/// The others look at the world.
+fn observe_world(world: &mut World) {
+    look(world, false, |watch| watch.needs_world());
 }
 
 /// All expectations look at the present state: before the first tick, and after the last.
 pub fn observe_all(world: &mut World) {
-    look(world, true);
+    look(world, true, |_| true);
 }
 
-fn look(world: &mut World, all: bool) {
+fn look(world: &mut World, all: bool, which: fn(&dyn Watch) -> bool) {
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
     let all = all || expectations.all_ticks;
     let mut watches = std::mem::take(&mut expectations.watches);
-    let clock = *world.resource::<Clock>();
-    let sight =
-        Sight { world, bodies: world.resource::<Bodies>(), time: clock.time(), accounts: Accounts::World(world) };
-    for watch in due(&mut watches, all, clock.ticks) {
-        watch.observe(&sight);
-    }
+    let state = world.resource::<State>();
+    let sight = Sight::of(state, Some(world));
+    due(&mut watches, all, state.clock.ticks).filter(|watch| which(&***watch)).for_each(|watch| watch.observe(&sight));
     world.resource_mut::<Expectations>().watches = watches;
 }
 
 /// Those that look after so many ticks.
 fn due(watches: &mut [(String, Box<dyn Watch>)], all: bool, ticks: u64) -> impl Iterator<Item = &mut Box<dyn Watch>> {
     watches.iter_mut().map(|(_, watch)| watch).filter(move |watch| all || ticks.is_multiple_of(watch.every()))
-}
-
-/// The direct form.
-#[derive(Default)]
-struct Watcher(Expectations);
-
-impl Observer for Watcher {
-    fn exchange(&mut self, world: &mut World) {
-        exchange(world, &mut self.0);
-    }
-
-    fn observe(&mut self, state: &State, accounts: Accounts, world: &World) -> bool {
-        let Expectations { watches, all_ticks } = &mut self.0;
-        if due(watches, *all_ticks, state.clock.ticks).any(|watch| watch.needs_world()) {
-            return false;
-        }
-        let sight = Sight { world, bodies: &state.bodies, time: state.clock.time(), accounts };
-        due(watches, *all_ticks, state.clock.ticks).for_each(|watch| watch.observe(&sight));
-        true
-    }
-
-    fn observe_world(&mut self, world: &mut World) {
-        observe_tick(world);
-    }
 }
 
 /// Registers the expectations of this folder.

@@ -81,10 +81,6 @@ impl Watch for Watching {
         false
     }
 
-    fn needs_world(&self) -> bool {
-        false
-    }
-
     fn verdict(&self) -> (Option<bool>, String) {
         let Some(found) = self.found else { return (None, format!("t = {} s was not reached", self.at)) };
         let distance = found.distance(self.is);

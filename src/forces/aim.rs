@@ -10,14 +10,13 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use super::ballistics::{Arc, Flight, Miss, Shot};
-use super::gravity::Gravity;
 use super::{drag, wind};
 use crate::numbers::number;
 use crate::scene::units::{Position, Speed};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, SceneError, Written};
 use crate::tick::Notes;
-use crate::tick::{AfterLoad, LoadErrors};
-use crate::world::{Bodies, Velocity};
+use crate::tick::{AfterLoad, LoadErrors, State};
+use crate::world::Velocity;
 
 /// Gives a body the velocity at the start with which its centre of mass flies through a place. Gravity, drag and wind of the
 /// scene count; what else acts on it makes it miss. What cannot be reached is an error that says which speed would do.
@@ -117,7 +116,7 @@ fn aim_bodies(world: &mut World) {
         aimed.push(aim.key);
         match found {
             Ok((body, shot)) => {
-                let mut bodies = world.resource_mut::<Bodies>();
+                let bodies = &mut world.resource_mut::<State>().bodies;
                 bodies.velocity[body] = shot.velocity;
                 let entity = bodies.entity[body];
                 world.entity_mut(entity).insert(Velocity(shot.velocity));
@@ -143,7 +142,7 @@ impl AimedBody {
         let wrong = |field: &str, message: String, help: String| {
             Err(Box::new(SceneError::new(format!("{path}.{field}"), message).with_help(help)))
         };
-        let bodies = world.resource::<Bodies>();
+        let bodies = &world.resource::<State>().bodies;
         let body = bodies.key.find(*key).filter(|&body| bodies.dynamic[body]);
         let Some(body) = body else {
             let help = "aim a body that is neither `fixed` nor `kinematic`".to_owned();
@@ -153,9 +152,10 @@ impl AimedBody {
             let help = "remove its `velocity`: the aim gives it one".to_owned();
             return wrong("of", format!("`{name}` has a `velocity` already"), help);
         }
-        let gravity = world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0);
-        let mut air = drag::resistance(world, *key);
-        air.extend(wind::resistance(world, *key));
+        let state = world.resource::<State>();
+        let gravity = state.gravity();
+        let mut air = drag::resistance(state, *key);
+        air.extend(wind::resistance(state, *key));
         let flight = Flight { gravity, mass: bodies.mass[body], air };
         match flight.aim(*at - bodies.position[body], *speed, *arc) {
             Ok(shot) => Ok((body, shot)),

@@ -11,9 +11,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
-use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
-use crate::tick::{AfterLoad, LoadErrors};
-use crate::tick::{Balance, Dependence};
+use crate::tick::{AfterLoad, Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Name};
 
 /// Attraction between all bodies, as between the masses of heaven: `F = G m1 m2 / (r^2 + s^2)` for two that are `r` apart
@@ -59,11 +57,10 @@ impl Entry for Attraction {
             app.insert_resource(Unsoftened(mention.path.clone()));
             app.world_mut().get_resource_or_init::<AfterLoad>().0.push(refuse_coincident);
         }
-        let attraction = |Written { value, .. }: Written<Self>| AttractionForce {
-            constant: value.constant.si(),
-            softening: value.softening.si(),
-        };
-        install(entries.into_iter().map(attraction).collect(), app);
+        for Written { value, .. } in entries {
+            let (constant, softening) = (value.constant.si(), value.softening.si());
+            app.add_model(AttractionForce { constant, softening, nearest: Nearest::default() });
+        }
     }
 }
 
@@ -73,7 +70,7 @@ struct Unsoftened(String);
 
 /// Two bodies in one place attract each other infinitely, without a direction.
 fn refuse_coincident(world: &mut World) {
-    let bodies = world.resource::<Bodies>();
+    let bodies = &world.resource::<State>().bodies;
     let same = |(a, b): &(usize, usize)| bodies.position[*a] == bodies.position[*b];
     let Some((a, b)) = pairs(&bodies.dynamic).find(same) else { return };
     let name = |body: usize| world.get::<Name>(bodies.entity[body]).map(Name::to_string).unwrap_or_default();
@@ -90,12 +87,8 @@ pub struct AttractionForce {
     pub constant: f64,
     /// Length `s` in metres below which the force stops growing.
     pub softening: f64,
-}
-
-#[derive(Resource, Default)]
-struct Attractions {
-    entries: Vec<AttractionForce>,
-    nearest: Nearest,
+    /// Where it was steepest so far, without softening.
+    pub nearest: Nearest,
 }
 
 /// Where two bodies fell most steeply towards each other under an attraction without softening.
@@ -108,16 +101,9 @@ pub struct Nearest {
 }
 
 /// Where an attraction without softening was steepest in all evaluations of a run.
-pub fn nearest(world: &World) -> Option<Nearest> {
-    world
-        .get_resource::<Attractions>()
-        .map(|attractions| attractions.nearest)
-        .filter(|nearest| nearest.squared_rate > 0.0)
-}
-
-/// Installs attraction.
-pub fn install(attractions: Vec<AttractionForce>, app: &mut App) {
-    add_force_on_bodies(app, Attractions { entries: attractions, nearest: Nearest::default() });
+pub fn nearest(state: &State) -> Option<Nearest> {
+    let all = state.models_of::<AttractionForce>().map(|attraction| attraction.nearest);
+    all.filter(|nearest| nearest.squared_rate > 0.0).max_by(|a, b| a.squared_rate.total_cmp(&b.squared_rate))
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -129,44 +115,47 @@ fn pairs(dynamic: &[bool]) -> impl Iterator<Item = (usize, usize)> + '_ {
     all.filter(|&(a, b)| dynamic[a] || dynamic[b])
 }
 
-impl ForceOnBodies for Attractions {
-    const DEPENDENCE: Dependence = Dependence::Position;
-    const HAS_ENERGY: bool = true;
-
-    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
-        let Bodies { dynamic, moves, position, velocity, mass, force: sums, .. } = bodies;
-        for attraction in &self.entries {
-            for (a, b) in pairs(dynamic) {
-                let between = position[b] - position[a];
-                let squared = between.length_squared() + attraction.softening * attraction.softening;
-                let strength = attraction.constant * mass[a] * mass[b];
-                let stiffness = strength / (squared * squared.sqrt());
-                let force = between * stiffness;
-                let squared_rate = stiffness * (mass[a] + mass[b]) / (mass[a] * mass[b]);
-                if attraction.softening == 0.0 && squared_rate > self.nearest.squared_rate {
-                    self.nearest = Nearest { squared_rate, between: (a, b) };
-                }
-                sums[a] += force;
-                sums[b] -= force;
-                if !dynamic[a] {
-                    balance.outside(position[b], -force, 0.0);
-                    balance.work -= if moves[a] { force.dot(velocity[a]) } else { 0.0 };
-                }
-                if !dynamic[b] {
-                    balance.outside(position[a], force, 0.0);
-                    balance.work += if moves[b] { force.dot(velocity[b]) } else { 0.0 };
-                }
-            }
-        }
+impl Model for AttractionForce {
+    fn dependence(&self) -> Dependence {
+        Dependence::Position
     }
 
-    fn energy(&self, bodies: &Bodies) -> f64 {
-        let energy = |attraction: &AttractionForce, (a, b): (usize, usize)| {
+    fn energies(&self, state: &State) -> Energies {
+        let bodies = &state.bodies;
+        let energy = |(a, b): (usize, usize)| {
             let between: DVec2 = bodies.position[b] - bodies.position[a];
-            let distance = (between.length_squared() + attraction.softening * attraction.softening).sqrt();
-            let strength = attraction.constant * bodies.mass[a] * bodies.mass[b];
+            let distance = (between.length_squared() + self.softening * self.softening).sqrt();
+            let strength = self.constant * bodies.mass[a] * bodies.mass[b];
             -strength / distance
         };
-        self.entries.iter().map(|entry| pairs(&bodies.dynamic).map(|pair| energy(entry, pair)).sum::<f64>()).sum()
+        Energies { potential: pairs(&bodies.dynamic).map(energy).sum(), elastic: 0.0 }
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        let Bodies { dynamic, moves, position, velocity, mass, force: sums, .. } = bodies;
+        for (a, b) in pairs(dynamic) {
+            let between = position[b] - position[a];
+            let squared = between.length_squared() + self.softening * self.softening;
+            let strength = self.constant * mass[a] * mass[b];
+            let stiffness = strength / (squared * squared.sqrt());
+            let force = between * stiffness;
+            let squared_rate = stiffness * (mass[a] + mass[b]) / (mass[a] * mass[b]);
+            if self.softening == 0.0 && squared_rate > self.nearest.squared_rate {
+                self.nearest = Nearest { squared_rate, between: (a, b) };
+            }
+            sums[a] += force;
+            sums[b] -= force;
+            if !dynamic[a] {
+                rates.outside(position[b], -force, 0.0);
+                rates.work -= if moves[a] { force.dot(velocity[a]) } else { 0.0 };
+            }
+            if !dynamic[b] {
+                rates.outside(position[a], force, 0.0);
+                rates.work += if moves[b] { force.dot(velocity[b]) } else { 0.0 };
+            }
+        }
     }
 }

@@ -1,17 +1,15 @@
 //! What forces that begin, end or bend between two ticks come to where a run goes from tick to tick: for the card.
 
-use bevy_ecs::prelude::*;
-
 use crate::numbers::number;
 use crate::scene::Outline;
-use crate::tick::{Clock, Style};
+use crate::tick::{Clock, State, Style};
 
 /// What would help.
 pub(super) const REMEDY: &str = "use `events: Located` or `method: RungeKutta4`, whose steps end there";
 
 /// The clock of a run that went from tick to tick so far; nothing, where steps end between ticks.
-pub(super) fn clock_of_whole_ticks(world: &World, style: Style) -> Option<Clock> {
-    (style == Style::Following).then(|| *world.resource::<Clock>()).filter(|clock| clock.ticks > 0)
+pub(super) fn clock_of_whole_ticks(state: &State, style: Style) -> Option<Clock> {
+    (style == Style::Following).then(|| state.clock()).filter(|clock| clock.ticks > 0)
 }
 
 /// The places in the scene of all entries of a name, in the order of the file, such as `forces[0]`.

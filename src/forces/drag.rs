@@ -1,7 +1,6 @@
 //! Drag: `F = -c v` (linear, Stokes) and `F = -c |v| v` (quadratic, Newton), on the centre of mass.
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
@@ -11,9 +10,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
-use crate::tick::{Balance, Dependence};
-use crate::world::Bodies;
+use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
 /// Resistance of air that rests: `F = -(c1 + c2 |v|) v`, with `c1` linear (Stokes) and `c2` quadratic (Newton).
 #[derive(Deserialize, JsonSchema)]
@@ -48,12 +45,13 @@ impl Entry for Drag {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let drag = |Written { value, .. }: Written<Self>| DragForce {
-            linear: value.linear.si(),
-            quadratic: value.quadratic.si(),
-            of: Targets::named(value.of.as_ref(), outline),
-        };
-        install(entries.into_iter().map(drag).collect(), app);
+        for Written { value, .. } in entries {
+            app.add_model(DragForce {
+                linear: value.linear.si(),
+                quadratic: value.quadratic.si(),
+                of: Targets::named(value.of.as_ref(), outline),
+            });
+        }
     }
 }
 
@@ -68,37 +66,31 @@ pub struct DragForce {
     pub of: Targets,
 }
 
-#[derive(Resource, Default)]
-struct Drags(Vec<DragForce>);
-
-/// Installs drag.
-pub fn install(drags: Vec<DragForce>, app: &mut App) {
-    add_force_on_bodies(app, Drags(drags));
-}
-
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Drag>();
 }
 
 /// What resists the body of a key.
-pub(super) fn resistance(world: &World, key: u64) -> Vec<Air> {
-    let drags = world.get_resource::<Drags>().map_or(&[][..], |drags| &drags.0);
+pub(super) fn resistance(state: &State, key: u64) -> Vec<Air> {
     let air = |drag: &DragForce| Air { linear: drag.linear, quadratic: drag.quadratic, velocity: DVec2::ZERO };
-    drags.iter().filter(|drag| drag.of.include(key)).map(air).collect()
+    state.models_of::<DragForce>().filter(|drag| drag.of.include(key)).map(air).collect()
 }
 
-impl ForceOnBodies for Drags {
-    const DEPENDENCE: Dependence = Dependence::Velocity;
+impl Model for DragForce {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
 
-    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
-        for drag in &mut self.0 {
-            for body in drag.of.places(bodies) {
-                let velocity = bodies.velocity[body];
-                let force = velocity * -(drag.linear + drag.quadratic * velocity.length());
-                bodies.force[body] += force;
-                balance.outside(bodies.position[body], force, 0.0);
-                balance.drag -= force.dot(velocity);
-            }
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        for body in self.of.places(bodies) {
+            let velocity = bodies.velocity[body];
+            let force = velocity * -(self.linear + self.quadratic * velocity.length());
+            bodies.force[body] += force;
+            rates.outside(bodies.position[body], force, 0.0);
+            rates.drag -= force.dot(velocity);
         }
     }
 }

@@ -8,7 +8,6 @@
 use std::f64::consts::TAU;
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
@@ -19,8 +18,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Clock, Dependence, Evaluation, Models, Rhythm, Style, TickAppExt};
-use crate::world::Bodies;
+use crate::tick::{Clock, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
 
 /// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
 #[derive(Deserialize, JsonSchema)]
@@ -94,16 +92,17 @@ impl Entry for Drive {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let drive = |(Written { value, .. }, path): (Written<Self>, String)| DriveForce {
-            path,
-            of: Targets::named(Some(&value.of), outline),
-            at: value.at.si(),
-            force: value.force.map_or(DVec2::ZERO, ForcePair::si),
-            torque: value.torque.map_or(0.0, units::Torque::si),
-            turns: value.frame == ThrustFrame::Body,
-            course: value.course,
-        };
-        install(entries.into_iter().zip(paths(Self::NAME, outline)).map(drive).collect(), app);
+        for (Written { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
+            app.add_model(DriveForce {
+                path,
+                of: Targets::named(Some(&value.of), outline),
+                at: value.at.si(),
+                force: value.force.map_or(DVec2::ZERO, ForcePair::si),
+                torque: value.torque.map_or(0.0, units::Torque::si),
+                turns: value.frame == ThrustFrame::Body,
+                course: value.course,
+            });
+        }
     }
 }
 
@@ -227,69 +226,61 @@ pub struct DriveForce {
     pub course: Course,
 }
 
-#[derive(Resource)]
-struct Drives(Vec<DriveForce>);
-
-/// Installs drives.
-pub fn install(drives: Vec<DriveForce>, app: &mut App) {
-    let rhythm = |drive: &DriveForce| Rhythm { path: drive.path.clone(), angular_frequency: drive.course.rhythm() };
-    let rhythms: Vec<Rhythm> = drives.iter().map(rhythm).collect();
-    app.insert_resource(Drives(drives));
-    // The force does not depend on velocities, its power does.
-    app.add_packed_force(Dependence::Velocity, apply_drives);
-    let mut models = app.world_mut().get_resource_or_init::<Models>();
-    models.edges.push(next_point);
-    models.departures.push(departures);
-    models.rhythms.extend(rhythms);
-}
-
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Drive>();
 }
 
-/// The first point of a course after `time`.
-fn next_point(world: &World, time: f64) -> f64 {
-    let points = world.resource::<Drives>().0.iter().map(|drive| drive.course.next_point(time));
-    points.fold(f64::INFINITY, f64::min)
-}
+/// The force does not depend on velocities, its power does.
+impl Model for DriveForce {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
 
-/// What came of points between two ticks. Less than a thousandth is not told: the card calls energies right to that.
-fn departures(world: &World, style: Style) -> Vec<String> {
-    let Some(clock) = clock_of_whole_ticks(world, style) else { return Vec::new() };
-    let told = |drive: &DriveForce| {
-        let (lost, gained) = drive.course.lost_and_gained(&clock)?;
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn next_edge(&self, time: f64) -> f64 {
+        self.course.next_point(time)
+    }
+
+    fn rhythm(&self) -> Option<Rhythm> {
+        Some(Rhythm { path: self.path.clone(), angular_frequency: self.course.rhythm() })
+    }
+
+    /// What came of points between two ticks. Less than a thousandth is not told: the card calls energies right to that.
+    fn departures(&self, state: &State, style: Style) -> Vec<String> {
+        let shares = clock_of_whole_ticks(state, style).and_then(|clock| self.course.lost_and_gained(&clock));
+        let Some((lost, gained)) = shares else { return Vec::new() };
         let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
         let shares: Vec<String> = shares.map(|(share, what)| format!("{} {what}", percent(share))).collect();
-        (!shares.is_empty()).then(|| {
-            let shares = shares.join(" and ");
-            format!("points of the course of `{}` lie between ticks, where it is not seen: of its impulse {shares}; {REMEDY}", drive.path)
-        })
-    };
-    world.resource::<Drives>().0.iter().filter_map(told).collect()
-}
+        if shares.is_empty() {
+            return Vec::new();
+        }
+        let (path, shares) = (&self.path, shares.join(" and "));
+        vec![format!(
+            "points of the course of `{path}` lie between ticks, where it is not seen: of its impulse {shares}; {REMEDY}"
+        )]
+    }
 
-fn apply_drives(
-    mut drives: ResMut<Drives>,
-    mut bodies: ResMut<Bodies>,
-    mut balance: ResMut<Balance>,
-    now: Res<Evaluation>,
-) {
-    let bodies = &mut *bodies;
-    for drive in &mut drives.0 {
-        let value = drive.course.at(now.time);
-        let (push, torque) = (drive.force * value, drive.torque * value);
-        for body in drive.of.places(bodies) {
-            let (mut force, mut arm) = (push, drive.at);
-            if drive.turns || drive.at != DVec2::ZERO {
+    fn apply_forces(&mut self, state: &mut State) {
+        let value = self.course.at(state.evaluation.time);
+        let (bodies, rates) = state.bodies_and_rates();
+        let (push, torque) = (self.force * value, self.torque * value);
+        for body in self.of.places(bodies) {
+            let (mut force, mut arm) = (push, self.at);
+            if self.turns || self.at != DVec2::ZERO {
                 let (sin, cos) = libm::sincos(bodies.angle[body]);
                 let rotation = DVec2::new(cos, sin);
                 arm = rotation.rotate(arm);
-                force = if drive.turns { rotation.rotate(force) } else { force };
+                force = if self.turns { rotation.rotate(force) } else { force };
             }
             bodies.push(body, arm, force);
             bodies.torque[body] += torque;
-            balance.outside(bodies.position[body], force, arm.perp_dot(force) + torque);
-            balance.work += force.dot(bodies.velocity_at(body, arm)) + torque * bodies.spin[body];
+            rates.outside(bodies.position[body], force, arm.perp_dot(force) + torque);
+            rates.work += force.dot(bodies.velocity_at(body, arm)) + torque * bodies.spin[body];
         }
     }
 }

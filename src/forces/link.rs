@@ -155,6 +155,20 @@ impl Link {
     }
 }
 
+/// The sides of a spring for the measure of how fast it responds: a body and an arm each, the first absent where it is held by the
+/// world. `None`: no body is there.
+pub(super) fn sides(a: &End, b: &End) -> Option<(Option<Side>, Side)> {
+    let side = |end: &End| end.body.map(|body| (body, end.arm));
+    match (side(a), side(b)) {
+        (first, Some(second)) => Some((first, second)),
+        (Some(second), None) => Some((None, second)),
+        (None, None) => None,
+    }
+}
+
+/// A body and an arm from its centre of mass in metres.
+type Side = (usize, DVec2);
+
 /// Adds `force` newtons to end A and its opposite to end B. What comes from an end that forces do not move comes from
 /// outside; its motion does work.
 pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, balance: &mut Balance) {

@@ -15,12 +15,8 @@ use serde::Deserialize;
 use super::link::{self, End, Link, Partner};
 use crate::scene::units::{Damping, Length, Position, Stiffness};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
-use crate::tick::balance::EnergyTerms;
 use crate::tick::response;
-use crate::tick::steady::{SteadySpring, add_steady_springs};
-use crate::tick::{AfterLoad, LoadErrors};
-use crate::tick::{Balance, Dependence, TickAppExt};
-use crate::world::Bodies;
+use crate::tick::{Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
 /// `stiffness (distance - length) + damping d(distance)/dt`, and pushes where that is negative.
@@ -67,14 +63,15 @@ impl Entry for Spring {
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         let paths = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        let spring = |(Written { value, .. }, path): (Written<Self>, String)| SpringForce {
-            link: Link::named(&value.a, &value.b, (value.anchor_a.si(), value.anchor_b.si()), outline),
-            stiffness: value.stiffness.si(),
-            damping: value.damping.si(),
-            length: value.length.map(Length::si),
-            path,
-        };
-        install(entries.into_iter().zip(paths.map(|mention| mention.path.clone())).map(spring).collect(), app);
+        for (Written { value, .. }, mention) in entries.into_iter().zip(paths) {
+            app.add_model(SpringForce {
+                link: Link::named(&value.a, &value.b, (value.anchor_a.si(), value.anchor_b.si()), outline),
+                stiffness: value.stiffness.si(),
+                damping: value.damping.si(),
+                length: value.length.map(Length::si),
+                path: mention.path.clone(),
+            });
+        }
     }
 }
 
@@ -91,22 +88,6 @@ pub struct SpringForce {
     pub length: Option<f64>,
     /// Where it stands in the scene, such as `forces[0]`.
     pub path: String,
-}
-
-#[derive(Resource)]
-struct Springs(Vec<SpringForce>);
-
-/// Installs springs.
-pub fn install(springs: Vec<SpringForce>, app: &mut App) {
-    let damped = springs.iter().any(|spring| spring.damping > 0.0);
-    app.insert_resource(Springs(springs));
-    let dependence = if damped { Dependence::Velocity } else { Dependence::Position };
-    app.add_packed_force(dependence, apply_springs);
-    let world = app.world_mut();
-    world.get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
-    // Before the frequencies are measured, which needs the lengths.
-    world.get_resource_or_init::<AfterLoad>().0.push(measure_lengths);
-    add_steady_springs(app, list_springs);
 }
 
 pub(super) fn plugin(app: &mut App) {
@@ -127,64 +108,51 @@ impl SpringForce {
     }
 }
 
-fn apply_springs(mut springs: ResMut<Springs>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    for spring in &mut springs.0 {
-        spring.link.refresh(&bodies);
-        let Some((a, b)) = spring.link.ends(&bodies) else { continue };
-        let (direction, distance, speed) = stretch(&a, &b);
-        let elastic = if distance > 0.0 { spring.stiffness * spring.lengthening(distance) } else { 0.0 };
-        balance.drag += spring.damping * speed * speed;
-        link::pull(&a, &b, direction * (elastic + spring.damping * speed), &mut bodies, &mut balance);
+impl Model for SpringForce {
+    fn dependence(&self) -> Dependence {
+        if self.damping > 0.0 { Dependence::Velocity } else { Dependence::Position }
     }
-}
 
-fn elastic_energy(world: &World) -> f64 {
-    let bodies = world.resource::<Bodies>();
-    let energy = |spring: &SpringForce| {
-        let (a, b) = spring.link.ends(bodies)?;
-        Some(0.5 * spring.stiffness * spring.lengthening((b.position - a.position).length()).powi(2))
-    };
-    world.resource::<Springs>().0.iter().filter_map(energy).fold(0.0, |sum, energy| sum + energy)
-}
-
-/// Takes the distances at the start for the lengths that the scene does not give.
-fn measure_lengths(world: &mut World) {
-    let mut errors = Vec::new();
-    world.resource_scope(|world, mut springs: Mut<Springs>| {
-        let bodies = world.resource::<Bodies>();
-        for spring in &mut springs.0 {
-            let Some((a, b)) = spring.link.ends(bodies) else { continue };
-            let distance = (b.position - a.position).length();
-            let length = *spring.length.get_or_insert(distance);
-            if distance == 0.0 && length > 0.0 {
-                let path = format!("{}.length", spring.path);
-                let message = format!("both ends are in one place: in which direction should {length} m lie?");
-                let help = "move an end or an anchor, or give the spring no length: `length: 0`";
-                errors.push(SceneError::new(path, message).with_help(help));
-            }
+    /// Takes the distance at the start for a length that the scene does not give.
+    fn start(&mut self, world: &mut World) {
+        let Some((a, b)) = self.link.ends(&world.resource::<State>().bodies) else { return };
+        let distance = (b.position - a.position).length();
+        let length = *self.length.get_or_insert(distance);
+        if distance == 0.0 && length > 0.0 {
+            let path = format!("{}.length", self.path);
+            let message = format!("both ends are in one place: in which direction should {length} m lie?");
+            let help = "move an end or an anchor, or give the spring no length: `length: 0`";
+            let error = SceneError::new(path, message).with_help(help);
+            world.get_resource_or_init::<LoadErrors>().0.push(error);
         }
-    });
-    world.get_resource_or_init::<LoadErrors>().0.extend(errors);
-}
+    }
 
-/// Along the spring it has its stiffness, across it that of its tension, `F/l`, where it pulls.
-fn list_springs(world: &World, list: &mut Vec<SteadySpring>) {
-    let bodies = world.resource::<Bodies>();
-    for spring in &world.resource::<Springs>().0 {
-        let Some((a, b)) = spring.link.ends(bodies) else { continue };
+    fn energies(&self, state: &State) -> Energies {
+        let stretched =
+            self.link.ends(&state.bodies).map(|(a, b)| self.lengthening((b.position - a.position).length()));
+        Energies { potential: 0.0, elastic: 0.5 * self.stiffness * stretched.unwrap_or(0.0).powi(2) }
+    }
+
+    /// Along the spring it has its stiffness, across it that of its tension, `F/l`, where it pulls.
+    fn stiffness(&self, state: &State, list: &mut Vec<SteadySpring>) {
+        let Some((a, b)) = self.link.ends(&state.bodies) else { return };
         let (direction, distance, _) = stretch(&a, &b);
-        let tension = if distance > 0.0 { spring.lengthening(distance) / distance } else { 1.0 };
-        let across = spring.stiffness * tension.max(0.0);
+        let tension = if distance > 0.0 { self.lengthening(distance) / distance } else { 1.0 };
+        let across = self.stiffness * tension.max(0.0);
         let normal = if direction == DVec2::ZERO { DVec2::X } else { direction };
-        let a_side = a.body.map(|body| (body, a.arm));
-        let (first, second) = match (a_side, b.body) {
-            (side, Some(body)) => (side, (body, b.arm)),
-            (Some(side), None) => (None, side),
-            (None, None) => continue,
-        };
-        let stiffness = (spring.stiffness, across);
-        let spring_row = response::Spring { a: first, b: second, normal, stiffness, damped: 0.0, turning: 0.0 };
-        list.push(SteadySpring { spring: spring_row, damping: spring.damping, turning_damping: 0.0 });
+        let Some((a, b)) = link::sides(&a, &b) else { return };
+        let spring = response::Spring { a, b, normal, stiffness: (self.stiffness, across), damped: 0.0, turning: 0.0 };
+        list.push(SteadySpring { spring, damping: self.damping, turning_damping: 0.0 });
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        self.link.refresh(bodies);
+        let Some((a, b)) = self.link.ends(bodies) else { return };
+        let (direction, distance, speed) = stretch(&a, &b);
+        let elastic = if distance > 0.0 { self.stiffness * self.lengthening(distance) } else { 0.0 };
+        rates.drag += self.damping * speed * speed;
+        link::pull(&a, &b, direction * (elastic + self.damping * speed), bodies, rates);
     }
 }
 

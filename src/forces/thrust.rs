@@ -5,7 +5,6 @@
 //! nothing; one beside the grid is warned of. Methods with steps inside ticks end one at each of the two times.
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
@@ -15,7 +14,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Clock, Dependence, EvaluateStage, Evaluation, Models, Modes, Span, Style, TickAppExt};
+use crate::tick::{Balance, Clock, Energies, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located events
@@ -68,17 +67,18 @@ impl Entry for Thrust {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let thrust = |(Written { value, .. }, path): (Written<Self>, String)| ThrustForce {
-            path,
-            of: Targets::named(Some(&value.of), outline),
-            at: value.at.si(),
-            force: value.force.si(),
-            turns: value.frame == ThrustFrame::Body,
-            from: value.from.si(),
-            to: value.to.map_or(f64::INFINITY, Time::si),
-            acts: false,
-        };
-        install(entries.into_iter().zip(paths(Self::NAME, outline)).map(thrust).collect(), app);
+        for (Written { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
+            app.add_model(ThrustForce {
+                path,
+                of: Targets::named(Some(&value.of), outline),
+                at: value.at.si(),
+                force: value.force.si(),
+                turns: value.frame == ThrustFrame::Body,
+                from: value.from.si(),
+                to: value.to.map_or(f64::INFINITY, Time::si),
+                acts: false,
+            });
+        }
     }
 }
 
@@ -103,59 +103,52 @@ pub struct ThrustForce {
     pub acts: bool,
 }
 
-#[derive(Resource)]
-struct Thrusts(Vec<ThrustForce>);
-
-/// Installs thrust.
-pub fn install(thrusts: Vec<ThrustForce>, app: &mut App) {
-    app.insert_resource(Thrusts(thrusts));
-    // The force does not depend on velocities, its power does.
-    app.add_packed_force(Dependence::Velocity, apply_thrust);
-    app.add_systems(Modes, switch_thrust.in_set(EvaluateStage::Forces));
-    let mut models = app.world_mut().get_resource_or_init::<Models>();
-    models.edges.push(next_edge);
-    models.departures.push(departures);
-}
-
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Thrust>();
 }
 
-fn apply_thrust(mut thrusts: ResMut<Thrusts>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    for thrust in thrusts.0.iter_mut().filter(|thrust| thrust.acts) {
-        thrust.push(&mut bodies, &mut balance, 1.0);
+/// The force does not depend on velocities, its power does.
+impl Model for ThrustForce {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
     }
-}
 
-/// Before a tick: what begins or ends with it is added to or taken from the sums of its beginning.
-fn switch_thrust(
-    mut thrusts: ResMut<Thrusts>,
-    mut bodies: ResMut<Bodies>,
-    mut balance: ResMut<Balance>,
-    span: Res<Span>,
-    mut evaluation: ResMut<Evaluation>,
-) {
-    let middle = span.middle();
-    for thrust in &mut thrusts.0 {
-        let acts = (thrust.from..thrust.to).contains(&middle);
-        if acts != thrust.acts {
-            thrust.acts = acts;
-            evaluation.stale = true;
-            thrust.push(&mut bodies, &mut balance, if acts { 1.0 } else { -1.0 });
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        if self.acts {
+            let (bodies, rates) = state.bodies_and_rates();
+            self.push(bodies, rates, 1.0);
         }
     }
-}
 
-/// The first time after `time` at which a thrust begins or ends.
-fn next_edge(world: &World, time: f64) -> f64 {
-    let edges = world.resource::<Thrusts>().0.iter().flat_map(|thrust| [thrust.from, thrust.to]);
-    edges.filter(|edge| *edge > time).fold(f64::INFINITY, f64::min)
-}
+    fn has_modes(&self) -> bool {
+        true
+    }
 
-/// What came of times between two ticks.
-fn departures(world: &World, style: Style) -> Vec<String> {
-    let Some(clock) = clock_of_whole_ticks(world, style) else { return Vec::new() };
-    world.resource::<Thrusts>().0.iter().filter_map(|thrust| thrust.departure(&clock)).collect()
+    /// What begins or ends with a tick is added to or taken from the sums of its beginning.
+    fn begin_step(&mut self, state: &mut State) {
+        let acts = (self.from..self.to).contains(&state.span().middle());
+        if acts != self.acts {
+            self.acts = acts;
+            state.evaluation.stale = true;
+            let (bodies, rates) = state.bodies_and_rates();
+            self.push(bodies, rates, if acts { 1.0 } else { -1.0 });
+        }
+    }
+
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn next_edge(&self, time: f64) -> f64 {
+        [self.from, self.to].into_iter().filter(|edge| *edge > time).fold(f64::INFINITY, f64::min)
+    }
+
+    /// What came of times between two ticks.
+    fn departures(&self, state: &State, style: Style) -> Vec<String> {
+        clock_of_whole_ticks(state, style).and_then(|clock| self.departure(&clock)).into_iter().collect()
+    }
 }
 
 impl ThrustForce {

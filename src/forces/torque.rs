@@ -1,16 +1,13 @@
 //! A constant torque on a body.
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Targets, check_targets};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written, units};
-use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
-use crate::tick::{Balance, Dependence};
-use crate::world::Bodies;
+use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
 /// A constant torque.
 #[derive(Deserialize, JsonSchema)]
@@ -36,11 +33,9 @@ impl Entry for Torque {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let torque = |Written { value, .. }: Written<Self>| ConstantTorque {
-            of: Targets::named(Some(&value.of), outline),
-            value: value.value.si(),
-        };
-        install(entries.into_iter().map(torque).collect(), app);
+        for Written { value, .. } in entries {
+            app.add_model(ConstantTorque { of: Targets::named(Some(&value.of), outline), value: value.value.si() });
+        }
     }
 }
 
@@ -53,29 +48,24 @@ pub struct ConstantTorque {
     pub value: f64,
 }
 
-#[derive(Resource, Default)]
-struct Torques(Vec<ConstantTorque>);
-
-/// Installs torques.
-pub fn install(torques: Vec<ConstantTorque>, app: &mut App) {
-    add_force_on_bodies(app, Torques(torques));
-}
-
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Torque>();
 }
 
-impl ForceOnBodies for Torques {
-    // The torque does not depend on velocities, its power does.
-    const DEPENDENCE: Dependence = Dependence::Velocity;
+/// The torque does not depend on velocities, its power does.
+impl Model for ConstantTorque {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
 
-    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
-        for torque in &mut self.0 {
-            for body in torque.of.places(bodies) {
-                bodies.torque[body] += torque.value;
-                balance.torque += torque.value;
-                balance.work += torque.value * bodies.spin[body];
-            }
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        for body in self.of.places(bodies) {
+            bodies.torque[body] += self.value;
+            rates.torque += self.value;
+            rates.work += self.value * bodies.spin[body];
         }
     }
 }

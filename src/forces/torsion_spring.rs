@@ -11,11 +11,8 @@ use serde::Deserialize;
 use super::link::{self, End, Link, Partner};
 use crate::scene::units::{Angle, Dimension, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::AfterLoad;
-use crate::tick::balance::EnergyTerms;
 use crate::tick::response;
-use crate::tick::steady::{SteadySpring, add_steady_springs};
-use crate::tick::{Balance, Dependence, TickAppExt};
+use crate::tick::{Dependence, Energies, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
 /// A spring, and a damper beside it, against turning one body over another or over the world: torque
@@ -74,13 +71,14 @@ impl Entry for TorsionSpring {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let spring = |Written { value, .. }: Written<Self>| TorsionSpringForce {
-            link: Link::named(&value.a, &value.b, (DVec2::ZERO, DVec2::ZERO), outline),
-            stiffness: value.stiffness.si(),
-            damping: value.damping.si(),
-            angle: value.angle.map(Angle::si),
-        };
-        install(entries.into_iter().map(spring).collect(), app);
+        for Written { value, .. } in entries {
+            app.add_model(TorsionSpringForce {
+                link: Link::named(&value.a, &value.b, (DVec2::ZERO, DVec2::ZERO), outline),
+                stiffness: value.stiffness.si(),
+                damping: value.damping.si(),
+                angle: value.angle.map(Angle::si),
+            });
+        }
     }
 }
 
@@ -97,21 +95,6 @@ pub struct TorsionSpringForce {
     pub angle: Option<f64>,
 }
 
-#[derive(Resource)]
-struct TorsionSprings(Vec<TorsionSpringForce>);
-
-/// Installs torsion springs.
-pub fn install(springs: Vec<TorsionSpringForce>, app: &mut App) {
-    let damped = springs.iter().any(|spring| spring.damping > 0.0);
-    app.insert_resource(TorsionSprings(springs));
-    let dependence = if damped { Dependence::Velocity } else { Dependence::Position };
-    app.add_packed_force(dependence, apply_torsion_springs);
-    let world = app.world_mut();
-    world.get_resource_or_init::<EnergyTerms>().elastic.push(elastic_energy);
-    world.get_resource_or_init::<AfterLoad>().0.push(measure_angles);
-    add_steady_springs(app, list_springs);
-}
-
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<TorsionSpring>();
 }
@@ -122,60 +105,46 @@ fn twist(a: &End, b: &End, bodies: &Bodies) -> (f64, f64) {
     (b.0 - a.0, b.1 - a.1)
 }
 
-fn apply_torsion_springs(
-    mut springs: ResMut<TorsionSprings>,
-    mut bodies: ResMut<Bodies>,
-    mut balance: ResMut<Balance>,
-) {
-    for spring in &mut springs.0 {
-        spring.link.refresh(&bodies);
-        let Some((a, b)) = spring.link.ends(&bodies) else { continue };
-        let (angle, spin) = twist(&a, &b, &bodies);
-        let torque = -spring.stiffness * (angle - spring.angle.unwrap_or(angle)) - spring.damping * spin;
-        balance.drag += spring.damping * spin * spin;
-        link::twist(&a, &b, torque, &mut bodies, &mut balance);
+impl TorsionSpringForce {
+    fn turned(&self, angle: f64) -> f64 {
+        angle - self.angle.unwrap_or(angle)
     }
 }
 
-fn elastic_energy(world: &World) -> f64 {
-    let bodies = world.resource::<Bodies>();
-    let energy = |spring: &TorsionSpringForce| {
-        let (a, b) = spring.link.ends(bodies)?;
-        let (angle, _) = twist(&a, &b, bodies);
-        Some(0.5 * spring.stiffness * (angle - spring.angle.unwrap_or(angle)).powi(2))
-    };
-    world.resource::<TorsionSprings>().0.iter().filter_map(energy).fold(0.0, |sum, energy| sum + energy)
-}
+impl Model for TorsionSpringForce {
+    fn dependence(&self) -> Dependence {
+        if self.damping > 0.0 { Dependence::Velocity } else { Dependence::Position }
+    }
 
-/// Takes the angles at the start for those that the scene does not give.
-fn measure_angles(world: &mut World) {
-    world.resource_scope(|world, mut springs: Mut<TorsionSprings>| {
-        let bodies = world.resource::<Bodies>();
-        for spring in &mut springs.0 {
-            let Some((a, b)) = spring.link.ends(bodies) else { continue };
-            spring.angle.get_or_insert(twist(&a, &b, bodies).0);
+    /// Takes the angle at the start for one that the scene does not give.
+    fn start(&mut self, world: &mut World) {
+        let bodies = &world.resource::<State>().bodies;
+        if let Some((a, b)) = self.link.ends(bodies) {
+            self.angle.get_or_insert(twist(&a, &b, bodies).0);
         }
-    });
-}
+    }
 
-fn list_springs(world: &World, list: &mut Vec<SteadySpring>) {
-    let bodies = world.resource::<Bodies>();
-    for spring in &world.resource::<TorsionSprings>().0 {
-        let Some((a, b)) = spring.link.ends(bodies) else { continue };
-        let (first, second) = match (a.body, b.body) {
-            (a, Some(b)) => (a, b),
-            (Some(a), None) => (None, a),
-            (None, None) => continue,
-        };
-        let row = response::Spring {
-            a: first.map(|body| (body, DVec2::ZERO)),
-            b: (second, DVec2::ZERO),
-            normal: DVec2::X,
-            stiffness: (0.0, 0.0),
-            damped: 0.0,
-            turning: spring.stiffness,
-        };
-        list.push(SteadySpring { spring: row, damping: 0.0, turning_damping: spring.damping });
+    fn energies(&self, state: &State) -> Energies {
+        let turned = self.link.ends(&state.bodies).map(|(a, b)| self.turned(twist(&a, &b, &state.bodies).0));
+        Energies { potential: 0.0, elastic: 0.5 * self.stiffness * turned.unwrap_or(0.0).powi(2) }
+    }
+
+    fn stiffness(&self, state: &State, list: &mut Vec<SteadySpring>) {
+        let Some((a, b)) = self.link.ends(&state.bodies) else { return };
+        let Some((a, b)) = link::sides(&a, &b) else { return };
+        let spring =
+            response::Spring { a, b, normal: DVec2::X, stiffness: (0.0, 0.0), damped: 0.0, turning: self.stiffness };
+        list.push(SteadySpring { spring, damping: 0.0, turning_damping: self.damping });
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        self.link.refresh(bodies);
+        let Some((a, b)) = self.link.ends(bodies) else { return };
+        let (angle, spin) = twist(&a, &b, bodies);
+        let torque = -self.stiffness * self.turned(angle) - self.damping * spin;
+        rates.drag += self.damping * spin * spin;
+        link::twist(&a, &b, torque, bodies, rates);
     }
 }
 

@@ -3,7 +3,6 @@
 //! The air's own motion drives the body: of the power `F . v`, `F . w` is lost as heat and `F . u` is work of the wind.
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
@@ -13,9 +12,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping, Velocity};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::direct_force::{ForceOnBodies, add_force_on_bodies};
-use crate::tick::{Balance, Dependence};
-use crate::world::Bodies;
+use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
 /// Resistance of air that moves evenly: `F = -(c1 + c2 |w|) w`, with `w` the velocity against the air.
 #[derive(Deserialize, JsonSchema)]
@@ -52,13 +49,14 @@ impl Entry for Wind {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let gust = |Written { value, .. }: Written<Self>| Gust {
-            velocity: value.velocity.si(),
-            linear: value.linear.si(),
-            quadratic: value.quadratic.si(),
-            of: Targets::named(value.of.as_ref(), outline),
-        };
-        add_force_on_bodies(app, Gusts(entries.into_iter().map(gust).collect()));
+        for Written { value, .. } in entries {
+            app.add_model(Gust {
+                velocity: value.velocity.si(),
+                linear: value.linear.si(),
+                quadratic: value.quadratic.si(),
+                of: Targets::named(value.of.as_ref(), outline),
+            });
+        }
     }
 }
 
@@ -69,33 +67,32 @@ struct Gust {
     of: Targets,
 }
 
-#[derive(Resource, Default)]
-struct Gusts(Vec<Gust>);
-
 pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Wind>();
 }
 
 /// What moves with the air at the body of a key.
-pub(super) fn resistance(world: &World, key: u64) -> Vec<Air> {
-    let gusts = world.get_resource::<Gusts>().map_or(&[][..], |gusts| &gusts.0);
+pub(super) fn resistance(state: &State, key: u64) -> Vec<Air> {
     let air = |gust: &Gust| Air { linear: gust.linear, quadratic: gust.quadratic, velocity: gust.velocity };
-    gusts.iter().filter(|gust| gust.of.include(key)).map(air).collect()
+    state.models_of::<Gust>().filter(|gust| gust.of.include(key)).map(air).collect()
 }
 
-impl ForceOnBodies for Gusts {
-    const DEPENDENCE: Dependence = Dependence::Velocity;
+impl Model for Gust {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
 
-    fn act(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
-        for gust in &mut self.0 {
-            for body in gust.of.places(bodies) {
-                let relative = bodies.velocity[body] - gust.velocity;
-                let force = relative * -(gust.linear + gust.quadratic * relative.length());
-                bodies.force[body] += force;
-                balance.outside(bodies.position[body], force, 0.0);
-                balance.drag -= force.dot(relative);
-                balance.work += force.dot(gust.velocity);
-            }
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        for body in self.of.places(bodies) {
+            let relative = bodies.velocity[body] - self.velocity;
+            let force = relative * -(self.linear + self.quadratic * relative.length());
+            bodies.force[body] += force;
+            rates.outside(bodies.position[body], force, 0.0);
+            rates.drag -= force.dot(relative);
+            rates.work += force.dot(self.velocity);
         }
     }
 }

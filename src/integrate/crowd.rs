@@ -100,7 +100,7 @@ impl Crowd {
     pub fn advance(&mut self, tick: &mut Tick, from: f64) {
         self.left = self.left.saturating_sub(1);
         let (until, length) = (tick.end, tick.end - from);
-        let fastest = tick.responses().fastest.map_or(0.0, |fastest| fastest.angular_frequency);
+        let fastest = tick.state().responses().fastest.map_or(0.0, |fastest| fastest.angular_frequency);
         let parts = (length * fastest / FINE).ceil().max(1.0);
         let mut begin = from;
         let mut part = 0.0;

@@ -22,12 +22,12 @@ pub use chosen::ChosenMethod;
 pub use clock::{ClockSection, EventTiming};
 pub use control::{Allowance, MOST_STEPS};
 pub use semi_implicit_euler::SemiImplicitEuler;
-pub use staged::{Detail, LocatedEvents, Pace, Staged, StepCount};
+pub use staged::{Detail, Pace, Staged};
 pub use velocity_verlet::VelocityVerlet;
 
 use crate::scene::SceneAppExt;
 use crate::tick::set_method;
-pub use crate::tick::{Integrator, Method};
+pub use crate::tick::{Integrator, LocatedEvents, Method, StepCount};
 use steps::OneStep;
 
 /// What is known of a method, and how it is made.

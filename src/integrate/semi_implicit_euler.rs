@@ -26,8 +26,4 @@ impl Integrator for SemiImplicitEuler {
         tick.advance(dt, dt, None);
         tick.evaluate(dt);
     }
-
-    fn is_direct(&self) -> bool {
-        true
-    }
 }

@@ -6,7 +6,6 @@
 //! Equations I*, 1993, II.6). The step is accepted up to there, the modes that ended change, all others stay, and the
 //! rest of the tick goes on from there.
 
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::control::{Allowance, Control, MOST_STEPS};
@@ -17,8 +16,7 @@ use super::steps::{Divided, OneStep, Start};
 use super::whole::Whole;
 use crate::tick::Flow;
 use crate::tick::Integrator;
-use crate::tick::{Evaluation, Indicator, Style, Tick, WorldFlow};
-use crate::world::Bodies;
+use crate::tick::{Indicator, Style, Tick, WorldFlow};
 
 /// Steps as long as their error allows make ticks of frames, in which so many times as much may happen as in others.
 const EVENTS_PER_FRAME: u32 = 16;
@@ -38,45 +36,6 @@ const STEPS_BETWEEN_LOOKS: u64 = 4096;
 /// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
 /// it.
 const MOST_REJECTIONS: u64 = 60;
-
-/// How many events were located, and how many ticks had too many.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LocatedEvents {
-    /// Events.
-    pub count: u64,
-    /// Ticks that went on under velocity Verlet, for contacts were too many.
-    pub given_up: u64,
-}
-
-/// How many steps were made, and how long they were.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
-pub struct StepCount {
-    /// Steps accepted.
-    pub accepted: u64,
-    /// Steps whose error was too large.
-    pub rejected: u64,
-    /// The longest accepted one, in s.
-    pub longest: f64,
-    /// Accepted steps that were allowed a larger error than was asked for: rounding of places leaves no smaller one.
-    pub bounded: u64,
-    /// Steps that were made shorter than asked for, so that they resolve contacts.
-    pub shortened: u64,
-    /// The tick from which on each is one step, not counted yet.
-    pub whole_from: Option<u64>,
-}
-
-impl StepCount {
-    /// Steps accepted until that tick.
-    pub fn until(&self, tick: u64) -> u64 {
-        self.accepted + self.whole_from.map_or(0, |from| tick - from)
-    }
-
-    /// Whether rounding bounds more than a tenth of all steps, and more than one: the first of a run, before anything has moved
-    /// far, and what rounding leaves of a run at its end, do not count.
-    pub fn is_bounded(&self) -> bool {
-        self.bounded > 1 && 10 * self.bounded > self.accepted
-    }
-}
 
 /// How a tick is divided into steps, when nothing happens in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -249,7 +208,7 @@ impl Staged {
             let short = from + self.swing / fastest;
             if short < until {
                 until = short;
-                flow.tick.world.get_resource_or_init::<StepCount>().shortened += 1;
+                flow.tick.steps().shortened += 1;
             }
         }
         let mut reach_of_lists = 1.5;
@@ -369,7 +328,7 @@ impl Staged {
             fired = bracket.fired(&told);
         }
         let dense = known == Known::Inside;
-        let mut count = flow.tick.world.get_resource_or_init::<StepCount>();
+        let count = flow.tick.steps();
         count.accepted += 1;
         count.rejected += rejected;
         count.bounded += u64::from(self.control.as_ref().is_some_and(Control::is_bounded));
@@ -392,7 +351,7 @@ impl Staged {
         let edge = tick.next_edge(now);
         let end = match &self.control {
             // A prescribed motion is told from tick to tick.
-            Some(control) if tick.held::<Bodies>().prescribed.motions.is_empty() => now + control.longest(),
+            Some(control) if tick.state().bodies.prescribed.motions.is_empty() => now + control.longest(),
             Some(control) => tick.end.min(now + control.longest()),
             None if part + 1 >= self.parts => tick.end,
             None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
@@ -453,7 +412,7 @@ impl Staged {
             return Some(made);
         }
         self.forget();
-        if tick.held::<Evaluation>().stale {
+        if tick.state().evaluation.stale {
             tick.evaluate_stage(tick.begin);
         }
         None
@@ -475,7 +434,7 @@ impl Staged {
 
 /// The longest step in s that is worth trying where there are many to be hit.
 fn longest_among_many(flow: &WorldFlow) -> f64 {
-    let bodies: &Bodies = flow.tick.held();
+    let bodies = &flow.tick.state().bodies;
     if bodies.atom_count() <= MANY_ATOMS || flow.tick.bounds().is_none() {
         return f64::INFINITY;
     }
@@ -512,10 +471,6 @@ impl Integrator for Staged {
             true => Style::Frozen,
             false => Style::Instant,
         }
-    }
-
-    fn is_direct(&self) -> bool {
-        self.whole.as_ref().is_none_or(Whole::is_direct)
     }
 
     fn advance(&mut self, tick: &mut Tick) {
@@ -576,7 +531,7 @@ impl Integrator for Staged {
         let from = std::mem::take(&mut self.work.from);
         tick.book_travel(&from);
         self.work.from = from;
-        let mut located = tick.world.get_resource_or_init::<LocatedEvents>();
+        let located = tick.located();
         located.count += u64::from(events);
         located.given_up += u64::from(crowded);
     }

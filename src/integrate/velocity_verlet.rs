@@ -36,8 +36,4 @@ impl Integrator for VelocityVerlet {
     fn flies(&self) -> bool {
         true
     }
-
-    fn is_direct(&self) -> bool {
-        true
-    }
 }

@@ -4,10 +4,8 @@
 //! tick to tick is the same step as one that looks for events, but costs no looking. Bodies that come near in such a tick are
 //! seen when candidate lists are renewed; then it is taken back, and made again as a step that may end at an event.
 
-use super::staged::StepCount;
 use crate::tick::Integrator;
-use crate::tick::{Clock, Indicator, Tick, Undo};
-use crate::world::Bodies;
+use crate::tick::{Indicator, Tick, Undo};
 
 /// A method that goes from tick to tick, beside one that locates events.
 pub(super) struct Whole {
@@ -25,11 +23,6 @@ pub(super) struct Whole {
 impl Whole {
     pub fn new(method: Box<dyn Integrator>) -> Self {
         Self { method, undo: Undo::default(), lasts: false, edge: 0.0, lists: None, told: Vec::new() }
-    }
-
-    /// Whether ticks of it need no schedules.
-    pub fn is_direct(&self) -> bool {
-        self.method.is_direct()
     }
 
     /// Makes the tick, if nothing in it is watched. Says whether it did; if not, the state is that of its beginning.
@@ -70,7 +63,7 @@ impl Whole {
     /// Begins a stretch of such ticks, if nothing is watched.
     fn begin(&mut self, tick: &mut Tick) -> bool {
         // Steps that look for events find velocities that forces depend on to rounding; whole ones estimate them.
-        let unlike = tick.has_velocity_forces() || !tick.held::<Bodies>().prescribed.motions.is_empty();
+        let unlike = tick.has_velocity_forces() || !tick.state().bodies.prescribed.motions.is_empty();
         if unlike || self.sees_something(tick) {
             return false;
         }
@@ -79,8 +72,8 @@ impl Whole {
             bodies.position_rest.fill(glam::DVec2::ZERO);
             bodies.angle_rest.fill(0.0);
             self.allow_renewal(tick, true);
-            let (ticks, dt) = (tick.held::<Clock>().ticks, tick.dt);
-            let mut count = tick.world.get_resource_or_init::<StepCount>();
+            let (ticks, dt) = (tick.state().clock.ticks, tick.dt);
+            let count = tick.steps();
             count.whole_from = Some(ticks);
             count.longest = count.longest.max(dt);
             self.lists = version_of_lists(tick);
@@ -91,8 +84,8 @@ impl Whole {
     fn end(&mut self, tick: &mut Tick) {
         if self.lasts {
             self.allow_renewal(tick, false);
-            let ticks = tick.held::<Clock>().ticks;
-            let mut count = tick.world.resource_mut::<StepCount>();
+            let ticks = tick.state().clock.ticks;
+            let count = tick.steps();
             (count.accepted, count.whole_from) = (count.until(ticks), None);
             // Forces were those of estimated velocities.
             tick.evaluate_stage(tick.begin);

@@ -10,18 +10,16 @@ use super::advice::{Known, Remedy, rounded_down};
 use super::estimate::EstimatedError;
 use super::verdict::Evidence;
 use super::warnings::warnings;
-use crate::contacts::DeepestOverlap;
 use crate::integrate::ChosenMethod;
-use crate::integrate::{LocatedEvents, StepCount};
+use crate::integrate::StepCount;
 use crate::numbers::{number, percent};
 use crate::simulation::Simulation;
 use crate::simulation::error::{ErrorEstimate, KnownError};
 use crate::tick::Notes;
-use crate::tick::balance::Totals;
 use crate::tick::energy::EnergyLedger;
-use crate::tick::{Clock, Failure, Ledger, Models, Responses, Stability, largest_travel};
+use crate::tick::{Failure, State, largest_travel};
+use crate::world::Name;
 use crate::world::hash::state_hash;
-use crate::world::{Bodies, Name};
 
 /// The deepest overlap of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -120,17 +118,17 @@ impl Simulation {
 impl Card {
     /// The card of the present state, after `seconds_spent` seconds of computing, and how the run went wrong, if it did.
     pub fn of(world: &World, seconds_spent: f64, failure: Option<&Failure>) -> Self {
-        let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
+        let state = world.resource::<State>();
+        let State { bodies, clock, stability, ledger, .. } = state;
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.name);
-        let (responses, stability) = (Responses::of(world), world.resource::<Stability>());
+        let responses = state.responses();
         let foreseen = stability.fastest_foreseen();
-        let critical_tick = responses.fastest.map(|fastest| fastest.critical_tick(world));
+        let critical_tick = responses.fastest.map(|fastest| fastest.critical_tick(stability));
         let critical_tick = critical_tick.or(foreseen.map(|fastest| stability.limit / fastest.angular_frequency));
         let shortest_contact = responses.briefest.map(|brief| brief.duration());
         let shortest_contact = shortest_contact.or(stability.stiffest_contact().map(|frequency| PI / frequency));
-        let energy = EnergyLedger::of(world);
-        let ledger = world.resource::<Ledger>();
-        let now = Totals::of(world);
+        let energy = EnergyLedger::of(state);
+        let now = state.totals();
         let start = ledger.start.unwrap_or(now);
         let momentum = now.momentum - start.momentum;
         let atoms = bodies.atom_count().max(1) as f64 * clock.ticks.max(1) as f64;
@@ -142,13 +140,13 @@ impl Card {
             method: method.to_owned(),
             tick: clock.dt,
             critical_tick,
-            events_located: world.get_resource::<LocatedEvents>().map_or(0, |events| events.count),
+            events_located: state.located.count,
             energy,
             momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
             angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
             largest_overlap: largest_overlap(world),
             largest_joint_drift: None,
-            largest_travel_share: share(largest_travel(world)),
+            largest_travel_share: share(largest_travel(state)),
             real_time_factor: if seconds_spent > 0.0 { clock.time() / seconds_spent } else { 0.0 },
             ns_per_atom_tick: seconds_spent * 1e9 / atoms,
             hash: format!("{:016x}", state_hash(bodies)),
@@ -160,15 +158,15 @@ impl Card {
             why: None,
             missed: known.and_then(|known| known.warning.clone()),
             located: ChosenMethod::locates(world),
-            steps: world.get_resource().copied().unwrap_or_default(),
+            steps: state.steps,
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
-            energy_scale: energy.turned_over(world),
+            energy_scale: energy.turned_over(state),
             asked: known.map(|known| known.tolerance),
         };
         card.notes.extend(estimated.notes);
-        card.notes.extend(world.resource::<Models>().remarks.iter().filter_map(|remark| remark(world)));
+        card.notes.extend(state.models().flat_map(|model| model.remarks(state)));
         card.warnings = warnings(world, card.remedy());
         let evidence = Evidence { world, card: &card };
         let (missing, why) = (evidence.missing_energy(), failure.map(|failure| evidence.why(failure)));
@@ -223,7 +221,7 @@ pub(super) fn name(world: &World, entity: Entity) -> String {
 }
 
 fn largest_overlap(world: &World) -> LargestOverlap {
-    let Some(deepest) = world.get_resource::<DeepestOverlap>() else { return LargestOverlap::default() };
+    let deepest = world.resource::<State>().deepest_overlap();
     let name = |entity| name(world, entity);
     LargestOverlap {
         meters: deepest.overlap,

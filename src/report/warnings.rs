@@ -5,13 +5,10 @@ use bevy_ecs::prelude::*;
 use super::advice::Remedy;
 use super::card::name;
 use super::estimate::EstimatedError;
-use crate::contacts::ContactLaw;
 use crate::integrate::ChosenMethod;
-use crate::integrate::{LocatedEvents, StepCount};
 use crate::numbers::number;
 use crate::simulation::error::KnownError;
-use crate::tick::{Clock, Models, Responses, Stability, Style, far_travel};
-use crate::world::Bodies;
+use crate::tick::{Responses, State, Style, far_travel};
 
 /// Contacts that last fewer ticks are not resolved.
 pub(super) const FEWEST_TICKS: f64 = 10.0;
@@ -21,7 +18,9 @@ pub(super) const FEWEST_TICKS: f64 = 10.0;
 /// `remedy` is what mends them all.
 pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let name = |entity| name(world, entity);
-    let (clock, responses) = (world.resource::<Clock>(), Responses::of(world));
+    let state = world.resource::<State>();
+    let State { clock, stability, .. } = state;
+    let responses = state.responses();
     let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
     let mut warnings = Vec::new();
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
@@ -29,9 +28,9 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
     let by_ticks = by_ticks && !EstimatedError::is_small(world);
     let responses = if by_ticks { responses } else { Responses::default() };
-    let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(world));
+    let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(stability));
     if let Some(fastest) = beyond {
-        let critical = fastest.critical_tick(world);
+        let critical = fastest.critical_tick(stability);
         let (holder, body, time) = (fastest.holder, name(fastest.body), number(fastest.time));
         let what = match critical {
             0.0 => format!("no tick is stable under this method with the {holder} of `{body}`, as at t = {time} s"),
@@ -43,9 +42,8 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         };
         warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
     }
-    let steps = world.get_resource::<StepCount>().copied().unwrap_or_default();
-    let known = Responses::of(world).fastest.map(|fastest| fastest.angular_frequency);
-    let stability = world.resource::<Stability>();
+    let steps = state.steps;
+    let known = state.responses().fastest.map(|fastest| fastest.angular_frequency);
     let critical = known.or(stability.stiffest_contact()).map(|fastest| stability.limit / fastest);
     if let Some(critical) = critical.filter(|critical| beyond.is_none() && steps.shortened > 0 && *critical < clock.dt)
     {
@@ -70,10 +68,10 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
             number(brief.time),
         ));
     }
-    let unseen = world.contains_resource::<ContactLaw>() && !ChosenMethod::locates(world);
-    let far = far_travel(world).filter(|_| unseen);
+    let unseen = state.contact_law().is_some() && !ChosenMethod::locates(world);
+    let far = far_travel(state).filter(|_| unseen);
     if let Some(far) = far {
-        let radii = far.travel / world.resource::<Bodies>().smallest_radius;
+        let radii = far.travel / state.bodies.smallest_radius;
         warnings.push(format!(
             "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s and may have passed through \
              others unseen{advice}",
@@ -82,8 +80,8 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         ));
     }
     let style = world.get_resource::<ChosenMethod>().map_or_else(Style::default, |method| method.style);
-    warnings.extend(world.resource::<Models>().departures.iter().flat_map(|departures| departures(world, style)));
-    let located = world.get_resource::<LocatedEvents>().copied().unwrap_or_default();
+    warnings.extend(state.models().flat_map(|model| model.departures(state, style)));
+    let located = state.located;
     if located.given_up > 0 {
         warnings.push(format!(
             "in {} of {} ticks contacts were too many to locate their events one by one: those went on under velocity Verlet, \

@@ -8,9 +8,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::contacts::ContactForces;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
-use crate::world::{Bodies, packed};
+use crate::tick::{State, place_of};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
 
@@ -50,14 +49,14 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     };
     let wall = wall_named(world, owner);
     let entity = wall.or_else(|| body_named(world, owner))?;
-    world.init_resource::<ContactForces>();
+    world.get_resource_or_init::<State>().contact_forces.get_or_insert_default();
     let force = move |world: &World| {
-        let (bodies, forces) = (world.resource::<Bodies>(), world.resource::<ContactForces>());
+        let State { bodies, contact_forces: Some(forces), .. } = world.resource() else { return None };
         if wall.is_some() {
             let place = bodies.walls.iter().position(|wall| wall.entity == entity)?;
             return forces.on_wall.get(place).copied();
         }
-        forces.on_body.get(packed::place_of(world, entity)?).copied()
+        forces.on_body.get(place_of(world, entity)?).copied()
     };
     let value = move |world: &World| component(force(world).unwrap_or(DVec2::ZERO));
     Some(Channel::new(format!("{owner}.{quantity}"), "N", value))

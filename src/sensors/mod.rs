@@ -17,7 +17,8 @@ use bevy_ecs::prelude::*;
 
 use crate::scene::values::Word;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
-use crate::world::{Bodies, Body, Name, Wall, packed};
+use crate::tick::{State, place_of};
+use crate::world::{Bodies, Body, Name, Wall};
 
 /// One measured number: its name, its unit and how it is read.
 pub struct Channel {
@@ -209,8 +210,8 @@ fn of_body(
 ) -> Option<Channel> {
     let entity = body_named(world, name)?;
     let value = move |world: &World| {
-        let bodies = world.resource::<Bodies>();
-        packed::place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))
+        let bodies = &world.resource::<State>().bodies;
+        place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))
     };
     Some(Channel::new(format!("{name}.{quantity}"), unit, value))
 }

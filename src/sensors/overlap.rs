@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::{Channel, SensorAppExt, add_found};
 use crate::contacts::DeepestOverlap;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::tick::State;
 
 const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
 
@@ -36,7 +37,7 @@ fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         ("overlap", "share") => (|deepest| deepest.share, ""),
         _ => return None,
     };
-    let value = move |world: &World| world.get_resource::<DeepestOverlap>().map_or(0.0, part);
+    let value = move |world: &World| part(world.resource::<State>().deepest_overlap());
     Some(Channel::new(format!("overlap.{quantity}"), unit, value))
 }
 

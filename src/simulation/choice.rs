@@ -3,7 +3,6 @@
 use bevy_ecs::prelude::*;
 
 use super::Overrides;
-use crate::contacts::ContactLaw;
 use crate::integrate::ChosenMethod;
 use crate::integrate::ClockSection;
 use crate::integrate::clock::EventTiming;
@@ -12,7 +11,7 @@ use crate::record::sections::FilmSection;
 use crate::scene::SceneError;
 use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::tick::Notes;
-use crate::tick::{Census, Clock, Holder, Models, Stability};
+use crate::tick::{Clock, Holder, State};
 
 /// Ticks per half period of the fastest contact or spring when the engine chooses the tick.
 const TICKS_PER_HALF_PERIOD: f64 = 40.0;
@@ -176,12 +175,12 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
 
 /// The method that suits what the scene holds, and why.
 fn chosen_method(world: &World) -> (&'static str, &'static str) {
-    let census = world.resource::<Census>();
-    if world.contains_resource::<ContactLaw>() {
+    let state = world.resource::<State>();
+    if state.contact_law().is_some() {
         ("VelocityVerlet", "order 2 at one evaluation per tick, and contacts take many ticks")
-    } else if !census.changing_forces {
+    } else if !state.changing_forces() {
         ("VelocityVerlet", "accelerations do not change, so that it is exact")
-    } else if census.velocity_dependent {
+    } else if state.velocity_dependent() {
         ("RungeKutta4", "order 4, and some force depends on velocities or time")
     } else {
         ("Symplectic4", "order 4 and symplectic, and all forces follow from positions alone")
@@ -203,7 +202,8 @@ fn plan_for(
     let free = method == ClockSection::AUTO || method == ClockSection::REFERENCE;
     let given = overrides.tick.or(clock.tick.map(|tick| tick.si()).filter(|_| goal == Goal::Reference));
     let tick = given.map_or_else(|| frame_tick(world, duration), |tick| positive("--tick", tick))?;
-    let varies = world.contains_resource::<ContactLaw>() || world.resource::<Census>().changing_forces;
+    let state = world.resource::<State>();
+    let varies = state.contact_law().is_some() || state.changing_forces();
     let mut plan = Plan {
         method: String::new(),
         tick,
@@ -288,8 +288,9 @@ fn count(
 /// Makes the world ready for a plan.
 fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<(), Wrong> {
     let method = described(world, &plan.method)?;
-    world.insert_resource(Clock { dt: plan.tick, ticks: 0 });
-    let mut stability = world.resource_mut::<Stability>();
+    let mut state = world.resource_mut::<State>();
+    state.clock = Clock { dt: plan.tick, ticks: 0 };
+    let stability = &mut state.stability;
     (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
     let Some((made, located)) = method.make(plan.events, plan.pace, plan.detail) else {
         let message = format!("`{}` goes from tick to tick: it cannot locate events inside one", method.name);
@@ -298,12 +299,12 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
         ));
     };
     let style = made.0.style();
-    let objections = world.resource::<Models>().objections.clone();
-    if let Some(objection) = objections.iter().find_map(|object| object(world, style)) {
+    let state = world.resource::<State>();
+    if let Some(objection) = state.models().find_map(|model| model.objection(style)) {
         let error = SceneError::new(objection.path, objection.message);
         return Err(Box::new(error.with_help(objection.help)));
     }
-    if located && world.contains_resource::<ContactLaw>() {
+    if located && state.contact_law().is_some() {
         notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
     }
     world.insert_resource(ChosenMethod { name: method.name, located, style });
@@ -323,13 +324,13 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
 fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
     // What, and why a tick is short enough for it.
-    let foreseen = world.resource::<Stability>().fastest_foreseen().map(|foreseen| match foreseen.holder {
+    let foreseen = world.resource::<State>().stability.fastest_foreseen().map(|foreseen| match foreseen.holder {
         Holder::Contacts => (foreseen.angular_frequency, "contact", "the stiffest contact lasts at least 40 of them"),
         Holder::Springs => {
             (foreseen.angular_frequency, "spring", "half a swing of the fastest springs lasts at least 40 of them")
         }
     });
-    let rhythms = world.resource::<Models>().rhythms.iter();
+    let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
     let driven = rhythms.filter(|rhythm| rhythm.angular_frequency > 0.0).map(|rhythm| {
         (rhythm.angular_frequency, "drive", "half a swing of the fastest drive lasts at least 40 of them")
     });

@@ -23,8 +23,8 @@ use crate::record::sections::FilmSection;
 use crate::scene::{self, SceneErrors, SceneHeader, Source};
 use crate::simd::{Level, give_back};
 use crate::threads::Threads;
-use crate::tick::{AfterLoad, Clock, Failure, LoadErrors, Notes, TickAppExt, foresee_components, step};
-use crate::world::{Bodies, Name, atom, packed};
+use crate::tick::{AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, foresee_components, rebuild, step};
+use crate::world::{Name, atom};
 use accuracy::Tell;
 
 /// What a caller wants otherwise than the scene says. Each is named on the card.
@@ -134,7 +134,7 @@ impl Simulation {
         app.cleanup();
         let world = app.world_mut();
         let ticks = begin(world, source, &header, overrides)?;
-        let mut bodies = world.resource_mut::<Bodies>();
+        let bodies = &mut world.resource_mut::<State>().into_inner().bodies;
         bodies.level = overrides.level.unwrap_or_default();
         bodies.threads = Threads::new(overrides.threads.unwrap_or(1));
         if bodies.len() >= LARGE {
@@ -159,9 +159,14 @@ impl Simulation {
         self.app.world_mut()
     }
 
+    /// The state of the run.
+    pub fn state(&self) -> &State {
+        self.world().resource()
+    }
+
     /// The packed bodies in canonical order.
     pub fn bodies(&self) -> &crate::world::Bodies {
-        self.world().resource()
+        self.state().bodies()
     }
 
     /// What the scene says about itself.
@@ -181,7 +186,7 @@ impl Simulation {
 
     /// The clock.
     pub fn clock(&self) -> Clock {
-        *self.world().resource()
+        self.state().clock()
     }
 
     /// Ticks that the whole run takes.
@@ -271,10 +276,12 @@ pub(crate) fn begin(
     if let Some(factor) = overrides.stiffness {
         atom::stiffen(world, factor);
     }
-    packed::rebuild(world);
+    rebuild(world);
+    State::start_models(world);
     for finish in std::mem::take(&mut world.resource_mut::<AfterLoad>().0) {
         finish(world);
     }
+    world.resource_mut::<State>().foresee_springs();
     let late = world.remove_resource::<LoadErrors>().unwrap_or_default().0;
     if !late.is_empty() {
         return Err(scene::found_later(world, source, late));
@@ -289,7 +296,7 @@ pub(crate) fn begin(
 
 /// Ticks are the frames of the film: expectations look at each, and the card says what that leaves out.
 fn look_at_frames(world: &mut World) {
-    let spacing = number(world.resource::<Clock>().dt);
+    let spacing = number(world.resource::<State>().clock.dt);
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
     expectations.look_at_all_ticks();
     if expectations.sample() {

@@ -4,13 +4,13 @@
 //! the same weights with which it applies the forces. A momentum residual is then rounding and nothing else, an
 //! energy residual is the error of the integration.
 
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::State;
 use crate::world::Bodies;
 
 /// Rates of the present evaluation. Cleared before each; every force adds its own.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Balance {
     /// Force from outside the bodies in newtons: fields, walls, fixed bodies, drag, drives.
     pub force: DVec2,
@@ -73,7 +73,7 @@ impl Sum {
 }
 
 /// What has gone in and out since the beginning.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Energy lost to friction in J.
     pub friction: Sum,
@@ -115,12 +115,14 @@ impl Ledger {
     pub fn put_in(&self) -> f64 {
         0.5 * (self.gross_work + self.work.value())
     }
+}
 
+impl State {
     /// Books what others changed between two ticks (bodies spawned, velocities set ...) as work and impulse. The first
     /// state of all becomes the start.
-    pub fn book_exchange(world: &mut World, before: Totals) {
-        let after = Totals::of(world);
-        let mut ledger = world.resource_mut::<Self>();
+    pub(super) fn book_exchange(&mut self, before: Totals) {
+        let after = self.totals();
+        let ledger = &mut self.ledger;
         if ledger.start.is_none() {
             ledger.start = Some(after);
             return;
@@ -130,15 +132,6 @@ impl Ledger {
         ledger.impulse[1].add(after.momentum.y - before.momentum.y);
         ledger.angular_impulse.add(after.angular_momentum - before.angular_momentum);
     }
-}
-
-/// Energies that depend on the state: each force or contact law that stores energy adds a function.
-#[derive(Resource, Default)]
-pub struct EnergyTerms {
-    /// Energies in fields, in J.
-    pub potential: Vec<fn(&World) -> f64>,
-    /// Energies in springs and contacts, in J.
-    pub elastic: Vec<fn(&World) -> f64>,
 }
 
 /// Energy and momentum of a state.
@@ -157,15 +150,6 @@ pub struct Totals {
 }
 
 impl Totals {
-    /// The totals of the present state.
-    pub fn of(world: &World) -> Self {
-        let bodies = world.resource::<Bodies>();
-        let sum = |terms: &[fn(&World) -> f64]| terms.iter().map(|term| term(world)).fold(0.0, |sum, term| sum + term);
-        let terms = world.get_resource::<EnergyTerms>();
-        let potential = terms.map_or(0.0, |terms| sum(&terms.potential));
-        Self::with(bodies, potential, terms.map_or(0.0, |terms| sum(&terms.elastic)))
-    }
-
     /// Those of bodies that have so much energy in fields, and in springs and contacts.
     pub(super) fn with(bodies: &Bodies, potential: f64, elastic: f64) -> Self {
         Self {

@@ -4,11 +4,9 @@
 //! The boxes are checked before each evaluation and not only at the end of a tick, because a stage of an integrator
 //! may stand anywhere.
 
-use bevy_app::App;
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use crate::tick::{Evaluate, EvaluateStage, Evaluation, TickAppExt};
+use super::Evaluation;
 use crate::world::Bodies;
 
 /// Margin as a share of the smallest radius: what steps that locate events begin with.
@@ -39,7 +37,7 @@ const WASTEFUL: f64 = 16.0;
 pub(crate) const MOST_ATOMS: usize = 191;
 
 /// Axis-aligned bounding boxes of all bodies, each grown by half the margin.
-#[derive(Resource, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Bounds {
     /// Counts how often the boxes were made anew: whoever made a list from them compares it.
     pub version: u64,
@@ -65,19 +63,6 @@ pub struct Bounds {
     pub candidates: usize,
     /// Evaluations since the boxes were made.
     age: u64,
-}
-
-/// Registers the system of [`EvaluateStage::Bounds`]. Adding it twice does nothing.
-pub fn plugin(app: &mut App) {
-    if !app.world().contains_resource::<Bounds>() {
-        app.init_resource::<Bounds>();
-        app.add_flight_systems(Evaluate, update_bounding_boxes.in_set(EvaluateStage::Bounds));
-    }
-}
-
-/// Makes the boxes anew when a body has moved by half the margin since they were made.
-pub fn update_bounding_boxes(mut bodies: ResMut<Bodies>, mut bounds: ResMut<Bounds>, evaluation: Res<Evaluation>) {
-    bounds.update(&mut bodies, &evaluation);
 }
 
 impl Bounds {

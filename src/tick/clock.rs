@@ -1,9 +1,7 @@
 //! Time: the clock of ticks, and the moment at which forces are evaluated.
 
-use bevy_ecs::prelude::*;
-
 /// The clock of a run.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
     /// Length of a tick in seconds.
     pub dt: f64,
@@ -31,7 +29,7 @@ impl Clock {
 }
 
 /// The moment at which forces are being evaluated. Force systems read it.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Evaluation {
     /// Time of the state in seconds.
     pub time: f64,
@@ -67,7 +65,7 @@ impl Style {
 }
 
 /// The stretch of time for which modes are being chosen. The systems of [`Modes`](super::Modes) read it.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Span {
     /// Its beginning in seconds.
     pub begin: f64,

@@ -1,8 +1,8 @@
 //! The energy ledger of a run: what is there, what was lost, and what is missing.
 
-use bevy_ecs::prelude::*;
 use serde::Serialize;
 
+use super::State;
 use crate::tick::balance::Totals;
 use crate::tick::{Ledger, energy_seen};
 
@@ -30,12 +30,12 @@ pub struct EnergyLedger {
 
 impl EnergyLedger {
     /// The ledger of the present state.
-    pub fn of(world: &World) -> Self {
-        Self::with(Totals::of(world), world.resource())
+    pub fn of(state: &State) -> Self {
+        Self::with(state.totals(), state.ledger())
     }
 
     /// The ledger of a state with these totals.
-    pub(crate) fn with(now: Totals, ledger: &Ledger) -> Self {
+    fn with(now: Totals, ledger: &Ledger) -> Self {
         let start = ledger.start.unwrap_or(now);
         let (friction, inelasticity) = (ledger.friction.value(), ledger.inelasticity.value());
         let (drag, work) = (ledger.drag.value(), ledger.work.value());
@@ -54,12 +54,12 @@ impl EnergyLedger {
 
     /// The energy that went round in the run, in J: what the residual is to be compared with. The zero of potential
     /// energy is a matter of taste, so only its change counts; work counts whichever way it went.
-    pub fn turned_over(&self, world: &World) -> f64 {
-        let ledger = world.resource::<Ledger>();
+    pub fn turned_over(&self, state: &State) -> f64 {
+        let ledger = &state.ledger;
         let start = ledger.start.unwrap_or_default();
         let fallen = (self.potential - start.potential).abs();
         let lost = self.friction.abs() + self.inelasticity.abs() + self.drag.abs();
         let present = start.kinetic.max(self.kinetic) + fallen + self.elastic;
-        present.max(energy_seen(world)) + lost + ledger.gross_work
+        present.max(energy_seen(state)) + lost + ledger.gross_work
     }
 }

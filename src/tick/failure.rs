@@ -1,5 +1,6 @@
 //! A run that went wrong.
 
+use super::Clock;
 use super::guard::Created;
 use crate::scene::number;
 
@@ -14,6 +15,22 @@ pub struct Failure {
     pub tick: u64,
     /// Its time in seconds.
     pub time: f64,
+}
+
+/// What went wrong, before it is told: of the body at a place in canonical order, if it is one's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trouble {
+    pub body: Option<usize>,
+    pub wrong: Wrong,
+    pub tick: u64,
+    pub time: f64,
+}
+
+impl Trouble {
+    /// At the end of the last tick.
+    pub fn at(clock: &Clock, body: Option<usize>, wrong: Wrong) -> Self {
+        Self { body, wrong, tick: clock.ticks, time: clock.time() }
+    }
 }
 
 /// What can go wrong.

@@ -3,11 +3,9 @@
 
 use glam::DVec2;
 
-use super::balance::Ledger;
-use super::stages::Block;
-use super::{Balance, Tick};
+use super::model::Events;
+use super::{Balance, State, Tick};
 use crate::tick::Flow;
-use crate::world::Bodies;
 
 /// Accounts at the end of a state: drag, work, friction, inelasticity, impulse (2), angular impulse.
 const ACCOUNTS: usize = 7;
@@ -39,13 +37,13 @@ pub struct WorldFlow<'t, 'w> {
 impl<'t, 'w> WorldFlow<'t, 'w> {
     /// The world in this tick. Made anew when modes have changed.
     pub fn new(tick: &'t mut Tick<'w>) -> Self {
-        let bodies: &Bodies = tick.held();
+        let bodies = &tick.state.bodies;
         let dynamic: Vec<usize> = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).collect();
         let mut blocks = Vec::new();
-        tick.each_block(|block| blocks.push(block.length()));
+        tick.state.each_with_events(|model, _| blocks.push(model.length()));
         let own = blocks.iter().sum();
         let dimension = 6 * dynamic.len() + own + ACCOUNTS;
-        let (velocity_dependent, watched) = (tick.velocity_dependent, tick.is_watched());
+        let (velocity_dependent, watched) = (tick.velocity_dependent, tick.state.has_events());
         Self { tick, dynamic, blocks, own, dimension, velocity_dependent, watched }
     }
 
@@ -61,11 +59,11 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     }
 
     /// Shows each model's own state with its numbers, all of which are given.
-    fn each_block(&mut self, mut own: &mut [f64], mut see: impl FnMut(Block, &mut [f64])) {
+    fn each_own(&mut self, mut own: &mut [f64], mut see: impl FnMut(&mut dyn Events, &State, &mut [f64])) {
         let mut lengths = self.blocks.iter();
-        self.tick.each_block(|block| {
+        self.tick.state.each_with_events(|model, state| {
             let (numbers, others) = std::mem::take(&mut own).split_at_mut(next_length(&mut lengths));
-            see(block, numbers);
+            see(model, state, numbers);
             own = others;
         });
     }
@@ -73,7 +71,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     /// The present state. Accounts begin at zero.
     pub fn read(&mut self, state: &mut Vec<f64>) {
         state.clear();
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         for &body in &self.dynamic {
             state.extend([bodies.position[body].x, bodies.position[body].y, bodies.angle[body]]);
         }
@@ -82,7 +80,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         }
         state.resize(self.dimension, 0.0);
         let own = self.places_of_own();
-        self.each_block(&mut state[own], |block, numbers| block.read(numbers));
+        self.each_own(&mut state[own], |model, _, numbers| model.read(numbers));
     }
 
     /// Makes `state` the present one.
@@ -97,16 +95,16 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
             bodies.spin[body] = v[2];
         }
         let (mut lengths, mut own) = (self.blocks.iter(), &state[self.places_of_own()]);
-        self.tick.each_block(|block| {
+        self.tick.state.each_with_events(|model, _| {
             let (numbers, others) = own.split_at(next_length(&mut lengths));
-            block.write(numbers);
+            model.write(numbers);
             own = others;
         });
     }
 
     /// The rates of the state that was evaluated last.
     pub fn read_rates(&mut self, rates: &mut [f64]) {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         let velocities = 3 * self.dynamic.len();
         for (place, &body) in self.dynamic.iter().enumerate() {
             let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass(body));
@@ -115,22 +113,22 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
             rates[velocities + 3 * place..velocities + 3 * place + 3].copy_from_slice(&[force.x, force.y, turning]);
         }
         let own = self.places_of_own();
-        self.each_block(&mut rates[own], |block, rates| block.rates(rates));
-        let Balance { force, torque, drag, work, friction, inelasticity, .. } = *self.tick.held();
+        self.each_own(&mut rates[own], |model, state, rates| model.rates(state, rates));
+        let Balance { force, torque, drag, work, friction, inelasticity, .. } = self.tick.state.balance;
         let accounts = self.places_of_accounts();
         rates[accounts].copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
     }
 
     /// Positions and angles of the dynamic bodies.
     pub fn places(&self) -> Vec<(DVec2, f64)> {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         self.dynamic.iter().map(|&body| (bodies.position[body], bodies.angle[body])).collect()
     }
 
     /// How far any point of a dynamic body is from where it was at these `places`, in m, and how fast, in m/s. A turn counts
     /// as no more than one radian.
     pub fn sizes_since(&self, places: &[(DVec2, f64)]) -> (f64, f64) {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         let far = |(&body, &(position, angle)): (&usize, &(DVec2, f64))| {
             let turn = (bodies.angle[body] - angle).abs().min(1.0);
             (bodies.position[body] - position).length() + turn * bodies.extent(body)
@@ -140,7 +138,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
 
     /// How far a change of the state takes any point of a dynamic body, in m, and how much faster it makes it, in m/s.
     pub fn sizes_of(&self, change: &[f64]) -> (f64, f64) {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         let size = |changes: &[f64]| {
             let each = self.dynamic.iter().zip(changes.chunks_exact(3));
             let size = each.map(|(&body, by)| DVec2::new(by[0], by[1]).length() + by[2].abs() * bodies.extent(body));
@@ -152,13 +150,13 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
 
     /// The greatest distance of a dynamic body from the origin along an axis, in m.
     pub fn farthest(&self) -> f64 {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         self.dynamic.iter().map(|&body| bodies.position[body].abs().max_element()).fold(0.0, f64::max)
     }
 
     /// How far bodies can get from the state that was evaluated last.
     pub fn reach(&self) -> Reach {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         self.dynamic.iter().fold(Reach::default(), |reach, &body| {
             let speed = bodies.velocity[body].length() + bodies.spin[body].abs() * bodies.extent(body);
             let turning = bodies.torque[body].abs() * bodies.inverse_inertia(body) * bodies.extent(body);
@@ -170,7 +168,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     /// What errors of each number of a state are measured by, given a distance in m and a speed in m/s: angles are measured at
     /// the farthest point of their body, numbers of models' own as positions, accounts not at all.
     pub fn measures(&self, distance: f64, speed: f64, sizes: &mut Vec<f64>) {
-        let bodies: &Bodies = self.tick.held();
+        let bodies = &self.tick.state.bodies;
         let turns = |size: f64, body: usize| size / bodies.extent(body).max(f64::MIN_POSITIVE);
         sizes.clear();
         sizes.extend(self.dynamic.iter().flat_map(|&body| [distance, distance, turns(distance, body)]));
@@ -182,7 +180,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     /// Books what a step has added to the accounts.
     pub fn book(&mut self, change: &[f64]) {
         let [drag, work, friction, inelasticity, x, y, angular] = change[self.places_of_accounts()] else { return };
-        let ledger: &mut Ledger = self.tick.held_mut();
+        let ledger = &mut self.tick.state.ledger;
         ledger.impulse[0].add(x);
         ledger.impulse[1].add(y);
         ledger.angular_impulse.add(angular);

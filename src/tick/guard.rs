@@ -12,11 +12,8 @@
 //! touch on, before which nothing can be created. The first tick is not judged: a drive that begins as a sine does has worked
 //! nothing in it, to the order of the method, but bodies move.
 
-use bevy_ecs::prelude::*;
-
-use super::balance::{Ledger, Totals, kinetic_energy_of};
-use super::{Clock, Responses};
-use crate::world::Bodies;
+use super::State;
+use super::balance::kinetic_energy_of;
 
 const BEYOND: f64 = 1e3;
 const ENORMOUS: f64 = 1e9;
@@ -58,14 +55,13 @@ impl EnergyGuard {
     }
 
     /// Looks at the energy of the present state; returns the place of the body that has most of it if there is too much.
-    pub fn look(&mut self, world: &World, travel: f64) -> Option<(usize, Created)> {
-        let (bodies, ledger) = (world.resource::<Bodies>(), world.resource::<Ledger>());
-        let clock = world.resource::<Clock>();
+    pub fn look(&mut self, state: &State, travel: f64) -> Option<(usize, Created)> {
+        let State { bodies, ledger, clock, .. } = state;
         let first = self.next == 0;
         self.next = (clock.ticks / EVERY + 1) * EVERY;
         // From the smallest radius on it looks each time the travel has doubled.
         self.travel = if travel > bodies.smallest_radius { 2.0 * travel } else { bodies.smallest_radius };
-        let (now, start) = (Totals::of(world), ledger.start?);
+        let (now, start) = (state.totals(), ledger.start?);
         let lost = ledger.friction.value() + ledger.inelasticity.value() + ledger.drag.value();
         let work = ledger.work.value();
         self.released = self.released.max(start.potential - now.potential);
@@ -73,7 +69,8 @@ impl EnergyGuard {
         let rounding = ROUNDING * (start.potential.abs() + now.potential.abs() + work.abs());
         let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding;
         let energy = now.energy() + lost - work - start.energy();
-        let unstable = Responses::of(world).fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(world));
+        let unstable =
+            state.responses().fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(&state.stability));
         let too_much = if unstable { BEYOND } else { ENORMOUS } * put_in;
         // Written so that energies that are no numbers are too much; without anything put in there is no measure.
         if first && energy.is_finite() || put_in == 0.0 || energy <= too_much && put_in.is_finite() {

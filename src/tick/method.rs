@@ -17,12 +17,6 @@ pub trait Integrator: Send + Sync + 'static {
     fn flies(&self) -> bool {
         false
     }
-
-    /// Whether it changes the state through the methods of [`Tick`] alone and looks for it nowhere else, such as in
-    /// [`Tick::world`]: then ticks need no schedules where all models are the engine's own.
-    fn is_direct(&self) -> bool {
-        false
-    }
 }
 
 /// The integrator of a run.

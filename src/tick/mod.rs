@@ -4,51 +4,53 @@
 //! |---|---|---|
 //! | [`SimTick`] | [`Stage::Begin`] | plugins look at the state and change it: spawn, despawn, steer |
 //! | | [`Stage::Integrate`] | the integrator advances the state by `dt`; it runs [`Modes`] and [`Evaluate`] as often as its method needs |
-//! | | [`Stage::Observe`] | sensors, expectations and guards look at the new state |
-//! | [`Modes`] | [`EvaluateStage::Forces`] | schedules of forces switch on or off for the whole step |
-//! | | [`EvaluateStage::Contacts`] | contacts choose the modes that stay frozen during the step |
-//! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now |
-//! | | [`EvaluateStage::Forces`] | one system per kind of force, in the order of registration |
-//! | | [`EvaluateStage::Contacts`] | candidate pairs, then the contact law |
-//! | | [`EvaluateStage::Joints`] | rows of joints |
+//! | | [`Stage::Observe`] | expectations and guards look at the new state |
+//! | [`Modes`] | | models choose the modes that stay frozen during the step |
+//! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now, candidate pairs are found |
+//! | | [`EvaluateStage::Systems`] | systems of users add to `Force` and `Torque` |
+//! | | [`EvaluateStage::Forces`] | the models of the scene add their forces in order, contact laws last |
+//! | | [`EvaluateStage::Settle`] | what depends on all forces |
 //!
-//! [`Evaluate`] is a pure function of the state: state in, forces out. The forces of the last evaluation stay in
-//! place, so an integrator that ends where the next tick begins evaluates once per tick.
+//! **State and models.** [`State`] is the one resource that all of this works on. A [`Model`] is anything that acts: it is added with
+//! [`TickAppExt::add_model`], and a scene may have many of a kind. The stages of [`Evaluate`] and [`Modes`] are systems that take
+//! `ResMut<State>` (`stages.rs`); each is there only if some model needs it.
 //!
-//! **Packed systems and ordinary systems.** Built-in systems work on the packed [`Bodies`](crate::world::Bodies) and
-//! are registered with [`TickAppExt::add_packed_systems`]. Any other system in these schedules is an ordinary one: the
-//! engine notices it and keeps the components (`Position`, `Velocity` ...) up to date around it. A scene without
-//! ordinary systems pays nothing for that. A system in [`Stage::Begin`] that changes components, spawns or despawns is
-//! noticed too, and the forces are evaluated anew before the tick; one that changes anything else that forces depend on
-//! says so with [`Bodies::touched`](crate::world::Bodies::touched).
+//! Under methods with several stages per step an evaluation is a pure function of the state: state in, forces out. Under methods that
+//! go from tick to tick contacts remember the state before. The forces of the last evaluation stay in place, so an integrator that
+//! ends where the next tick begins evaluates once per tick.
 //!
-//! **Direct forms.** Where all systems are the engine's own and have one, ticks call them without these schedules: see
-//! `direct.rs`.
+//! **Systems of users.** One that works on [`State`] alone is registered with [`TickAppExt::add_packed_systems`]. Around any other the
+//! engine keeps the components (`Position`, `Velocity` ...) up to date. A scene without such systems pays nothing for that. A system
+//! in [`Stage::Begin`] that changes components, spawns or despawns is noticed, and the forces are evaluated anew before the tick; one
+//! that changes anything else that forces depend on says so with [`Bodies::touched`](crate::world::Bodies::touched).
 
 pub mod after_load;
 pub mod balance;
 pub mod bounds;
 pub mod clock;
-pub(crate) mod direct;
-pub(crate) mod direct_force;
-mod drive;
+mod components;
+mod context;
 pub mod energy;
 mod failure;
 mod flight;
 pub mod flow;
 mod following;
 mod guard;
-mod inside;
 mod method;
-pub mod models;
+mod model;
 mod notes;
 mod ode;
-pub(crate) mod registered;
+pub mod pairs;
+mod progress;
+mod registered;
 pub mod response;
 pub mod stability;
-mod stages;
+pub mod stages;
+mod state;
 pub mod steady;
+mod step;
 pub mod stopwatch;
+pub mod touch;
 mod travel;
 mod undo;
 
@@ -57,23 +59,25 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use after_load::{AfterLoad, LoadErrors};
-pub use balance::{Balance, Ledger};
+pub use balance::{Balance, Ledger, Totals};
 pub use clock::{Clock, Evaluation, Span, Style};
-use direct::Direct;
-pub(crate) use drive::foresee_components;
-pub use drive::{energy_seen, set_method, step};
+pub(crate) use components::place_of;
+pub use context::Tick;
 pub use failure::{Failure, Wrong};
 pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
-pub use inside::Tick;
 pub use method::{Integrator, Method};
-pub use models::{Indicator, Models, Objection, Rhythm, StateBlock, Watch};
+pub use model::{Dependence, Energies, Events, Indicator, Model, Objection, Rhythm};
 pub use notes::Notes;
 pub use ode::Flow;
-use registered::{Registered, register};
+pub use progress::{LocatedEvents, StepCount};
+use registered::{Kind, register};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
-pub(crate) use stages::Stages;
+pub use state::State;
+pub use steady::{SteadySpring, SteadySprings};
+pub use step::{energy_seen, set_method, step};
+pub(crate) use step::{foresee_components, rebuild};
 pub use travel::{FarTravel, far_travel, largest_travel};
 pub use undo::Undo;
 
@@ -85,9 +89,8 @@ pub struct SimTick;
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Evaluate;
 
-/// The schedule in which forces and contacts choose the modes (on or off, loading or unloading) that stay frozen during
-/// the step. It has the stages [`EvaluateStage::Forces`] and [`EvaluateStage::Contacts`]. A force that is switched there corrects
-/// the sums of forces, and sets [`Evaluation::stale`].
+/// The schedule in which models choose the modes (on or off, loading or unloading) that stay frozen during the step. A force that
+/// is switched there corrects the sums of forces.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Modes;
 
@@ -98,134 +101,81 @@ pub enum Stage {
     Begin,
     /// The state is advanced by `dt`.
     Integrate,
-    /// Sensors, expectations and guards look at the new state.
+    /// Expectations and guards look at the new state.
     Observe,
 }
-
-/// Within [`EvaluateStage::Contacts`], before any contact law: where candidate pairs are found, with what looks on.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct FindPairs;
-
-/// Within [`FindPairs`]: the search itself.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct SearchPairs;
 
 /// The stages of [`Evaluate`], in order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EvaluateStage {
-    /// Bounding boxes are checked against where the bodies stand now.
+    /// Bounding boxes are checked against where the bodies stand now, and candidate pairs found.
     Bounds,
-    /// Forces are summed.
+    /// Systems of users add to components.
+    Systems,
+    /// Models add their forces, contact laws last.
     Forces,
-    /// Candidate pairs are found and the contact law is applied.
-    Contacts,
-    /// Joints emit their rows.
-    Joints,
+    /// What depends on all forces.
+    Settle,
 }
 
-/// What a force, or the power that it books, depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
-/// those who need them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dependence {
-    /// Nothing: the force is the same always. Bodies that are asleep ([`Bodies::asleep`](crate::world::Bodies::asleep)) are
-    /// to be left out, and so is what they would bring to [`Balance`].
-    Nothing,
-    /// Time and positions only.
-    Position,
-    /// Velocities too.
-    Velocity,
-}
-
-/// Place of a force in the order of sums.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ForceSlot(pub u32);
-
-/// What the engine knows of its systems.
-#[derive(Resource, Debug, Default)]
-pub(crate) struct Census {
-    pub ordinary_forces: usize,
-    pub force_slots: u32,
-    pub velocity_dependent: bool,
-    /// Some force other than those of contacts depends on velocities.
-    pub velocity_forces: bool,
-    /// Some force is not the same always.
-    pub changing_forces: bool,
-}
-
-impl Census {
-    /// Whether some force may change with time in a state that does not.
-    pub fn changing_forces(&self) -> bool {
-        self.changing_forces || self.ordinary_forces > 0
-    }
-}
-
-/// How plugins add systems to the tick.
+/// How plugins take part in the tick.
 pub trait TickAppExt {
-    /// Adds the schedules and resources of the tick. Adding it twice does nothing.
+    /// Adds the schedules and the state. Adding it twice does nothing.
     fn add_tick(&mut self) -> &mut Self;
 
-    /// Adds systems that work on the packed state only. They may not spawn or despawn.
+    /// Adds a model: a force, a spring, a contact law. It acts after those that were added before; contact laws act last.
+    fn add_model(&mut self, model: impl Model) -> &mut Self;
+
+    /// Adds a force as a system: it reads `Position`, `Velocity` ... and adds to `Force` and `Torque`.
+    ///
+    /// Systems of forces act one after the other, in the order in which they were added, before all models. They may depend on
+    /// velocities; the work that they do stands in the ledger as work.
+    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self;
+
+    /// Adds systems that work on [`State`] only. They may not spawn or despawn.
     fn add_packed_systems<M>(
         &mut self,
         schedule: impl ScheduleLabel,
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self;
-
-    /// Likewise systems that are right while bodies fly: they do not go by the places and velocities of bodies that touch
-    /// nothing, nor by forces on them. No body flies where others make forces or choose modes; where others are in the
-    /// tick, places and velocities are filled in for them.
-    fn add_flight_systems<M>(
-        &mut self,
-        schedule: impl ScheduleLabel,
-        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
-    ) -> &mut Self;
-
-    /// Says that forces depend on velocities: integrators that keep them at half steps then provide whole-step ones.
-    /// For contact laws; forces say so themselves.
-    fn need_velocities(&mut self) -> &mut Self;
-
-    /// Adds a force as an ordinary system: it reads `Position`, `Velocity` ... and adds to `Force` and `Torque`.
-    ///
-    /// It gets its own slot after all forces registered before, so the order of the sum does not depend on chance.
-    /// It may depend on velocities; the work it does stands in the ledger as work.
-    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self;
-
-    /// Adds a force that works on the packed state. It keeps its own account in [`Balance`].
-    fn add_packed_force<M>(
-        &mut self,
-        dependence: Dependence,
-        system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
-    ) -> &mut Self;
 }
+
+/// Place of a system of forces in the order of sums.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct ForceSlot(usize);
 
 impl TickAppExt for App {
     fn add_tick(&mut self) -> &mut Self {
-        if self.world().contains_resource::<Census>() {
+        if self.world().contains_resource::<State>() {
             return self;
         }
         let mut tick = single_threaded(SimTick);
         tick.configure_sets((Stage::Begin, Stage::Integrate, Stage::Observe).chain());
         let mut evaluate = single_threaded(Evaluate);
-        use EvaluateStage::{Bounds, Contacts, Forces, Joints};
-        evaluate.configure_sets((Bounds, Forces, Contacts, Joints).chain());
-        let mut modes = single_threaded(Modes);
-        modes.configure_sets((Forces, Contacts).chain());
-        self.add_schedule(tick).add_schedule(evaluate).add_schedule(modes);
-        self.init_resource::<Census>()
-            .init_resource::<Clock>()
-            .init_resource::<Evaluation>()
-            .init_resource::<Span>()
-            .init_resource::<Models>()
-            .init_resource::<Balance>()
-            .init_resource::<Ledger>()
-            .init_resource::<Stability>()
-            .init_resource::<drive::Drive>()
-            .insert_resource(crate::world::Bodies { changed: true, ..Default::default() });
-        self.init_resource::<Direct>();
-        let mark = Registered::mark(self.world());
-        self.add_flight_systems(SimTick, drive::integrate.in_set(Stage::Integrate));
-        Registered::cover(self.world_mut(), mark);
+        use EvaluateStage::{Bounds, Forces, Settle, Systems};
+        evaluate.configure_sets((Bounds, Systems, Forces, Settle).chain());
+        self.add_schedule(tick).add_schedule(evaluate).add_schedule(single_threaded(Modes));
+        self.init_resource::<State>().insert_resource(crate::world::Roster { changed: true, pushed: false });
+        register(self.world_mut(), SimTick, Kind::Flies, |schedule| {
+            schedule.add_systems(step::integrate.in_set(Stage::Integrate));
+        });
         self
+    }
+
+    fn add_model(&mut self, model: impl Model) -> &mut Self {
+        self.world_mut().get_resource_or_init::<State>().add_model(model);
+        self
+    }
+
+    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self {
+        let mut state = self.world_mut().get_resource_or_init::<State>();
+        let slot = ForceSlot(state.force_systems);
+        state.force_systems += 1;
+        self.configure_sets(Evaluate, slot.in_set(EvaluateStage::Systems));
+        if let Some(before) = slot.0.checked_sub(1) {
+            self.configure_sets(Evaluate, slot.after(ForceSlot(before)));
+        }
+        self.add_systems(Evaluate, system.in_set(slot))
     }
 
     fn add_packed_systems<M>(
@@ -233,66 +183,35 @@ impl TickAppExt for App {
         schedule: impl ScheduleLabel,
         systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
     ) -> &mut Self {
-        register(self.world_mut(), schedule, false, |schedule| {
-            schedule.add_systems(systems);
-        });
+        add_packed_systems(self.world_mut(), schedule, systems);
         self
-    }
-
-    fn add_flight_systems<M>(
-        &mut self,
-        schedule: impl ScheduleLabel,
-        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
-    ) -> &mut Self {
-        register(self.world_mut(), schedule, true, |schedule| {
-            schedule.add_systems(systems);
-        });
-        self
-    }
-
-    fn need_velocities(&mut self) -> &mut Self {
-        self.world_mut().get_resource_or_init::<Census>().velocity_dependent = true;
-        self
-    }
-
-    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self {
-        let slot = next_force_slot(self, Dependence::Velocity);
-        self.world_mut().resource_mut::<Census>().ordinary_forces += 1;
-        self.add_systems(Evaluate, system.in_set(slot))
-    }
-
-    fn add_packed_force<M>(
-        &mut self,
-        dependence: Dependence,
-        system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
-    ) -> &mut Self {
-        let slot = next_force_slot(self, dependence);
-        self.add_packed_systems(Evaluate, system.in_set(slot))
     }
 }
 
-/// Adds one system to [`Stage::Observe`] that works on the packed state only, while a scene is read.
-pub fn add_packed_observer<M>(
+/// Adds systems that work on [`State`] only, while a scene is read.
+pub fn add_packed_systems<M>(
     world: &mut World,
-    system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    schedule: impl ScheduleLabel,
+    systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
 ) {
-    register(world, SimTick, false, |schedule| {
+    register(world, schedule, Kind::Packed, |schedule| {
+        schedule.add_systems(systems);
+    });
+}
+
+/// Adds one system to [`Stage::Observe`] that looks at the state and changes nothing of it.
+pub(crate) fn add_looker<M>(world: &mut World, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) {
+    register(world, SimTick, Kind::Looks, |schedule| {
         schedule.add_systems(system.in_set(Stage::Observe));
     });
 }
 
-fn next_force_slot(app: &mut App, dependence: Dependence) -> ForceSlot {
-    let mut census = app.world_mut().resource_mut::<Census>();
-    census.velocity_dependent |= dependence == Dependence::Velocity;
-    census.velocity_forces |= dependence == Dependence::Velocity;
-    census.changing_forces |= dependence != Dependence::Nothing;
-    let slot = ForceSlot(census.force_slots);
-    census.force_slots += 1;
-    app.configure_sets(Evaluate, slot.in_set(EvaluateStage::Forces));
-    if let Some(before) = slot.0.checked_sub(1) {
-        app.configure_sets(Evaluate, slot.after(ForceSlot(before)));
-    }
-    slot
+/// Adds one system to [`Stage::Observe`] that works on [`State`] only, while a scene is read.
+pub fn add_packed_observer<M>(
+    world: &mut World,
+    system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+) {
+    add_packed_systems(world, SimTick, system.in_set(Stage::Observe));
 }
 
 /// Parallelism is inside a system, never between systems: with a dozen short systems a thread pool costs a hundred

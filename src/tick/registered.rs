@@ -1,4 +1,4 @@
-//! Which systems of the tick the engine knows, by identity: a system that somebody takes out, or puts in its place, is another one.
+//! Which systems of the tick the engine knows, by identity: a system that was taken out, or put in its place, is another one.
 
 use std::collections::BTreeSet;
 
@@ -6,17 +6,23 @@ use bevy_ecs::intern::Interned;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{NodeId, ScheduleLabel, SystemKey};
 
-use super::{Evaluate, Modes, SimTick};
+/// What is known of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// It works on the state only.
+    Packed,
+    /// It looks at the state, at the end of each tick, and changes nothing of it.
+    Looks,
+    /// It belongs to the engine, and is right while bodies fly.
+    Flies,
+}
 
 /// A system in one of the schedules of the tick, as it was registered.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     schedule: Interned<dyn ScheduleLabel>,
     system: SystemKey,
-    /// Whether it is right while bodies fly.
-    flies: bool,
-    /// Whether a direct form stands for it.
-    direct: bool,
+    kind: Kind,
 }
 
 /// The systems that work on the packed state only, in the order in which they were registered.
@@ -31,28 +37,28 @@ fn keys(schedule: &Schedule) -> impl Iterator<Item = SystemKey> + '_ {
     })
 }
 
-/// Adds systems to a schedule, with `add`, that work on the packed state only. `flies`: they are right while bodies fly.
-pub(crate) fn register(world: &mut World, label: impl ScheduleLabel, flies: bool, add: impl FnOnce(&mut Schedule)) {
-    let label = label.intern();
-    let mut schedules = world.get_resource_or_init::<Schedules>();
-    let schedule = schedules.entry(label);
-    let before: BTreeSet<SystemKey> = keys(schedule).collect();
-    add(schedule);
-    let added: Vec<SystemKey> = keys(schedule).filter(|key| !before.contains(key)).collect();
-    let known = added.into_iter().map(|system| Known { schedule: label, system, flies, direct: false });
-    world.get_resource_or_init::<Registered>().0.extend(known);
+/// Adds systems to a schedule, with `add`, that work on the packed state only.
+pub(crate) fn register(world: &mut World, label: impl ScheduleLabel, kind: Kind, add: impl FnOnce(&mut Schedule)) {
+    let mut schedules = std::mem::take(&mut *world.get_resource_or_init::<Schedules>());
+    Registered::add(world, label.intern(), schedules.entry(label.intern()), kind, add);
+    *world.resource_mut::<Schedules>() = schedules;
 }
 
 impl Registered {
-    /// How many systems are registered: those that come later are told apart by it.
-    pub fn mark(world: &World) -> usize {
-        world.get_resource::<Self>().map_or(0, |registered| registered.0.len())
-    }
-
-    /// A direct form stands for all systems that were registered since the `mark`.
-    pub fn cover(world: &mut World, mark: usize) {
-        let mut registered = world.get_resource_or_init::<Self>();
-        registered.0[mark..].iter_mut().for_each(|known| known.direct = true);
+    /// Likewise to a schedule that is at hand.
+    pub fn add(
+        world: &mut World,
+        label: impl ScheduleLabel,
+        schedule: &mut Schedule,
+        kind: Kind,
+        add: impl FnOnce(&mut Schedule),
+    ) {
+        let label = label.intern();
+        let before: BTreeSet<SystemKey> = keys(schedule).collect();
+        add(schedule);
+        let added = keys(schedule).filter(|key| !before.contains(key));
+        let known = added.map(|system| Known { schedule: label, system, kind });
+        world.get_resource_or_init::<Self>().0.extend(known);
     }
 
     fn knows(&self, label: Interned<dyn ScheduleLabel>, schedule: &Schedule, which: impl Fn(&Known) -> bool) -> bool {
@@ -68,16 +74,18 @@ impl Registered {
 
     /// Whether all systems of a schedule are right while bodies fly.
     pub fn all_fly(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
-        self.knows(label.intern(), schedule, |known| known.flies)
+        self.knows(label.intern(), schedule, |known| known.kind == Kind::Flies)
     }
 
-    /// Whether the systems with a direct form are those that the schedules of ticks, evaluations and modes have: none is missing
-    /// and there is no other.
-    pub fn all_direct(&self, [tick, evaluate, modes]: [&Schedule; 3]) -> bool {
-        let schedules = [(SimTick.intern(), tick), (Evaluate.intern(), evaluate), (Modes.intern(), modes)];
-        let present: usize = schedules.iter().map(|(_, schedule)| keys(schedule).count()).sum();
-        let direct = self.0.iter().filter(|known| known.direct).count();
-        present == direct
-            && schedules.into_iter().all(|(label, schedule)| self.knows(label, schedule, |known| known.direct))
+    /// Whether no system of a schedule changes anything of the state but those of the engine.
+    pub fn none_writes(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
+        self.knows(label.intern(), schedule, |known| known.kind != Kind::Packed)
+    }
+
+    /// Whether a schedule holds the systems that were registered for it, and no others.
+    pub fn is_as_registered(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
+        let label = label.intern();
+        let registered = self.0.iter().filter(|known| known.schedule == label).count();
+        keys(schedule).count() == registered && self.knows(label, schedule, |_| true)
     }
 }

@@ -7,16 +7,14 @@ use std::fmt;
 
 use bevy_ecs::prelude::*;
 
-/// What the method bears, and who knows how fast the run responds.
-#[derive(Resource, Clone, Debug)]
+/// What the method bears, and what is known before the first tick of how fast the run responds.
+#[derive(Clone, Debug)]
 pub struct Stability {
     /// Largest stable product of tick and angular frequency of the method.
     pub limit: f64,
     /// Largest stable product of tick and damping over mass. With a spring beside it `(omega dt/limit)^2 + c/m
     /// dt/damping_limit` is to stay below 1.
     pub damping_limit: f64,
-    /// Models that measure how fast they respond.
-    pub sources: Vec<fn(&World) -> Responses>,
     /// What models know of that before the first tick: each adds its own when the whole scene stands.
     pub foreseen: Vec<Foreseen>,
 }
@@ -71,7 +69,7 @@ impl Stability {
 impl Default for Stability {
     /// Nobody knows anything, under a method that is stable up to 2, as velocity Verlet is.
     fn default() -> Self {
-        Self { limit: 2.0, damping_limit: 1.0, sources: Vec::new(), foreseen: Vec::new() }
+        Self { limit: 2.0, damping_limit: 1.0, foreseen: Vec::new() }
     }
 }
 
@@ -109,11 +107,6 @@ pub struct Briefest {
 }
 
 impl Responses {
-    /// What all models know together.
-    pub fn of(world: &World) -> Self {
-        Self::of_all(world.resource::<Stability>().sources.iter().map(|source| source(world)))
-    }
-
     /// What these know together.
     pub(super) fn of_all(all: impl Iterator<Item = Self>) -> Self {
         all.fold(Self::default(), |known, found| {
@@ -131,8 +124,8 @@ impl Responses {
 
 impl Fastest {
     /// The largest tick in seconds that a method bears then.
-    pub fn critical_tick(&self, world: &World) -> f64 {
-        world.resource::<Stability>().limit / self.angular_frequency
+    pub fn critical_tick(&self, stability: &Stability) -> f64 {
+        stability.limit / self.angular_frequency
     }
 }
 

@@ -8,12 +8,8 @@
 //! [`Stability::weight_of_damping`]), so the frequency is a fixed point; each of `ROUNDS` rounds halves at least what is
 //! missing.
 
-use bevy_app::App;
-use bevy_ecs::prelude::*;
-
 use super::response::{Spring, Springs};
-use super::{Balance, Clock, Fastest, Foreseen, Holder, Responses, SimTick, Stability, Stage, TickAppExt};
-use crate::tick::AfterLoad;
+use super::{Fastest, Foreseen, Holder, Responses, Stability, State};
 use crate::world::Bodies;
 
 /// Ticks after which the springs are looked at again.
@@ -34,30 +30,15 @@ pub struct SteadySpring {
     pub turning_damping: f64,
 }
 
-/// A function that adds the springs of one model in their present state.
-pub type Lister = fn(&World, &mut Vec<SteadySpring>);
-
 /// The springs of all models, and how fast they respond.
-#[derive(Resource, Default)]
+#[derive(Debug, Default)]
 pub struct SteadySprings {
     list: Vec<SteadySpring>,
-    listers: Vec<Lister>,
     springs: Springs,
+    /// The tick after which they are looked at again.
     next: u64,
     alert: bool,
     found: Responses,
-}
-
-/// Lets the springs that `lister` knows count where stability is measured.
-pub fn add_steady_springs(app: &mut App, lister: Lister) {
-    if !app.world().contains_resource::<SteadySprings>() {
-        app.init_resource::<SteadySprings>();
-        app.add_packed_systems(SimTick, watch_springs.in_set(Stage::Observe));
-        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(foresee_springs);
-        let sources = &mut app.world_mut().get_resource_or_init::<Stability>().into_inner().sources;
-        sources.push(|world| world.resource::<SteadySprings>().found);
-    }
-    app.world_mut().resource_mut::<SteadySprings>().listers.push(lister);
 }
 
 impl SteadySprings {
@@ -76,16 +57,21 @@ impl SteadySprings {
         })
     }
 
+    /// How fast they respond, as far as it was measured.
+    pub fn found(&self) -> Responses {
+        self.found
+    }
+
+    /// Whether energy is to be watched at each tick.
+    pub(super) fn alert(&self) -> bool {
+        self.alert
+    }
+
     /// The largest angular frequency in rad/s and the place of the body that is held most stiffly, in the present state.
-    fn measure(&mut self, world: &World, stability: &Stability) -> Option<(f64, usize)> {
-        self.list.clear();
-        for lister in &self.listers {
-            lister(world, &mut self.list);
-        }
+    fn measure(&mut self, bodies: &Bodies, stability: &Stability) -> Option<(f64, usize)> {
         if self.list.is_empty() {
             return None;
         }
-        let bodies = world.resource::<Bodies>();
         let mut springs = std::mem::take(&mut self.springs);
         let mut frequency = 0.0_f64;
         for _ in 0..if self.damped() { ROUNDS } else { 1 } {
@@ -98,34 +84,40 @@ impl SteadySprings {
     }
 }
 
-/// Before the first tick, when the method is not known yet: damping counts as under the strictest.
-fn foresee_springs(world: &mut World) {
-    world.resource_scope(|world, mut steady: Mut<SteadySprings>| {
-        if let Some((angular_frequency, _)) = steady.measure(world, &Stability::default()) {
-            let foreseen = Foreseen { angular_frequency, holder: Holder::Springs };
-            world.resource_mut::<Stability>().foreseen.push(foreseen);
-        }
-    });
-}
-
-/// The system of [`Stage::Observe`].
-fn watch_springs(world: &mut World) {
-    let clock = *world.resource::<Clock>();
-    if clock.ticks >= world.resource::<SteadySprings>().next {
-        world.resource_scope(|world, mut steady: Mut<SteadySprings>| {
-            steady.next = clock.ticks + PATIENCE;
-            let found = steady.measure(world, world.resource::<Stability>());
-            let Some((angular_frequency, body)) = found else { return };
-            steady.alert |= clock.dt * angular_frequency > ALERT;
-            let fastest = steady.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency);
-            if angular_frequency > fastest {
-                let body = world.resource::<Bodies>().entity[body];
-                let time = clock.time();
-                steady.found.fastest = Some(Fastest { angular_frequency, body, holder: Holder::Springs, time });
-            }
-        });
+impl State {
+    fn list_springs(&mut self) {
+        let mut list = std::mem::take(&mut self.springs.list);
+        list.clear();
+        self.models().for_each(|model| model.stiffness(self, &mut list));
+        self.springs.list = list;
     }
-    if world.resource::<SteadySprings>().alert {
-        world.resource_mut::<Balance>().alert = true;
+
+    /// Before the first tick, when the method is not known yet: damping counts as under the strictest.
+    pub(crate) fn foresee_springs(&mut self) {
+        self.list_springs();
+        if let Some((angular_frequency, _)) = self.springs.measure(&self.bodies, &Stability::default()) {
+            self.stability.foreseen.push(Foreseen { angular_frequency, holder: Holder::Springs });
+        }
+    }
+
+    /// At the end of a tick: looks at the springs if it is time to.
+    #[inline]
+    pub(super) fn watch_springs(&mut self) {
+        if self.clock.ticks >= self.springs.next {
+            self.measure_springs();
+        }
+    }
+
+    #[cold]
+    fn measure_springs(&mut self) {
+        self.springs.next = self.clock.ticks + PATIENCE;
+        self.list_springs();
+        let Self { springs, bodies, stability, clock, .. } = self;
+        let Some((angular_frequency, body)) = springs.measure(bodies, stability) else { return };
+        springs.alert |= clock.dt * angular_frequency > ALERT;
+        if angular_frequency > springs.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency) {
+            let (body, time) = (bodies.entity[body], clock.time());
+            springs.found.fastest = Some(Fastest { angular_frequency, body, holder: Holder::Springs, time });
+        }
     }
 }

@@ -3,9 +3,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::drive::Drive;
-use super::{Balance, Clock, Tick};
-use crate::world::Bodies;
+use super::{State, Tick};
 use crate::world::motion::Travel;
 
 /// A body that travelled farther in one tick than the smallest radius: it may have passed through others unseen.
@@ -20,13 +18,13 @@ pub struct FarTravel {
 }
 
 /// Greatest distance that any point of a body travelled in one tick so far, in metres.
-pub fn largest_travel(world: &World) -> f64 {
-    world.get_resource::<Drive>().map_or(0.0, |drive| drive.travel)
+pub fn largest_travel(state: &State) -> f64 {
+    state.progress.travel
 }
 
 /// The first body that travelled farther in one tick than the smallest radius.
-pub fn far_travel(world: &World) -> Option<FarTravel> {
-    world.get_resource::<Drive>().and_then(|drive| drive.far)
+pub fn far_travel(state: &State) -> Option<FarTravel> {
+    state.progress.far
 }
 
 impl Tick<'_> {
@@ -42,7 +40,7 @@ impl Tick<'_> {
             sum += travel;
         }
         let smallest = bodies.smallest_radius;
-        let alert = self.held::<Balance>().alert;
+        let alert = self.state.balance.alert;
         self.alert |= alert;
         self.note_travel(Travel { greatest, sum }, smallest);
     }
@@ -50,19 +48,19 @@ impl Tick<'_> {
     /// Notes how far bodies travelled in the tick, and who went too far if it is time to look. `smallest` is the smallest radius.
     #[inline]
     pub(super) fn note_travel(&mut self, Travel { greatest, sum }: Travel, smallest: f64) {
-        let drive: &mut Drive = self.held_mut();
-        drive.travel = drive.travel.max(greatest);
-        drive.travelled = sum;
-        drive.farthest = greatest;
-        if greatest > smallest && drive.far.is_none() {
+        let progress = &mut self.state.progress;
+        progress.travel = progress.travel.max(greatest);
+        progress.travelled = sum;
+        progress.farthest = greatest;
+        if greatest > smallest && progress.far.is_none() {
             self.look_for_far();
         }
     }
 
     #[cold]
     fn look_for_far(&mut self) {
-        let (bodies, clock, drive): (&Bodies, &Clock, &Drive) = (self.held(), self.held(), self.held());
-        if !drive.energy.is_due(clock.ticks + 1, drive.travel) {
+        let State { bodies, clock, progress, .. } = &*self.state;
+        if !progress.energy.is_due(clock.ticks + 1, progress.travel) {
             return;
         }
         let far = |body: &usize| {
@@ -73,11 +71,11 @@ impl Tick<'_> {
             travel: bodies.travel(body),
             time: clock.time_of(clock.ticks + 1),
         });
-        self.held_mut::<Drive>().far = far;
+        self.state.progress.far = far;
     }
 
     /// The greatest way in metres that any point of a body made in the tick so far.
     pub fn farthest(&self) -> f64 {
-        self.held::<Drive>().farthest
+        self.state.progress.farthest
     }
 }

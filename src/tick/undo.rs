@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::{Ledger, Tick};
-use crate::world::Bodies;
 
 /// What a tick began with. Candidate lists stay as they are, and models may have no history of it.
 #[derive(Default)]
@@ -18,12 +17,12 @@ pub struct Undo {
 impl Tick<'_> {
     /// Remembers the present state.
     pub fn remember(&self, undo: &mut Undo) {
-        let bodies: &Bodies = self.held();
+        let bodies = &self.state.bodies;
         undo.position.clone_from(&bodies.position);
         undo.angle.clone_from(&bodies.angle);
         undo.velocity.clone_from(&bodies.velocity);
         undo.spin.clone_from(&bodies.spin);
-        undo.ledger = *self.held();
+        undo.ledger = self.state.ledger;
     }
 
     /// Goes back to the state that was remembered. It is to be evaluated.
@@ -35,6 +34,6 @@ impl Tick<'_> {
         bodies.spin.clone_from(&undo.spin);
         bodies.estimated_velocity.clear();
         bodies.estimated_spin.clear();
-        *self.held_mut::<Ledger>() = undo.ledger;
+        self.state.ledger = undo.ledger;
     }
 }

@@ -69,7 +69,7 @@ impl Atoms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::{NewBody, packed};
+    use crate::world::{Bodies, NewBody, packed};
 
     /// A body that is one disc, one whose disc is beside its centre, and one of two.
     fn three_bodies(world: &mut World) -> [Entity; 3] {
@@ -107,8 +107,7 @@ mod tests {
         world.entity_mut(disc).insert(larger);
         assert_eq!(atoms_of(&world, disc).collect::<Vec<_>>(), [larger]);
         assert_eq!(count_atoms(&mut world), 4);
-        packed::rebuild(&mut world);
-        assert_eq!(world.resource::<crate::world::Bodies>().atom_radius[0], 0.75);
+        assert_eq!(packed::rebuild(&mut world, Bodies::default()).atom_radius[0], 0.75);
     }
 
     /// Promise: where all are lone discs, what is not listed is told as where it is.
@@ -117,8 +116,7 @@ mod tests {
         let mut world = World::new();
         let bodies = three_bodies(&mut world);
         let told = |world: &mut World| {
-            packed::rebuild(world);
-            let bodies = world.resource::<crate::world::Bodies>();
+            let bodies = packed::rebuild(world, Bodies::default());
             let whose = (bodies.atom_body(0), bodies.atoms_of(0), bodies.atom_count(), bodies.len());
             let shape = (bodies.atom_offset(0), bodies.atom_place(0), bodies.extent(0), bodies.atom_stiffness(0));
             (bodies.lone_discs, whose, shape)
@@ -129,7 +127,7 @@ mod tests {
         world.despawn(bodies[2]);
         assert_eq!(told(&mut world), (true, (0, 0..1, 1, 1), shape));
         assert_eq!(shape, (DVec2::ZERO, DVec2::ZERO, 0.5, 1e3));
-        let place = |body| world.resource::<crate::world::Bodies>().place(body);
-        assert_eq!(bodies.map(place), [Some(0), None, None]);
+        let packed = packed::rebuild(&mut world, Bodies::default());
+        assert_eq!(bodies.map(|body| packed.place(body)), [Some(0), None, None]);
     }
 }

@@ -1,6 +1,6 @@
 //! A body: position, velocity, mass, and the forces of the present evaluation, as components.
 //!
-//! The components are the truth between ticks. Inside a tick the packed [`Bodies`] hold the state; the
+//! The components are the truth between ticks. Inside a tick the packed [`Bodies`](super::Bodies) hold the state; the
 //! components are brought up to date for whoever reads them (see [`crate::tick`]).
 
 use bevy_ecs::lifecycle::HookContext;
@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::world::DeferredWorld;
 use glam::DVec2;
 
-use super::packed::Bodies;
+use super::roster::Roster;
 
 /// How a body moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,7 +79,7 @@ impl Default for Mass {
 
 /// The packed state is rebuilt before the next tick.
 pub(super) fn mark_changed(mut world: DeferredWorld, _: HookContext) {
-    if let Some(mut bodies) = world.get_resource_mut::<Bodies>() {
-        bodies.changed = true;
+    if let Some(mut roster) = world.get_resource_mut::<Roster>() {
+        roster.changed = true;
     }
 }

@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::atom::{atoms_of, count_atoms};
-use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
+use super::body::{Body, Mass, Motion, Position, Rotation, Spin, Velocity};
 use super::flight::Flights;
 use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
@@ -45,17 +45,13 @@ pub(crate) enum Moved {
 /// All bodies, atoms and walls, packed.
 ///
 /// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`].
-#[derive(Resource, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Bodies {
-    /// Set when something was spawned, despawned or given another mass: the arrays are rebuilt before the next tick.
-    pub changed: bool,
     /// Set by a plugin that changed something forces depend on other than the components of bodies (a setting of its
     /// own force, say): forces are then evaluated anew before the next tick instead of at its end.
     pub touched: bool,
     /// Instructions for work on many bodies at once. Default: the best there are.
     pub level: Level,
-    /// Entities have a [`Force`] and a [`Torque`], for systems that work on components.
-    pub(crate) pushed: bool,
     /// Threads for work on many bodies or contacts. Default: one.
     pub threads: Threads,
     /// Counts the rebuilds: whoever keeps indices compares it.
@@ -385,73 +381,6 @@ pub(super) fn place_atoms<V: Lanes>((position, angle): (DVec2, f64), offsets: &[
     }
 }
 
-type State = (Entity, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
-type StateMut = (Entity, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
-
-/// Whether some component holds another value than the packed state.
-pub fn components_differ(bodies: Res<Bodies>, states: Query<State, With<Body>>) -> bool {
-    states.iter().any(|(entity, position, rotation, velocity, spin)| {
-        let Some(body) = bodies.place(entity) else { return false };
-        bodies.position[body] != position.0
-            || bodies.angle[body] != rotation.0
-            || bodies.velocity[body] != velocity.0
-            || bodies.spin[body] != spin.0
-    })
-}
-
-/// Components -> packed state. What rounding left over is kept where a component was not touched.
-pub fn load_state(mut bodies: ResMut<Bodies>, states: Query<State, With<Body>>) {
-    let bodies = &mut *bodies;
-    for (entity, position, rotation, velocity, spin) in &states {
-        let Some(body) = bodies.place(entity) else { continue };
-        if bodies.position[body] != position.0 {
-            bodies.position[body] = position.0;
-            bodies.position_rest[body] = DVec2::ZERO;
-        }
-        if bodies.angle[body] != rotation.0 {
-            bodies.angle[body] = rotation.0;
-            bodies.angle_rest[body] = 0.0;
-        }
-        if bodies.velocity[body] != velocity.0 || bodies.spin[body] != spin.0 {
-            bodies.velocity[body] = velocity.0;
-            bodies.spin[body] = spin.0;
-            if !bodies.estimated_velocity.is_empty() {
-                bodies.estimated_velocity[body] = velocity.0;
-                bodies.estimated_spin[body] = spin.0;
-            }
-        }
-    }
-}
-
-/// Packed state -> components.
-pub fn store_state(bodies: Res<Bodies>, mut states: Query<StateMut, With<Body>>) {
-    for (entity, mut position, mut rotation, mut velocity, mut spin) in &mut states {
-        // Spawned since the last rebuild: its components are the truth.
-        let Some(body) = bodies.place(entity) else { continue };
-        position.0 = bodies.position[body];
-        rotation.0 = bodies.angle[body];
-        velocity.0 = bodies.velocity[body];
-        spin.0 = bodies.spin[body];
-    }
-}
-
-/// Gives a [`Force`] and a [`Torque`] to bodies that have none, now and when bodies come later.
-pub fn make_pushable(world: &mut World) {
-    world.resource_mut::<Bodies>().pushed = true;
-    let mut without = world.query_filtered::<Entity, (With<Body>, Without<Force>)>();
-    for body in without.iter(world).collect::<Vec<_>>() {
-        world.entity_mut(body).insert((Force::default(), Torque::default()));
-    }
-}
-
-/// Clears the components that force systems add to.
-pub fn clear_forces(mut forces: Query<(&mut Force, &mut Torque)>) {
-    for (mut force, mut torque) in &mut forces {
-        force.0 = DVec2::ZERO;
-        torque.0 = 0.0;
-    }
-}
-
 impl Bodies {
     /// Makes room for so many bodies and atoms and no more: lists that grow end up to twice as long.
     fn make_room(&mut self, bodies: usize, atoms: usize) {
@@ -483,25 +412,15 @@ fn is_lone_disc(world: &World, body: Entity) -> bool {
     atoms.next().is_some_and(|atom| atom.offset == DVec2::ZERO) && atoms.next().is_none()
 }
 
-/// Place of the body of an entity, if it is still there.
-pub(crate) fn place_of(world: &World, entity: Entity) -> Option<usize> {
-    world.get::<Body>(entity).and_then(|_| world.get_resource::<Bodies>()?.place(entity))
-}
-
-/// Fills the arrays anew from the entities, in the order of keys.
-pub fn rebuild(world: &mut World) {
-    if world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed) {
-        make_pushable(world);
-    }
+/// Fills the arrays anew from the entities, in the order of keys. What rounding left over in the `previous` ones is kept.
+pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
     let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
     found.sort_unstable();
-    let previous = world.remove_resource::<Bodies>().unwrap_or_default();
     let mut bodies = Bodies {
         generation: previous.generation + 1,
         level: previous.level,
         threads: previous.threads,
         field: previous.field,
-        pushed: previous.pushed,
         flights: previous.flights.ended(),
         lone_discs: found.iter().all(|&(_, entity)| is_lone_disc(world, entity)),
         ..Default::default()
@@ -591,5 +510,5 @@ pub fn rebuild(world: &mut World) {
         .into_iter()
         .map(|(entity, wall)| PackedWall { entity, point: wall.left, normal: wall.normal(), material: wall.material })
         .collect();
-    world.insert_resource(bodies);
+    bodies
 }

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::atom::{Atom, AtomOf, Atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
-use super::{Bodies, Kinematic, Name};
+use super::{Kinematic, Name, Roster};
 
 /// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.
 #[derive(Resource, Debug, Default)]
@@ -131,7 +131,7 @@ pub(super) fn spawn_series(world: &mut World, series: Series, body: impl Fn(usiz
         let &[disc] = &body.atoms[..] else { unreachable!("each is a lone disc") };
         (body.components(key, name), disc)
     });
-    let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
+    let pushed = Roster::pushes(world);
     after_others(world, count, |world| {
         if pushed {
             world.spawn_batch(discs.map(|disc| (disc, Force::default(), Torque::default())));
@@ -187,7 +187,7 @@ impl NewBody {
         let components = self.components(key, name);
         // With all it ever has from the beginning: a component that comes later moves the body to another table, and the one it
         // leaves keeps its memory.
-        let pushed = world.get_resource::<Bodies>().is_some_and(|bodies| bodies.pushed);
+        let pushed = Roster::pushes(world);
         let body = match atoms[..] {
             [atom] => spawn_one(world, pushed, (components, atom)),
             _ => spawn_one(world, pushed, (components, Atoms::with_room(atoms.len()))),

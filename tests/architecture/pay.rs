@@ -39,19 +39,21 @@ fn a_scene_schedules_what_it_names_and_nothing_else() {
         ("contacts: None,", [0, 0, 0]),
         // Who asks for contacts has them found, and counted.
         ("sensors: [Contacts(of: \"ball\"), Contacts(of: \"*\")],", [2, 0, 0]),
-        // One system per kind of force, however many entries there are.
+        // One stage for all forces.
         ("gravity: (0, -9.81),", [0, 1, 0]),
         ("forces: [Drag(linear: 0.1)],", [0, 1, 0]),
         ("forces: [Drag(linear: 0.1), Drag(quadratic: 0.1)],", [0, 1, 0]),
         ("forces: [Wind(velocity: (1, 0), linear: 0.1)],", [0, 1, 0]),
         ("forces: [Torque(of: \"ball\", value: 1)],", [0, 1, 0]),
         ("forces: [Attraction(constant: 1)],", [0, 1, 0]),
-        // Thrust has a schedule of its own, which is frozen in a tick.
+        // Thrust is switched on and off before a tick.
         ("forces: [Thrust(of: \"ball\", force: (1, 0))],", [0, 1, 1]),
-        ("gravity: (0, -9.81), forces: [Drag(linear: 0.1), Attraction(constant: 1)],", [0, 3, 0]),
+        ("gravity: (0, -9.81), forces: [Drag(linear: 0.1), Attraction(constant: 1)],", [0, 1, 0]),
         // All expectations are watched by one system.
         ("expect: [Inside(of: \"*\", box: ((-9, -9), (9, 9)))],", [1, 0, 0]),
-        ("expect: [Channel(name: \"energy.residual\", below: 1), Channel(name: \"ball.spin\", below: 1)],", [1, 0, 0]),
+        ("expect: [Channel(name: \"ball.angle\", below: 1), Channel(name: \"ball.spin\", below: 1)],", [1, 0, 0]),
+        // One more for those that look at more than the state.
+        ("expect: [Channel(name: \"energy.residual\", below: 1), Channel(name: \"ball.spin\", below: 1)],", [2, 0, 0]),
     ] {
         let found = systems(sections);
         let expected = [bare[0] + more[0], bare[1] + more[1], bare[2] + more[2]];

@@ -3,7 +3,7 @@
 //! slipping) when places in the packed state change.
 
 use bevy_ecs::prelude::*;
-use jostle::tick::{Clock, SimTick, Stage};
+use jostle::tick::{SimTick, Stage, State};
 use jostle::world::{Body, Position};
 
 use super::{clumps, load, new_clump, run, scene, states};
@@ -24,12 +24,12 @@ fn nothing(_: Query<&Body>) {}
 struct Farewell(u64);
 
 fn despawn_high(
-    clock: Res<Clock>,
+    state: Res<State>,
     farewell: Res<Farewell>,
     bodies: Query<(Entity, &Position)>,
     mut commands: Commands,
 ) {
-    if clock.ticks == farewell.0 {
+    if state.clock().ticks == farewell.0 {
         for (body, position) in &bodies {
             if position.0.y > 100.0 {
                 commands.entity(body).despawn();
@@ -71,7 +71,7 @@ fn nobody_notices_that_a_far_away_body_goes() {
 struct Arrival(u64);
 
 fn spawn_far_away(world: &mut World) {
-    if world.resource::<Clock>().ticks == world.resource::<Arrival>().0 {
+    if world.resource::<State>().clock().ticks == world.resource::<Arrival>().0 {
         let mut body = new_clump(world, 1);
         body.name = "hermit".into();
         body.position.y = 300.0;
@@ -101,7 +101,7 @@ fn nobody_notices_that_a_far_away_body_comes() {
 fn who_comes_in_mid_run_falls_and_collides() {
     let text = scene("VelocityVerlet", "", &clumps());
     let spawn_above = |world: &mut World| {
-        if world.resource::<Clock>().ticks == 1000 {
+        if world.resource::<State>().clock().ticks == 1000 {
             let mut body = new_clump(world, 0);
             body.name = "guest".into();
             body.position = glam::DVec2::new(1.0, 1.8);

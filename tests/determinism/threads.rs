@@ -72,7 +72,7 @@ fn end_of(text: &str, threads: usize, level: Level) -> (u64, Ledger, DVec2) {
     let overrides = Overrides { threads: Some(threads), level: Some(level), ..Overrides::default() };
     let mut simulation = Simulation::load_with(&Source::new("many", text), &overrides, |_| {}).unwrap();
     simulation.run_to_end().unwrap();
-    let (bodies, ledger) = (simulation.bodies(), *simulation.world().resource::<Ledger>());
+    let (bodies, ledger) = (simulation.bodies(), *simulation.state().ledger());
     (hash(&simulation), ledger, momentum(bodies))
 }
 

@@ -14,10 +14,10 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use jostle::contacts::{AtomPair, CandidatePairs, FindPairs, Law, Touching, WallPair, add_law};
+use jostle::contacts::{AtomPair, CandidatePairs, Law, LawSide, LawTouch, WallPair, add_law};
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::{Overrides, Simulation};
-use jostle::tick::{Balance, Evaluate, EvaluateStage, TickAppExt};
+use jostle::tick::{Balance, Energies, Model, State, SteadySpring};
 use jostle::world::material::Rebound;
 use jostle::world::{Bodies, Materials};
 use serde::Deserialize;
@@ -33,19 +33,51 @@ impl Entry for AxisWise {
     const EXAMPLE: &'static str = "AxisWise()";
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        add_law(app, Law { name: "AxisWise", elastic_energy, stiffness });
-        app.need_velocities();
-        let system = apply_axis_wise.after(FindPairs).in_set(EvaluateStage::Contacts);
-        app.add_packed_systems(Evaluate, system);
+        app.init_resource::<Materials>();
+        add_law(app, AxisWiseLaw::default());
     }
 }
 
-fn apply_axis_wise(
-    pairs: Res<CandidatePairs>,
-    materials: Res<Materials>,
-    mut bodies: ResMut<Bodies>,
-    mut balance: ResMut<Balance>,
-) {
+#[derive(Default)]
+struct AxisWiseLaw {
+    materials: Materials,
+}
+
+impl Law for AxisWiseLaw {
+    fn law(&self) -> &'static str {
+        "AxisWise"
+    }
+
+    fn pair_stiffness(&self, state: &State, pair: &LawTouch) -> (f64, f64) {
+        let bodies = state.bodies();
+        let along = match pair.a {
+            LawSide::Atom(a) => series(bodies, a, pair.b),
+            LawSide::Wall(_) => bodies.atom_stiffness(pair.b),
+        };
+        (along, 0.0)
+    }
+}
+
+impl Model for AxisWiseLaw {
+    fn start(&mut self, world: &mut World) {
+        self.materials = world.resource::<Materials>().clone();
+    }
+
+    /// The law has no potential: what its springs alone would hold.
+    fn energies(&self, state: &State) -> Energies {
+        Energies { potential: 0.0, elastic: state.pairs().map_or(0.0, |pairs| elastic_energy(state.bodies(), pairs)) }
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        if let (bodies, rates, Some(pairs)) = state.bodies_rates_and_pairs() {
+            apply_axis_wise(&self.materials, pairs, bodies, rates);
+        }
+    }
+}
+
+fn apply_axis_wise(materials: &Materials, pairs: &CandidatePairs, bodies: &mut Bodies, balance: &mut Balance) {
     for &AtomPair { a, b } in &pairs.atoms {
         let (a, b) = (a as usize, b as usize);
         let between = bodies.atom_place(a) - bodies.atom_place(b);
@@ -54,15 +86,15 @@ fn apply_axis_wise(
         if compression <= 0.0 {
             continue;
         }
-        let stiffness = series(&bodies, a, b);
+        let stiffness = series(bodies, a, b);
         let pair = materials.pair(bodies.atom_material(a).place(), bodies.atom_material(b).place());
         let normal_force = between * (stiffness * compression / distance);
-        let approach = sign(velocity(&bodies, a) - velocity(&bodies, b));
+        let approach = sign(velocity(bodies, a) - velocity(bodies, b));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * approach * pair.friction_dynamic;
         let force = normal_force - friction - normal_force * approach * inelasticity(pair.rebounds);
-        push(&mut bodies, &mut balance, a, force);
-        push(&mut bodies, &mut balance, b, -force);
+        push(bodies, balance, a, force);
+        push(bodies, balance, b, -force);
     }
     for &WallPair { wall, atom } in &pairs.walls {
         let (wall, atom) = (bodies.walls[wall as usize], atom as usize);
@@ -73,17 +105,15 @@ fn apply_axis_wise(
         }
         let pair = materials.pair(wall.material.place(), bodies.atom_material(atom).place());
         let normal_force = wall.normal * (bodies.atom_stiffness(atom) * compression);
-        let motion = sign(velocity(&bodies, atom));
+        let motion = sign(velocity(bodies, atom));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * motion * pair.friction_dynamic;
         let force = normal_force - friction - normal_force * motion * sign(wall.normal) * inelasticity(pair.rebounds);
-        push(&mut bodies, &mut balance, atom, force);
+        push(bodies, balance, atom, force);
     }
 }
 
-/// The law has no potential: what its springs alone would hold.
-fn elastic_energy(world: &World) -> f64 {
-    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
+fn elastic_energy(bodies: &Bodies, pairs: &CandidatePairs) -> f64 {
     let energy = |stiffness: f64, compression: f64| 0.5 * stiffness * compression.max(0.0).powi(2);
     let of_atoms = pairs.atoms.iter().map(|&AtomPair { a, b }| {
         let (a, b) = (a as usize, b as usize);
@@ -96,11 +126,6 @@ fn elastic_energy(world: &World) -> f64 {
         energy(bodies.atom_stiffness(atom), bodies.atom_radius[atom] - height)
     });
     of_atoms.chain(of_walls).sum()
-}
-
-fn stiffness(world: &World, pair: &Touching) -> (f64, f64) {
-    let bodies = world.resource::<Bodies>();
-    (pair.a.map_or(bodies.atom_stiffness(pair.b), |a| series(bodies, a, pair.b)), 0.0)
 }
 
 /// The law knows inelasticities only, as its scenes do.

@@ -13,8 +13,8 @@ use jostle::bevy::{Pace, Physics, PhysicsPlugin, Run, timestep};
 use jostle::report::Card;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::{Clock, TickAppExt};
-use jostle::world::{Bodies, Force, Position, hash::state_hash};
+use jostle::tick::{State, TickAppExt};
+use jostle::world::{Force, Position, hash::state_hash};
 
 const CHECKED: Pace = Pace::Checked(|world| world.resource::<Time<Fixed>>().timestep());
 
@@ -74,7 +74,7 @@ fn app(physics: PhysicsPlugin, steps: u32) -> App {
 }
 
 fn hash(app: &App) -> u64 {
-    state_hash(app.world().resource::<Bodies>())
+    state_hash(app.world().resource::<State>().bodies())
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn a_bevy_app_computes_the_same_bits_as_a_headless_run() {
             app.update();
         }
         assert!(matches!(app.world().resource::<Run>(), Run::Ended), "{:?}", app.world().resource::<Run>());
-        assert_eq!(app.world().resource::<Clock>().ticks, 1000);
+        assert_eq!(app.world().resource::<State>().clock().ticks, 1000);
         assert_eq!(hash(&app), state_hash(headless.bodies()), "{steps} ticks per update");
         // The card and the expectations of the scene are there too.
         assert_eq!(Card::of(app.world(), 1.0, None).energy.residual, headless.card().energy.residual);
@@ -121,7 +121,7 @@ fn plugins_of_the_physics_work_in_an_app() {
     for _ in 0..=21 {
         app.update();
     }
-    assert_eq!(app.world().resource::<Clock>().ticks, 200);
+    assert_eq!(app.world().resource::<State>().clock().ticks, 200);
     assert_eq!(hash(&app), state_hash(headless.bodies()));
 }
 
@@ -133,13 +133,13 @@ fn another_timestep_than_the_clocks_stops_the_run_until_it_is_mended() {
     app.update();
     let told = app.world().resource::<Run>().trouble().unwrap();
     assert!(told.contains("0.015625 s") && told.contains("0.0005 s"), "{told}");
-    assert_eq!(app.world().resource::<Clock>().ticks, 0, "nothing may run meanwhile");
+    assert_eq!(app.world().resource::<State>().clock().ticks, 0, "nothing may run meanwhile");
     let right = timestep(app.world());
     app.insert_resource(Time::<Fixed>::from_duration(right));
     app.update();
     app.update();
     assert!(app.world().resource::<Run>().trouble().is_none());
-    assert!(app.world().resource::<Clock>().ticks > 0);
+    assert!(app.world().resource::<State>().clock().ticks > 0);
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn a_free_pace_takes_any_timestep() {
     app.insert_resource(Time::<Fixed>::from_hz(64.0));
     app.update();
     app.update();
-    assert!(app.world().resource::<Clock>().ticks > 0);
+    assert!(app.world().resource::<State>().clock().ticks > 0);
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn numbers_that_stop_being_finite_end_the_run_and_are_told() {
     app.update();
     let Run::Failed(failure) = app.world().resource::<Run>().clone() else { panic!("it should have failed") };
     assert_eq!(failure.body, "a");
-    let ticks = app.world().resource::<Clock>().ticks;
+    let ticks = app.world().resource::<State>().clock().ticks;
     app.update();
-    assert_eq!(app.world().resource::<Clock>().ticks, ticks, "nothing runs after a failure");
+    assert_eq!(app.world().resource::<State>().clock().ticks, ticks, "nothing runs after a failure");
 }

@@ -11,11 +11,11 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::contacts::events::{FindContactEvents, Touches, watch};
-use jostle::contacts::{CandidatePairs, ContactEvents, ContactEventsAppExt};
+use jostle::contacts::events::{FindContactEvents, watch};
+use jostle::contacts::{ContactEvents, ContactEventsAppExt};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::{Clock, SimTick, Stage};
+use jostle::tick::{SimTick, Stage, State};
 use jostle::world::{Atom, Bodies, MaterialIndex, Name, NewBody};
 
 /// What the plugin heard: the tick, whether it began, and both names.
@@ -25,12 +25,12 @@ type Heard = (u64, bool, String, String);
 #[derive(Resource, Default)]
 struct Diary(Vec<Heard>);
 
-fn keep_diary(events: Res<ContactEvents>, clock: Res<Clock>, names: Query<&Name>, mut diary: ResMut<Diary>) {
+fn keep_diary(events: Res<ContactEvents>, state: Res<State>, names: Query<&Name>, mut diary: ResMut<Diary>) {
     // Between the integrator and the observers the clock stands at the end of the tick.
-    assert_eq!(events.time, clock.time());
+    assert_eq!(events.time, state.time());
     let name = |entity| names.get(entity).map_or_else(|_| "(gone)".to_owned(), Name::to_string);
     for (list, begun) in [(&events.begun, true), (&events.ended, false)] {
-        diary.0.extend(list.iter().map(|pair| (clock.ticks, begun, name(pair.a), name(pair.b))));
+        diary.0.extend(list.iter().map(|pair| (state.clock().ticks, begun, name(pair.a), name(pair.b))));
     }
 }
 
@@ -193,7 +193,7 @@ fn a_heap_tells_who_touches_by_positions_alone_in_canonical_order() {
         assert_eq!(simulation.world().resource::<ContactEvents>().present.len(), now.len());
         changes += expected.len();
         known = now;
-        lists = simulation.world().resource::<CandidatePairs>().version;
+        lists = simulation.state().pairs().unwrap().version;
     }
     assert!(changes > 100 && lists > 10, "too quiet to prove anything: {changes} events, {lists} lists");
 }
@@ -224,7 +224,7 @@ fn what_rests_keeps_its_contacts_whatever_happens_beside() {
     let mut simulation = load(&scene(sensors, &bodies), listener);
     run(&mut simulation, 10_000);
     let settled = diary(&simulation).len();
-    let version = |simulation: &Simulation| simulation.world().resource::<CandidatePairs>().version;
+    let version = |simulation: &Simulation| simulation.state().pairs().unwrap().version;
     let lists = version(&simulation);
     for (channel_name, expected) in [("upper.contacts", 1.0), ("lower.contacts", 2.0)] {
         assert_eq!(channel(&mut simulation, channel_name), expected);
@@ -294,7 +294,7 @@ fn where_nobody_asks_nothing_is_watched() {
     let mut simulation = load(&scene("sensors: [Pose(of: \"*\"), ContactForce(on: \"floor\")],", PEG), |_| {});
     run(&mut simulation, 10);
     assert!(!simulation.world().contains_resource::<ContactEvents>());
-    assert!(!simulation.world().contains_resource::<Touches>());
+    assert!(simulation.state().touches().is_none());
 }
 
 /// Asking changes no bit of the physics.

@@ -4,19 +4,18 @@
 //! `m g/k + sqrt((m g/k)^2 + m v^2/k)`; its critical tick is `2 sqrt(m/k)`. Tolerance: second order in the tick.
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::contacts::{CandidatePairs, FindPairs, Law, Touching, add_law};
+use jostle::contacts::{CandidatePairs, Law, LawTouch, add_law};
 use jostle::report::Card;
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::Overrides;
-use jostle::tick::{Balance, Evaluate, EvaluateStage, TickAppExt};
+use jostle::tick::{Dependence, Energies, Model, State, SteadySpring};
 use jostle::world::Bodies;
 use serde::Deserialize;
 
 /// `contacts: Floor(stiffness: 500)`: a spring between atoms and walls, and nothing between atoms.
-#[derive(Resource, Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Floor {
     stiffness: f64,
@@ -28,37 +27,52 @@ impl Entry for Floor {
     const EXAMPLE: &'static str = "Floor(stiffness: 500)";
 
     fn install(written: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        app.insert_resource(written[0].value);
-        let stiffness = |world: &World, _: &Touching| (world.resource::<Floor>().stiffness, 0.0);
-        add_law(app, Law { name: "Floor", elastic_energy, stiffness });
-        app.add_packed_systems(Evaluate, push_back.after(FindPairs).in_set(EvaluateStage::Contacts));
+        add_law(app, written[0].value);
+    }
+}
+
+impl Law for Floor {
+    fn law(&self) -> &'static str {
+        "Floor"
+    }
+
+    fn pair_stiffness(&self, _: &State, _: &LawTouch) -> (f64, f64) {
+        (self.stiffness, 0.0)
+    }
+}
+
+impl Model for Floor {
+    fn dependence(&self) -> Dependence {
+        Dependence::Position
+    }
+
+    fn energies(&self, state: &State) -> Energies {
+        let pressed = state.pairs().map_or_else(Vec::new, |pairs| pressed(state.bodies(), pairs));
+        Energies { potential: 0.0, elastic: pressed.iter().map(|(_, by, _)| 0.5 * self.stiffness * by * by).sum() }
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates, Some(pairs)) = state.bodies_rates_and_pairs() else { return };
+        for (atom, overlap, normal) in pressed(bodies, pairs) {
+            let force = normal * (self.stiffness * overlap);
+            let body = bodies.atom_body(atom);
+            let arm = bodies.atom_place(atom) - bodies.position[body];
+            bodies.push(body, arm, force);
+            rates.outside(bodies.atom_place(atom), force, 0.0);
+        }
     }
 }
 
 /// Atoms in walls, with what they are pressed in by, and the normal.
-fn pressed<'a>(bodies: &'a Bodies, pairs: &'a CandidatePairs) -> impl Iterator<Item = (usize, f64, DVec2)> + 'a {
+fn pressed(bodies: &Bodies, pairs: &CandidatePairs) -> Vec<(usize, f64, DVec2)> {
     let all = pairs.walls.iter().map(|pair| {
         let (wall, atom) = (bodies.walls[pair.wall as usize], pair.atom as usize);
         let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
         (atom, bodies.atom_radius[atom] - height, wall.normal)
     });
-    all.filter(|(_, overlap, _)| *overlap > 0.0)
-}
-
-fn elastic_energy(world: &World) -> f64 {
-    let stiffness = world.resource::<Floor>().stiffness;
-    pressed(world.resource(), world.resource()).map(|(_, overlap, _)| 0.5 * stiffness * overlap * overlap).sum()
-}
-
-fn push_back(floor: Res<Floor>, pairs: Res<CandidatePairs>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    let found: Vec<_> = pressed(&bodies, &pairs).collect();
-    for (atom, overlap, normal) in found {
-        let force = normal * (floor.stiffness * overlap);
-        let body = bodies.atom_body(atom);
-        let arm = bodies.atom_place(atom) - bodies.position[body];
-        bodies.push(body, arm, force);
-        balance.outside(bodies.atom_place(atom), force, 0.0);
-    }
+    all.filter(|(_, overlap, _)| *overlap > 0.0).collect()
 }
 
 fn card(stiffness: f64) -> Card {

@@ -9,11 +9,8 @@ use jostle::scene::Source;
 use jostle::tick::{Integrator, Method};
 use jostle::tick::{Tick, set_method};
 
-/// Semi-implicit Euler that stops all motion before forces are evaluated. `direct`: it promises what [`Integrator::is_direct`] asks
-/// for, which is true.
-struct Stops {
-    direct: bool,
-}
+/// Semi-implicit Euler that stops all motion before forces are evaluated.
+struct Stops;
 
 impl Integrator for Stops {
     fn advance(&mut self, tick: &mut Tick) {
@@ -25,30 +22,23 @@ impl Integrator for Stops {
         tick.evaluate(dt);
         tick.bodies().velocity = kept;
     }
-
-    fn is_direct(&self) -> bool {
-        self.direct
-    }
 }
 
 #[test]
 fn contacts_see_velocities_that_a_method_changes_after_its_step() {
-    for direct in [false, true] {
-        let text = "Scene(format: 1, clock: (duration: 0.05, tick: 0.0005, method: SemiImplicitEuler),
-            contacts: Penalty(normal: Dashpot, damping: 20),
-            materials: { \"soft\": (stiffness: 2000) },
-            bodies: [(name: \"a\", at: (0, 0), velocity: (1, 0), material: \"soft\", atoms: Disc(radius: 0.1, mass: 1)),
-                (name: \"b\", at: (0.2, 0), velocity: (-1, 0), material: \"soft\", atoms: Disc(radius: 0.1, mass: 1))])";
-        let mut simulation =
-            Simulation::load(&Source::new("stops.ron", text)).unwrap_or_else(|wrong| panic!("{wrong}"));
-        set_method(simulation.world_mut(), Method(Box::new(Stops { direct })));
-        for tick in (3..60).step_by(3) {
-            simulation.run_to_tick(tick).expect("numbers stay finite");
-            let bodies = simulation.bodies();
-            let overlap = 0.2 - (bodies.position[1].x - bodies.position[0].x);
-            let spring = 1000.0 * overlap;
-            assert!(overlap > 0.0, "they touch in all of these ticks");
-            assert!((bodies.force[1].x - spring).abs() < 1e-12 * spring, "tick {tick}: {} {spring}", bodies.force[1].x);
-        }
+    let text = "Scene(format: 1, clock: (duration: 0.05, tick: 0.0005, method: SemiImplicitEuler),
+        contacts: Penalty(normal: Dashpot, damping: 20),
+        materials: { \"soft\": (stiffness: 2000) },
+        bodies: [(name: \"a\", at: (0, 0), velocity: (1, 0), material: \"soft\", atoms: Disc(radius: 0.1, mass: 1)),
+            (name: \"b\", at: (0.2, 0), velocity: (-1, 0), material: \"soft\", atoms: Disc(radius: 0.1, mass: 1))])";
+    let mut simulation = Simulation::load(&Source::new("stops.ron", text)).unwrap_or_else(|wrong| panic!("{wrong}"));
+    set_method(simulation.world_mut(), Method(Box::new(Stops)));
+    for tick in (3..60).step_by(3) {
+        simulation.run_to_tick(tick).expect("numbers stay finite");
+        let bodies = simulation.bodies();
+        let overlap = 0.2 - (bodies.position[1].x - bodies.position[0].x);
+        let spring = 1000.0 * overlap;
+        assert!(overlap > 0.0, "they touch in all of these ticks");
+        assert!((bodies.force[1].x - spring).abs() < 1e-12 * spring, "tick {tick}: {} {spring}", bodies.force[1].x);
     }
 }

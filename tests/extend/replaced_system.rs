@@ -10,8 +10,8 @@ use glam::DVec2;
 use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::{Evaluate, ForceSlot, SimTick, Stage, TickAppExt};
-use jostle::world::{Bodies, Velocity};
+use jostle::tick::{Evaluate, EvaluateStage, SimTick, Stage, State, TickAppExt, stages};
+use jostle::world::Velocity;
 
 const SCENE: &str = "Scene(format: 1, clock: (duration: 1, tick: 0.001, method: VelocityVerlet), gravity: (0, -9.81),
     forces: [Drag(linear: 0.5)],
@@ -28,22 +28,21 @@ fn without_drag(change: impl Fn(&mut App)) -> Simulation {
         change(app);
     })
     .unwrap();
-    simulation.world_mut().schedule_scope(Evaluate, |world, schedule| {
-        schedule.remove_systems_in_set(ForceSlot(0), world, ScheduleCleanupPolicy::RemoveSystemsOnly).unwrap();
-    });
+    let gone = simulation.world_mut().resource_mut::<State>().retain_models(|model| !model.name().contains("Drag"));
+    assert_eq!(gone, 1);
     simulation
 }
 
-fn push_up(mut bodies: ResMut<Bodies>, mut runs: ResMut<Runs>) {
+fn push_up(mut state: ResMut<State>, mut runs: ResMut<Runs>) {
     runs.0 += 1;
-    bodies.push(0, DVec2::ZERO, DVec2::new(0.0, 2.0));
+    state.bodies_mut().push(0, DVec2::ZERO, DVec2::new(0.0, 2.0));
 }
 
 #[test]
 fn a_force_in_the_place_of_another_acts_in_its_place() {
     let mut simulation = without_drag(|_| {});
     simulation.world_mut().schedule_scope(Evaluate, |_, schedule| {
-        schedule.add_systems(push_up.in_set(ForceSlot(0)));
+        schedule.add_systems(push_up.in_set(EvaluateStage::Systems));
     });
     simulation.run_to_end().unwrap();
     let speed = simulation.bodies().velocity[0].y;
@@ -79,4 +78,19 @@ fn components_are_kept_current_for_a_system_that_came_for_another() {
     simulation.run_to_end().unwrap();
     let fastest = simulation.world_mut().resource::<Fastest>().0;
     assert!((fastest - 9.81).abs() < 1e-9, "{fastest} m/s");
+}
+
+/// Without the stage that sums forces there is none, not even the drag; the weight is where sums begin.
+#[test]
+fn a_stage_that_is_taken_out_is_not_run() {
+    let source = Source::new("replaced.ron", SCENE);
+    let mut simulation = Simulation::load_with(&source, &Overrides::default(), |_| {}).unwrap();
+    simulation.run_to_tick(1).unwrap();
+    simulation.world_mut().schedule_scope(Evaluate, |world, schedule| {
+        let policy = ScheduleCleanupPolicy::RemoveSystemsOnly;
+        schedule.remove_systems_in_set(stages::apply_forces, world, policy).unwrap();
+    });
+    simulation.run_to_end().unwrap();
+    let speed = simulation.bodies().velocity[0].y;
+    assert!((speed + 9.81).abs() < 1e-4, "{speed} m/s");
 }

@@ -12,7 +12,6 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use jostle::integrate::LocatedEvents;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::{Simulation, world::hash::state_hash};
@@ -32,7 +31,7 @@ fn shipped(name: &str, method: &str, duration: f64) -> Simulation {
 }
 
 fn crowded_ticks(simulation: &Simulation) -> u64 {
-    simulation.world().resource::<LocatedEvents>().given_up
+    simulation.state().located().given_up
 }
 
 #[test]

@@ -7,7 +7,6 @@
 //! Not tested: bodies smaller than the error of the ways that lead to them.
 
 use jostle::Simulation;
-use jostle::integrate::LocatedEvents;
 
 use super::support::run;
 
@@ -50,8 +49,7 @@ fn a_peg_on_a_circle_is_met() {
         let exact = position(&circle("tick: 0.002, method: Dop853", angle));
         for clock in ["tolerance: 1e-3", "tolerance: 1e-6", "method: Reference"] {
             let simulation = circle(clock, angle);
-            let (events, error) =
-                (simulation.world().resource::<LocatedEvents>().count, (position(&simulation) - exact).length());
+            let (events, error) = (simulation.state().located().count, (position(&simulation) - exact).length());
             // Ways of at most 2 m.
             let allowed = 3.0 * 2.0 * if clock == "tolerance: 1e-3" { 1e-3 } else { 1e-6 };
             assert!(events == 2 && error <= allowed, "{angle} rad, {clock}: {events} events, {error:e}");

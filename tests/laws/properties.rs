@@ -17,7 +17,6 @@ use std::fmt::Write;
 
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::contacts::CandidatePairs;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -399,7 +398,7 @@ fn history_survives_new_lists() {
     let mut beside = scene(
         "(name: \"runner\", at: (10, 30), velocity: (300, 0), atoms: Disc(radius: 0.1, mass: 1), material: \"m\"),",
     );
-    let version = |simulation: &Simulation| simulation.world().resource::<CandidatePairs>().version;
+    let version = |simulation: &Simulation| simulation.state().pairs().unwrap().version;
     let mut lists = version(&beside);
     let mut moved = 0.0_f64;
     for hundreds in 1..=50 {

@@ -10,14 +10,12 @@
 //!
 //! Not tested: rolling resistance (see `rolling_resistance`).
 
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::problems::Truth;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::{Balance, Dependence, TickAppExt};
-use jostle::world::Bodies;
+use jostle::tick::{Dependence, Energies, Model, State, SteadySpring, TickAppExt};
 
 use super::support::{METHODS, assert_near, load, run_to};
 
@@ -147,17 +145,29 @@ fn a_disc_on_a_slope_rolls_or_slides() {
 }
 
 /// A string that pulls at the inner radius of body 0, where it leaves it, in the direction `pull`.
-#[derive(Resource, Clone, Copy)]
 struct Pull {
     force: DVec2,
     inner: f64,
 }
 
-fn pull_string(pull: Res<Pull>, mut bodies: ResMut<Bodies>, mut balance: ResMut<Balance>) {
-    // From below: the arm is the direction of the pull turned clockwise.
-    let arm = -pull.force.normalize().perp() * pull.inner;
-    bodies.push(0, arm, pull.force);
-    balance.outside(bodies.position[0], pull.force, arm.perp_dot(pull.force));
+impl Model for Pull {
+    fn dependence(&self) -> Dependence {
+        Dependence::Position
+    }
+
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        // From below: the arm is the direction of the pull turned clockwise.
+        let arm = -self.force.normalize().perp() * self.inner;
+        bodies.push(0, arm, self.force);
+        rates.outside(bodies.position[0], self.force, arm.perp_dot(self.force));
+    }
 }
 
 /// Outer radius in m of the spool, and its mass in kg.
@@ -169,8 +179,7 @@ fn pulled(method: &str, force: f64, angle: f64) -> Simulation {
     let spool = format!("inertia: 0.012, atoms: Disc(radius: {radius:?}, mass: {mass:?})");
     let text = round(method, 0.0, 0.4, (radius, mass * GRAVITY - force * sin), &spool);
     let plugins = |app: &mut bevy_app::App| {
-        app.insert_resource(Pull { force: DVec2::new(cos, sin) * force, inner: 0.05 });
-        app.add_packed_force(Dependence::Position, pull_string);
+        app.add_model(Pull { force: DVec2::new(cos, sin) * force, inner: 0.05 });
     };
     Simulation::load_with(&Source::new("spool.ron", text), &Overrides::default(), plugins).expect("a correct scene")
 }

@@ -13,7 +13,7 @@
 
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::contacts::penalty::RollingContacts;
+use jostle::contacts::penalty::PenaltyState;
 
 use super::support::{METHODS, assert_near, assert_rest, load, run, run_to};
 
@@ -271,7 +271,8 @@ fn a_pair_that_turns_as_one_body_has_no_rolling_torque() {
         ));
         for part in 1..=20 {
             run_to(&mut simulation, f64::from(part));
-            let rolling = simulation.world().resource::<RollingContacts>();
+            let contacts = simulation.state().model::<PenaltyState>().unwrap();
+            let rolling = contacts.rolling.as_ref().unwrap();
             assert_eq!(rolling.atoms.len(), 1);
             let turned = rate * f64::from(part);
             assert_near("turn of one against the other", rolling.atoms[0].elongation, 0.0, 2.0 * turned * f64::EPSILON);

@@ -11,8 +11,8 @@ use std::fmt::Write;
 
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::contacts::penalty::PenaltyContacts;
-use jostle::contacts::{CandidatePairs, ContactForces};
+use jostle::contacts::penalty::PenaltyState;
+use jostle::tick::State;
 use jostle::world::Velocity;
 use jostle::world::hash::state_hash;
 
@@ -39,7 +39,8 @@ fn heap(normal: &str, grains: u32) -> String {
 
 fn load_awake(text: &str, may_sleep: bool) -> Simulation {
     let mut simulation = load(text);
-    simulation.world_mut().resource_mut::<PenaltyContacts>().may_sleep = may_sleep;
+    let mut state = simulation.world_mut().resource_mut::<State>();
+    state.model_mut::<PenaltyState>().unwrap().contacts.may_sleep = may_sleep;
     simulation
 }
 
@@ -52,7 +53,7 @@ fn the_force_on_the_floor_is_the_same_but_for_its_last_bits() {
     for tick in (2000..6000).step_by(20) {
         asleep.run_to_tick(tick).unwrap();
         awake.run_to_tick(tick).unwrap();
-        let force = |simulation: &Simulation| simulation.world().resource::<ContactForces>().on_wall[0];
+        let force = |simulation: &Simulation| simulation.state().contact_forces().unwrap().on_wall[0];
         let (found, expected) = (force(&asleep), force(&awake));
         let terms = asleep.bodies().atom_count() as f64;
         let rounding = terms * f64::EPSILON * expected.y.abs();
@@ -106,7 +107,7 @@ fn landings() -> String {
 fn a_body_is_laid_to_rest_in_the_tick_in_which_lists_are_made_anew_as_in_any_other() {
     let text = landings();
     let (mut asleep, mut awake) = (load_awake(&text, true), load_awake(&text, false));
-    let version = |simulation: &Simulation| simulation.world().resource::<CandidatePairs>().version;
+    let version = |simulation: &Simulation| simulation.state().pairs().unwrap().version;
     let moving = |simulation: &Simulation| simulation.bodies().velocity.iter().filter(|v| **v != DVec2::ZERO).count();
     let (mut coincidences, mut before) = (0, (version(&asleep), moving(&asleep)));
     for tick in 1..=4000 {
@@ -158,7 +159,7 @@ fn lists_that_stay_because_most_sleep_change_no_bit() {
         atoms: Picture(spacing: 0.1, mass: 0.3, rows: [\"##\", \"##\"])),";
     for text in [a_few_among_many(""), a_few_among_many(block)] {
         let (mut asleep, mut awake) = (load_awake(&text, true), load_awake(&text, false));
-        let lists = |simulation: &Simulation| simulation.world().resource::<CandidatePairs>().version;
+        let lists = |simulation: &Simulation| simulation.state().pairs().unwrap().version;
         let (mut stayed, mut woken, mut before) = (0, 0, (0, 0, 0));
         for tick in 1..=4000 {
             for simulation in [&mut asleep, &mut awake] {

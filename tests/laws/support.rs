@@ -113,7 +113,7 @@ pub fn run_to(simulation: &mut Simulation, time: f64) {
 
 /// Forces that contacts exert on walls and bodies. The scene must have a sensor that asks for them.
 pub fn contact_forces(simulation: &Simulation) -> &ContactForces {
-    simulation.world().get_resource().expect("the scene has a sensor of contact forces")
+    simulation.state().contact_forces().expect("the scene has a sensor of contact forces")
 }
 
 /// Runs to `time`, asserts that by then nothing moves at all, and that it stays so to the last bit for `still` seconds.

@@ -9,11 +9,9 @@
 //! which the run is looked at are left out, and so are trials, which come on top; the card says how many.
 
 use jostle::Simulation;
-use jostle::integrate::LocatedEvents;
 use jostle::problems::{ALL, EventTiming, Problem, Setting, rotating_ring, settling_bounce};
 use jostle::scene::Source;
 use jostle::simulation::{Overrides, Plan};
-use jostle::tick::Evaluation;
 
 /// Evaluations that are too few to count: a dozen steps. They are made to look at the beginning.
 const FEW: u64 = 150;
@@ -40,7 +38,7 @@ fn problems() -> impl Iterator<Item = Problem> {
 fn run(problem: &Problem, simulation: &mut Simulation) -> (f64, u64) {
     simulation.run_to_end().expect("numbers stay finite");
     let error = (problem.error)(simulation, problem.duration(), 0.0);
-    (error, simulation.world().resource::<Evaluation>().count)
+    (error, simulation.state().evaluation().count)
 }
 
 fn scene(problem: &Problem, method: &str, tick: f64, events: EventTiming) -> String {
@@ -101,7 +99,7 @@ fn an_event_costs_a_few_steps() {
     for tolerance in [1e-3, 1e-4, 1e-5] {
         let mut simulation = at_once(&problem, &load(&problem, &without_tick(&problem), Some(tolerance)), tolerance);
         let (_, cost) = run(&problem, &mut simulation);
-        let events = simulation.world().resource::<LocatedEvents>().count;
+        let events = simulation.state().located().count;
         assert!(events >= 6 && cost <= 60 * events, "{tolerance:e}: {cost} for {events}");
     }
 }
@@ -152,7 +150,7 @@ fn a_run_costs_at_most_three_times_the_cheapest_with_equal_ticks() {
                 let mut simulation = load(problem, &text, None);
                 if simulation.run_to_end().is_ok() {
                     let error = error_with_phase(problem, &simulation);
-                    known.push((error, simulation.world().resource::<Evaluation>().count));
+                    known.push((error, simulation.state().evaluation().count));
                     // Nothing that is finer is cheaper.
                     if error < 1e-11 {
                         break;

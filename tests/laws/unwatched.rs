@@ -6,8 +6,6 @@
 //! Not tested: how fast what was hit moves. A contact that begins and ends within a tick is seen, but steps of methods without
 //! an estimate of their error do not resolve it, and the card says so.
 
-use jostle::integrate::LocatedEvents;
-
 use super::support::{load, run_to};
 
 fn scene(method: &str, events: &str, (speed, target): (f64, f64)) -> String {
@@ -27,7 +25,7 @@ fn a_bullet_does_not_pass_unseen_between_two_ticks() {
         for target in [0.05, 2.05, 2.01, 2.09, 10.05] {
             let mut simulation = load(&scene(method, "Located", (100.0, target)));
             run_to(&mut simulation, 0.12);
-            let events = simulation.world().resource::<LocatedEvents>().count;
+            let events = simulation.state().located().count;
             let warnings = simulation.card().warnings;
             assert!(events >= 1 && !warnings.is_empty(), "{method}, {target} m: {events} events, {warnings:?}");
         }

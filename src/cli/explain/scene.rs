@@ -10,12 +10,11 @@ use crate::cli::author;
 use crate::cli::flags::OverrideFlags;
 use crate::cli::load::Request;
 use crate::cli::say::{count, number};
-use crate::contacts::search::CandidatePairs;
 use crate::report::Card;
 use crate::scene::{Known, SceneRegistry};
 use crate::simulation::{Overrides, Simulation};
-use crate::tick::Evaluation;
-use crate::tick::stopwatch::{self, Part, Stopwatch};
+use crate::tick::State;
+use crate::tick::stopwatch::{self, Part};
 
 /// How long a scene is run, twice.
 const BUDGET: Duration = Duration::from_millis(500);
@@ -73,7 +72,7 @@ impl Anatomy {
         let _ = watched.run_to_tick(ticks);
         let known = known_in(&watched);
         let parts = stages(&watched, &known);
-        let pairs = plain.world().get_resource::<CandidatePairs>();
+        let pairs = plain.world().resource::<State>().pairs();
         Ok(Self {
             title: plain.header().title.clone(),
             things: things(&plain),
@@ -83,7 +82,7 @@ impl Anatomy {
             atoms: plain.bodies().atom_count(),
             pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.walls.len())),
             search: pairs.map(|pairs| {
-                let evaluations = plain.world().resource::<Evaluation>().count;
+                let evaluations = plain.world().resource::<State>().evaluation.count;
                 (pairs.search.told(), evaluations as f64 / pairs.version.max(1) as f64)
             }),
             per_tick: plain.seconds_spent() / ticks.max(1) as f64,
@@ -267,7 +266,7 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
 }
 
 fn stages(watched: &Simulation, known: &[(String, Known)]) -> Vec<Stage> {
-    let Some(watch) = watched.world().get_resource::<Stopwatch>() else { return Vec::new() };
+    let Some(watch) = &watched.world().resource::<State>().stopwatch else { return Vec::new() };
     let spent = |part: Part| watch.spent(part).as_secs_f64();
     // Between two ticks, but for the loop, is the time in which nothing runs.
     let in_ticks = |part: &Part| *part != Part::Between;

@@ -20,9 +20,9 @@ use super::rolling::RollingContacts;
 use super::rows::Rows;
 use super::staged;
 use super::switching::Told;
-use crate::contacts::events::Touches;
-use crate::contacts::points::{ContactPoint, Other};
+use crate::contacts::Touches;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
+use crate::contacts::{ContactPoint, Other};
 use crate::simd::BLOCK;
 use crate::tick::{Balance, Evaluation, Ledger};
 use crate::world::{Bodies, Materials};
@@ -31,7 +31,7 @@ use crate::world::{Bodies, Materials};
 #[derive(Resource, Debug)]
 pub struct PenaltyContacts {
     version: u64,
-    pub(super) settings: Penalty,
+    pub(crate) settings: Penalty,
     pub(super) materials: Materials,
     pub(super) laws: LawTable,
     /// One for each pair of atoms.
@@ -245,25 +245,6 @@ pub(super) struct Own<'a> {
     pub forces: Option<&'a mut ContactForces>,
 }
 
-/// The system of [`crate::tick::EvaluateStage::Contacts`].
-#[expect(clippy::too_many_arguments, reason = "a system's parameters are its declaration of access")]
-pub(super) fn apply_penalty<N: NormalForce>(
-    mut bodies: ResMut<Bodies>,
-    pairs: Res<CandidatePairs>,
-    mut contacts: ResMut<PenaltyContacts>,
-    mut balance: ResMut<Balance>,
-    mut ledger: ResMut<Ledger>,
-    mut deepest: ResMut<DeepestOverlap>,
-    evaluation: Res<Evaluation>,
-    mut forces: Option<ResMut<ContactForces>>,
-    (mut touches, mut rolling): (Option<ResMut<Touches>>, Option<ResMut<RollingContacts>>),
-) {
-    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
-    let (rolling, forces) = (rolling.as_deref_mut(), forces.as_deref_mut());
-    let own = Own { pairs: &pairs, contacts: &mut contacts, rolling, forces };
-    apply::<N>(shared, own, &mut deepest, touches.as_deref_mut());
-}
-
 /// All contacts follow the state, or are evaluated as in a stage of a step.
 pub(super) fn apply<N: NormalForce>(
     Shared { bodies, balance, ledger, evaluation }: Shared,
@@ -418,14 +399,6 @@ fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePa
         let WallPair { wall, atom } = pairs.walls[place];
         touches.wall(body(atom), wall);
     }
-}
-
-/// All contacts of the present state, in canonical order.
-pub(super) fn contact_points(world: &World) -> Vec<ContactPoint> {
-    let (bodies, pairs) = (world.resource::<Bodies>(), world.resource::<CandidatePairs>());
-    let contacts = world.resource::<PenaltyContacts>();
-    let atoms = contacts.atom_points(bodies, pairs);
-    atoms.chain(contacts.wall_points(bodies, pairs)).map(|(_, point)| point).collect()
 }
 
 impl PenaltyContacts {

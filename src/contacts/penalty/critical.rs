@@ -55,7 +55,7 @@ impl PenaltyContacts {
         clock: &Clock,
         stability: &Stability,
         balance: &mut Balance,
-        steady: Option<&SteadySprings>,
+        steady: &SteadySprings,
     ) {
         let touching = self.atoms.touching_count() + self.walls.touching_count();
         if touching == 0 {
@@ -79,13 +79,13 @@ impl PenaltyContacts {
         pairs: &CandidatePairs,
         clock: &Clock,
         stability: &Stability,
-        steady: Option<&SteadySprings>,
+        steady: &SteadySprings,
     ) {
         let mut watch = std::mem::take(&mut self.watch);
         let weight = |angular_frequency: f64| angular_frequency * stability.weight_of_damping();
         // Springs of the scene hold the same bodies, and so count with the contacts.
         let gather = |springs: &mut Springs, weight: f64| {
-            let others = steady.into_iter().flat_map(|steady| steady.rows(weight));
+            let others = steady.rows(weight);
             springs.gather(self.springs::<N>(bodies, pairs, weight), others, bodies);
         };
         watch.pairs = self.atoms.touching_count() + self.walls.touching_count();
@@ -115,7 +115,7 @@ impl PenaltyContacts {
             watch.solved = clock.ticks;
             watch.bound = watch.bound.max(bound.squared);
             let mut squared = watch.springs.largest();
-            if N::DEPENDS_ON_VELOCITY || steady.is_some_and(SteadySprings::damped) {
+            if N::DEPENDS_ON_VELOCITY || steady.damped() {
                 // Damping counts by the tick that is sought.
                 squared = frequency_squared((stability.limit / clock.dt, squared), |angular_frequency| {
                     gather(&mut watch.springs, weight(angular_frequency));

@@ -8,8 +8,8 @@ use std::ops::{Deref, DerefMut, Range};
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
 use super::normal::Mode;
-use crate::contacts::search::NEW;
 use crate::simd::{BLOCK, PairBlocks};
+use crate::tick::pairs::NEW;
 
 /// The modes of eight contacts: a bit each in every byte.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

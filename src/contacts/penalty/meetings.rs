@@ -5,13 +5,10 @@
 //! [`Bodies::path`] says. So each pair has its next meeting, and is not looked at before. Who is bound anew breaks the
 //! meetings of its pairs.
 
-use bevy_ecs::prelude::*;
-
 use super::list::ContactList;
 use super::records::record;
 use crate::contacts::AtomPair;
 use crate::simd::{BLOCK, Record};
-use crate::tick::Clock;
 use crate::world::{Bodies, Passing};
 
 /// When a pair has to be looked at: as soon as one of both has come.
@@ -115,8 +112,8 @@ impl Meetings {
 }
 
 /// For the card: in how many ticks bodies flew.
-pub(super) fn remark(world: &World) -> Option<String> {
-    let (flown, ticks) = (world.resource::<Bodies>().flights.flown(), world.resource::<Clock>().ticks);
+pub(super) fn remark(bodies: &Bodies, ticks: u64) -> Option<String> {
+    let flown = bodies.flights.flown();
     (flown > 0).then(|| {
         format!(
             "flight: in {flown} of {ticks} ticks discs on which nothing but their weight acted were moved along their parabolas, \

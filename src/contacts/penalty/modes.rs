@@ -1,6 +1,5 @@
 //! The modes of contacts for the tick to come: loading, unloading, or held at rest.
 
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::apply::{End, Own, PenaltyContacts, Shared, Sink, approach};
@@ -16,9 +15,9 @@ use super::normal::{Approach, Mode, NormalForce};
 use super::patience::{Found, MANY, is_thorough};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
-use crate::contacts::{AtomPair, CandidatePairs, ContactForces, WallPair};
+use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::steady::SteadySprings;
-use crate::tick::{Balance, Clock, Evaluation, Ledger, Span, Stability};
+use crate::tick::{Clock, Ledger, Span, Stability};
 use crate::world::Bodies;
 
 /// Working memory of the search for rest.
@@ -33,34 +32,13 @@ pub(super) struct Scratch {
     island: hold::Island,
 }
 
-/// The system of [`crate::tick::Modes`]: touching pairs choose loading, unloading or hold for the coming step; where that
-/// changes a force, the sums are corrected by the difference.
-#[expect(clippy::too_many_arguments, reason = "a system's parameters are its declaration of access")]
-pub(super) fn choose_modes<N: NormalForce>(
-    mut bodies: ResMut<Bodies>,
-    pairs: Res<CandidatePairs>,
-    mut contacts: ResMut<PenaltyContacts>,
-    mut rolling: Option<ResMut<RollingContacts>>,
-    mut balance: ResMut<Balance>,
-    mut ledger: ResMut<Ledger>,
-    (clock, span, evaluation): (Res<Clock>, Res<Span>, Res<Evaluation>),
-    stability: Res<Stability>,
-    steady: Option<Res<SteadySprings>>,
-    mut forces: Option<ResMut<ContactForces>>,
-    mut scratch: Local<Scratch>,
-) {
-    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
-    let (rolling, forces) = (rolling.as_deref_mut(), forces.as_deref_mut());
-    let own = Own { pairs: &pairs, contacts: &mut contacts, rolling, forces };
-    choose::<N>(shared, (&clock, &span), own, (&stability, steady.as_deref()), &mut scratch);
-}
-
-/// Touching pairs choose their modes.
+/// Touching pairs choose loading, unloading or hold for the coming step; where that changes a force, the sums are corrected by the
+/// difference.
 pub(super) fn choose<N: NormalForce>(
     Shared { bodies, balance, ledger, evaluation }: Shared,
     (clock, span): (&Clock, &Span),
     Own { pairs, contacts, rolling, forces }: Own,
-    (stability, steady): (&Stability, Option<&SteadySprings>),
+    (stability, steady): (&Stability, &SteadySprings),
     scratch: &mut Scratch,
 ) {
     contacts.watch::<N>(bodies, pairs, clock, stability, balance, steady);

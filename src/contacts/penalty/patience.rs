@@ -6,11 +6,6 @@
 //! search that laid nothing to rest the time to the next doubles. Under `Inelasticity` it is made at each tick, whatever
 //! it costs: there the search alone knows the force of a contact that neither loads nor unloads.
 
-use bevy_ecs::prelude::*;
-
-use super::apply::PenaltyContacts;
-use crate::tick::Clock;
-
 /// Contacts up to which rest is looked for at each tick; those of bodies at rest do not count.
 pub const MANY: usize = 1024;
 /// Ticks to the next search, at first and at most.
@@ -48,9 +43,8 @@ pub(super) struct Patience {
 }
 
 /// For the card: in how many ticks rest was not looked for.
-pub(super) fn remark(world: &World) -> Option<String> {
-    let waited = world.resource::<PenaltyContacts>().patience.waited;
-    let ticks = world.resource::<Clock>().ticks;
+pub(super) fn remark(patience: &Patience, ticks: u64) -> Option<String> {
+    let waited = patience.waited;
     (waited > 0).then(|| {
         format!(
             "contacts: in {waited} of {ticks} ticks more than {MANY} contacts were not at rest: no body was laid to rest there, and \

@@ -4,14 +4,13 @@
 //! law that balance all loads and take the last velocity away. It stays while the sum of all forces on it does not change
 //! by a bit; anything new (a touch, another load, a changed velocity or place) wakes it.
 
-use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::apply::PenaltyContacts;
-use crate::contacts::points::Other;
+use crate::contacts::Other;
 use crate::contacts::{CandidatePairs, ContactForces};
 use crate::simd::BLOCK;
-use crate::tick::{Balance, Census, Evaluation};
+use crate::tick::Balance;
 use crate::world::Bodies;
 
 /// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
@@ -232,19 +231,6 @@ impl PenaltyContacts {
             forces.asleep = Some(asleep);
         }
     }
-}
-
-/// The system of [`crate::tick::Evaluate`] after all forces.
-pub(super) fn settle_rest(
-    mut contacts: ResMut<PenaltyContacts>,
-    mut bodies: ResMut<Bodies>,
-    mut balance: ResMut<Balance>,
-    pairs: Res<CandidatePairs>,
-    (census, evaluation): (Res<Census>, Res<Evaluation>),
-    mut forces: Option<ResMut<ContactForces>>,
-) {
-    let changing = census.changing_forces() || evaluation.style.is_staged();
-    contacts.settle((&mut bodies, &mut balance), &pairs, forces.as_deref_mut(), changing);
 }
 
 impl PenaltyContacts {

@@ -13,9 +13,9 @@ use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::law::PairLaw;
 use super::normal::Mode;
-use crate::contacts::search::NEW;
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
-use crate::tick::{Balance, Evaluation, Ledger};
+use crate::tick::Balance;
+use crate::tick::pairs::NEW;
 use crate::world::Bodies;
 
 /// Rolling springs of all candidate pairs, beside the lists of [`CandidatePairs`]. Present in scenes that ask for it.
@@ -133,20 +133,6 @@ impl Follow<'_> {
 
 fn carried(before: &[u32], old: &[Slider]) -> Vec<Slider> {
     before.iter().map(|&place| if place == NEW { Slider::default() } else { old[place as usize] }).collect()
-}
-
-/// The system of [`crate::tick::EvaluateStage::Contacts`], after the penalty contacts themselves.
-pub(super) fn apply_rolling(
-    mut bodies: ResMut<Bodies>,
-    pairs: Res<CandidatePairs>,
-    contacts: Res<PenaltyContacts>,
-    mut rolling: ResMut<RollingContacts>,
-    mut balance: ResMut<Balance>,
-    mut ledger: ResMut<Ledger>,
-    evaluation: Res<Evaluation>,
-) {
-    let shared = Shared { bodies: &mut bodies, balance: &mut balance, ledger: &mut ledger, evaluation: &evaluation };
-    apply(shared, &pairs, &contacts, &mut rolling);
 }
 
 /// All rolling springs follow the state, behind their contacts.

@@ -23,7 +23,7 @@ use super::normal::{Approach, Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use super::staged::Look;
-use crate::contacts::events::Touches;
+use crate::contacts::Touches;
 use crate::contacts::{CandidatePairs, DeepestOverlap};
 use crate::tick::Ledger;
 use crate::tick::balance::{angular_momentum, momentum};

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::cells;
 use crate::numbers::number;
-use crate::tick::Notes;
+use crate::tick::{Notes, State};
 use crate::world::{Bodies, Name};
 
 /// What overlaps by no more than this share of the smaller radius is not told: contacts at rest bear their loads so.
@@ -86,7 +86,7 @@ impl Overlaps {
 
 /// Says on the card who overlaps.
 pub(super) fn note_overlaps(world: &mut World) {
-    let bodies = world.resource::<Bodies>();
+    let bodies = &world.resource::<State>().bodies;
     let Overlaps { pairs, more, deepest } = Overlaps::of(bodies);
     let Some((share, overlap, deepest)) = deepest else { return };
     let [a, b] = match deepest {

@@ -394,7 +394,7 @@ pub(super) mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
 
-    use super::super::{Search, sweep};
+    use super::super::{Search, suiting, sweep};
     use super::*;
     use crate::tick::bounds::Bounds;
 
@@ -469,6 +469,6 @@ pub(super) mod tests {
             assert_eq!(found, sweep::pairs(&bodies, &bounds), "seed {seed}");
             assert!(count < 10 || found.len() > 10, "{} pairs", found.len());
         }
-        assert_eq!(Search::suiting(&Bodies::default()), Search::Sweep);
+        assert_eq!(suiting(&Bodies::default()), Search::Sweep);
     }
 }

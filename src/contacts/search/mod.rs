@@ -16,71 +16,18 @@ mod sweep;
 pub use at_start::OverlapAtStart;
 
 use bevy_app::App;
-use bevy_ecs::prelude::*;
-use glam::DVec2;
 
 use self::cells::Sorted;
 use self::identity::Identities;
 use self::still::Still;
-pub use crate::tick::FindPairs;
 use crate::tick::bounds::{self, Bounds};
-use crate::tick::{AfterLoad, Evaluate, EvaluateStage, SearchPairs, TickAppExt};
+use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, WallPair};
+use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
-/// Marks a pair that was not in the list before.
-pub const NEW: u32 = u32::MAX;
-
-/// A pair of atoms of different bodies that are nearer than the margin. `a` stands before `b` in canonical order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct AtomPair {
-    /// Place of the first atom.
-    pub a: u32,
-    /// Place of the second atom.
-    pub b: u32,
-}
-
-impl AtomPair {
-    /// Unit vector from the centre of the first atom to that of the second; up if they are in one place.
-    #[inline]
-    pub fn normal(self, bodies: &Bodies) -> DVec2 {
-        let between = bodies.atom_place(self.b as usize) - bodies.atom_place(self.a as usize);
-        let distance = between.length();
-        if distance > 0.0 { between * (1.0 / distance) } else { DVec2::Y }
-    }
-
-    /// Distance of the centres in metres below which the two touch.
-    #[inline]
-    pub fn reach(self, bodies: &Bodies) -> f64 {
-        bodies.atom_radius[self.a as usize] + bodies.atom_radius[self.b as usize]
-    }
-}
-
-/// An atom that is nearer to a wall than the margin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct WallPair {
-    /// Place of the wall.
-    pub wall: u32,
-    /// Place of the atom.
-    pub atom: u32,
-}
-
-/// Who may touch whom, in canonical order.
-#[derive(Resource, Debug, Default)]
-pub struct CandidatePairs {
-    /// Counts how often the lists were made anew.
-    pub version: u64,
-    /// Pairs of atoms.
-    pub atoms: Vec<AtomPair>,
-    /// Where the group of those ends that touched when the list was made, and that of those that nearly did. Each group is in order.
-    pub group_ends: [usize; 2],
-    /// Atoms near walls.
-    pub walls: Vec<WallPair>,
-    /// For each item of `atoms` its place in the list before, or [`NEW`].
-    pub atoms_before: Vec<u32>,
-    /// For each item of `walls` its place in the list before, or [`NEW`].
-    pub walls_before: Vec<u32>,
-    /// How the pairs of atoms were found.
-    pub search: Search,
+/// Makes the lists of candidate pairs anew when the bounding boxes were.
+#[derive(Debug, Default)]
+pub struct PairSearch {
     bounds_version: u64,
     generation: u64,
     /// What stays the same when places change.
@@ -90,63 +37,87 @@ pub struct CandidatePairs {
     still: Option<Still>,
 }
 
-/// Registers the search. Contact laws add it and order themselves after [`FindPairs`]. Adding it twice does nothing.
+/// Adds the search for pairs. Contact laws do so before they add themselves. Adding it twice does nothing.
 pub fn plugin(app: &mut App) {
-    bounds::plugin(app);
-    if !app.world().contains_resource::<CandidatePairs>() {
-        app.init_resource::<CandidatePairs>();
-        let system = find_pairs.in_set(SearchPairs).in_set(FindPairs).in_set(EvaluateStage::Contacts);
-        app.add_flight_systems(Evaluate, system);
-        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(at_start::note_overlaps);
+    app.add_tick();
+    let mut state = app.world_mut().resource_mut::<State>();
+    if state.pairs.is_some() {
+        return;
     }
+    state.bounds = Some(Bounds::default());
+    state.pairs = Some(CandidatePairs::default());
+    app.add_model(PairSearch::default());
+    app.world_mut().get_resource_or_init::<AfterLoad>().0.push(at_start::note_overlaps);
 }
 
-/// Makes the lists anew when the bounding boxes were.
-pub fn find_pairs(bodies: Res<Bodies>, mut bounds: ResMut<Bounds>, mut pairs: ResMut<CandidatePairs>) {
-    pairs.update(&bodies, &mut bounds);
+/// Moves nothing by itself.
+impl Model for PairSearch {
+    fn dependence(&self) -> Dependence {
+        Dependence::Nothing
+    }
+
+    fn flies(&self) -> bool {
+        true
+    }
+
+    fn finds_pairs(&self) -> bool {
+        true
+    }
+
+    fn find_pairs(&mut self, state: &mut State) {
+        if let State { bounds: Some(bounds), pairs: Some(pairs), bodies, .. } = state {
+            self.update(pairs, bodies, bounds);
+        }
+    }
+
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 }
 
-impl CandidatePairs {
+impl PairSearch {
     /// Makes the lists anew when the bounding boxes were.
     #[inline]
-    pub(super) fn update(&mut self, bodies: &Bodies, bounds: &mut Bounds) {
+    fn update(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) {
         if self.bounds_version != bounds.version {
             self.bounds_version = bounds.version;
             if !self.still.as_ref().is_some_and(|still| still.holds(bodies, bounds)) {
-                self.renew(bodies, bounds);
+                self.renew(pairs, bodies, bounds);
             }
         }
     }
 
-    fn renew(&mut self, bodies: &Bodies, bounds: &mut Bounds) {
-        self.version += 1;
-        let old_atoms = std::mem::take(&mut self.atoms);
-        let [touching, close] = std::mem::take(&mut self.group_ends);
-        let old_walls = std::mem::take(&mut self.walls);
-        self.search = Search::suiting(bodies);
-        let sorted = (self.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
-        self.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies));
-        self.walls.clear();
-        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| self.walls.push(pair));
-        bounds.candidates = self.atoms.len() + self.walls.len();
+    fn renew(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) {
+        pairs.version += 1;
+        let old_atoms = std::mem::take(&mut pairs.atoms);
+        let [touching, close] = std::mem::take(&mut pairs.group_ends);
+        let old_walls = std::mem::take(&mut pairs.walls);
+        pairs.search = suiting(bodies);
+        let sorted = (pairs.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
+        pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies));
+        pairs.walls.clear();
+        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| pairs.walls.push(pair));
+        bounds.candidates = pairs.atoms.len() + pairs.walls.len();
         let same = self.generation == bodies.generation;
-        let places = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
+        let renamed = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
         let place = |old: u32| {
-            places
+            renamed
                 .as_ref()
                 .map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
         };
         // Walls do not come and go one by one: when their number changes their history starts anew.
         let same_walls = same || self.wall_count == bodies.walls.len();
         let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
-        self.atoms_before = carry(&self.atoms, groups, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
-        self.walls_before = carry(&self.walls, [&old_walls], |old| {
+        pairs.atoms_before = carry(&pairs.atoms, groups, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
+        pairs.walls_before = carry(&pairs.walls, [&old_walls], |old| {
             Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
         });
-        if self.search == Search::Cells {
-            self.group(bodies, bounds.margin);
+        if pairs.search == Search::Cells {
+            group(pairs, bodies, bounds.margin);
         }
-        self.still = sorted.and_then(|sorted| Still::of(bodies, bounds, sorted, (&self.atoms, &self.walls)));
+        self.still = sorted.and_then(|sorted| Still::of(bodies, bounds, sorted, (&pairs.atoms, &pairs.walls)));
         if !same {
             self.generation = bodies.generation;
             self.wall_count = bodies.walls.len();
@@ -190,41 +161,19 @@ fn group_of(pair: AtomPair, bodies: &Bodies, margin: f64) -> usize {
     apart(0.0) + apart(CLOSE * margin)
 }
 
-impl CandidatePairs {
-    /// Puts those first that touch, then those that nearly do.
-    fn group(&mut self, bodies: &Bodies, margin: f64) {
-        let mut groups = [const { Vec::new() }; 3];
-        for (&pair, &before) in self.atoms.iter().zip(&self.atoms_before) {
-            groups[group_of(pair, bodies, margin)].push((pair, before));
-        }
-        self.group_ends = [groups[0].len(), groups[0].len() + groups[1].len()];
-        (self.atoms, self.atoms_before) = groups.into_iter().flatten().unzip();
+/// Puts those first that touch, then those that nearly do.
+fn group(pairs: &mut CandidatePairs, bodies: &Bodies, margin: f64) {
+    let mut groups = [const { Vec::new() }; 3];
+    for (&pair, &before) in pairs.atoms.iter().zip(&pairs.atoms_before) {
+        groups[group_of(pair, bodies, margin)].push((pair, before));
     }
+    pairs.group_ends = [groups[0].len(), groups[0].len() + groups[1].len()];
+    (pairs.atoms, pairs.atoms_before) = groups.into_iter().flatten().unzip();
 }
 
-/// How pairs of atoms are searched.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Search {
-    /// Boxes of bodies along an axis: for few atoms.
-    #[default]
-    Sweep,
-    /// Square cells: for many.
-    Cells,
-}
-
-impl Search {
-    /// The one that suits so many atoms: from some two hundred on cells are faster.
-    fn suiting(bodies: &Bodies) -> Self {
-        if bodies.atom_count() <= bounds::MOST_ATOMS { Self::Sweep } else { Self::Cells }
-    }
-
-    /// In words.
-    pub fn told(self) -> &'static str {
-        match self {
-            Self::Sweep => "boxes swept along an axis",
-            Self::Cells => "cells with a skin",
-        }
-    }
+/// The search that suits so many atoms: from some two hundred on cells are faster.
+fn suiting(bodies: &Bodies) -> Search {
+    if bodies.atom_count() <= bounds::MOST_ATOMS { Search::Sweep } else { Search::Cells }
 }
 
 /// Shows the atoms of some bodies that are near walls: wall by wall, for each in the order of the bodies.

@@ -96,8 +96,9 @@ mod tests {
     use bevy_ecs::prelude::Entity;
     use glam::DVec2;
 
-    use super::super::{CandidatePairs, cells};
+    use super::super::{PairSearch, cells};
     use super::*;
+    use crate::tick::pairs::CandidatePairs;
     use crate::world::{MaterialIndex, PackedWall};
 
     /// Law: lists hold if and only if lists that are made anew would be the same.
@@ -117,9 +118,9 @@ mod tests {
             // One in a dozen is awake.
             let asleep = (0..bodies.len().div_ceil(BLOCK)).map(|block| if block % 3 == 0 { 0xdf } else { 0xff });
             bodies.lay_asleep(asleep.collect());
-            let mut pairs = CandidatePairs::default();
-            pairs.renew(&bodies, &mut bounds);
-            let still = pairs.still.take().expect("most are asleep");
+            let (mut search, mut pairs) = (PairSearch::default(), CandidatePairs::default());
+            search.renew(&mut pairs, &bodies, &mut bounds);
+            let still = search.still.take().expect("most are asleep");
             assert!(still.holds(&bodies, &bounds));
             for (number, &body) in still.moving.clone().iter().enumerate() {
                 let way = DVec2::splat(0.001 * seed as f64) * if number % 2 == 0 { 1.0 } else { -0.5 };
@@ -128,7 +129,7 @@ mod tests {
                 }
             }
             let before = (pairs.atoms.clone(), pairs.group_ends, pairs.walls.clone());
-            pairs.renew(&bodies, &mut bounds);
+            search.renew(&mut pairs, &bodies, &mut bounds);
             walls_alone += u32::from(before.0 == pairs.atoms && before.2 != pairs.walls);
             let same = before == (pairs.atoms, pairs.group_ends, pairs.walls);
             assert_eq!(still.holds(&bodies, &bounds), same, "seed {seed}");

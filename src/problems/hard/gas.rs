@@ -19,10 +19,9 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use super::{Case, Extent, Readings, kinetic, load};
-use crate::contacts::ContactForces;
 use crate::contacts::events::{ContactEvents, watch};
 use crate::problems::Truth;
-use crate::world::Bodies;
+use crate::tick::State;
 
 /// The case.
 pub const CASE: Case = Case {
@@ -130,10 +129,10 @@ fn show(eta: f64, pause: u64, samples: usize) -> Result<Shown, Box<dyn Error>> {
                 let next = simulation.clock().ticks + 1;
                 simulation.run_to_tick(next)?;
                 let world = simulation.world();
-                let forces = world.get_resource::<ContactForces>().ok_or("no contact forces")?;
+                let forces = world.resource::<State>().contact_forces().ok_or("no contact forces")?;
                 push += forces.on_wall.iter().map(|force| force.length()).sum::<f64>();
                 heat += simulation.bodies().velocity.iter().map(|velocity| velocity.length_squared()).sum::<f64>();
-                let (events, bodies) = (world.resource::<ContactEvents>(), world.resource::<Bodies>());
+                let (events, bodies) = (world.resource::<ContactEvents>(), &world.resource::<State>().bodies);
                 let walls =
                     |pair: &&crate::contacts::events::Touching| bodies.walls.iter().any(|wall| wall.entity == pair.b);
                 shown.collisions += (events.begun.len() - events.begun.iter().filter(walls).count()) as f64;

@@ -10,6 +10,7 @@ use super::of_bodies::OfBodies;
 use super::{Layer, Mark, MarkShape, Shown};
 use crate::scene::values::Names;
 use crate::scene::{Outline, SceneAppExt};
+use crate::tick::State;
 use crate::world::Bodies;
 
 /// The bounding boxes of bodies: the smallest upright rectangles around their atoms.
@@ -31,7 +32,7 @@ impl OfBodies for Boxes {
 
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         move |world: &World, marks: &mut Vec<Mark>| {
-            let bodies = world.resource::<Bodies>();
+            let bodies = &world.resource::<State>().bodies;
             let boxes = shown.places(bodies).filter_map(|body| bounding_box(bodies, body));
             marks.extend(boxes.map(|(low, high)| Mark::new(MarkShape::Rectangle(low, high), "quiet")));
         }

@@ -14,13 +14,11 @@ use serde::Deserialize;
 use super::of_bodies::OfBodies;
 use super::scale::{Scale, round};
 use super::{Layer, Mark, PictureHeight, Shown};
-use crate::contacts::points::{ContactPoint, Other, TellContacts, contact_points};
-use crate::forces::gravity::Gravity;
+use crate::contacts::{ContactPoint, Other};
 use crate::scene::units::Force;
 use crate::scene::values::Names;
 use crate::scene::{Outline, Report, SceneAppExt};
-use crate::tick::AfterLoad;
-use crate::world::Bodies;
+use crate::tick::{AfterLoad, State};
 
 /// The forces with which things touch, as arrows on the body that feels them.
 #[derive(Deserialize, JsonSchema)]
@@ -54,15 +52,13 @@ impl OfBodies for ContactForces {
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         let given = self.scale.map(Force::si);
         move |world: &World, marks: &mut Vec<Mark>| {
-            if !world.contains_resource::<TellContacts>() {
-                return;
-            }
+            let Some(points) = world.resource::<State>().contact_points() else { return };
             let typical = world.get_resource::<TypicalForce>().map_or(1.0, |typical| typical.0);
             let scale = Scale::new(given.unwrap_or(typical), PictureHeight::of(world), "N", "force");
             marks.push(scale.key());
-            let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
-            let up = -world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0);
-            let loads = loads(contact_points(world), |body| places.binary_search(&body).is_ok());
+            let places: Vec<usize> = shown.places(&world.resource::<State>().bodies).collect();
+            let up = -world.resource::<State>().gravity();
+            let loads = loads(points, |body| places.binary_search(&body).is_ok());
             marks.extend(loads.iter().filter_map(|load| {
                 let turned = matches!(load.other, Other::Body(_)) && load.force.dot(up) < 0.0;
                 scale.arrow(load.point, if turned { -load.force } else { load.force })
@@ -114,11 +110,11 @@ struct TypicalForce(f64);
 /// The weight of the middle one of the bodies; without gravity the force with which the fastest body would be stopped by
 /// its own stiffness, `v sqrt(k m)`.
 fn note_start(world: &mut World) {
-    let bodies = world.resource::<Bodies>();
+    let bodies = &world.resource::<State>().bodies;
     let mut masses: Vec<f64> = (0..bodies.len()).filter(|&b| bodies.dynamic[b]).map(|b| bodies.mass[b]).collect();
     masses.sort_by(f64::total_cmp);
     let mass = masses.get(masses.len() / 2).copied().unwrap_or(1.0);
-    let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
+    let gravity = world.resource::<State>().gravity().length();
     let impact = |body: usize| {
         let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness(atom)).fold(0.0, f64::max);
         bodies.velocity[body].length() * (stiffness * bodies.mass[body]).sqrt()

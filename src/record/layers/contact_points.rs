@@ -7,10 +7,10 @@ use serde::Deserialize;
 
 use super::of_bodies::OfBodies;
 use super::{Layer, Mark, MarkShape, Shown};
-use crate::contacts::points::{Other, contact_points};
+use crate::contacts::Other;
 use crate::scene::values::Names;
 use crate::scene::{Outline, SceneAppExt};
-use crate::world::Bodies;
+use crate::tick::State;
 
 /// The points where bodies touch each other and walls.
 #[derive(Deserialize, JsonSchema)]
@@ -31,9 +31,9 @@ impl OfBodies for ContactPoints {
 
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         move |world: &World, marks: &mut Vec<Mark>| {
-            let places: Vec<usize> = shown.places(world.resource::<Bodies>()).collect();
+            let places: Vec<usize> = shown.places(&world.resource::<State>().bodies).collect();
             let is_shown = |body: usize| places.binary_search(&body).is_ok();
-            let dots = contact_points(world).into_iter().filter(|contact| {
+            let dots = world.resource::<State>().contact_points().unwrap_or_default().into_iter().filter(|contact| {
                 is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
             });
             marks.extend(dots.map(|contact| Mark::new(MarkShape::Dot(contact.point), "force")));

@@ -10,6 +10,7 @@ use super::of_bodies::OfBodies;
 use super::{Layer, Mark, MarkShape, Shown};
 use crate::scene::values::Names as Choice;
 use crate::scene::{Outline, SceneAppExt};
+use crate::tick::State;
 use crate::world::{Bodies, Name};
 
 /// More names than these would be a wall of text; who names the bodies in `of` gets them all.
@@ -35,7 +36,7 @@ impl OfBodies for Names {
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         let chosen = self.of.is_some();
         move |world: &World, marks: &mut Vec<Mark>| {
-            let bodies = world.resource::<Bodies>();
+            let bodies = &world.resource::<State>().bodies;
             if chosen || shown.places(bodies).nth(MOST).is_none() {
                 marks.extend(shown.places(bodies).filter_map(|body| label(world, bodies, body)));
             }

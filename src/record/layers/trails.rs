@@ -16,8 +16,7 @@ use super::{Layer, Mark, MarkShape, Memory, Shown, stride};
 use crate::scene::units::Time;
 use crate::scene::values::Names;
 use crate::scene::{Kind, Outline, Report, SceneAppExt};
-use crate::tick::Clock;
-use crate::world::Bodies;
+use crate::tick::State;
 
 /// Points of one trail, at most and at least.
 const POINTS: (usize, usize) = (4, 256);
@@ -75,7 +74,7 @@ struct Tracks {
 
 impl Layer for Tracks {
     fn draw(&self, world: &World, marks: &mut Vec<Mark>) {
-        let (bodies, dt) = (world.resource::<Bodies>(), world.resource::<Clock>().dt);
+        let (bodies, dt) = (&world.resource::<State>().bodies, world.resource::<State>().clock.dt);
         let step = self.memory().map_or(1.0, |memory| stride(memory, dt) as f64 * dt / self.seconds);
         for body in self.shown.places(bodies) {
             let Some(track) = self.tracks.get(&bodies.key.at(body)) else { continue };
@@ -89,7 +88,7 @@ impl Layer for Tracks {
     }
 
     fn look(&mut self, world: &World) {
-        let (bodies, clock) = (world.resource::<Bodies>(), world.resource::<Clock>());
+        let (bodies, clock) = (&world.resource::<State>().bodies, &world.resource::<State>().clock);
         // Between two frames far apart nobody looks until the trail of the second one begins.
         let stride = self.memory().map_or(1, |memory| stride(memory, clock.dt));
         if self.looked.is_some_and(|looked| looked + stride != clock.ticks) {

@@ -8,12 +8,10 @@ use serde::Deserialize;
 use super::of_bodies::OfBodies;
 use super::scale::{Scale, round};
 use super::{Layer, Mark, PictureHeight, Shown};
-use crate::forces::gravity::Gravity;
 use crate::scene::units::Speed;
 use crate::scene::values::Names;
 use crate::scene::{Outline, Report, SceneAppExt};
-use crate::tick::AfterLoad;
-use crate::world::Bodies;
+use crate::tick::{AfterLoad, State};
 
 /// The velocities of the centres of bodies, as arrows.
 #[derive(Deserialize, JsonSchema)]
@@ -47,7 +45,7 @@ impl OfBodies for Velocities {
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         let given = self.scale.map(Speed::si);
         move |world: &World, marks: &mut Vec<Mark>| {
-            let bodies = world.resource::<Bodies>();
+            let bodies = &world.resource::<State>().bodies;
             let height = PictureHeight::of(world);
             let reference = given.unwrap_or_else(|| typical_speed(world, height));
             let scale = Scale::new(reference, height, "m/s", "velocity");
@@ -64,14 +62,14 @@ impl OfBodies for Velocities {
 struct GreatestSpeed(f64);
 
 fn note_start(world: &mut World) {
-    let speeds = world.resource::<Bodies>().velocity.iter().map(|velocity| velocity.length());
+    let speeds = world.resource::<State>().bodies.velocity.iter().map(|velocity| velocity.length());
     let greatest = GreatestSpeed(speeds.fold(0.0, f64::max));
     world.insert_resource(greatest);
 }
 
 fn typical_speed(world: &World, height: f64) -> f64 {
     let start = world.get_resource::<GreatestSpeed>().map_or(0.0, |greatest| greatest.0);
-    let gravity = world.get_resource::<Gravity>().map_or(0.0, |gravity| gravity.0.length());
+    let gravity = world.resource::<State>().gravity().length();
     round(start.max((2.0 * gravity * 0.1 * height).sqrt()))
 }
 

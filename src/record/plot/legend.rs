@@ -5,10 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
-use crate::forces::gravity::Gravity;
 use crate::scene::count;
-use crate::tick::Clock;
-use crate::world::{Bodies, Body, Materials, Motion, Name};
+use crate::tick::State;
+use crate::world::{Body, Materials, Motion, Name};
 
 /// Lines of bodies that are kept.
 const MOST_LINES: usize = 24;
@@ -69,7 +68,7 @@ impl Legend {
     /// Bodies of one material with a colour of its own look alike, so they share a line; a material of a single body
     /// goes by the body's name. Fixed bodies stand last.
     pub fn of(world: &World) -> Legend {
-        let bodies = world.resource::<Bodies>();
+        let bodies = &world.resource::<State>().bodies;
         let materials = world.get_resource::<Materials>();
         let mut lines: Vec<Line> = Vec::new();
         let mut known_lines: BTreeMap<(String, bool), usize> = BTreeMap::new();
@@ -126,17 +125,17 @@ struct Line {
 }
 
 fn facts(world: &World, moving: usize) -> Vec<String> {
-    let bodies = world.resource::<Bodies>();
+    let bodies = &world.resource::<State>().bodies;
     let mut things = vec![count(moving, "body", "bodies")];
     if bodies.len() > moving {
         things.push(format!("{} fixed", bodies.len() - moving));
     }
     things.push(count(bodies.atom_radius.len(), "atom", "atoms"));
     let mut numbers = Vec::new();
-    if let Some(gravity) = world.get_resource::<Gravity>() {
-        numbers.push(format!("g = {} m/s²", brief(gravity.0.length())));
+    if let Some(gravity) = bodies.field {
+        numbers.push(format!("g = {} m/s²", brief(gravity.length())));
     }
-    let tick = world.resource::<Clock>().dt;
+    let tick = world.resource::<State>().clock.dt;
     let (tick, unit) = match tick {
         tick if tick < 1e-3 => (tick * 1e6, "µs"),
         tick if tick < 1.0 => (tick * 1e3, "ms"),

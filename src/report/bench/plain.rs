@@ -9,11 +9,11 @@
 use glam::DVec2;
 
 use super::cells::Cells;
-use crate::contacts::penalty::{NormalLaw, Penalty, RollingLaw};
+use crate::contacts::penalty::{NormalLaw, Penalty, PenaltyState, RollingLaw};
 use crate::contacts::penalty::{inelasticity_of, restitution_of};
-use crate::forces::gravity::Gravity;
 use crate::integrate::ChosenMethod;
 use crate::simulation::Simulation;
+use crate::tick::State;
 use crate::world::{Bodies, Materials, PackedWall};
 
 /// The skin, as a share of the smallest radius: pairs are listed that are as near as that, and listed anew when an atom has moved
@@ -95,7 +95,8 @@ impl Plain {
         if !world.get_resource::<ChosenMethod>().is_some_and(verlet) {
             return Err("its method is not velocity Verlet in whole ticks");
         }
-        let penalty = world.get_resource::<Penalty>().ok_or("its contacts are not `Penalty`")?;
+        let penalty = world.resource::<State>().model::<PenaltyState>().ok_or("its contacts are not `Penalty`")?;
+        let penalty = &penalty.contacts.settings;
         if penalty.rolling != RollingLaw::None {
             return Err("it has resistance against rolling");
         }
@@ -120,7 +121,7 @@ impl Plain {
         let count = bodies.atom_count();
         let mut plain = Self {
             dt: simulation.clock().dt,
-            gravity: world.get_resource::<Gravity>().map_or(DVec2::ZERO, |gravity| gravity.0),
+            gravity: world.resource::<State>().gravity(),
             pair,
             wall,
             atoms,

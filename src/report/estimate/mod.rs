@@ -15,7 +15,6 @@ use std::time::Duration;
 use bevy_ecs::prelude::*;
 
 use crate::Simulation;
-use crate::contacts::DeepestOverlap;
 use crate::integrate::ChosenMethod;
 use crate::integrate::Methods;
 use crate::numbers::number;
@@ -23,7 +22,7 @@ use crate::scene::SceneErrors;
 use crate::simulation::accuracy::trajectory::Trajectory;
 use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::simulation::{Overrides, Plan};
-use crate::tick::Evaluation;
+use crate::tick::State;
 use growth::{Growth, Seen};
 use twins::{Finer, Told};
 
@@ -190,7 +189,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -
 
 /// The work of a run so far, in evaluations of the forces of a world of one atom.
 fn work(simulation: &Simulation) -> f64 {
-    let evaluations = simulation.world().resource::<Evaluation>().count as f64;
+    let evaluations = simulation.world().resource::<State>().evaluation.count as f64;
     evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
 }
 
@@ -214,7 +213,7 @@ fn expected_order(simulation: &Simulation) -> f64 {
 
 /// Whether anything has touched in a run.
 fn touches(simulation: &Simulation) -> bool {
-    simulation.world().get_resource::<DeepestOverlap>().is_some_and(|deepest| deepest.overlap > 0.0)
+    simulation.world().resource::<State>().deepest_overlap().overlap > 0.0
 }
 
 /// The error that finite steps make.

@@ -9,10 +9,10 @@ use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};
 use super::{EstimatedError, Repeated, touches};
 use crate::Simulation;
-use crate::contacts::ContactLaw;
 use crate::scene::SceneErrors;
 use crate::simulation::accuracy::trajectory::Trajectory;
 use crate::simulation::error::ErrorEstimate;
+use crate::tick::State;
 
 /// How many times as stiff.
 const STIFFER: f64 = 4.0;
@@ -27,7 +27,7 @@ pub(super) fn estimate(
     found: &mut EstimatedError,
 ) -> Result<(), SceneErrors> {
     let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
-    if !simulation.world().contains_resource::<ContactLaw>() || !touches(simulation) {
+    if simulation.world().resource::<State>().contact_law().is_none() || !touches(simulation) {
         (estimate.position.model, estimate.velocity.model) = (Some(0.0), Some(0.0));
         return Ok(());
     }

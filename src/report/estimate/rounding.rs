@@ -16,8 +16,7 @@ use crate::Simulation;
 use crate::scene::SceneErrors;
 use crate::simulation::accuracy::trajectory::Trajectory;
 use crate::simulation::error::ErrorEstimate;
-use crate::tick::add_packed_observer;
-use crate::world::Bodies;
+use crate::tick::{State, add_packed_observer};
 
 /// Runs with wrong last bits.
 const SAMPLES: u64 = 3;
@@ -27,7 +26,8 @@ const SAMPLES: u64 = 3;
 struct LastBits(ChaCha8Rng);
 
 /// Moves all numbers of bodies in motion by a unit in the last place.
-fn disturb(mut bodies: ResMut<Bodies>, mut bits: ResMut<LastBits>) {
+fn disturb(mut state: ResMut<State>, mut bits: ResMut<LastBits>) {
+    let bodies = &mut state.bodies;
     for body in 0..bodies.len() {
         // Whoever is at rest stands still to the last bit.
         let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;

@@ -10,13 +10,13 @@ use std::time::{Duration, Instant};
 use super::growth::{Growth, Seen};
 use super::{CHUNKS, Repeated, moments, touches};
 use crate::Simulation;
-use crate::contacts::ContactLaw;
 use crate::integrate::ChosenMethod;
-use crate::integrate::{Detail, LocatedEvents, Pace};
+use crate::integrate::{Detail, Pace};
 use crate::numbers::number;
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
 use crate::simulation::accuracy::trajectory::Trajectory;
+use crate::tick::State;
 
 /// Ticks of the first run between two that end with ticks of its twins, at most, and how many such there are at least.
 const LONGEST_CYCLE: u64 = 10;
@@ -83,7 +83,7 @@ fn cycle(ticks: u64) -> u32 {
 /// hardly a tick of the run ends with one of both.
 pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
     let world = simulation.world();
-    let per_tick = world.contains_resource::<ContactLaw>() && !ChosenMethod::locates(world);
+    let per_tick = world.resource::<State>().contact_law().is_some() && !ChosenMethod::locates(world);
     match if per_tick { cycle(simulation.ticks()) } else { 1 } {
         1 => [1, 1],
         few @ 2..4 => [few, few + 1],
@@ -95,11 +95,7 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.world();
     let located = ChosenMethod::locates(world);
-    let jumped = if located {
-        world.get_resource::<LocatedEvents>().is_some_and(|events| events.count > 0)
-    } else {
-        touches(simulation)
-    };
+    let jumped = if located { world.resource::<State>().located.count > 0 } else { touches(simulation) };
     match (jumped, located) {
         (false, _) => vec![Finer::HALF],
         // The same ticks, and so the same steps from event to event, in halves; and others.

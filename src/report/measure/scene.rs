@@ -5,12 +5,12 @@ use std::f64::consts::PI;
 use super::reference::{self, Truth};
 use super::{Load, Way};
 use crate::integrate::ChosenMethod;
-use crate::integrate::{Description, LocatedEvents, Methods};
+use crate::integrate::{Description, Methods};
 use crate::numbers::number;
 use crate::report::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
 use crate::scene::SceneErrors;
 use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::tick::{Models, Stability};
+use crate::tick::State;
 
 /// The ladder begins at so many times the critical tick, where there is one: what lies beyond is seen to fail. Where it does not, as
 /// contacts are brief or their forces hardly change, longer ones are tried.
@@ -53,8 +53,9 @@ impl Scene {
         let simulation = probe(1e-3).or_else(|wrong| probe(1e-9).or_else(|_| probe(1e3)).map_err(|_| wrong))?;
         let world = simulation.world();
         let (duration, bodies) = (simulation.duration(), simulation.bodies().len());
-        let fastest = world.resource::<Stability>().fastest_foreseen().map(|fastest| fastest.angular_frequency);
-        let rhythms = world.resource::<Models>().rhythms.iter().map(|rhythm| rhythm.angular_frequency);
+        let fastest = world.resource::<State>().stability.fastest_foreseen().map(|fastest| fastest.angular_frequency);
+        let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
+        let rhythms = rhythms.map(|rhythm| rhythm.angular_frequency);
         let swings = rhythms.chain(fastest).fold(0.0, f64::max) * duration / PI;
         let moments = if bodies > MANY_BODIES { 10 } else { 100 };
         let fine = |power: &u32| (moments << power) as f64 >= MOMENTS_A_SWING * swings;
@@ -144,9 +145,8 @@ impl Subject for Compared<'_> {
                 "never stable without losses".to_owned()
             });
         }
-        if let Some(given_up) = simulation.world().get_resource::<LocatedEvents>().map(|events| events.given_up)
-            && given_up > 0
-        {
+        let given_up = simulation.world().resource::<State>().located.given_up;
+        if given_up > 0 {
             setting.notes.push(format!("{given_up} of {count} ticks with too many events to locate them"));
         }
         match seen {

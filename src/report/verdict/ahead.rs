@@ -5,7 +5,7 @@ use super::{Cause, Evidence, Trust};
 use crate::contacts::search::OverlapAtStart;
 use crate::numbers::{number, percent};
 use crate::report::Remedy;
-use crate::tick::Ledger;
+use crate::tick::State;
 
 /// Share of the energy that went round which springs may hold at the start without a word: what lies on the ground holds some.
 const COMPRESSED: f64 = 0.1;
@@ -16,7 +16,7 @@ const TAKEN: f64 = 0.3;
 pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = world.get_resource::<OverlapAtStart>()?;
-    let begin = world.resource::<Ledger>().start?;
+    let begin = world.resource::<State>().ledger.start?;
     let share = begin.elastic / card.energy_scale.max(begin.elastic);
     let (a, b) = (evidence.name(overlap.between.0), evidence.name(overlap.between.1));
     let what = format!(

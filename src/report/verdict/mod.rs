@@ -17,8 +17,7 @@ use bevy_ecs::prelude::*;
 use super::card::{Card, name};
 use crate::numbers::{number, percent, rough};
 use crate::simulation::error::ErrorEstimate;
-use crate::tick::{Failure, Wrong};
-use crate::world::Bodies;
+use crate::tick::{Failure, State, Wrong};
 
 /// What a verdict is found from.
 pub(super) struct Evidence<'a> {
@@ -93,7 +92,7 @@ impl Evidence<'_> {
 
     /// A tolerance to be advised beside a tick, where few bodies go by ticks.
     pub fn or_tolerance(&self) -> &'static str {
-        let few = self.world.resource::<Bodies>().len() <= FEW;
+        let few = self.world.resource::<State>().bodies.len() <= FEW;
         if few && self.card.by_ticks() { ", or `--tolerance 0.001`" } else { "" }
     }
 

@@ -2,10 +2,10 @@
 //! motion itself. And what is said where nothing is wrong.
 
 use super::{Card, Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
-use crate::contacts::ContactLaw;
 use crate::numbers::{number, percent};
 use crate::report::estimate::EstimatedError;
 use crate::simulation::error::ErrorEstimate;
+use crate::tick::State;
 
 /// Share of how far bodies go by which places may be wrong without a cause.
 const INEXACT: f64 = 1e-2;
@@ -57,7 +57,8 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     if share <= INEXACT {
         return None;
     }
-    let unseen = world.contains_resource::<ContactLaw>() && !card.located && card.largest_overlap.meters > 0.0;
+    let unseen =
+        world.resource::<State>().contact_law().is_some() && !card.located && card.largest_overlap.meters > 0.0;
     let why = if unseen {
         format!("contacts begin and end inside ticks, which {} sees at their ends only", card.method)
     } else {

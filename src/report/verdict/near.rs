@@ -4,7 +4,7 @@ use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust};
 use crate::forces::attraction::nearest;
 use crate::numbers::number;
-use crate::world::Bodies;
+use crate::tick::State;
 
 /// An angle in radians over which an orbit goes in a tick that no method follows.
 const LOST: f64 = 1.0;
@@ -33,8 +33,8 @@ pub(super) fn of_endless_steps(evidence: &Evidence) -> String {
 
 /// Who fell upon each other, in words, and the rate in 1/s at which.
 fn attracted(evidence: &Evidence) -> Option<(String, f64)> {
-    let nearest = nearest(evidence.world)?;
-    let bodies = evidence.world.resource::<Bodies>();
+    let nearest = nearest(evidence.world.resource())?;
+    let bodies = &evidence.world.resource::<State>().bodies;
     let name = |body: usize| evidence.name(bodies.entity[body]);
     let (a, b) = (name(nearest.between.0), name(nearest.between.1));
     Some((

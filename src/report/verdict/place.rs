@@ -2,14 +2,14 @@
 
 use super::{Cause, Evidence, Trust};
 use crate::numbers::{number, percent, rough};
-use crate::world::Bodies;
+use crate::tick::State;
 
 /// A last digit of a place that is so large a share of what contacts do makes them rattle.
 const COARSE: f64 = 1e-3;
 
 /// The last digit of a place is no longer small beside the overlaps that make forces, or beside the bodies themselves.
 pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
-    let (bodies, card) = (evidence.world.resource::<Bodies>(), evidence.card);
+    let (bodies, card) = (&evidence.world.resource::<State>().bodies, evidence.card);
     let (far, body) = (0..bodies.len())
         .map(|body| (bodies.position[body].abs().max_element(), body))
         .filter(|(far, _)| far.is_finite())

@@ -1,9 +1,8 @@
 //! Contacts that give way more than bodies are large.
 
 use super::{Cause, Evidence, Trust};
-use crate::contacts::DeepestOverlap;
 use crate::numbers::{number, percent};
-use crate::world::{Bodies, packed};
+use crate::tick::{State, place_of};
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
 const HEAVY: f64 = 100.0;
@@ -20,10 +19,10 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
         return None;
     }
     let by = overlap.share_of_radius * 100.0;
-    let deepest = world.get_resource::<DeepestOverlap>()?.between?;
-    let bodies = world.resource::<Bodies>();
+    let deepest = world.resource::<State>().deepest.between?;
+    let bodies = &world.resource::<State>().bodies;
     let mass = |entity| {
-        let slot = packed::place_of(world, entity)?;
+        let slot = place_of(world, entity)?;
         bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass(slot))
     };
     let (a, b) = (evidence.name(deepest.0), evidence.name(deepest.1));

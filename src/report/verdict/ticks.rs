@@ -3,13 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::{Cause, Evidence, Trust, at};
-use crate::contacts::ContactLaw;
 use crate::numbers::number;
 use crate::report::Remedy;
 use crate::report::advice::rounded_down;
 use crate::report::estimate::EstimatedError;
 use crate::report::warnings::FEWEST_TICKS;
-use crate::tick::{Holder, Models, Responses, far_travel};
+use crate::tick::{Holder, State, far_travel};
 
 /// The tick is above the critical one: springs gain energy at each.
 pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
@@ -18,7 +17,7 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     if EstimatedError::is_small(world) {
         return None;
     }
-    let fastest = Responses::of(world).fastest;
+    let fastest = world.resource::<State>().responses().fastest;
     let holder = fastest.map_or(Holder::Contacts, |fastest| fastest.holder);
     // Contacts that nothing came to did nothing.
     if holder == Holder::Contacts && card.largest_overlap.meters == 0.0 && critical > 0.0 {
@@ -41,8 +40,8 @@ const GOOD_A_PERIOD: f64 = 80.0;
 /// A force swings by the clock faster than ticks of one length can see.
 pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
-    let rhythms = world.get_resource::<Models>().map_or(&[][..], |models| &models.rhythms);
-    let fastest = rhythms.iter().max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))?;
+    let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
+    let fastest = rhythms.max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))?;
     let period = TAU / fastest.angular_frequency;
     let ticks = period / card.tick;
     let what =
@@ -55,7 +54,7 @@ pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let ticks = card.shortest_contact.filter(|_| card.by_ticks())? / card.tick;
-    let brief = Responses::of(world).briefest;
+    let brief = world.resource::<State>().responses().briefest;
     if EstimatedError::is_small(world) || brief.is_none() && card.located {
         return None;
     }
@@ -77,9 +76,9 @@ pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn far_travel_unseen(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let share = card.largest_travel_share;
-    let who = far_travel(world)
+    let who = far_travel(world.resource())
         .map_or_else(|| "something".to_owned(), |far| format!("`{}` at {}", evidence.name(far.body), at(far.time)));
     let what = format!("{who} travelled {share:.1} radii in one tick and may have missed a contact");
-    let unseen = world.contains_resource::<ContactLaw>() && !card.located;
+    let unseen = world.resource::<State>().contact_law().is_some() && !card.located;
     (share > 1.0 && unseen).then(|| Cause { trust: Trust::Roughly, what, remedy: evidence.finer() })
 }

@@ -4,9 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::Simulation;
-use crate::integrate::{LocatedEvents, StepCount};
-use crate::tick::direct::{Accounts, Observer, State, exchange};
-use crate::tick::{Clock, Evaluation, Failure, add_observer_of_ticks, look_at_ticks};
+use crate::tick::{Clock, Failure, State, add_observer_of_ticks, look_at_ticks};
 use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
@@ -99,8 +97,8 @@ struct Lookout {
     moments: Moments,
 }
 
-fn look(bodies: Res<Bodies>, clock: Res<Clock>, mut lookout: ResMut<Lookout>) {
-    lookout.look(&bodies, &clock);
+fn look(state: Res<State>, mut lookout: ResMut<Lookout>) {
+    lookout.look(&state.bodies, &state.clock);
 }
 
 impl Lookout {
@@ -109,17 +107,6 @@ impl Lookout {
             self.over += 1;
             self.moments.add(clock.time(), poses(bodies));
         }
-    }
-}
-
-impl Observer for Lookout {
-    fn exchange(&mut self, world: &mut World) {
-        exchange(world, self);
-    }
-
-    fn observe(&mut self, state: &State, _: Accounts, _: &World) -> bool {
-        self.look(&state.bodies, &state.clock);
-        true
     }
 }
 
@@ -174,7 +161,7 @@ impl Trajectory {
             *there = lookout;
         } else {
             world.insert_resource(lookout);
-            add_observer_of_ticks(world, look, Lookout::default());
+            add_observer_of_ticks(world, look);
         }
     }
 
@@ -190,9 +177,9 @@ impl Trajectory {
             moments,
             extents: simulation.bodies().extents().to_vec(),
             failure,
-            evaluations: world.resource::<Evaluation>().count,
-            crowded: world.get_resource::<LocatedEvents>().is_some_and(|events| events.given_up > 0),
-            bounded: world.get_resource::<StepCount>().is_some_and(StepCount::is_bounded),
+            evaluations: world.resource::<State>().evaluation.count,
+            crowded: world.resource::<State>().located.given_up > 0,
+            bounded: world.resource::<State>().steps.is_bounded(),
         }
     }
 

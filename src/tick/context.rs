@@ -2,13 +2,14 @@
 
 use bevy_ecs::prelude::*;
 
-use super::direct::{Direct, Held, State, held, held_mut};
-use super::drive::Drive;
-use super::failure::{Failure, Wrong};
-use super::{Balance, Census, Clock, Evaluation, Indicator, Ledger, Models, Span, Style};
+use super::failure::{Trouble, Wrong};
+use super::model::Indicator;
+use super::progress::{LocatedEvents, Progress, StepCount};
+use super::stopwatch::Part;
+use super::{Balance, Clock, Evaluation, Span, State, Style};
 use crate::tick::bounds::Bounds;
+use crate::world::Bodies;
 use crate::world::motion::Travel;
-use crate::world::{Bodies, Name, lend};
 
 /// Rounds in which models correct their modes after an event. Each takes back at least one choice, so more are needed only
 /// where choices contradict each other.
@@ -16,19 +17,17 @@ const MOST_CORRECTIONS: usize = 32;
 
 /// What an integrator may do inside a tick.
 pub struct Tick<'a> {
-    /// The world, for state of the integrator's own.
-    pub world: &'a mut World,
-    /// What holds the state in place of the world; only for integrators that said that they look for it nowhere else.
-    pub(super) direct: Option<&'a mut Direct>,
-    pub(super) evaluate: &'a mut Schedule,
-    pub(super) modes: &'a mut Schedule,
-    pub(super) has_modes: bool,
+    pub(super) state: &'a mut State,
+    /// The schedules, if systems of users stand in them.
+    pub(super) users: Option<Users<'a>>,
     pub(super) velocity_dependent: bool,
     pub(super) style: Style,
     /// Whether the state was changed by others since the last tick, or is the first of all.
     pub(super) fresh: bool,
     /// Whether systems in the tick may look at forces.
     pub(super) looked_at: bool,
+    /// Whether the last kick may wait for the next tick.
+    pub(super) may_wait: bool,
     /// Length of the tick in seconds.
     pub dt: f64,
     /// Time at its beginning in seconds.
@@ -38,7 +37,38 @@ pub struct Tick<'a> {
     pub(super) alert: bool,
 }
 
+/// The world with the schedules of evaluations and modes.
+pub(super) struct Users<'a> {
+    pub world: &'a mut World,
+    pub evaluate: &'a mut Schedule,
+    pub modes: &'a mut Schedule,
+}
+
+impl Users<'_> {
+    /// Runs a schedule with the state in its place in the world.
+    fn run(&mut self, state: &mut State, schedule: fn(&mut Self)) {
+        std::mem::swap(state, &mut *self.world.resource_mut::<State>());
+        schedule(self);
+        std::mem::swap(state, &mut *self.world.resource_mut::<State>());
+    }
+}
+
 impl Tick<'_> {
+    /// The state of the run.
+    pub fn state(&self) -> &State {
+        self.state
+    }
+
+    /// How many steps were made so far, to be counted by methods that make their own.
+    pub fn steps(&mut self) -> &mut StepCount {
+        &mut self.state.steps
+    }
+
+    /// How many events were located so far.
+    pub fn located(&mut self) -> &mut LocatedEvents {
+        &mut self.state.located
+    }
+
     /// Whether some force depends on velocities.
     pub fn velocity_dependent(&self) -> bool {
         self.velocity_dependent
@@ -46,38 +76,17 @@ impl Tick<'_> {
 
     /// Whether some force other than those of contacts depends on velocities.
     pub fn has_velocity_forces(&self) -> bool {
-        self.world.resource::<Census>().velocity_forces
+        self.state.has_velocity_forces()
     }
 
     /// The first time after `now` at which forces or their rates are known to jump, in seconds; infinite if there is none.
     pub fn next_edge(&self, now: f64) -> f64 {
-        let paths = self.held::<Bodies>().prescribed.next_point(now);
-        self.edges().iter().map(|edge| edge(self.world, now)).fold(paths, f64::min)
+        self.state.next_edge(now).min(self.state.bodies.prescribed.next_point(now))
     }
 
     /// Whether forces may change with time in a state that does not.
     pub fn changes_with_time(&self) -> bool {
-        !self.edges().is_empty() || !self.held::<Bodies>().prescribed.motions.is_empty()
-    }
-
-    /// What models know of when forces jump. None that has a direct form does.
-    fn edges(&self) -> &[fn(&World, f64) -> f64] {
-        match self.direct {
-            Some(_) => &[],
-            None => &self.world.resource::<Models>().edges,
-        }
-    }
-
-    /// State wherever it is.
-    #[inline(always)]
-    pub(crate) fn held<R: Held>(&self) -> &R {
-        held(self.world, self.direct.as_deref())
-    }
-
-    /// State wherever it is, to be changed.
-    #[inline(always)]
-    pub(crate) fn held_mut<R: Held>(&mut self) -> &mut R {
-        held_mut(self.world, self.direct.as_deref_mut())
+        self.state.has_edges() || !self.state.bodies.prescribed.motions.is_empty()
     }
 
     /// The packed state, to be changed by a method: what it holds is up to date, and what was noted of it is found anew.
@@ -91,7 +100,7 @@ impl Tick<'_> {
     /// The packed state for the tick itself.
     #[inline(always)]
     pub(super) fn packed(&mut self) -> &mut Bodies {
-        self.held_mut()
+        &mut self.state.bodies
     }
 
     /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
@@ -108,7 +117,7 @@ impl Tick<'_> {
         bodies.pose();
         if let Some(driven) = driven {
             let smallest = bodies.smallest_radius;
-            let Drive { farthest, travelled, .. } = *self.held();
+            let Progress { farthest, travelled, .. } = self.state.progress;
             self.note_travel(Travel { greatest: driven.greatest.max(farthest), sum: travelled + driven.sum }, smallest);
         }
         self.run_evaluation(Evaluation { time, elapsed, ..Evaluation::default() });
@@ -126,14 +135,19 @@ impl Tick<'_> {
 
     /// Bodies are posed.
     fn run_evaluation(&mut self, state: Evaluation) {
-        *self.held_mut() = Balance::default();
+        self.state.balance = Balance::default();
         let style = self.style;
-        let evaluation: &mut Evaluation = self.held_mut();
+        let evaluation = &mut self.state.evaluation;
         *evaluation = Evaluation { style, count: evaluation.count + 1, ..state };
-        match &mut self.direct {
-            Some(direct) => direct.evaluate(),
-            None => self.evaluate.run(self.world),
+        match &mut self.users {
+            Some(users) => users.run(self.state, |users| users.evaluate.run(users.world)),
+            None => {
+                self.state.update_bounding_boxes();
+                self.state.apply_forces();
+                self.state.settle();
+            }
         }
+        self.state.turn_to(Part::Integrate);
     }
 
     /// Whether the state is the first of all, or was changed by others since the last tick.
@@ -153,16 +167,16 @@ impl Tick<'_> {
                 self.evaluate_stage(begin);
             }
         }
-        if self.has_modes {
+        if self.users.is_some() || self.state.stages().modes {
             let whole = begin == self.begin && end == self.end;
             let length = if whole { self.dt } else { end - begin };
-            *self.held_mut() = Span { begin, end, length };
-            match &mut self.direct {
-                Some(direct) => direct.choose_modes(),
-                None => self.modes.run(self.world),
+            self.state.span = Span { begin, end, length };
+            match &mut self.users {
+                Some(users) => users.run(self.state, |users| users.modes.run(users.world)),
+                None => self.state.begin_step(),
             }
             // What is held by contacts depends on all other forces.
-            if self.style.is_staged() && self.held::<Evaluation>().stale {
+            if self.style.is_staged() && self.state.evaluation.stale {
                 self.evaluate_stage(begin);
                 self.settle();
             }
@@ -185,45 +199,45 @@ impl Tick<'_> {
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.
     pub(super) fn begin_anew(&mut self) {
         self.evaluate_stage(self.begin);
-        self.each_watched(|watched| watched.take_stock());
+        self.state.each_with_events(|model, state| model.take_stock(state));
         self.evaluate_stage(self.begin);
         self.settle();
     }
 
     /// Adds all indicators of the state just evaluated to a list.
     pub fn tell(&mut self, told: &mut Vec<Indicator>) {
-        let mut counts = std::mem::take(&mut self.held_mut::<Drive>().told);
+        let mut counts = std::mem::take(&mut self.state.progress.told);
         counts.clear();
-        self.each_watched(|watched| {
+        self.state.each_with_events(|model, state| {
             let first = told.len();
-            watched.tell(told);
+            model.tell(state, told);
             counts.push(told.len() - first);
         });
-        self.held_mut::<Drive>().told = counts;
+        self.state.progress.told = counts;
     }
 
     /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
     /// ready for the next step.
     pub fn end_step(&mut self, fired: &[usize]) {
-        let time = self.held::<Evaluation>().time;
+        let time = self.state.evaluation.time;
         if !fired.is_empty() {
-            let told = std::mem::take(&mut self.held_mut::<Drive>().told);
+            let told = std::mem::take(&mut self.state.progress.told);
             let (mut first, mut counts) = (0, told.iter());
-            self.each_watched(|watched| {
+            self.state.each_with_events(|model, state| {
                 let end = first + counts.next().copied().unwrap_or_default();
                 let own = |place: &&usize| (first..end).contains(*place);
                 let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
                 if !own.is_empty() {
-                    watched.switch(&own);
+                    model.switch(state, &own);
                 }
                 first = end;
             });
-            self.held_mut::<Drive>().told = told;
+            self.state.progress.told = told;
             self.evaluate_stage(time);
             self.settle();
         }
         let mut changed = false;
-        self.each_watched(|watched| changed |= watched.tidy());
+        self.state.each_with_events(|model, state| changed |= model.tidy(state));
         if changed {
             self.evaluate_stage(time);
         }
@@ -234,18 +248,10 @@ impl Tick<'_> {
     pub fn reserve(&mut self, length: f64, times: f64) -> bool {
         let reserve =
             |bounds: &mut Bounds, bodies: &Bodies| bounds.reserve(bodies, times * farthest_in(bodies, length));
-        let renew = match &mut self.direct {
-            Some(direct) => {
-                let State { bounds, bodies, .. } = &mut *direct.state;
-                bounds.as_mut().is_some_and(|bounds| reserve(bounds, bodies))
-            }
-            None if self.world.contains_resource::<Bounds>() => {
-                lend(self.world, |world, bounds: &mut Bounds| reserve(bounds, world.resource()))
-            }
-            None => false,
-        };
+        let State { bounds, bodies, .. } = &mut *self.state;
+        let renew = bounds.as_mut().is_some_and(|bounds| reserve(bounds, bodies));
         if renew {
-            let time = self.held::<Evaluation>().time;
+            let time = self.state.evaluation.time;
             self.evaluate_stage(time);
         }
         renew
@@ -254,11 +260,11 @@ impl Tick<'_> {
     /// Shows the state as it stands at `time` seconds, between states that the motion goes by: forces are evaluated only if
     /// somebody looks at them.
     pub fn show(&mut self, time: f64) {
-        if self.looked_at || self.is_watched() {
+        if self.looked_at || self.state.has_events() {
             return self.evaluate_stage(time);
         }
         self.packed().pose();
-        let evaluation: &mut Evaluation = self.held_mut();
+        let evaluation = &mut self.state.evaluation;
         (evaluation.time, evaluation.stale) = (time, true);
     }
 
@@ -284,10 +290,10 @@ impl Tick<'_> {
 
     /// Lets models correct the modes of a state just evaluated, until none wants to.
     fn settle(&mut self) {
-        let time = self.held::<Evaluation>().time;
+        let time = self.state.evaluation.time;
         for _ in 0..MOST_CORRECTIONS {
             let mut corrected = false;
-            self.each_watched(|watched| corrected |= watched.settle());
+            self.state.each_with_events(|model, state| corrected |= model.settle(state));
             if !corrected {
                 break;
             }
@@ -297,15 +303,13 @@ impl Tick<'_> {
 
     /// Ends the run at the end of this tick: steps of `step` seconds, as short as their error asks for, would take too many.
     pub fn give_up(&mut self, step: f64) {
-        let bodies: &Bodies = self.held();
+        let bodies = &self.state.bodies;
         let acceleration = |body: &usize| bodies.force[*body].length() * bodies.inverse_mass(*body);
         let worst = (0..bodies.len()).max_by(|a, b| acceleration(a).total_cmp(&acceleration(b)));
-        let name = worst.and_then(|body| self.world.get::<Name>(bodies.entity[body]));
-        let body = name.map(Name::to_string).unwrap_or_default();
-        let Clock { ticks, .. } = *self.held();
-        let time = self.held::<Evaluation>().time;
-        let drive: &mut Drive = self.held_mut();
-        drive.failure.get_or_insert(Failure { body, wrong: Wrong::Steps(step), tick: ticks + 1, time });
+        let Clock { ticks, .. } = self.state.clock;
+        let time = self.state.evaluation.time;
+        let progress = &mut self.state.progress;
+        progress.trouble.get_or_insert(Trouble { body: worst, wrong: Wrong::Steps(step), tick: ticks + 1, time });
     }
 
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.
@@ -317,8 +321,7 @@ impl Tick<'_> {
     /// The same at the end of the tick: where nobody looks it is done with the next step.
     pub fn kick_at_end(&mut self, dt: f64) {
         self.book(dt);
-        let may_wait = self.direct.is_some() && !self.style.is_staged();
-        if may_wait { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
+        if self.may_wait && !self.style.is_staged() { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
     }
 
     /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
@@ -333,9 +336,31 @@ impl Tick<'_> {
     }
 
     fn book(&mut self, dt: f64) {
-        let balance: Balance = *self.held();
+        let balance: Balance = self.state.balance;
         self.alert |= balance.alert;
-        self.held_mut::<Ledger>().book(&balance, dt);
+        self.state.ledger.book(&balance, dt);
+    }
+
+    /// Whether a model holds more than can be resolved exactly in steps from event to event.
+    pub(crate) fn is_crowded(&mut self) -> bool {
+        let mut crowded = false;
+        self.state.each_with_events(|model, _| crowded |= model.is_crowded());
+        crowded
+    }
+
+    /// What changes in models when states become stages of steps, or follow one another from now on.
+    pub(super) fn hand_over(&mut self, style: Style) {
+        self.state.each_with_events(|model, state| model.hand_over(state, style));
+    }
+
+    /// Bounding boxes, where there are any.
+    pub(crate) fn bounds(&self) -> Option<&Bounds> {
+        self.state.bounds.as_ref()
+    }
+
+    /// Bounding boxes, where there are any, to be changed.
+    pub(crate) fn bounds_mut(&mut self) -> Option<&mut Bounds> {
+        self.state.bounds.as_mut()
     }
 }
 

@@ -1,0 +1,222 @@
+//! What acts in a run: every force, spring, drive and contact law is a [`Model`], with its parameters captured, and a run has as
+//! many of them as its scene names.
+
+use std::any::Any;
+
+use bevy_ecs::prelude::World;
+
+use super::touch::ContactPoint;
+use super::{Responses, State, SteadySpring, Style};
+
+/// What a force, or the power that it books, depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
+/// those who need them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dependence {
+    /// Nothing: the force is the same always. Bodies that are asleep ([`Bodies::asleep`](crate::world::Bodies::asleep)) are
+    /// to be left out, and so is what they would bring to the rates.
+    Nothing,
+    /// Time and positions only.
+    Position,
+    /// Velocities too.
+    Velocity,
+}
+
+/// Energies in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// In fields.
+    pub potential: f64,
+    /// In springs and contacts.
+    pub elastic: f64,
+}
+
+/// A physical model: what it does in each stage of a step, and what it owes the card.
+///
+/// Models act in the order in which they were added. Required is what must not be left out in silence: energies and stiffness. A
+/// model that has none says so with a default value and an empty body.
+pub trait Model: Any + Send + Sync {
+    /// What it is called where the systems of a scene are listed. Default: the name of its type.
+    fn name(&self) -> &'static str {
+        std::any::type_name::<Self>()
+    }
+
+    /// The energies in J that it holds in the present state.
+    fn energies(&self, state: &State) -> Energies;
+
+    /// Adds its springs in their present state: the critical tick follows from them. Contact laws tell
+    /// [`Model::responses`] instead.
+    fn stiffness(&self, state: &State, springs: &mut Vec<SteadySpring>);
+
+    /// What its force depends on. Default: positions and velocities.
+    fn dependence(&self) -> Dependence {
+        Dependence::Velocity
+    }
+
+    /// Whether its force does not depend on the places of bodies that touch nothing, nor on their velocities: discs may then fly
+    /// along parabolas while nothing else acts on them. Default: no.
+    fn flies(&self) -> bool {
+        false
+    }
+
+    /// The name of the contact law, as scenes write it, if it is one. Default: it is none.
+    fn contact_law(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Once, when the whole scene stands and before the first tick.
+    fn start(&mut self, _: &mut World) {}
+
+    /// Stage Pairs of an evaluation: who may touch whom.
+    fn find_pairs(&mut self, _: &mut State) {}
+
+    /// Stage Forces of an evaluation: adds to the forces and torques of bodies, and to the rates of the ledger.
+    fn apply_forces(&mut self, _: &mut State) {}
+
+    /// Stage Settle of an evaluation, after all forces. See [`Model::settles`].
+    fn settle(&mut self, _: &mut State) {}
+
+    /// Whether [`Model::settle`] does anything. Default: no.
+    fn settles(&self) -> bool {
+        false
+    }
+
+    /// Before a step over [`State::span`]: chooses the modes that stay as they are in it. See [`Model::has_modes`].
+    fn begin_step(&mut self, _: &mut State) {}
+
+    /// Whether [`Model::begin_step`] does anything. Default: no.
+    fn has_modes(&self) -> bool {
+        false
+    }
+
+    /// Whether [`Model::find_pairs`] does anything. Default: no.
+    fn finds_pairs(&self) -> bool {
+        false
+    }
+
+    /// How fast it responds, as far as it measured that itself. Default: it measured nothing.
+    fn responses(&self) -> Responses {
+        Responses::default()
+    }
+
+    /// State of its own and events, for methods with several stages. Default: none.
+    fn events(&mut self) -> Option<&mut dyn Events> {
+        None
+    }
+
+    /// Whether it has times at which forces or their rates jump. Default: no.
+    fn has_edges(&self) -> bool {
+        false
+    }
+
+    /// The first of them after a time in seconds, or infinity.
+    fn next_edge(&self, _: f64) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Why it cannot be evaluated in a style, if so.
+    fn objection(&self, _: Style) -> Option<Objection> {
+        None
+    }
+
+    /// What it did otherwise in a style than the scene asks: sentences for the card, each with the entry and a remedy.
+    fn departures(&self, _: &State, _: Style) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// What swings by the clock: a tick that the scene does not name is short enough for it.
+    fn rhythm(&self) -> Option<Rhythm> {
+        None
+    }
+
+    /// What it has to say of a run at its end, a sentence each for the notes of the card.
+    fn remarks(&self, _: &State) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// All contacts of the present state in canonical order, if it is a contact law that tells them.
+    fn contact_points(&self, _: &State) -> Option<Vec<ContactPoint>> {
+        None
+    }
+
+    /// A part of it that [`State::model`] finds too. Default: none.
+    fn inner(&self) -> Option<&dyn Any> {
+        None
+    }
+
+    /// The same, to be changed.
+    fn inner_mut(&mut self) -> Option<&mut dyn Any> {
+        None
+    }
+}
+
+/// State of a model's own and its events, for methods that take several stages per step.
+pub trait Events {
+    /// How many numbers of its own the integrator advances by the same method as positions: elongations of springs, integrals of
+    /// controllers. It may change when modes do, never inside a step.
+    fn length(&self) -> usize;
+
+    /// Model -> state.
+    fn read(&self, numbers: &mut [f64]);
+
+    /// State -> model, before an evaluation.
+    fn write(&mut self, numbers: &[f64]);
+
+    /// Their rates per second, after an evaluation.
+    fn rates(&self, state: &State, rates: &mut [f64]);
+
+    /// Adds the indicators of the state just evaluated to the list. Their number and order change only where modes do.
+    fn tell(&mut self, state: &State, told: &mut Vec<Indicator>);
+
+    /// Changes the modes whose indicators vanished, given by their places in the model's own list of the present modes.
+    fn switch(&mut self, state: &mut State, fired: &[usize]);
+
+    /// Looks at accelerations just evaluated in the present modes and corrects modes that cannot last; says whether it did.
+    fn settle(&mut self, state: &State) -> bool;
+
+    /// Chooses all modes of a state that did not follow from the one before.
+    fn take_stock(&mut self, state: &State);
+
+    /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
+    fn tidy(&mut self, state: &mut State) -> bool;
+
+    /// What changes when states become stages of steps, or follow one another from then on.
+    fn hand_over(&mut self, state: &State, style: Style);
+
+    /// Whether it holds more than can be resolved exactly in steps from event to event.
+    fn is_crowded(&self) -> bool;
+}
+
+/// An indicator of an event: it is positive while a mode holds, and the event is where it vanishes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Indicator {
+    /// Its value in the state just evaluated.
+    pub value: f64,
+    /// Its rate per second there; NaN if the model does not know.
+    pub slope: f64,
+    /// How strongly it may bend downwards there: its second derivative, per second squared, is not below minus this.
+    pub bend: f64,
+    /// What rounding makes of its value: above minus this it has not vanished. Default: nothing.
+    pub rounding: f64,
+    /// Angular frequency in rad/s with which springs swing in this mode: steps resolve it. Default: zero, no spring acts.
+    pub swings: f64,
+}
+
+/// A force that swings by the clock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rhythm {
+    /// Where it stands in the scene, such as `forces[0]`.
+    pub path: String,
+    /// How fast it swings, in rad/s; zero if it does not.
+    pub angular_frequency: f64,
+}
+
+/// Why a model cannot be evaluated in a style.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// The path of what is in the way in the scene.
+    pub path: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// What would help.
+    pub help: &'static str,
+}

@@ -1,0 +1,83 @@
+//! How a run goes: what it has come to, and what went wrong.
+
+use bevy_ecs::change_detection::Tick;
+
+use super::Method;
+use super::balance::Totals;
+use super::failure::Trouble;
+use super::guard::EnergyGuard;
+use super::step::Running;
+use super::travel::FarTravel;
+
+/// How a run goes.
+#[derive(Default)]
+pub(super) struct Progress {
+    pub method: Option<Method>,
+    /// What runs during a batch.
+    pub running: Option<Box<Running>>,
+    /// The totals before others changed the state, if they did since the last tick.
+    pub before: Option<Totals>,
+    /// No system but the engine's own takes part in the tick.
+    pub alone: bool,
+    /// Systems in the tick look at all bodies.
+    pub looked_at: bool,
+    /// Ticks at whose ends systems look at all bodies that look at no others, in order.
+    pub looks: Vec<u64>,
+    /// When the state had changed last as these saw it.
+    pub shown_at: Option<Tick>,
+    /// Forces are those of the present state.
+    pub current: bool,
+    /// Ticks were run since the components were last brought up to date.
+    pub stepped: bool,
+    /// Greatest travel of any point of a body in one tick, in metres.
+    pub travel: f64,
+    /// Sum of all travels in the last tick: not finite as soon as one of them is not.
+    pub travelled: f64,
+    /// Greatest travel in the last tick, in metres.
+    pub farthest: f64,
+    /// The first body that travelled farther than the smallest radius in one tick.
+    pub far: Option<FarTravel>,
+    pub energy: EnergyGuard,
+    pub trouble: Option<Trouble>,
+    /// How many indicators each model with events told last, in order.
+    pub told: Vec<usize>,
+}
+
+/// How many events were located, and how many ticks had too many.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LocatedEvents {
+    /// Events.
+    pub count: u64,
+    /// Ticks that went on under velocity Verlet, for contacts were too many.
+    pub given_up: u64,
+}
+
+/// How many steps were made, and how long they were.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepCount {
+    /// Steps accepted.
+    pub accepted: u64,
+    /// Steps whose error was too large.
+    pub rejected: u64,
+    /// The longest accepted one, in s.
+    pub longest: f64,
+    /// Accepted steps that were allowed a larger error than was asked for: rounding of places leaves no smaller one.
+    pub bounded: u64,
+    /// Steps that were made shorter than asked for, so that they resolve contacts.
+    pub shortened: u64,
+    /// The tick from which on each is one step, not counted yet.
+    pub whole_from: Option<u64>,
+}
+
+impl StepCount {
+    /// Steps accepted until that tick.
+    pub fn until(&self, tick: u64) -> u64 {
+        self.accepted + self.whole_from.map_or(0, |from| tick - from)
+    }
+
+    /// Whether rounding bounds more than a tenth of all steps, and more than one: the first of a run, before anything has moved
+    /// far, and what rounding leaves of a run at its end, do not count.
+    pub fn is_bounded(&self) -> bool {
+        self.bounded > 1 && 10 * self.bounded > self.accepted
+    }
+}

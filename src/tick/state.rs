@@ -1,0 +1,417 @@
+//! The state of a run: all that a step changes, as packed arrays in canonical order, and the models that change it.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::balance::Totals;
+use super::bounds::Bounds;
+use super::model::{Dependence, Energies, Model};
+use super::pairs::CandidatePairs;
+use super::progress::{LocatedEvents, Progress, StepCount};
+use super::stopwatch::{Part, Stopwatch};
+use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
+use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
+use crate::world::Bodies;
+
+/// The state of a run.
+///
+/// Systems of users take it as `Res<State>` or `ResMut<State>`, models as an argument. Bodies, atoms and walls stand in canonical
+/// order, the order in which the scene names them.
+#[derive(Resource, Default)]
+pub struct State {
+    pub(crate) bodies: Bodies,
+    pub(crate) balance: Balance,
+    pub(crate) ledger: Ledger,
+    pub(crate) evaluation: Evaluation,
+    pub(crate) span: Span,
+    pub(crate) clock: Clock,
+    /// Where pairs are searched for.
+    pub(crate) bounds: Option<Bounds>,
+    pub(crate) pairs: Option<CandidatePairs>,
+    pub(crate) deepest: DeepestOverlap,
+    pub(crate) contact_forces: Option<ContactForces>,
+    pub(crate) touches: Option<Touches>,
+    pub(crate) stability: Stability,
+    pub(crate) springs: SteadySprings,
+    pub(crate) steps: StepCount,
+    pub(crate) located: LocatedEvents,
+    /// How many systems of users make forces.
+    pub(crate) force_systems: usize,
+    pub(super) progress: Progress,
+    pub(crate) stopwatch: Option<Stopwatch>,
+    pub(super) models: Vec<Box<dyn Model>>,
+    pub(super) roles: Roles,
+}
+
+/// What models do, as far as it does not change while they act.
+#[derive(Default)]
+pub(super) struct Roles {
+    /// Places of those that take part in a stage.
+    find_pairs: Vec<usize>,
+    settle: Vec<usize>,
+    begin_step: Vec<usize>,
+    events: Vec<usize>,
+    /// How many are neither contact laws nor their search for pairs; those follow.
+    others: usize,
+    velocity_dependent: bool,
+    velocity_forces: bool,
+    changing_forces: bool,
+    flies: bool,
+    edges: bool,
+}
+
+impl Roles {
+    fn of(models: &mut [Box<dyn Model>]) -> Self {
+        let with_events = models.iter_mut().enumerate().filter_map(|(place, model)| model.events().map(|_| place));
+        let events = with_events.collect();
+        let places = |is: fn(&dyn Model) -> bool| -> Vec<usize> {
+            models.iter().enumerate().filter(|(_, model)| is(&***model)).map(|(place, _)| place).collect()
+        };
+        let others = models.iter().filter(|model| !belongs_to_contacts(&***model)).count();
+        let depends =
+            |models: &[Box<dyn Model>], on: &[Dependence]| models.iter().any(|m| on.contains(&m.dependence()));
+        Self {
+            find_pairs: places(|model| model.finds_pairs()),
+            settle: places(|model| model.settles()),
+            begin_step: places(|model| model.has_modes()),
+            events,
+            others,
+            velocity_dependent: depends(models, &[Dependence::Velocity]),
+            velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
+            changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
+            flies: models.iter().all(|model| model.flies()),
+            edges: models.iter().any(|model| model.has_edges()),
+        }
+    }
+}
+
+/// Whether a model acts after all forces that are none of contacts.
+fn belongs_to_contacts(model: &dyn Model) -> bool {
+    model.contact_law().is_some() || model.finds_pairs()
+}
+
+/// Lets some models act on the state that holds them.
+macro_rules! each {
+    ($state:ident, $places:ident, $model:ident => $act:expr) => {
+        if !$state.roles.$places.is_empty() {
+            let mut models = std::mem::take(&mut $state.models);
+            for number in 0..$state.roles.$places.len() {
+                let $model = &mut models[$state.roles.$places[number]];
+                $act;
+            }
+            $state.models = models;
+        }
+    };
+}
+
+/// The stages of a step.
+impl State {
+    /// Stages Bounds and Pairs: boxes are checked against where bodies stand now, and candidate pairs found.
+    pub(super) fn update_bounding_boxes(&mut self) {
+        self.turn_to(Part::Bounds);
+        let Self { bounds, bodies, evaluation, .. } = self;
+        if let Some(bounds) = bounds {
+            bounds.update(bodies, evaluation);
+        }
+        self.turn_to(Part::Pairs);
+        each!(self, find_pairs, model => model.find_pairs(self));
+    }
+
+    /// Stage Forces: all models add to the sums.
+    pub(super) fn apply_forces(&mut self) {
+        self.turn_to(Part::Forces);
+        let mut models = std::mem::take(&mut self.models);
+        let (forces, contacts) = models.split_at_mut(self.roles.others);
+        forces.iter_mut().for_each(|model| model.apply_forces(self));
+        if !contacts.is_empty() {
+            self.turn_to(Part::Contacts);
+            contacts.iter_mut().for_each(|model| model.apply_forces(self));
+        }
+        self.models = models;
+    }
+
+    /// Stage Settle: what depends on all forces.
+    pub(super) fn settle(&mut self) {
+        self.turn_to(Part::Settle);
+        each!(self, settle, model => model.settle(self));
+    }
+
+    /// Models choose the modes that stay frozen during the step.
+    pub(super) fn begin_step(&mut self) {
+        self.turn_to(Part::Modes);
+        each!(self, begin_step, model => model.begin_step(self));
+        self.turn_to(Part::Integrate);
+    }
+
+    /// Shows the models that have state of their own and events, in order.
+    pub(super) fn each_with_events(&mut self, mut see: impl FnMut(&mut dyn super::model::Events, &mut Self)) {
+        each!(self, events, model => if let Some(events) = model.events() { see(events, self) });
+    }
+
+    /// Whether nothing but the engine's own stages sees the state between the evaluations of a tick and between ticks.
+    pub(crate) fn is_alone(&self) -> bool {
+        self.progress.alone
+    }
+
+    /// Which stages there are: bounding boxes and pairs, forces, settling, modes.
+    pub(super) fn stages(&self) -> Stages {
+        let Roles { find_pairs, settle, begin_step, .. } = &self.roles;
+        Stages {
+            bounds: self.bounds.is_some() || !find_pairs.is_empty(),
+            forces: !self.models.is_empty(),
+            settle: !settle.is_empty(),
+            modes: !begin_step.is_empty(),
+        }
+    }
+
+    /// From now on the time counts for another part of the tick, if it is measured.
+    #[inline]
+    pub(super) fn turn_to(&mut self, part: Part) {
+        if let Some(stopwatch) = &mut self.stopwatch {
+            stopwatch.turn_to(part);
+        }
+    }
+}
+
+/// The stages that a scene needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Stages {
+    pub bounds: bool,
+    pub forces: bool,
+    pub settle: bool,
+    pub modes: bool,
+}
+
+/// Models, and what they know together.
+impl State {
+    /// Adds a model behind the others: contact laws stand behind all other models.
+    pub fn add_model(&mut self, model: impl Model) {
+        let place = if belongs_to_contacts(&model) { self.models.len() } else { self.roles.others };
+        self.insert_model(place, model);
+    }
+
+    /// Adds a model before all others.
+    pub(crate) fn add_first_model(&mut self, model: impl Model) {
+        self.insert_model(0, model);
+    }
+
+    fn insert_model(&mut self, place: usize, model: impl Model) {
+        self.models.insert(place, Box::new(model));
+        self.roles = Roles::of(&mut self.models);
+        self.bodies.touched = true;
+    }
+
+    /// Keeps the models for which `keep` says so. Returns how many went.
+    pub fn retain_models(&mut self, keep: impl FnMut(&mut Box<dyn Model>) -> bool) -> usize {
+        let before = self.models.len();
+        self.models.retain_mut(keep);
+        self.roles = Roles::of(&mut self.models);
+        self.bodies.touched = true;
+        before - self.models.len()
+    }
+
+    /// All models in the order in which they act.
+    pub fn models(&self) -> impl Iterator<Item = &dyn Model> {
+        self.models.iter().map(|model| &**model)
+    }
+
+    /// All models of a type, in order.
+    pub fn models_of<T: 'static>(&self) -> impl Iterator<Item = &T> {
+        self.models().filter_map(|model| {
+            let own: &dyn std::any::Any = model;
+            own.downcast_ref().or_else(|| model.inner()?.downcast_ref())
+        })
+    }
+
+    /// The first model of a type.
+    pub fn model<T: 'static>(&self) -> Option<&T> {
+        self.models_of().next()
+    }
+
+    /// The first model of a type, to be changed. Forces are evaluated anew before the next tick.
+    pub fn model_mut<T: 'static>(&mut self) -> Option<&mut T> {
+        let has = |model: &dyn Model| {
+            let own: &dyn std::any::Any = model;
+            own.is::<T>() || model.inner().is_some_and(|inner| inner.is::<T>())
+        };
+        let place = self.models.iter().position(|model| has(&**model))?;
+        self.bodies.touched = true;
+        let model = &mut *self.models[place];
+        if (model as &dyn std::any::Any).is::<T>() {
+            return (model as &mut dyn std::any::Any).downcast_mut();
+        }
+        model.inner_mut()?.downcast_mut()
+    }
+
+    /// Lets each model do something once, while the world is there without this state's models.
+    pub(crate) fn start_models(world: &mut World) {
+        let mut models = std::mem::take(&mut world.resource_mut::<Self>().models);
+        models.iter_mut().for_each(|model| model.start(world));
+        let mut state = world.resource_mut::<Self>();
+        state.roles = Roles::of(&mut models);
+        state.models = models;
+    }
+
+    /// Whether some force depends on velocities.
+    pub fn velocity_dependent(&self) -> bool {
+        self.force_systems > 0 || self.roles.velocity_dependent
+    }
+
+    /// Whether some force other than those of contacts depends on velocities.
+    pub fn has_velocity_forces(&self) -> bool {
+        self.force_systems > 0 || self.roles.velocity_forces
+    }
+
+    /// Whether some force other than those of contacts may change with time in a state that does not.
+    pub fn changing_forces(&self) -> bool {
+        self.force_systems > 0 || self.roles.changing_forces
+    }
+
+    /// Whether bodies may fly as far as models go.
+    pub(super) fn flies(&self) -> bool {
+        self.force_systems == 0 && self.roles.flies
+    }
+
+    /// Whether forces have times at which they or their rates jump.
+    pub(crate) fn has_edges(&self) -> bool {
+        self.roles.edges
+    }
+
+    /// Whether models have state of their own or events.
+    pub(super) fn has_events(&self) -> bool {
+        !self.roles.events.is_empty()
+    }
+
+    /// The first of them after a time in seconds, or infinity.
+    pub(crate) fn next_edge(&self, now: f64) -> f64 {
+        self.models.iter().map(|model| model.next_edge(now)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The name of the contact law, if there is one.
+    pub fn contact_law(&self) -> Option<&'static str> {
+        self.models.iter().find_map(|model| model.contact_law())
+    }
+
+    /// All contacts of the present state in canonical order; `None` without a contact law that tells them.
+    pub fn contact_points(&self) -> Option<Vec<ContactPoint>> {
+        self.models.iter().find_map(|model| model.contact_points(self))
+    }
+
+    /// Energies of all models together.
+    pub fn energies(&self) -> Energies {
+        self.models.iter().map(|model| model.energies(self)).fold(Energies::default(), |sum, of| Energies {
+            potential: sum.potential + of.potential,
+            elastic: sum.elastic + of.elastic,
+        })
+    }
+
+    /// Energies and momenta.
+    pub fn totals(&self) -> Totals {
+        let Energies { potential, elastic } = self.energies();
+        Totals::with(&self.bodies, potential, elastic)
+    }
+
+    /// How fast all models respond, as far as it was measured.
+    pub fn responses(&self) -> Responses {
+        let models = self.models.iter().map(|model| model.responses());
+        Responses::of_all(models.chain([self.springs.found()]))
+    }
+}
+
+/// What systems and models of users read and write.
+impl State {
+    /// All bodies, atoms and walls.
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    /// All bodies, atoms and walls, to be changed.
+    pub fn bodies_mut(&mut self) -> &mut Bodies {
+        &mut self.bodies
+    }
+
+    /// Bodies and the rates of energy and momentum at once: forces add to both.
+    pub fn bodies_and_rates(&mut self) -> (&mut Bodies, &mut Balance) {
+        (&mut self.bodies, &mut self.balance)
+    }
+
+    /// The same with the candidate pairs: contact laws go by them.
+    pub fn bodies_rates_and_pairs(&mut self) -> (&mut Bodies, &mut Balance, Option<&CandidatePairs>) {
+        (&mut self.bodies, &mut self.balance, self.pairs.as_ref())
+    }
+
+    /// Rates of energy and momentum of the present evaluation.
+    pub fn rates(&self) -> &Balance {
+        &self.balance
+    }
+
+    /// What has gone in and out since the beginning.
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// The clock of ticks.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Time in seconds at the beginning of the present tick, and between ticks.
+    pub fn time(&self) -> f64 {
+        self.clock.time()
+    }
+
+    /// The moment at which forces are being evaluated.
+    pub fn evaluation(&self) -> Evaluation {
+        self.evaluation
+    }
+
+    /// The stretch of time for which modes are being chosen.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// Who may touch whom; `None` where nothing is searched for.
+    pub fn pairs(&self) -> Option<&CandidatePairs> {
+        self.pairs.as_ref()
+    }
+
+    /// The deepest overlap so far.
+    pub fn deepest_overlap(&self) -> &DeepestOverlap {
+        &self.deepest
+    }
+
+    /// The pairs that touch, where something asks for contact events.
+    pub fn touches(&self) -> Option<&Touches> {
+        self.touches.as_ref()
+    }
+
+    /// How many events were located inside ticks so far.
+    pub fn located(&self) -> LocatedEvents {
+        self.located
+    }
+
+    /// The forces of contacts on each body and wall, where a sensor asks for them.
+    pub fn contact_forces(&self) -> Option<&ContactForces> {
+        self.contact_forces.as_ref()
+    }
+
+    /// The acceleration of free fall in m/s2.
+    pub fn gravity(&self) -> DVec2 {
+        self.bodies.field.unwrap_or_default()
+    }
+
+    /// The section `gravity`: the sums of forces begin with the weight from now on.
+    pub(crate) fn begin_field(&mut self, gravity: DVec2) {
+        self.bodies.field = Some(gravity);
+        self.bodies.posed = false;
+    }
+
+    /// Another acceleration of free fall in m/s2, in a scene with the section `gravity`.
+    pub fn set_gravity(&mut self, gravity: DVec2) {
+        if self.bodies.field.is_some_and(|field| field != gravity) {
+            self.bodies.field = Some(gravity);
+            self.bodies.posed = false;
+            self.bodies.touched = true;
+        }
+    }
+}

@@ -1,0 +1,395 @@
+//! A batch of ticks.
+
+use bevy_ecs::change_detection::DetectChanges;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{ScheduleCleanupPolicy, ScheduleLabel, Schedules};
+
+use super::balance::Totals;
+use super::components::{
+    clear_forces, collect_forces, components_differ, load_state, make_pushable, publish_components,
+};
+use super::context::{Tick, Users};
+use super::failure::{Failure, Trouble, Wrong};
+use super::flight;
+use super::registered::{Kind, Registered};
+use super::stages::schedule_stages;
+use super::stopwatch::Part;
+use super::{Evaluate, EvaluateStage, Method, Modes, SimTick, Stage, State};
+use crate::world::{Name, Roster, finite, packed};
+
+/// What runs while a batch of ticks does.
+pub(super) struct Running {
+    pub method: Method,
+    evaluate: Schedule,
+    modes: Schedule,
+    /// No system beside the integrator changes anything of the state in the tick.
+    alone: bool,
+    /// Others look at it.
+    looked_at: bool,
+}
+
+/// What is known of the systems of users.
+#[derive(Resource, Default)]
+struct Others {
+    /// Some live in the tick: components are kept up to date around it.
+    in_tick: bool,
+    /// Some live in the evaluation: components are kept up to date around it.
+    in_evaluation: bool,
+    /// Some stage has been given a condition.
+    conditional: bool,
+    /// The integrator runs the schedules of evaluations and modes.
+    scheduled: bool,
+}
+
+/// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
+/// hold the new state.
+///
+/// # Errors
+/// When a position, angle, velocity or spin stops being finite, or energy comes out of nowhere. The state stays as it was found then.
+pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
+    schedule_stages(world);
+    let mut sim = take(world, SimTick);
+    let (mut evaluate, mut modes) = (take(world, Evaluate), take(world, Modes));
+    world.init_resource::<Others>();
+    keep_components_current(world, &mut sim, &mut evaluate);
+    choose_way(world, &mut sim, [&evaluate, &modes]);
+    for schedule in [&mut sim, &mut evaluate, &mut modes] {
+        apply_only_what_is_deferred(world, schedule);
+    }
+    let method = world.resource_mut::<State>().progress.method.take().expect("the plugin of integrators sets a method");
+    flight::allow(world, method.0.flies(), &sim, [&evaluate, &modes]);
+    let alone = world.resource::<Registered>().none_writes(SimTick, &sim);
+    let looked_at = sim.graph().systems.len() > 1;
+    let mut state = world.resource_mut::<State>();
+    state.progress.stepped = false;
+    state.progress.running = Some(Box::new(Running { method, evaluate, modes, alone, looked_at }));
+    let watched = state.stopwatch.is_some();
+    if !world.resource::<Others>().in_tick {
+        take_up(world, true);
+    }
+    for _ in 0..ticks {
+        if watched {
+            world.resource_mut::<State>().turn_to(Part::Begin);
+        }
+        sim.run(world);
+        if world.resource::<State>().progress.trouble.is_some() {
+            break;
+        }
+    }
+    if watched {
+        world.resource_mut::<State>().turn_to(Part::Between);
+    }
+    end_batch(world);
+    let mut state = world.resource_mut::<State>();
+    let Running { method, evaluate, modes, .. } = *state.progress.running.take().expect("put there above");
+    state.progress.method = Some(method);
+    let mut schedules = world.resource_mut::<Schedules>();
+    for schedule in [sim, evaluate, modes] {
+        schedules.insert(schedule);
+    }
+    match world.resource::<State>().progress.trouble {
+        Some(trouble) => Err(trouble.named(world)),
+        None => Ok(()),
+    }
+}
+
+/// The state is complete again: forces are those of where bodies stand, all of them have landed, and components show it.
+fn end_batch(world: &mut World) {
+    if world.resource::<State>().evaluation.stale {
+        refresh(world);
+    }
+    flight::see_writers(world);
+    let mut state = world.resource_mut::<State>();
+    // The last kick of the batch is seen by no drift any more.
+    if state.progress.trouble.is_none() {
+        state.bodies.catch_up();
+        state.note_failure();
+    }
+    state.bodies.catch_up();
+    state.land();
+    run_once(world, publish_components);
+}
+
+/// Before bodies are spawned: sees whether systems that work on components are there already, so that bodies are
+/// spawned with all that those need.
+pub(crate) fn foresee_components(world: &mut World) {
+    let (registered, schedules) = (world.resource::<Registered>(), world.resource::<Schedules>());
+    let ordinary = schedules.get(SimTick).is_some_and(|schedule| !registered.all_packed(SimTick, schedule))
+        || schedules.get(Evaluate).is_some_and(|schedule| !registered.all_packed(Evaluate, schedule));
+    world.get_resource_or_init::<Roster>().pushed |= ordinary;
+}
+
+fn take(world: &mut World, label: impl ScheduleLabel) -> Schedule {
+    let missing = "the tick was added with `TickAppExt::add_tick`";
+    world.resource_mut::<Schedules>().remove(label).expect(missing)
+}
+
+/// Whether stages have conditions that the schedule has not yet taken up.
+fn has_conditions(schedule: &Schedule) -> bool {
+    schedule.graph().system_sets.iter().any(|(.., conditions)| !conditions.is_empty())
+}
+
+fn run_once<M>(world: &mut World, system: impl IntoSystem<(), (), M> + 'static) {
+    // The system has no parameters that could be missing.
+    let _ = world.run_system_cached(system);
+}
+
+/// Where no system has anything to be applied later, nothing looks for it after each run.
+fn apply_only_what_is_deferred(world: &mut World, schedule: &mut Schedule) {
+    // What is wrong with a schedule is told when it runs.
+    if schedule.initialize(world).is_ok() {
+        let deferred = schedule.systems().is_ok_and(|mut systems| systems.any(|(_, system)| system.has_deferred()));
+        schedule.set_apply_final_deferred(deferred);
+    }
+}
+
+/// Sees whether systems were added that work on components, and puts the copying around them.
+fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut Schedule) {
+    let registered = world.resource::<Registered>();
+    let ordinary = (!registered.all_packed(SimTick, sim), !registered.all_packed(Evaluate, evaluate));
+    if (ordinary.0 || ordinary.1) && !Roster::pushes(world) {
+        make_pushable(world);
+    }
+    let mut others = world.resource_mut::<Others>();
+    if ordinary.0 && !others.in_tick {
+        others.in_tick = true;
+        sim.add_systems(publish_components.after(Stage::Integrate).before(Stage::Observe));
+    }
+    if ordinary.1 && !others.in_evaluation {
+        others.in_evaluation = true;
+        let current = (publish_components, clear_forces).chain();
+        evaluate.add_systems(current.after(EvaluateStage::Bounds).before(EvaluateStage::Systems));
+        evaluate.add_systems(collect_forces.after(EvaluateStage::Systems).before(EvaluateStage::Forces));
+    }
+}
+
+/// Sees whether systems of users are part of evaluations or of the tick: the integrator then runs the schedules, with the whole
+/// world at hand.
+fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedule; 2]) {
+    let registered = world.resource::<Registered>();
+    let as_registered = registered.is_as_registered(Evaluate, evaluate) && registered.is_as_registered(Modes, modes);
+    // Schedules hand conditions on when they are made ready.
+    let conditional = [evaluate, modes].into_iter().any(has_conditions);
+    let mut others = world.resource_mut::<Others>();
+    others.conditional |= conditional;
+    let scheduled = !as_registered || others.conditional || others.in_tick;
+    if scheduled && !others.scheduled {
+        others.scheduled = true;
+        // It is there: a schedule without it was made otherwise by its owner.
+        let _ = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
+        Registered::add(world, SimTick, sim, Kind::Flies, |sim| {
+            sim.add_systems(integrate_among_systems.in_set(Stage::Integrate));
+        });
+    }
+}
+
+/// The system of [`Stage::Integrate`].
+pub(super) fn integrate(mut state: ResMut<State>) {
+    let changed = state.last_changed();
+    state.see_writers(changed);
+    state.integrate(None);
+    let changed = state.last_changed();
+    state.note_looks(changed);
+}
+
+/// The system of [`Stage::Integrate`] in runs with systems of users in the tick or in evaluations.
+fn integrate_among_systems(world: &mut World) {
+    let changed = world.resource_ref::<State>().last_changed();
+    world.resource_mut::<State>().see_writers(changed);
+    if world.resource::<Others>().in_tick {
+        let first = !world.resource::<State>().progress.stepped;
+        take_up(world, first);
+    }
+    let mut state = std::mem::take(&mut *world.resource_mut::<State>());
+    state.integrate(Some(world));
+    *world.resource_mut::<State>() = state;
+    flight::note_looks(world);
+}
+
+impl State {
+    /// A tick. `world` is there if systems of users are part of it.
+    fn integrate(&mut self, world: Option<&mut World>) {
+        self.turn_to(Part::Integrate);
+        let mut running = self.progress.running.take().expect("ticks run inside `step`");
+        let Running { method, evaluate, modes, alone, looked_at: seen } = &mut *running;
+        let (style, clock) = (method.0.style(), self.clock);
+        let touched = std::mem::take(&mut self.bodies.touched);
+        let before = self.progress.before.take();
+        let fresh = !self.progress.current || touched || before.is_some();
+        let velocity_dependent = self.velocity_dependent();
+        let users = world.map(|world| Users { world, evaluate, modes });
+        let looked_at = users.is_some();
+        let (begin, end) = (clock.time(), clock.time_of(clock.ticks + 1));
+        self.progress.alone = *alone && !looked_at;
+        let may_wait = self.progress.alone && !*seen;
+        let mut tick = Tick {
+            state: self,
+            users,
+            velocity_dependent,
+            style,
+            fresh,
+            looked_at,
+            may_wait,
+            dt: clock.dt,
+            begin,
+            end,
+            alert: false,
+        };
+        if tick.fresh {
+            tick.state.bodies.wake_all();
+        }
+        if tick.fresh && style.is_staged() {
+            tick.begin_anew();
+        } else if tick.fresh {
+            tick.evaluate(0.0);
+        }
+        if let Some(before) = before {
+            tick.state.book_exchange(before);
+        }
+        // Where all bodies are asleep the end of the tick is its beginning.
+        if !tick.state.bodies.all_asleep() {
+            if !style.is_staged() {
+                tick.choose_modes(tick.begin, tick.end);
+            }
+            method.0.advance(&mut tick);
+        }
+        let alert = tick.alert;
+        self.progress.running = Some(running);
+        self.end_tick(alert);
+        self.turn_to(Part::Observe);
+    }
+
+    fn end_tick(&mut self, alert: bool) {
+        self.clock.ticks += 1;
+        self.watch_springs();
+        let progress = &mut self.progress;
+        progress.current = true;
+        progress.stepped = true;
+        progress.energy.alert |= alert | self.springs.alert();
+        let ticks = self.clock.ticks;
+        if progress.looked_at || progress.looks.binary_search(&ticks).is_ok() {
+            self.bodies.catch_up();
+            self.land();
+        }
+        let Self { progress, .. } = self;
+        if !progress.travelled.is_finite() {
+            self.bodies.catch_up();
+            self.note_failure();
+        } else if progress.energy.is_due(ticks, progress.travel) {
+            self.look_at_energy();
+        }
+    }
+
+    /// Sees whether the energy of the present state can be.
+    #[cold]
+    fn look_at_energy(&mut self) {
+        self.bodies.catch_up();
+        self.land();
+        let mut energy = self.progress.energy;
+        let created = energy.look(self, self.progress.travel);
+        self.progress.energy = energy;
+        if let Some((body, created)) = created {
+            let wrong = if created.energy.is_finite() { Wrong::Energy(created) } else { Wrong::NotFinite("energy") };
+            self.progress.trouble = Some(Trouble::at(&self.clock, Some(body), wrong));
+        }
+    }
+
+    /// Looks for a number that is not finite.
+    fn note_failure(&mut self) {
+        self.land();
+        if let Some((body, quantity)) = finite::first_not_finite(&self.bodies) {
+            self.progress.trouble = Some(Trouble::at(&self.clock, Some(body), Wrong::NotFinite(quantity)));
+        }
+    }
+}
+
+/// After a batch of ticks forces are those of the present state.
+fn refresh(world: &mut World) {
+    let mut state = std::mem::take(&mut *world.resource_mut::<State>());
+    let mut running = state.progress.running.take().expect("put there by `step`");
+    let Running { method, evaluate, modes, .. } = &mut *running;
+    let (style, now, dt, velocity_dependent) =
+        (method.0.style(), state.clock.time(), state.clock.dt, state.velocity_dependent());
+    let scheduled = world.resource::<Others>().scheduled;
+    let users = scheduled.then_some(Users { world, evaluate, modes });
+    let mut tick = Tick {
+        state: &mut state,
+        users,
+        velocity_dependent,
+        style,
+        fresh: false,
+        looked_at: true,
+        may_wait: false,
+        dt,
+        begin: now,
+        end: now,
+        alert: false,
+    };
+    tick.evaluate_stage(now);
+    state.progress.running = Some(running);
+    *world.resource_mut::<State>() = state;
+}
+
+/// Takes up what others changed, and remembers the totals of before if anything did.
+fn take_up(world: &mut World, first_of_batch: bool) {
+    let before = take_up_changes(world, first_of_batch);
+    world.resource_mut::<State>().progress.before = before;
+}
+
+/// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
+/// anything changed.
+fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
+    let changed = world.resource::<Roster>().changed;
+    let state = world.resource::<State>();
+    let (touched, beginning) = (state.bodies.touched, state.ledger.start.is_none());
+    let differs = changed || touched || beginning || world.run_system_cached(components_differ).unwrap_or(false);
+    if !differs {
+        return None;
+    }
+    let mut state = world.resource_mut::<State>();
+    state.bodies.touched = false;
+    state.bodies.end_flights();
+    let before = state.totals();
+    if changed {
+        let stale = !first_of_batch && !world.resource::<Others>().in_tick;
+        if stale {
+            run_once(world, publish_components);
+        }
+        rebuild(world);
+    } else {
+        run_once(world, load_state);
+    }
+    Some(before)
+}
+
+/// Fills the packed arrays anew.
+pub(crate) fn rebuild(world: &mut World) {
+    if Roster::pushes(world) {
+        make_pushable(world);
+    }
+    let previous = std::mem::take(&mut world.resource_mut::<State>().bodies);
+    let bodies = packed::rebuild(world, previous);
+    world.resource_mut::<State>().bodies = bodies;
+    world.resource_mut::<Roster>().changed = false;
+}
+
+impl Trouble {
+    /// With the name of the body.
+    fn named(self, world: &World) -> Failure {
+        let entity = self.body.and_then(|body| world.resource::<State>().bodies.entity.get(body).copied());
+        let name = entity.and_then(|entity| world.get::<Name>(entity));
+        let body = name.map(Name::to_string).unwrap_or_default();
+        Failure { body, wrong: self.wrong, tick: self.tick, time: self.time }
+    }
+}
+
+/// Sets the integrator.
+pub fn set_method(world: &mut World, method: Method) {
+    world.get_resource_or_init::<State>().progress.method = Some(method);
+}
+
+/// The greatest energy that was seen to go round so far, in J, looked for every few hundred ticks: of motion and springs, and
+/// what fields released.
+pub fn energy_seen(state: &State) -> f64 {
+    state.progress.energy.seen()
+}

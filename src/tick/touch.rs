@@ -1,0 +1,116 @@
+//! What contact laws tell of the present state: the deepest overlap, and to those that ask who touches, where, and with what force.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use crate::world::Bodies;
+
+/// The deepest overlap so far, as a share of the smaller radius.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DeepestOverlap {
+    /// Overlap in metres.
+    pub overlap: f64,
+    /// The same as a share of the smaller of the two radii.
+    pub share: f64,
+    /// The two bodies or the body and the wall.
+    pub between: Option<(Entity, Entity)>,
+    /// When, in seconds.
+    pub time: f64,
+}
+
+impl DeepestOverlap {
+    /// Takes note of an overlap.
+    #[inline]
+    pub fn note(&mut self, overlap: f64, smaller_radius: f64, time: f64, between: impl FnOnce() -> (Entity, Entity)) {
+        if overlap > self.share * smaller_radius {
+            *self = Self { overlap, share: overlap / smaller_radius, between: Some(between()), time };
+        }
+    }
+}
+
+/// Force that a wall or body receives through contacts; contact laws fill it when a sensor asks for it.
+#[derive(Clone, Debug, Default)]
+pub struct ContactForces {
+    /// Force on each body in newtons, in canonical order.
+    pub on_body: Vec<DVec2>,
+    /// Force on each wall in newtons, in canonical order.
+    pub on_wall: Vec<DVec2>,
+    /// What contacts give that are not evaluated because their bodies are asleep: on bodies, and on walls. Sums begin with it.
+    pub asleep: Option<(Vec<DVec2>, Vec<DVec2>)>,
+}
+
+impl ContactForces {
+    /// Begins a new sum for each body and wall.
+    pub fn clear(&mut self, bodies: &Bodies) {
+        if let Some((on_body, on_wall)) = self.asleep.as_ref().filter(|_| !bodies.asleep.is_empty()) {
+            self.on_body.clone_from(on_body);
+            self.on_wall.clone_from(on_wall);
+            return;
+        }
+        self.on_body.clear();
+        self.on_body.resize(bodies.len(), DVec2::ZERO);
+        self.on_wall.clear();
+        self.on_wall.resize(bodies.walls.len(), DVec2::ZERO);
+    }
+}
+
+/// Who touches in the present state: contact laws fill it in each evaluation, if it is there.
+#[derive(Clone, Debug, Default)]
+pub struct Touches {
+    /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
+    pub(crate) pairs: Vec<(bool, u32, u32)>,
+    /// Those that began to touch at located events since the last tick, once for each time.
+    pub(crate) begun: Vec<(bool, u32, u32)>,
+    /// Whether a law has ever begun a list.
+    pub(crate) told: bool,
+}
+
+impl Touches {
+    /// Begins a new list.
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+        self.told = true;
+    }
+
+    /// Two bodies touch, given by their places.
+    pub fn bodies(&mut self, a: usize, b: usize) {
+        self.pairs.push((false, a.min(b) as u32, a.max(b) as u32));
+    }
+
+    /// A body touches a wall, given by their places.
+    pub fn wall(&mut self, body: usize, wall: u32) {
+        self.pairs.push((true, body as u32, wall));
+    }
+
+    /// Two bodies began to touch at an event inside a tick, given by their places.
+    pub fn bodies_begin(&mut self, a: usize, b: usize) {
+        self.begun.push((false, a.min(b) as u32, a.max(b) as u32));
+    }
+
+    /// A body and a wall did, given by their places.
+    pub fn wall_begins(&mut self, body: usize, wall: u32) {
+        self.begun.push((true, body as u32, wall));
+    }
+}
+
+/// Whom a body touches, by its place in canonical order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Other {
+    /// Another body, which stands before it.
+    Body(usize),
+    /// A wall.
+    Wall(usize),
+}
+
+/// One atom that touches another body's atom or a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// The body that receives the force, by its place in canonical order.
+    pub body: usize,
+    /// Whom it touches; the opposite force acts there.
+    pub other: Other,
+    /// Where the force acts, in metres.
+    pub point: DVec2,
+    /// The force on `body` in newtons.
+    pub force: DVec2,
+}

@@ -1,0 +1,19 @@
+//! What spawning tells the tick, and the tick tells spawning.
+
+use bevy_ecs::prelude::*;
+
+/// Set where entities of bodies, atoms and walls come, go or get another mass.
+#[derive(Resource, Debug, Default)]
+pub(crate) struct Roster {
+    /// Something was spawned, despawned or given another mass: the packed arrays are rebuilt before the next tick.
+    pub changed: bool,
+    /// Bodies have a [`Force`](super::Force) and a [`Torque`](super::Torque), for systems that work on components.
+    pub pushed: bool,
+}
+
+impl Roster {
+    /// Whether bodies of a world are spawned with what systems need that push components.
+    pub fn pushes(world: &World) -> bool {
+        world.get_resource::<Self>().is_some_and(|roster| roster.pushed)
+    }
+}
