@@ -1,6 +1,6 @@
 //! Whether bodies may fly ([`crate::world::Bodies::flying`]), and what looks at where they are.
 
-use bevy_ecs::change_detection::{DetectChanges, Tick};
+use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut, Tick};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
@@ -24,6 +24,8 @@ pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, [evaluate, m
 /// Systems in the tick look at the bodies from now on; see [`see_writers`].
 pub(super) fn note_looks(world: &mut World) {
     let mut state = world.resource_mut::<State>();
+    // Noting it is a change too.
+    state.set_changed();
     let changed = state.last_changed();
     state.note_looks(changed);
 }

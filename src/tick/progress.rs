@@ -13,6 +13,8 @@ use super::travel::FarTravel;
 #[derive(Default)]
 pub(super) struct Progress {
     pub method: Option<Method>,
+    /// Counts changes of method and models.
+    pub version: u64,
     /// What runs during a batch.
     pub running: Option<Box<Running>>,
     /// The totals before others changed the state, if they did since the last tick.

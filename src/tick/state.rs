@@ -198,6 +198,7 @@ impl State {
     fn insert_model(&mut self, place: usize, model: impl Model) {
         self.models.insert(place, Box::new(model));
         self.roles = Roles::of(&mut self.models);
+        self.progress.version += 1;
         self.bodies.touched = true;
     }
 
@@ -206,6 +207,7 @@ impl State {
         let before = self.models.len();
         self.models.retain_mut(keep);
         self.roles = Roles::of(&mut self.models);
+        self.progress.version += 1;
         self.bodies.touched = true;
         before - self.models.len()
     }

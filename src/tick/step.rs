@@ -1,6 +1,6 @@
 //! A batch of ticks.
 
-use bevy_ecs::change_detection::DetectChanges;
+use bevy_ecs::change_detection::{DetectChanges, Tick as ChangeTick};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleCleanupPolicy, ScheduleLabel, Schedules};
 
@@ -20,8 +20,8 @@ use crate::world::{Name, Roster, finite, packed};
 /// What runs while a batch of ticks does.
 pub(super) struct Running {
     pub method: Method,
-    evaluate: Schedule,
-    modes: Schedule,
+    /// Evaluations and modes as schedules, where systems of users stand in them.
+    schedules: Option<[Schedule; 2]>,
     /// No system beside the integrator changes anything of the state in the tick.
     alone: bool,
     /// Others look at it.
@@ -39,6 +39,12 @@ struct Others {
     conditional: bool,
     /// The integrator runs the schedules of evaluations and modes.
     scheduled: bool,
+    /// No system beside the integrator changes anything of the state in the tick.
+    alone: bool,
+    /// Others look at it.
+    looked_at: bool,
+    /// When the schedules had changed last, and which models there were, as this was found out.
+    known_at: Option<(ChangeTick, u64)>,
 }
 
 /// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
@@ -47,24 +53,16 @@ struct Others {
 /// # Errors
 /// When a position, angle, velocity or spin stops being finite, or energy comes out of nowhere. The state stays as it was found then.
 pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
-    schedule_stages(world);
-    let mut sim = take(world, SimTick);
-    let (mut evaluate, mut modes) = (take(world, Evaluate), take(world, Modes));
-    world.init_resource::<Others>();
-    keep_components_current(world, &mut sim, &mut evaluate);
-    choose_way(world, &mut sim, [&evaluate, &modes]);
-    for schedule in [&mut sim, &mut evaluate, &mut modes] {
-        apply_only_what_is_deferred(world, schedule);
-    }
-    let method = world.resource_mut::<State>().progress.method.take().expect("the plugin of integrators sets a method");
-    flight::allow(world, method.0.flies(), &sim, [&evaluate, &modes]);
-    let alone = world.resource::<Registered>().none_writes(SimTick, &sim);
-    let looked_at = sim.graph().systems.len() > 1;
+    let mut sim = prepare(world);
+    let others = world.resource::<Others>();
+    let (in_tick, scheduled, alone, looked_at) = (others.in_tick, others.scheduled, others.alone, others.looked_at);
+    let schedules = scheduled.then(|| [take(world, Evaluate), take(world, Modes)]);
     let mut state = world.resource_mut::<State>();
+    let method = state.progress.method.take().expect("the plugin of integrators sets a method");
     state.progress.stepped = false;
-    state.progress.running = Some(Box::new(Running { method, evaluate, modes, alone, looked_at }));
+    state.progress.running = Some(Box::new(Running { method, schedules, alone, looked_at }));
     let watched = state.stopwatch.is_some();
-    if !world.resource::<Others>().in_tick {
+    if !in_tick {
         take_up(world, true);
     }
     for _ in 0..ticks {
@@ -81,16 +79,52 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     }
     end_batch(world);
     let mut state = world.resource_mut::<State>();
-    let Running { method, evaluate, modes, .. } = *state.progress.running.take().expect("put there above");
+    let Running { method, schedules, .. } = *state.progress.running.take().expect("put there above");
     state.progress.method = Some(method);
-    let mut schedules = world.resource_mut::<Schedules>();
-    for schedule in [sim, evaluate, modes] {
-        schedules.insert(schedule);
+    let (trouble, models) = (state.progress.trouble, state.progress.version);
+    let mut there = world.resource_mut::<Schedules>();
+    there.insert(sim);
+    for schedule in schedules.into_iter().flatten() {
+        there.insert(schedule);
     }
-    match world.resource::<State>().progress.trouble {
+    let changed = there.last_changed();
+    world.resource_mut::<Others>().known_at = Some((changed, models));
+    // What others change from now on is changed later.
+    world.increment_change_tick();
+    match trouble {
         Some(trouble) => Err(trouble.named(world)),
         None => Ok(()),
     }
+}
+
+/// The schedule of the tick, ready to run. What systems there are is found out anew where schedules, models or the method were
+/// changed.
+fn prepare(world: &mut World) -> Schedule {
+    let now = (world.resource_ref::<Schedules>().last_changed(), world.resource::<State>().progress.version);
+    if world.get_resource_or_init::<Others>().known_at == Some(now) {
+        if world.resource::<State>().progress.looked_at {
+            flight::note_looks(world);
+        }
+        return take(world, SimTick);
+    }
+    schedule_stages(world);
+    let mut sim = take(world, SimTick);
+    let (mut evaluate, mut modes) = (take(world, Evaluate), take(world, Modes));
+    keep_components_current(world, &mut sim, &mut evaluate);
+    choose_way(world, &mut sim, [&evaluate, &modes]);
+    for schedule in [&mut sim, &mut evaluate, &mut modes] {
+        apply_only_what_is_deferred(world, schedule);
+    }
+    let flies = world.resource::<State>().progress.method.as_ref().is_some_and(|method| method.0.flies());
+    flight::allow(world, flies, &sim, [&evaluate, &modes]);
+    let alone = world.resource::<Registered>().none_writes(SimTick, &sim);
+    let looked_at = sim.graph().systems.len() > 1;
+    let mut others = world.resource_mut::<Others>();
+    (others.alone, others.looked_at) = (alone, looked_at);
+    let mut schedules = world.resource_mut::<Schedules>();
+    schedules.insert(evaluate);
+    schedules.insert(modes);
+    sim
 }
 
 /// The state is complete again: forces are those of where bodies stand, all of them have landed, and components show it.
@@ -211,13 +245,13 @@ impl State {
     fn integrate(&mut self, world: Option<&mut World>) {
         self.turn_to(Part::Integrate);
         let mut running = self.progress.running.take().expect("ticks run inside `step`");
-        let Running { method, evaluate, modes, alone, looked_at: seen } = &mut *running;
+        let Running { method, schedules, alone, looked_at: seen } = &mut *running;
         let (style, clock) = (method.0.style(), self.clock);
         let touched = std::mem::take(&mut self.bodies.touched);
         let before = self.progress.before.take();
         let fresh = !self.progress.current || touched || before.is_some();
         let velocity_dependent = self.velocity_dependent();
-        let users = world.map(|world| Users { world, evaluate, modes });
+        let users = world.zip(schedules.as_mut()).map(|(world, [evaluate, modes])| Users { world, evaluate, modes });
         let looked_at = users.is_some();
         let (begin, end) = (clock.time(), clock.time_of(clock.ticks + 1));
         self.progress.alone = *alone && !looked_at;
@@ -307,11 +341,10 @@ impl State {
 fn refresh(world: &mut World) {
     let mut state = std::mem::take(&mut *world.resource_mut::<State>());
     let mut running = state.progress.running.take().expect("put there by `step`");
-    let Running { method, evaluate, modes, .. } = &mut *running;
+    let Running { method, schedules, .. } = &mut *running;
     let (style, now, dt, velocity_dependent) =
         (method.0.style(), state.clock.time(), state.clock.dt, state.velocity_dependent());
-    let scheduled = world.resource::<Others>().scheduled;
-    let users = scheduled.then_some(Users { world, evaluate, modes });
+    let users = schedules.as_mut().map(|[evaluate, modes]| Users { world, evaluate, modes });
     let mut tick = Tick {
         state: &mut state,
         users,
@@ -333,7 +366,9 @@ fn refresh(world: &mut World) {
 /// Takes up what others changed, and remembers the totals of before if anything did.
 fn take_up(world: &mut World, first_of_batch: bool) {
     let before = take_up_changes(world, first_of_batch);
-    world.resource_mut::<State>().progress.before = before;
+    if before.is_some() {
+        world.resource_mut::<State>().progress.before = before;
+    }
 }
 
 /// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
@@ -385,7 +420,9 @@ impl Trouble {
 
 /// Sets the integrator.
 pub fn set_method(world: &mut World, method: Method) {
-    world.get_resource_or_init::<State>().progress.method = Some(method);
+    let mut state = world.get_resource_or_init::<State>();
+    state.progress.method = Some(method);
+    state.progress.version += 1;
 }
 
 /// The greatest energy that was seen to go round so far, in J, looked for every few hundred ticks: of motion and springs, and
