@@ -11,7 +11,8 @@ use super::search;
 use crate::tick::response::{Spring, Springs};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
-    Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, State, SteadySpring, Style, TickAppExt,
+    Departure, Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, State, SteadySpring, Style,
+    TickAppExt,
 };
 use crate::world::Bodies;
 
@@ -133,7 +134,7 @@ impl<L: Law> Model for Watched<L> {
         self.law.objection(style)
     }
 
-    fn departures(&self, state: &State, style: Style) -> Vec<String> {
+    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
         self.law.departures(state, style)
     }
 

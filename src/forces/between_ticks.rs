@@ -5,7 +5,7 @@ use crate::scene::Outline;
 use crate::tick::{Clock, State, Style};
 
 /// What would help.
-pub(super) const REMEDY: &str = "use `events: Located` or `method: RungeKutta4`, whose steps end there";
+pub(super) const REMEDY: &str = "`events: Located` or `method: RungeKutta4`, whose steps end there";
 
 /// The clock of a run that went from tick to tick so far; nothing, where steps end between ticks.
 pub(super) fn clock_of_whole_ticks(state: &State, style: Style) -> Option<Clock> {

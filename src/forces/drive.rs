@@ -18,7 +18,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Clock, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Clock, Departure, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
 
 /// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
 #[derive(Deserialize, JsonSchema)]
@@ -251,7 +251,7 @@ impl Model for DriveForce {
     }
 
     /// What came of points between two ticks. Less than a thousandth is not told: the card calls energies right to that.
-    fn departures(&self, state: &State, style: Style) -> Vec<String> {
+    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
         let shares = clock_of_whole_ticks(state, style).and_then(|clock| self.course.lost_and_gained(&clock));
         let Some((lost, gained)) = shares else { return Vec::new() };
         let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
@@ -260,9 +260,10 @@ impl Model for DriveForce {
             return Vec::new();
         }
         let (path, shares) = (&self.path, shares.join(" and "));
-        vec![format!(
-            "points of the course of `{path}` lie between ticks, where it is not seen: of its impulse {shares}; {REMEDY}"
-        )]
+        let what = format!(
+            "points of the course of `{path}` lie between ticks, where it is not seen: of its impulse {shares}"
+        );
+        vec![Departure { what, remedy: REMEDY, share: lost.max(gained) }]
     }
 
     fn apply_forces(&mut self, state: &mut State) {

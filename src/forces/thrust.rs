@@ -14,7 +14,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::{Balance, Clock, Energies, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Balance, Clock, Departure, Energies, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located events
@@ -146,14 +146,14 @@ impl Model for ThrustForce {
     }
 
     /// What came of times between two ticks.
-    fn departures(&self, state: &State, style: Style) -> Vec<String> {
+    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
         clock_of_whole_ticks(state, style).and_then(|clock| self.departure(&clock)).into_iter().collect()
     }
 }
 
 impl ThrustForce {
     /// What came of it so far, if it begins or ends between two ticks.
-    fn departure(&self, clock: &Clock) -> Option<String> {
+    fn departure(&self, clock: &Clock) -> Option<Departure> {
         let between = |time: f64| time > 0.0 && time < clock.time() && is_between(clock, time);
         if !between(self.from) && !between(self.to) {
             return None;
@@ -180,7 +180,8 @@ impl ThrustForce {
                 format!("acts from {} s to {} s: {impulse}", at(begin), at(end))
             }
         };
-        Some(format!("`{}` is to act {times}, but acts in whole ticks and {came}; {REMEDY}", self.path))
+        let what = format!("`{}` is to act {times}, but acts in whole ticks and {came}", self.path);
+        Some(Departure { what, remedy: REMEDY, share: share.abs() })
     }
 
     fn push(&mut self, bodies: &mut Bodies, balance: &mut Balance, times: f64) {

@@ -80,7 +80,8 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         ));
     }
     let style = world.get_resource::<ChosenMethod>().map_or_else(Style::default, |method| method.style);
-    warnings.extend(state.models().flat_map(|model| model.departures(state, style)));
+    let departures = state.models().flat_map(|model| model.departures(state, style));
+    warnings.extend(departures.map(|departure| format!("{}; use {}", departure.what, departure.remedy)));
     let located = state.located;
     if located.given_up > 0 {
         warnings.push(format!(

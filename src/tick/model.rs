@@ -118,8 +118,8 @@ pub trait Model: Any + Send + Sync {
         None
     }
 
-    /// What it did otherwise in a style than the scene asks: sentences for the card, each with the entry and a remedy.
-    fn departures(&self, _: &State, _: Style) -> Vec<String> {
+    /// What it did otherwise in a style than the scene asks.
+    fn departures(&self, _: &State, _: Style) -> Vec<Departure> {
         Vec::new()
     }
 
@@ -199,6 +199,17 @@ pub struct Indicator {
     pub rounding: f64,
     /// Angular frequency in rad/s with which springs swing in this mode: steps resolve it. Default: zero, no spring acts.
     pub swings: f64,
+}
+
+/// Something that a model did otherwise than the scene asks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Departure {
+    /// A clause that names the entry.
+    pub what: String,
+    /// What would help, without the word `use`.
+    pub remedy: &'static str,
+    /// How much of what was asked is missing or too much, as a share.
+    pub share: f64,
 }
 
 /// A force that swings by the clock.

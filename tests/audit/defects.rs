@@ -262,3 +262,67 @@ fn crowded_trials_reach_no_tolerance() {
         assert!(wrong < wanted || told, "{wanted:e}: {wrong:e} m off\n{}", simulation.card());
     }
 }
+
+/// A force whose impulse is lost or wrong because it begins and ends between two ticks: whatever the estimate of the error says, the
+/// run is not the scene. Its remedy gives `v = F t/m`: rounding of 4000 steps.
+#[test]
+fn a_force_between_two_ticks_is_not_trusted() {
+    let scene = |clock: &str, force: &str| {
+        format!(
+            "Scene(format: 1, clock: (duration: 2{clock}), walls: [(name: \"floor\", left: (10, -5), right: (-10, -5))],
+            bodies: [(name: \"b\", at: (0, 0), atoms: Disc(radius: 0.1, mass: 1))], forces: [{force}])"
+        )
+    };
+    for (force, speed) in [
+        ("Thrust(of: \"b\", force: (0, 500), from: 0.5006, to: 0.5014)", 0.4),
+        ("Thrust(of: \"b\", force: (0, 2000), from: 0.50012, to: 0.50025)", 0.26),
+        ("Drive(of: \"b\", force: (0, 1000), course: Piecewise([(0.5001, 0), (0.5005, 1), (0.5009, 0)]))", 0.4),
+    ] {
+        let verdict = run(&scene("", force), 1).unwrap().card.verdict;
+        assert!(verdict.starts_with("Do not trust it: ") && verdict.contains("`forces[0]`"), "{force}: {verdict}");
+        assert!(verdict.contains("Use `events: Located`"), "{verdict}");
+        let mended = run(&scene(", events: Located", force), 1).unwrap();
+        assert!(mended.card.verdict.starts_with("Trust it"), "{}", mended.card.verdict);
+        let source = Source::new("mended.ron", scene(", events: Located", force));
+        let mut simulation = Simulation::load(&source).unwrap();
+        simulation.run_to_end().unwrap();
+        let found = simulation.bodies().velocity[0].y;
+        assert!((found - speed).abs() < 4000.0 * f64::EPSILON, "{force}: {found}");
+    }
+}
+
+/// The stiffness that the verdict advises for a bullet that runs through a disc stops it within about a tenth of a radius, with the
+/// tick that it names.
+#[test]
+fn advice_for_what_runs_through_something_stops_it() {
+    let scene = |stiffness: f64, tick: f64| {
+        format!(
+            "Scene(format: 1, clock: (duration: 0.2, tick: {tick:?}, method: VelocityVerlet),
+            materials: {{\"m\": (stiffness: {stiffness:?})}}, bodies: [
+            (name: \"bullet\", at: (-50, 0.005), material: \"m\", atoms: Disc(radius: 0.01), velocity: (500, 0)),
+            (name: \"w\", at: (0.123, 0), material: \"m\", atoms: Disc(radius: 0.02), fixed: true)])"
+        )
+    };
+    let verdict = run(&scene(1000.0, 1e-6), 1).unwrap().card.verdict;
+    let after = |word: &str| -> f64 {
+        let rest = verdict.split_once(word).unwrap_or_else(|| panic!("{verdict}")).1;
+        let number = rest.split([' ', ':']).next().unwrap();
+        number.parse().unwrap_or_else(|_| panic!("{number} in {verdict}"))
+    };
+    let (times, tick) = (after("a `stiffness` some "), after("--tick "));
+    let mut simulation = Simulation::load(&Source::new("stiff.ron", scene(1000.0 * times, tick))).unwrap();
+    simulation.run_to_end().unwrap();
+    let card = simulation.card();
+    assert!((0.02..0.2).contains(&card.largest_overlap.share_of_radius), "{verdict}\n{card}");
+    assert!(card.critical_tick.unwrap() > 10.0 * tick, "{card}");
+}
+
+/// A disc that grazes another one by less than the last digit of its place meets nothing worth a warning.
+#[test]
+fn a_contact_that_grazes_is_no_lack_of_digits() {
+    let scene = "Scene(format: 1, clock: (duration: 1, tick: 1e-3, method: VelocityVerlet), bodies: [
+        (name: \"a\", at: (0, 0), velocity: (1, 0), atoms: Disc(radius: 0.25)),
+        (name: \"b\", at: (0.5, 0.4999999999999999), atoms: Disc(radius: 0.25), fixed: true)])";
+    let found = run(scene, 1).unwrap();
+    assert!(!found.card.verdict.contains("from the origin"), "{}", found.card.verdict);
+}

@@ -5,6 +5,7 @@
 //! stand in the order in which one explains the others: a tick above the critical one makes everything else go wrong too.
 
 mod ahead;
+mod asked;
 mod energy;
 mod motion;
 mod near;
@@ -52,8 +53,9 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// What may be to blame, in the order in which one explains the others.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 14] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 15] = [
     ticks::unstable,
+    asked::otherwise,
     ahead::overlaps_at_the_start,
     ahead::drag,
     near::attraction,

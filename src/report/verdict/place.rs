@@ -16,7 +16,7 @@ pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
         .fold((0.0, None), |most, (far, body)| if far > most.0 { (far, Some(body)) } else { most });
     let digit = f64::EPSILON * far;
     let overlap = card.largest_overlap.meters;
-    let size = if overlap > 0.0 { overlap } else { bodies.smallest_radius };
+    let size = if overlap > 0.0 { overlap.max(load(evidence.world.resource(), body?)) } else { bodies.smallest_radius };
     let share = digit / size;
     let body = evidence.name(bodies.entity[body?]);
     let what = format!(
@@ -28,4 +28,16 @@ pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
     );
     let remedy = Some("a scene that lies around the origin".to_owned());
     (share > COARSE && share.is_finite()).then_some(Cause { trust: Trust::Not, what, remedy })
+}
+
+/// How far a body at least presses in what it touches, in m: by its weight, or without gravity by its speed. A contact that merely
+/// grazes it does not count.
+fn load(state: &State, body: usize) -> f64 {
+    let (bodies, gravity) = (&state.bodies, state.gravity().length());
+    let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness(atom)).fold(0.0, f64::max);
+    if stiffness == 0.0 || !bodies.dynamic[body] {
+        return 0.0;
+    }
+    let give = 1.0 / (bodies.inverse_mass(body) * stiffness);
+    if gravity > 0.0 { gravity * give } else { bodies.velocity[body].length() * give.sqrt() }
 }

@@ -1,11 +1,16 @@
 //! Contacts that give way more than bodies are large.
 
+use bevy_ecs::prelude::*;
+
 use super::{Cause, Evidence, Trust};
 use crate::numbers::{number, percent};
 use crate::tick::{State, place_of};
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
 const HEAVY: f64 = 100.0;
+
+/// Critical ticks that a tick has to be shorter than, so that contacts are resolved.
+const TICKS: f64 = 20.0;
 
 /// Overlaps that hardly change what a scene means, as a share of a radius.
 const HARDLY: f64 = 0.1;
@@ -38,9 +43,19 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
         None => format!("bodies overlap by {by:.0} % of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
     };
     let error = card.energy_error();
+    let radius = overlap.meters / overlap.share_of_radius;
     let softer = overlap.share_of_radius / HARDLY;
-    let times = number(rounded_up(softer * softer));
-    let tick = number(card.tick_for(softer, 1.0, 1.0));
+    // What runs through another was not stopped by its spring: `m v^2 = k d^2` for the fastest that was seen.
+    let speed = card.largest_travel_share * bodies.smallest_radius / card.tick;
+    let stiffness = stiffness(world, deepest);
+    let inverse_mass = |entity| place_of(world, entity).map_or(0.0, |slot| bodies.inverse_mass(slot));
+    let inverse = inverse_mass(deepest.0) + inverse_mass(deepest.1);
+    let run_through = speed * speed / (inverse * stiffness * (HARDLY * radius) * (HARDLY * radius));
+    let many = if run_through.is_finite() { run_through.max(softer * softer) } else { softer * softer };
+    let times = number(rounded_up(many));
+    // Contacts have to take some ticks already.
+    let coarse = card.critical_tick.map_or(1.0, |critical| (card.tick / critical * TICKS).max(1.0));
+    let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
     let remedy = format!(
         "a `stiffness` some {times} times as high{with}: the overlap of such an impact is about a tenth of a radius then"
@@ -51,6 +66,13 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
         what
     };
     Some(Cause { trust: Trust::NotTheModel, what, remedy: Some(remedy) })
+}
+
+/// Stiffness in N/m of the softest atom of two sides; infinite where neither has one.
+fn stiffness(world: &World, (a, b): (Entity, Entity)) -> f64 {
+    let bodies = &world.resource::<State>().bodies;
+    let atoms = [a, b].into_iter().filter_map(|entity| place_of(world, entity)).flat_map(|slot| bodies.atoms_of(slot));
+    atoms.map(|atom| bodies.atom_stiffness(atom)).fold(f64::INFINITY, f64::min)
 }
 
 /// One digit, not less than it was.

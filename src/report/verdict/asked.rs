@@ -1,0 +1,17 @@
+//! What acts otherwise than the scene asks.
+
+use super::{Cause, Evidence, Trust};
+use crate::integrate::ChosenMethod;
+use crate::tick::{Departure, State, Style};
+
+/// A share of what was asked that changes where bodies go.
+const MUCH: f64 = 0.01;
+
+/// A force loses or gains impulse: halving the tick may lose as much, so the estimate of the error does not see it.
+pub(super) fn otherwise(evidence: &Evidence) -> Option<Cause> {
+    let style = evidence.world.get_resource::<ChosenMethod>().map_or_else(Style::default, |method| method.style);
+    let state = evidence.world.resource::<State>();
+    let all = state.models().flat_map(|model| model.departures(state, style));
+    let Departure { what, remedy, share } = all.max_by(|a, b| a.share.total_cmp(&b.share))?;
+    (share >= MUCH).then(|| Cause { trust: Trust::Not, what, remedy: Some(remedy.to_owned()) })
+}
