@@ -11,8 +11,8 @@ use super::search;
 use crate::tick::response::{Spring, Springs};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
-    Departure, Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, State, SteadySpring, Style,
-    TickAppExt,
+    Departure, Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, Rhythm, State, SteadySpring,
+    Style, TickAppExt,
 };
 use crate::world::Bodies;
 
@@ -95,14 +95,32 @@ impl<L: Law> Model for Watched<L> {
     }
 
     fn settles(&self) -> bool {
-        true
+        self.law.settles()
     }
 
     fn settle(&mut self, state: &mut State) {
         self.law.settle(state);
-        if state.evaluation.elapsed > 0.0 && !state.evaluation.style.is_staged() {
-            self.watch(state);
-        }
+    }
+
+    fn looks_at_ticks(&self) -> bool {
+        true
+    }
+
+    fn end_tick(&mut self, state: &mut State) {
+        self.law.end_tick(state);
+        self.watch(state);
+    }
+
+    fn finds_pairs(&self) -> bool {
+        self.law.finds_pairs()
+    }
+
+    fn find_pairs(&mut self, state: &mut State) {
+        self.law.find_pairs(state);
+    }
+
+    fn rhythm(&self) -> Option<Rhythm> {
+        self.law.rhythm()
     }
 
     fn has_modes(&self) -> bool {
@@ -129,7 +147,6 @@ impl<L: Law> Model for Watched<L> {
         self.law.next_edge(now)
     }
 
-    /// Nothing of what happens inside a step would be seen.
     fn objection(&self, style: Style) -> Option<Objection> {
         self.law.objection(style)
     }
@@ -159,8 +176,7 @@ impl<L: Law> Watched<L> {
     /// Notes the deepest overlap, and now and then how fast the contacts respond.
     fn watch(&mut self, state: &mut State) {
         let touching = touching(state);
-        // The tick is not counted yet.
-        let (ticks, time) = (state.clock.ticks + 1, state.evaluation.time);
+        let (ticks, time) = (state.clock.ticks, state.clock.time());
         let State { bodies, deepest, .. } = state;
         for pair in &touching {
             let entity = |atom: usize| bodies.entity[bodies.atom_body(atom)];

@@ -41,7 +41,7 @@ impl<'a> Sight<'a> {
     /// # Panics
     /// Where [`Watch::needs_world`] says no.
     pub fn world(&self) -> &'a World {
-        self.world.expect("`needs_world` says so")
+        self.world.expect("an expectation that looks at the world says so in `needs_world`")
     }
 }
 

@@ -93,6 +93,14 @@ pub trait Model: Any + Send + Sync {
         false
     }
 
+    /// At the end of a tick: looks at the state, and may note what the card has to know. See [`Model::looks_at_ticks`].
+    fn end_tick(&mut self, _: &mut State) {}
+
+    /// Whether [`Model::end_tick`] does anything. Default: no.
+    fn looks_at_ticks(&self) -> bool {
+        false
+    }
+
     /// How fast it responds, as far as it measured that itself. Default: it measured nothing.
     fn responses(&self) -> Responses {
         Responses::default()

@@ -50,14 +50,17 @@ pub(super) struct Roles {
     find_pairs: Vec<usize>,
     settle: Vec<usize>,
     begin_step: Vec<usize>,
+    end_tick: Vec<usize>,
     events: Vec<usize>,
+    edges: Vec<usize>,
     /// How many are neither contact laws nor their search for pairs; those follow.
     others: usize,
     velocity_dependent: bool,
     velocity_forces: bool,
     changing_forces: bool,
     flies: bool,
-    edges: bool,
+    /// [`Progress::version`] for which all of this was found out.
+    version: Option<u64>,
 }
 
 impl Roles {
@@ -74,18 +77,20 @@ impl Roles {
             find_pairs: places(|model| model.finds_pairs()),
             settle: places(|model| model.settles()),
             begin_step: places(|model| model.has_modes()),
+            end_tick: places(|model| model.looks_at_ticks()),
             events,
+            edges: places(|model| model.has_edges()),
             others,
             velocity_dependent: depends(models, &[Dependence::Velocity]),
             velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
             changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
             flies: models.iter().all(|model| model.flies()),
-            edges: models.iter().any(|model| model.has_edges()),
+            version: None,
         }
     }
 }
 
-/// Whether a model acts after all forces that are none of contacts.
+/// Whether a model is a contact law, or the search for pairs that contact laws go by: these act last.
 fn belongs_to_contacts(model: &dyn Model) -> bool {
     model.contact_law().is_some() || model.finds_pairs()
 }
@@ -143,6 +148,11 @@ impl State {
         self.turn_to(Part::Integrate);
     }
 
+    /// Models look at the state at the end of a tick.
+    pub(super) fn show_to_models(&mut self) {
+        each!(self, end_tick, model => model.end_tick(self));
+    }
+
     /// Shows the models that have state of their own and events, in order.
     pub(super) fn each_with_events(&mut self, mut see: impl FnMut(&mut dyn super::model::Events, &mut Self)) {
         each!(self, events, model => if let Some(events) = model.events() { see(events, self) });
@@ -196,20 +206,35 @@ impl State {
     }
 
     fn insert_model(&mut self, place: usize, model: impl Model) {
+        self.note_change();
+        self.roles.others += usize::from(!belongs_to_contacts(&model));
         self.models.insert(place, Box::new(model));
-        self.roles = Roles::of(&mut self.models);
         self.progress.version += 1;
-        self.bodies.touched = true;
     }
 
     /// Keeps the models for which `keep` says so. Returns how many went.
     pub fn retain_models(&mut self, keep: impl FnMut(&mut Box<dyn Model>) -> bool) -> usize {
+        self.note_change();
         let before = self.models.len();
         self.models.retain_mut(keep);
-        self.roles = Roles::of(&mut self.models);
         self.progress.version += 1;
-        self.bodies.touched = true;
+        self.find_roles();
         before - self.models.len()
+    }
+
+    /// Forces are evaluated anew before the next tick, and the energy by which the coming change differs from now counts as work.
+    fn note_change(&mut self) {
+        self.bodies.touched = true;
+        if self.ledger.start.is_some() && self.progress.before.is_none() {
+            self.progress.before = Some(self.totals());
+        }
+    }
+
+    /// Finds out what the models do, if there are others than before.
+    pub(super) fn find_roles(&mut self) {
+        if self.roles.version != Some(self.progress.version) {
+            self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models) };
+        }
     }
 
     /// All models in the order in which they act.
@@ -230,14 +255,15 @@ impl State {
         self.models_of().next()
     }
 
-    /// The first model of a type, to be changed. Forces are evaluated anew before the next tick.
+    /// The first model of a type, to be changed. Forces are evaluated anew before the next tick; energy that changes with it counts as
+    /// work.
     pub fn model_mut<T: 'static>(&mut self) -> Option<&mut T> {
         let has = |model: &dyn Model| {
             let own: &dyn std::any::Any = model;
             own.is::<T>() || model.inner().is_some_and(|inner| inner.is::<T>())
         };
         let place = self.models.iter().position(|model| has(&**model))?;
-        self.bodies.touched = true;
+        self.note_change();
         let model = &mut *self.models[place];
         if (model as &dyn std::any::Any).is::<T>() {
             return (model as &mut dyn std::any::Any).downcast_mut();
@@ -250,8 +276,9 @@ impl State {
         let mut models = std::mem::take(&mut world.resource_mut::<Self>().models);
         models.iter_mut().for_each(|model| model.start(world));
         let mut state = world.resource_mut::<Self>();
-        state.roles = Roles::of(&mut models);
         state.models = models;
+        state.progress.version += 1;
+        state.find_roles();
     }
 
     /// Whether some force depends on velocities.
@@ -276,7 +303,7 @@ impl State {
 
     /// Whether forces have times at which they or their rates jump.
     pub(crate) fn has_edges(&self) -> bool {
-        self.roles.edges
+        !self.roles.edges.is_empty()
     }
 
     /// Whether models have state of their own or events.
@@ -286,7 +313,7 @@ impl State {
 
     /// The first of them after a time in seconds, or infinity.
     pub(crate) fn next_edge(&self, now: f64) -> f64 {
-        self.models.iter().map(|model| model.next_edge(now)).fold(f64::INFINITY, f64::min)
+        self.roles.edges.iter().map(|place| self.models[*place].next_edge(now)).fold(f64::INFINITY, f64::min)
     }
 
     /// The name of the contact law, if there is one.
@@ -408,12 +435,16 @@ impl State {
         self.bodies.posed = false;
     }
 
-    /// Another acceleration of free fall in m/s2, in a scene with the section `gravity`.
-    pub fn set_gravity(&mut self, gravity: DVec2) {
-        if self.bodies.field.is_some_and(|field| field != gravity) {
+    /// Another acceleration of free fall in m/s2. The energy that bodies have more by it counts as work. Says whether it was done: a
+    /// scene without the section `gravity` has no weight that could change.
+    #[must_use]
+    pub fn set_gravity(&mut self, gravity: DVec2) -> bool {
+        let Some(field) = self.bodies.field else { return false };
+        if field != gravity {
+            self.note_change();
             self.bodies.field = Some(gravity);
             self.bodies.posed = false;
-            self.bodies.touched = true;
         }
+        true
     }
 }

@@ -107,6 +107,7 @@ fn prepare(world: &mut World) -> Schedule {
         }
         return take(world, SimTick);
     }
+    world.resource_mut::<State>().find_roles();
     schedule_stages(world);
     let mut sim = take(world, SimTick);
     let (mut evaluate, mut modes) = (take(world, Evaluate), take(world, Modes));
@@ -134,13 +135,12 @@ fn end_batch(world: &mut World) {
     }
     flight::see_writers(world);
     let mut state = world.resource_mut::<State>();
-    // The last kick of the batch is seen by no drift any more.
-    if state.progress.trouble.is_none() {
-        state.bodies.catch_up();
-        state.note_failure();
-    }
     state.bodies.catch_up();
     state.land();
+    // The last kick of the batch is seen by no drift any more.
+    if state.progress.trouble.is_none() {
+        state.note_failure();
+    }
     run_once(world, publish_components);
 }
 
@@ -209,11 +209,13 @@ fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedu
     let scheduled = !as_registered || others.conditional || others.in_tick;
     if scheduled && !others.scheduled {
         others.scheduled = true;
-        // It is there: a schedule without it was made otherwise by its owner.
-        let _ = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
-        Registered::add(world, SimTick, sim, Kind::Flies, |sim| {
-            sim.add_systems(integrate_among_systems.in_set(Stage::Integrate));
-        });
+        // Where a user took the integrator out it stays out.
+        let gone = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
+        if gone.is_ok_and(|gone| gone > 0) {
+            Registered::add(world, SimTick, sim, Kind::Flies, |sim| {
+                sim.add_systems(integrate_among_systems.in_set(Stage::Integrate));
+            });
+        }
     }
 }
 
@@ -305,11 +307,12 @@ impl State {
             self.bodies.catch_up();
             self.land();
         }
-        let Self { progress, .. } = self;
-        if !progress.travelled.is_finite() {
+        self.show_to_models();
+        if !self.progress.travelled.is_finite() {
             self.bodies.catch_up();
+            self.land();
             self.note_failure();
-        } else if progress.energy.is_due(ticks, progress.travel) {
+        } else if self.progress.energy.is_due(ticks, self.progress.travel) {
             self.look_at_energy();
         }
     }
@@ -328,9 +331,8 @@ impl State {
         }
     }
 
-    /// Looks for a number that is not finite.
+    /// Looks for a number that is not finite. All bodies have landed.
     fn note_failure(&mut self) {
-        self.land();
         if let Some((body, quantity)) = finite::first_not_finite(&self.bodies) {
             self.progress.trouble = Some(Trouble::at(&self.clock, Some(body), Wrong::NotFinite(quantity)));
         }
@@ -366,9 +368,9 @@ fn refresh(world: &mut World) {
 /// Takes up what others changed, and remembers the totals of before if anything did.
 fn take_up(world: &mut World, first_of_batch: bool) {
     let before = take_up_changes(world, first_of_batch);
-    if before.is_some() {
-        world.resource_mut::<State>().progress.before = before;
-    }
+    let mut state = world.resource_mut::<State>();
+    // A change of models is noted when it is made.
+    state.progress.before = state.progress.before.or(before);
 }
 
 /// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if

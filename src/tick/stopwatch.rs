@@ -131,7 +131,8 @@ fn part_of(name: &str) -> Option<Part> {
         ("tick::stages::update_bounding_boxes", Part::Bounds),
         ("tick::stages::apply_forces", Part::Forces),
         ("tick::stages::settle", Part::Settle),
-        ("tick::drive::integrate", Part::Integrate),
+        ("tick::step::integrate", Part::Integrate),
+        ("tick::step::integrate_among_systems", Part::Integrate),
     ];
     parts.into_iter().find(|(end, _)| name.ends_with(end)).map(|(_, part)| part)
 }

@@ -30,6 +30,8 @@ fn a_scene_is_taken_apart() {
     // All parts of the ticks, and nothing else: rounding is all that may be missing.
     assert!((sum - 1.0).abs() < 1e-9, "{stages:?}");
     let forces = stages.iter().find(|stage| stage["stage"] == "Evaluate: Forces").unwrap();
+    let integrate = stages.iter().find(|stage| stage["stage"] == "Integrate").unwrap();
+    assert_eq!(integrate["systems"][0]["name"], "integrate");
     let serves: Vec<&str> = forces["systems"].as_array().unwrap().iter().filter_map(|s| s["serves"].as_str()).collect();
     assert_eq!(serves, ["gravity"]);
     folder.jostle("explain nowhere.ron").code(2).says("there is no file `nowhere.ron`");
