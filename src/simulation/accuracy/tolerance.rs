@@ -16,6 +16,8 @@ use crate::simulation::error::{ErrorEstimate, ErrorParts};
 /// many tolerances: it is wrong by more only if both are wrong by as much, and alike.
 const MEASURED: f64 = 0.7;
 const BETWEEN: f64 = 2.5;
+/// The fineness of a trial whose steps are no parts of those of the others, over that of the finer one.
+const OTHER_STEPS: f64 = 1.0 / 1.37;
 /// An error that is foretold aims at this share of the tolerance.
 const FORETOLD: f64 = 0.3;
 /// What was foretold is confirmed by no more than so many times as much: errors of located events scatter.
@@ -107,7 +109,12 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let mut before: Option<(f64, f64, f64)> = None;
     loop {
         let fine = trials.run(next, "a finer run", |_| {})?;
-        let apart = coarse.apart(&fine);
+        let mut apart = coarse.apart(&fine);
+        if trials.ladder == Ladder::Steps && fine.jumped && apart.share <= BETWEEN * tolerance {
+            // Steps of one run are halves of those of the other: events that fall alike into both are wrong alike.
+            let other = trials.run(next * OTHER_STEPS, "a run with other steps", |_| {})?;
+            apart = apart.max(coarse.apart(&other));
+        }
         let difference = apart.share;
         let confirmed = before.is_some_and(|(.., error)| error.is_finite() && difference <= SCATTER * error);
         if trials.ladder != Ladder::Allowed

@@ -64,6 +64,8 @@ pub(crate) struct Trajectory {
     pub crowded: bool,
     /// Whether rounding of places bounds its steps: two such runs are alike, whatever they are allowed.
     pub bounded: bool,
+    /// Whether forces jumped at located events.
+    pub jumped: bool,
 }
 
 /// A body that goes less far than this share of the farthest is measured as if it went so far.
@@ -81,6 +83,15 @@ pub(crate) struct Apart {
 }
 
 impl Apart {
+    /// The greater of both.
+    pub fn max(self, other: Self) -> Self {
+        Self {
+            share: self.share.max(other.share),
+            distance: self.distance.max(other.distance),
+            speed: self.speed.max(other.speed),
+        }
+    }
+
     /// So many times as far.
     pub fn times(self, factor: f64) -> Self {
         Self { share: self.share * factor, distance: self.distance * factor, speed: self.speed * factor }
@@ -180,6 +191,7 @@ impl Trajectory {
             evaluations: world.resource::<State>().evaluation.count,
             crowded: world.resource::<State>().located.given_up > 0,
             bounded: world.resource::<State>().steps.is_bounded(),
+            jumped: world.resource::<State>().located.count > 0,
         }
     }
 
