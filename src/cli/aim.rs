@@ -39,14 +39,14 @@ impl Order<'_> {
         size: (u32, u32),
         step: f64,
     ) -> Result<Aim, Exit> {
-        let choice = simulation.world().get_resource::<CameraChoice>().cloned();
+        let choice = simulation.get_resource::<CameraChoice>().cloned();
         let choice = choice.unwrap_or_else(|| CameraChoice::Fit(FitCamera::default()));
         let fits = matches!(choice, CameraChoice::Fit(_));
-        let plots = simulation.world().get_resource::<PlotsSection>().filter(|plots| !plots.0.is_empty());
+        let plots = simulation.get_resource::<PlotsSection>().filter(|plots| !plots.0.is_empty());
         let (mut bounds, mut panel) = (None, None);
         if fits || plots.is_some() {
             let mut ahead = self.again(simulation)?;
-            let legend = plots.map(|_| Legend::of(ahead.world()));
+            let legend = plots.map(|_| Legend::of(ahead.unpublished_world()));
             let sampler = plots.map(|plots| self.sampler(&mut ahead, &plots.0)).transpose()?;
             let none = Schedule::default();
             let (seen, plots) = self.look_ahead(&mut ahead, if fits { schedule } else { &none }, sampler);

@@ -16,7 +16,7 @@ pub(super) fn theme(
     simulation: &Simulation,
     asked: Option<&str>,
 ) -> Result<Theme, Exit> {
-    let scene = simulation.world().get_resource::<LookSection>().and_then(|look| look.theme.as_deref());
+    let scene = simulation.get_resource::<LookSection>().and_then(|look| look.theme.as_deref());
     let folder = Path::new(&source.name).parent().filter(|_| asked.is_none());
     let Some(name) = asked.or(scene) else {
         return Ok(Theme::named(Theme::names()[0]).expect("a program without a theme fails its tests"));

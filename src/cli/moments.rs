@@ -108,8 +108,7 @@ impl Order<'_> {
             if ahead.run_to_tick(ahead.clock().ticks + 1).is_err() {
                 break;
             }
-            let Some(events) = ahead.world().get_resource::<ContactEvents>().filter(|events| events.time >= from)
-            else {
+            let Some(events) = ahead.get_resource::<ContactEvents>().filter(|events| events.time >= from) else {
                 continue;
             };
             for (found, pair) in found.iter_mut().zip(&pairs) {

@@ -119,7 +119,7 @@ impl PlotCommand {
     /// The plots of a scene, or of channels of it.
     fn of_scene(&self, request: Request) -> Result<(Vec<Plot>, Exit), Exit> {
         let (_, mut simulation) = request.load(&self.overrides.settings, &self.overrides.overrides())?;
-        let own = simulation.world().get_resource::<PlotsSection>().map_or_else(Vec::new, |plots| plots.0.clone());
+        let own = simulation.get_resource::<PlotsSection>().map_or_else(Vec::new, |plots| plots.0.clone());
         let entries = if self.channels.is_empty() {
             if self.x.is_some() {
                 return Err(request.usage("--x says against what: add --channels to say what is plotted"));
@@ -129,7 +129,7 @@ impl PlotCommand {
             self.entries(request, &mut simulation)?
         };
         if entries.is_empty() {
-            let help = match simulation.world().get_resource::<Channels>() {
+            let help = match simulation.get_resource::<Channels>() {
                 Some(channels) if !channels.0.is_empty() => {
                     let names: Vec<&str> = channels.0.iter().map(|channel| channel.name.as_str()).take(24).collect();
                     format!("its sensors measure {}", names.join(", "))

@@ -104,7 +104,7 @@ impl Run {
         };
         self.estimates.watch(&mut simulation);
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
-        let measures = simulation.world().get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
+        let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
         if self.output.is_some() && !measures {
             say(
                 "note: the scene has no sensors, so there are only times to write: add `sensors: [Energy()]` or others",
@@ -171,13 +171,13 @@ fn objection(request: Request, path: &Path) -> Option<String> {
 /// Runs, and writes a row now, after each frame of the film, and at the end.
 fn write_channels(simulation: &mut Simulation, path: &Path, runner: &mut Runner) -> Result<(), Trouble> {
     let none = Channels::default();
-    let channels = simulation.world().get_resource::<Channels>().unwrap_or(&none);
+    let channels = simulation.get_resource::<Channels>().unwrap_or(&none);
     let columns = channels.0.iter().map(|channel| (channel.name.as_str(), channel.unit));
     let mut table = Table::create(path, columns)?;
     let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     let run = loop {
-        let rows = simulation.world().get_resource::<Channels>().unwrap_or(&none);
-        let values = rows.0.iter().map(|channel| (channel.read)(simulation.world()));
+        let rows = simulation.get_resource::<Channels>().unwrap_or(&none);
+        let values = rows.0.iter().map(|channel| simulation.value(channel));
         table.row(simulation.clock().time(), values)?;
         let (done, end) = (simulation.clock().ticks, simulation.ticks());
         if done == end {

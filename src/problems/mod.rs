@@ -295,7 +295,7 @@ impl Problem {
 pub fn methods() -> Vec<Description> {
     let setting = Setting { tick: 1.0, ..Setting::default() };
     let simulation = constant_acceleration::PROBLEM.load(&setting).expect("the scene is correct");
-    simulation.world().resource::<Methods>().0.clone()
+    simulation.resource::<Methods>().0.clone()
 }
 
 /// Worst case of rounding in `ticks` additions to a number of size `scale`: half a unit in the last place each.

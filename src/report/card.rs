@@ -111,7 +111,7 @@ pub struct Card {
 impl Simulation {
     /// The error card of the present state.
     pub fn card(&self) -> Card {
-        Card::of(self.world(), self.seconds_spent(), self.failure())
+        Card::of(self.unpublished_world(), self.seconds_spent(), self.failure())
     }
 }
 

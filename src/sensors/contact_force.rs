@@ -59,7 +59,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         forces.on_body.get(place_of(world, entity)?).copied()
     };
     let value = move |world: &World| component(force(world).unwrap_or(DVec2::ZERO));
-    Some(Channel::new(format!("{owner}.{quantity}"), "N", value))
+    Some(Channel::of_resources(format!("{owner}.{quantity}"), "N", value))
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -80,7 +80,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     watch(world);
     if quantity == "contacts" {
         let count = move |world: &World| world.resource::<ContactEvents>().count(entity) as f64;
-        return Some(Channel::new(format!("{owner}.{quantity}"), "", count));
+        return Some(Channel::of_resources(format!("{owner}.{quantity}"), "", count));
     }
     if !world.contains_resource::<Begun>() {
         world.init_resource::<Begun>();
@@ -93,7 +93,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         begun.0.push((entity, 0));
     }
     let count = move |world: &World| world.resource::<Begun>().0[place].1 as f64;
-    Some(Channel::new(format!("{owner}.{quantity}"), "", count))
+    Some(Channel::of_resources(format!("{owner}.{quantity}"), "", count))
 }
 
 fn count_begun(events: Res<ContactEvents>, mut begun: ResMut<Begun>) {

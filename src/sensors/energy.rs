@@ -45,7 +45,7 @@ impl Entry for Energy {
 
 fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let part = entry(owner, quantity)?;
-    Some(Channel::new(format!("energy.{quantity}"), "J", move |world| part(&EnergyLedger::of(world.resource()))))
+    Some(Channel::of_state(format!("energy.{quantity}"), "J", move |state| part(&EnergyLedger::of(state))))
 }
 
 /// The entry of the ledger that a channel reads.

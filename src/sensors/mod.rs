@@ -26,19 +26,68 @@ pub struct Channel {
     pub name: String,
     /// Unit as a symbol, empty for a pure number.
     pub unit: &'static str,
-    /// Reads the present value.
-    pub read: Box<dyn Fn(&World) -> f64 + Send + Sync>,
+    read: Box<dyn Fn(&World) -> f64 + Send + Sync>,
+    /// Whether it may read components that the state keeps.
+    components: bool,
 }
 
 impl Channel {
-    fn new(name: String, unit: &'static str, read: impl Fn(&World) -> f64 + Send + Sync + 'static) -> Self {
-        Self { name, unit, read: Box::new(read) }
+    /// A channel that reads anything of the world. Components are brought up to date for it after each batch of ticks.
+    pub fn new(
+        name: impl Into<String>,
+        unit: &'static str,
+        read: impl Fn(&World) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { components: true, ..Self::of_resources(name, unit, read) }
+    }
+
+    /// A channel that reads the state of the run: nothing is copied for it.
+    pub fn of_state(
+        name: impl Into<String>,
+        unit: &'static str,
+        read: impl Fn(&State) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self::of_resources(name, unit, move |world| read(world.resource()))
+    }
+
+    /// A channel that reads no pose and no velocity of a component.
+    fn of_resources(
+        name: impl Into<String>,
+        unit: &'static str,
+        read: impl Fn(&World) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), unit, read: Box::new(read), components: false }
+    }
+
+    /// The present value.
+    pub fn value(&self, world: &World) -> f64 {
+        (self.read)(world)
     }
 }
 
 /// The channels the scene asks for, in the order of the file.
 #[derive(Resource, Default)]
-pub struct Channels(pub Vec<Channel>);
+pub struct Channels(pub(crate) Vec<Channel>);
+
+impl Channels {
+    /// Adds a channel behind the others.
+    pub fn add(world: &mut World, channel: Channel) {
+        see_components(world, &channel);
+        world.get_resource_or_init::<Self>().0.push(channel);
+    }
+
+    /// All channels in order.
+    pub fn iter(&self) -> impl Iterator<Item = &Channel> {
+        self.0.iter()
+    }
+}
+
+/// From now on components are brought up to date after each batch, if a channel may read them.
+fn see_components(world: &mut World, channel: &Channel) {
+    if channel.components {
+        world.get_resource_or_init::<State>().show_components();
+    }
+}
 
 /// Turns a channel's name into the channel, if it is one of its own.
 pub type Finder = fn(&mut World, owner: &str, quantity: &str) -> Option<Channel>;
@@ -143,7 +192,9 @@ pub fn expanded(pattern: &str, world: &mut World, outline: &Outline) -> Vec<Stri
 pub fn find(world: &mut World, name: &str) -> Option<Channel> {
     let (owner, quantity) = name.split_once('.')?;
     let finders: Vec<Finder> = world.get_resource::<Finders>()?.0.clone();
-    finders.into_iter().find_map(|finder| finder(world, owner, quantity))
+    let channel = finders.into_iter().find_map(|finder| finder(world, owner, quantity))?;
+    see_components(world, &channel);
+    Some(channel)
 }
 
 /// Adds channels; one that is there already stays the only one of its name.
@@ -213,7 +264,7 @@ fn of_body(
         let bodies = &world.resource::<State>().bodies;
         place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))
     };
-    Some(Channel::new(format!("{name}.{quantity}"), unit, value))
+    Some(Channel::of_resources(format!("{name}.{quantity}"), unit, value))
 }
 
 /// Registers the sensors of this folder.

@@ -37,8 +37,8 @@ fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         ("overlap", "share") => (|deepest| deepest.share, ""),
         _ => return None,
     };
-    let value = move |world: &World| part(world.resource::<State>().deepest_overlap());
-    Some(Channel::new(format!("overlap.{quantity}"), unit, value))
+    let value = move |state: &State| part(state.deepest_overlap());
+    Some(Channel::of_state(format!("overlap.{quantity}"), unit, value))
 }
 
 pub(super) fn plugin(app: &mut App) {

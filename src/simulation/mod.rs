@@ -21,9 +21,13 @@ use crate::numbers::number;
 use crate::record::layers::{self, WantedLayers};
 use crate::record::sections::FilmSection;
 use crate::scene::{self, SceneErrors, SceneHeader, Source};
+use crate::sensors::Channel;
 use crate::simd::{Level, give_back};
 use crate::threads::Threads;
-use crate::tick::{AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, foresee_components, rebuild, step};
+use crate::tick::{
+    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, rebuild,
+    show_components,
+};
 use crate::world::{Name, atom};
 use accuracy::Tell;
 
@@ -111,7 +115,7 @@ impl Simulation {
     /// All mistakes of the scene, with their places; overrides that cannot be.
     pub fn load_only(source: &Source, overrides: &Overrides, plugins: impl Fn(&mut App)) -> Result<Self, SceneErrors> {
         let first = Self::read(source, overrides, &plugins)?;
-        let world = first.world();
+        let world = first.unpublished_world();
         let (Some(goal), Some(plan)) = (world.get_resource::<Goal>(), world.get_resource::<Plan>()) else {
             return Ok(first);
         };
@@ -146,22 +150,54 @@ impl Simulation {
 
     /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.
     pub fn plan(&self) -> Option<&Plan> {
-        self.world().get_resource()
+        self.unpublished_world().get_resource()
     }
 
-    /// The world, for whoever wants to look at everything.
-    pub fn world(&self) -> &World {
+    /// The world with components brought up to date, for queries. Resources alone are had with [`Self::resource`].
+    pub fn world(&mut self) -> &World {
+        show_components(self.app.world_mut());
         self.app.world()
     }
 
-    /// The world, to change it between ticks. Components count: the packed state follows them.
+    /// The world, to change it between ticks. Components count: the state follows them.
     pub fn world_mut(&mut self) -> &mut World {
-        self.app.world_mut()
+        let world = self.app.world_mut();
+        show_components(world);
+        world.resource_mut::<State>().expect_changes();
+        world
+    }
+
+    /// The world whose components may hold the poses and velocities of an earlier tick.
+    pub(crate) fn unpublished_world(&self) -> &World {
+        self.app.world()
+    }
+
+    /// A resource of the world.
+    ///
+    /// # Panics
+    /// If there is none of this type.
+    pub fn resource<R: Resource>(&self) -> &R {
+        self.unpublished_world().resource()
+    }
+
+    /// A resource of the world, if there is one of this type.
+    pub fn get_resource<R: Resource>(&self) -> Option<&R> {
+        self.unpublished_world().get_resource()
+    }
+
+    /// Whether the world has a resource of a type.
+    pub fn contains_resource<R: Resource>(&self) -> bool {
+        self.unpublished_world().contains_resource::<R>()
+    }
+
+    /// The present value of a channel.
+    pub fn value(&self, channel: &Channel) -> f64 {
+        channel.value(self.unpublished_world())
     }
 
     /// The state of the run.
     pub fn state(&self) -> &State {
-        self.world().resource()
+        self.unpublished_world().resource()
     }
 
     /// The packed bodies in canonical order.
@@ -176,7 +212,7 @@ impl Simulation {
 
     /// What the engine chose and what it noted so far; the card adds what shows at its end.
     pub fn notes(&self) -> &[String] {
-        &self.world().resource::<Notes>().0
+        &self.unpublished_world().resource::<Notes>().0
     }
 
     /// What is to be drawn.
@@ -196,7 +232,7 @@ impl Simulation {
 
     /// Seconds of physics that the scene or the command line asks for. The run ends at the tick that reaches it.
     pub fn duration(&self) -> f64 {
-        self.world().get_resource::<choice::Duration>().map_or(0.0, |duration| duration.0)
+        self.unpublished_world().get_resource::<choice::Duration>().map_or(0.0, |duration| duration.0)
     }
 
     /// Runs until `tick` ticks are done in all; does nothing if they are.
@@ -209,7 +245,7 @@ impl Simulation {
             return Ok(());
         }
         let start = Instant::now();
-        let result = step(self.app.world_mut(), missing);
+        let result = advance(self.app.world_mut(), missing);
         self.spent += start.elapsed();
         if self.clock().ticks == self.ticks {
             observe_all(self.app.world_mut());
@@ -239,7 +275,7 @@ impl Simulation {
     /// Name of the body at `place`; empty for a body spawned without one.
     pub fn name(&self, place: usize) -> String {
         let entity = self.bodies().entity[place];
-        self.world().get::<Name>(entity).map(Name::to_string).unwrap_or_default()
+        self.unpublished_world().get::<Name>(entity).map(Name::to_string).unwrap_or_default()
     }
 
     /// Seconds of physics from frame to frame of the film, by default 1/30.
@@ -249,7 +285,7 @@ impl Simulation {
 
     /// How the scene's expectations went so far.
     pub fn outcomes(&self) -> Vec<Outcome> {
-        self.world().get_resource::<Expectations>().map_or_else(Vec::new, Expectations::outcomes)
+        self.unpublished_world().get_resource::<Expectations>().map_or_else(Vec::new, Expectations::outcomes)
     }
 }
 

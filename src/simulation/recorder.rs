@@ -52,14 +52,14 @@ impl Recorder {
             let before = before.filter(|before| !on_tick && before.time <= time).unwrap_or(after);
             Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
         };
-        let marks = if self.bare { Vec::new() } else { Layers::marks(simulation.world()) };
+        let marks = if self.bare { Vec::new() } else { Layers::marks(simulation.unpublished_world()) };
         Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect(), marks, center: None })
     }
 
     /// Runs on, up to a tick, and stops wherever a layer looks.
     fn look_on_the_way(&mut self, simulation: &mut Simulation, tick: u64, time: f64) -> Result<(), Failure> {
         let dt = simulation.clock().dt;
-        while let Some(next) = Layers::next_look(simulation.world(), self.looked, time, dt)
+        while let Some(next) = Layers::next_look(simulation.unpublished_world(), self.looked, time, dt)
             && next <= tick
             && !self.bare
         {
@@ -67,7 +67,7 @@ impl Recorder {
             simulation.run_to_tick(next)?;
             // What has gone by unseen cannot be looked at.
             if simulation.clock().ticks == next {
-                Layers::look(simulation.world_mut(), next, dt);
+                Layers::look(simulation.app.world_mut(), next, dt);
             }
         }
         Ok(())
@@ -88,7 +88,7 @@ fn moments(bodies: &Bodies, time: f64) -> Vec<(u64, Moment)> {
 
 /// What a film shows of the present bodies and walls.
 fn cast_of(simulation: &Simulation) -> Cast {
-    let (world, bodies) = (simulation.world(), simulation.bodies());
+    let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
     let materials = world.get_resource::<Materials>();
     let color = |material: crate::world::MaterialIndex| {
         materials.and_then(|materials| materials.by_index.get(material.place())?.color.clone())

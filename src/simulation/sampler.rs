@@ -108,7 +108,7 @@ impl Sampler {
     }
 
     fn read(&mut self, simulation: &Simulation) {
-        let (world, time) = (simulation.world(), simulation.clock().time());
+        let (world, time) = (simulation.unpublished_world(), simulation.clock().time());
         let column = ((time - self.from) / (self.to - self.from) * COLUMNS) as i64;
         let counts = self.readings.is_multiple_of(READINGS / COUNTS) || self.next == self.last;
         self.readings += 1;
@@ -116,23 +116,23 @@ impl Sampler {
             match gauge {
                 Gauge::Times(curves) => {
                     for (channel, decimator) in curves {
-                        decimator.push(column, Sample { time, x: time, y: (channel.read)(world) });
+                        decimator.push(column, Sample { time, x: time, y: channel.value(world) });
                     }
                 }
                 Gauge::Phases(x, curves) => {
-                    let x = (x.read)(world);
+                    let x = x.value(world);
                     for (channel, samples) in curves {
-                        samples.push(Sample { time, x, y: (channel.read)(world) });
+                        samples.push(Sample { time, x, y: channel.value(world) });
                     }
                 }
                 Gauge::Bodies(channels, kept) if counts => {
                     let mut bins = empty(entry);
-                    channels.iter().for_each(|channel| count(entry, (channel.read)(world), &mut bins));
+                    channels.iter().for_each(|channel| count(entry, channel.value(world), &mut bins));
                     keep(kept, time, &bins);
                 }
                 Gauge::Bodies(..) => (),
                 Gauge::Values(channel, bins, kept) => {
-                    count(entry, (channel.read)(world), bins);
+                    count(entry, channel.value(world), bins);
                     if counts {
                         keep(kept, time, bins);
                     }
@@ -153,7 +153,7 @@ impl Sampler {
 }
 
 fn gauge(simulation: &mut Simulation, entry: &PlotEntry, outline: &Outline) -> Result<Gauge, String> {
-    let world = simulation.world_mut();
+    let world = simulation.app.world_mut();
     let mut find = |names: Vec<String>| {
         let found = sensors::find_all(world, &names).into_iter().zip(names);
         found.map(|(channel, name)| channel.ok_or(name)).collect::<Result<Vec<_>, _>>()

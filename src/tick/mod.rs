@@ -76,8 +76,8 @@ use registered::{Kind, register};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
+pub(crate) use step::{advance, foresee_components, rebuild, show_components};
 pub use step::{energy_seen, set_method, step};
-pub(crate) use step::{foresee_components, rebuild};
 pub use travel::{FarTravel, far_travel, largest_travel};
 pub use undo::Undo;
 

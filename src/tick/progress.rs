@@ -15,6 +15,7 @@ pub(super) struct Progress {
     pub method: Option<Method>,
     /// Counts changes of method and models.
     pub version: u64,
+    pub components: ComponentAccess,
     /// What runs during a batch.
     pub running: Option<Box<Running>>,
     /// The totals before others changed the state, if they did since the last tick.
@@ -29,8 +30,6 @@ pub(super) struct Progress {
     pub shown_at: Option<Tick>,
     /// Forces are those of the present state.
     pub current: bool,
-    /// Ticks were run since the components were last brought up to date.
-    pub stepped: bool,
     /// Greatest travel of any point of a body in one tick, in metres.
     pub travel: f64,
     /// Sum of all travels in the last tick: not finite as soon as one of them is not.
@@ -43,6 +42,17 @@ pub(super) struct Progress {
     pub trouble: Option<Trouble>,
     /// How many indicators each model with events told last, in order.
     pub told: Vec<usize>,
+}
+
+/// Who sees the components between batches of ticks.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ComponentAccess {
+    /// Something reads them after each batch.
+    pub shown: bool,
+    /// They hold the state of an earlier tick.
+    pub behind: bool,
+    /// The world was given to no one else since the last batch: components are as they were.
+    pub closed: bool,
 }
 
 /// How many events were located, and how many ticks had too many.

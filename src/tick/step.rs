@@ -53,17 +53,25 @@ struct Others {
 /// # Errors
 /// When a position, angle, velocity or spin stops being finite, or energy comes out of nowhere. The state stays as it was found then.
 pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
+    world.resource_mut::<State>().expect_changes();
+    let result = advance(world, ticks);
+    show_components(world);
+    result
+}
+
+/// Runs `ticks` ticks. Components are read if the state was told to expect changes, and written if something reads them.
+pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut sim = prepare(world);
     let others = world.resource::<Others>();
     let (in_tick, scheduled, alone, looked_at) = (others.in_tick, others.scheduled, others.alone, others.looked_at);
     let schedules = scheduled.then(|| [take(world, Evaluate), take(world, Modes)]);
     let mut state = world.resource_mut::<State>();
     let method = state.progress.method.take().expect("the plugin of integrators sets a method");
-    state.progress.stepped = false;
+    let expects_changes = !std::mem::replace(&mut state.progress.components.closed, true);
     state.progress.running = Some(Box::new(Running { method, schedules, alone, looked_at }));
     let watched = state.stopwatch.is_some();
-    if !in_tick {
-        take_up(world, true);
+    if !in_tick && (expects_changes || world.resource::<Roster>().changed) {
+        take_up(world);
     }
     for _ in 0..ticks {
         if watched {
@@ -141,7 +149,31 @@ fn end_batch(world: &mut World) {
     if state.progress.trouble.is_none() {
         state.note_failure();
     }
-    run_once(world, publish_components);
+    let components = &mut state.progress.components;
+    components.behind = true;
+    if components.shown || world.resource::<Others>().in_tick {
+        show_components(world);
+    }
+}
+
+/// Brings the components up to date, if they are not.
+pub(crate) fn show_components(world: &mut World) {
+    let mut state = world.resource_mut::<State>();
+    if std::mem::take(&mut state.progress.components.behind) {
+        run_once(world, publish_components);
+    }
+}
+
+impl State {
+    /// Something reads components between ticks: they are brought up to date after each batch.
+    pub(crate) fn show_components(&mut self) {
+        self.progress.components.shown = true;
+    }
+
+    /// Components may be changed before the next tick.
+    pub(crate) fn expect_changes(&mut self) {
+        self.progress.components.closed = false;
+    }
 }
 
 /// Before bodies are spawned: sees whether systems that work on components are there already, so that bodies are
@@ -233,8 +265,7 @@ fn integrate_among_systems(world: &mut World) {
     let changed = world.resource_ref::<State>().last_changed();
     world.resource_mut::<State>().see_writers(changed);
     if world.resource::<Others>().in_tick {
-        let first = !world.resource::<State>().progress.stepped;
-        take_up(world, first);
+        take_up(world);
     }
     let mut state = std::mem::take(&mut *world.resource_mut::<State>());
     state.integrate(Some(world));
@@ -300,7 +331,6 @@ impl State {
         self.watch_springs();
         let progress = &mut self.progress;
         progress.current = true;
-        progress.stepped = true;
         progress.energy.alert |= alert | self.springs.alert();
         let ticks = self.clock.ticks;
         if progress.looked_at || progress.looks.binary_search(&ticks).is_ok() {
@@ -366,8 +396,8 @@ fn refresh(world: &mut World) {
 }
 
 /// Takes up what others changed, and remembers the totals of before if anything did.
-fn take_up(world: &mut World, first_of_batch: bool) {
-    let before = take_up_changes(world, first_of_batch);
+fn take_up(world: &mut World) {
+    let before = take_up_changes(world);
     let mut state = world.resource_mut::<State>();
     // A change of models is noted when it is made.
     state.progress.before = state.progress.before.or(before);
@@ -375,7 +405,7 @@ fn take_up(world: &mut World, first_of_batch: bool) {
 
 /// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
 /// anything changed.
-fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
+fn take_up_changes(world: &mut World) -> Option<Totals> {
     let changed = world.resource::<Roster>().changed;
     let state = world.resource::<State>();
     let (touched, beginning) = (state.bodies.touched, state.ledger.start.is_none());
@@ -388,10 +418,7 @@ fn take_up_changes(world: &mut World, first_of_batch: bool) -> Option<Totals> {
     state.bodies.end_flights();
     let before = state.totals();
     if changed {
-        let stale = !first_of_batch && !world.resource::<Others>().in_tick;
-        if stale {
-            run_once(world, publish_components);
-        }
+        show_components(world);
         rebuild(world);
     } else {
         run_once(world, load_state);

@@ -26,7 +26,7 @@ fn a_run_is_the_same_with_plots_and_while_they_are_sampled() {
     assert_eq!(hash(&with), hash(&without));
 
     let mut sampled = load(&plotted, |_| {});
-    let plots = sampled.world().resource::<PlotsSection>().0.clone();
+    let plots = sampled.resource::<PlotsSection>().0.clone();
     let end = TICKS as f64 * sampled.clock().dt;
     let mut sampler = Sampler::new(&mut sampled, &plots, 0.0, end).expect("all channels are there");
     sampler.run_to_end(&mut sampled).expect("it runs");

@@ -49,13 +49,13 @@ fn run(simulation: &mut Simulation, ticks: u64) {
 }
 
 fn diary(simulation: &Simulation) -> &[Heard] {
-    &simulation.world().resource::<Diary>().0
+    &simulation.resource::<Diary>().0
 }
 
 /// A channel by its name.
 fn channel(simulation: &mut Simulation, name: &str) -> f64 {
     let channel = jostle::sensors::find(simulation.world_mut(), name).expect("the channel exists");
-    (channel.read)(simulation.world())
+    simulation.value(&channel)
 }
 
 const WALLS: &str = "(name: \"floor\", left: (2, 0), right: (0, 0)), (name: \"left\", left: (0, 0), right: (0, 1)),
@@ -180,9 +180,10 @@ fn a_heap_tells_who_touches_by_positions_alone_in_canonical_order() {
     for tick in 1..=4000 {
         run(&mut simulation, tick);
         let now = touching(simulation.bodies());
+        let world = simulation.world();
         let pair = |&(is_wall, a, b): &(bool, usize, usize)| {
-            let bodies = simulation.bodies();
-            let name = |entity| simulation.world().get::<Name>(entity).unwrap().to_string();
+            let bodies = world.resource::<State>().bodies();
+            let name = |entity| world.get::<Name>(entity).unwrap().to_string();
             (name(bodies.entity[a]), name(if is_wall { bodies.walls[b].entity } else { bodies.entity[b] }))
         };
         let begun = now.iter().filter(|&touch| !known.contains(touch)).map(pair).map(|(a, b)| (tick, true, a, b));
@@ -190,7 +191,7 @@ fn a_heap_tells_who_touches_by_positions_alone_in_canonical_order() {
         let expected: Vec<Heard> = begun.chain(ended).collect();
         let heard: Vec<Heard> = diary(&simulation).iter().filter(|heard| heard.0 == tick).cloned().collect();
         assert_eq!(heard, expected);
-        assert_eq!(simulation.world().resource::<ContactEvents>().present.len(), now.len());
+        assert_eq!(simulation.resource::<ContactEvents>().present.len(), now.len());
         changes += expected.len();
         known = now;
         lists = simulation.state().pairs().unwrap().version;
@@ -229,7 +230,7 @@ fn what_rests_keeps_its_contacts_whatever_happens_beside() {
     for (channel_name, expected) in [("upper.contacts", 1.0), ("lower.contacts", 2.0)] {
         assert_eq!(channel(&mut simulation, channel_name), expected);
     }
-    let channels = &simulation.world().resource::<jostle::sensors::Channels>().0;
+    let channels: Vec<_> = simulation.resource::<jostle::sensors::Channels>().iter().collect();
     let names: Vec<&str> = channels.iter().step_by(2).map(|channel| &*channel.name).collect();
     assert_eq!(names, ["floor", "lower", "upper", "runner"].map(|owner| format!("{owner}.contacts")));
     // Thrown up, the runner flies and lands again.
@@ -255,12 +256,12 @@ fn events_follow_what_goes_and_may_be_asked_for_late() {
     watch(simulation.world_mut());
     run(&mut simulation, 10_001);
     let (lower, upper) = (simulation.bodies().entity[0], simulation.bodies().entity[1]);
-    let events = simulation.world().resource::<ContactEvents>().clone();
+    let events = simulation.resource::<ContactEvents>().clone();
     assert_eq!((events.begun.len(), events.ended.len(), events.present.len()), (2, 0, 2));
     assert_eq!((events.count(lower), events.count(upper)), (2, 1));
     simulation.world_mut().despawn(upper);
     run(&mut simulation, 10_002);
-    let events = simulation.world().resource::<ContactEvents>();
+    let events = simulation.resource::<ContactEvents>();
     assert_eq!(events.ended.iter().map(|pair| (pair.a, pair.b)).collect::<Vec<_>>(), [(lower, upper)]);
     assert_eq!((events.begun.len(), events.count(lower), events.count(upper)), (0, 1, 0));
 }
@@ -293,7 +294,7 @@ fn touches_between_two_frames_are_counted_where_they_are_located() {
 fn where_nobody_asks_nothing_is_watched() {
     let mut simulation = load(&scene("sensors: [Pose(of: \"*\"), ContactForce(on: \"floor\")],", PEG), |_| {});
     run(&mut simulation, 10);
-    assert!(!simulation.world().contains_resource::<ContactEvents>());
+    assert!(!simulation.contains_resource::<ContactEvents>());
     assert!(simulation.state().touches().is_none());
 }
 

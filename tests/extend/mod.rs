@@ -2,6 +2,7 @@
 
 mod axis_wise;
 mod bevy_app;
+mod components;
 mod contact_events;
 mod contact_law;
 mod film_layer;

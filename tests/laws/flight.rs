@@ -270,7 +270,7 @@ fn whoever_looks_in_a_tick_sees_where_bodies_are() {
     let (place, velocity) = sum(&simulation);
     simulation.run_to_tick(400).unwrap();
     assert_eq!(simulation.bodies().flying(), 200);
-    for (tick, seen) in (1..).zip(&simulation.world().resource::<Seen>().0) {
+    for (tick, seen) in (1..).zip(&simulation.resource::<Seen>().0) {
         let time = 0.001 * f64::from(tick);
         let expected = place + velocity * time + GRAVITY * (200.0 * 0.5 * time * time);
         // Two hundred sums of numbers below 4096.

@@ -178,7 +178,7 @@ fn sections_of_plugins_work_in_templates() {
     };
     let simulation = with_paint(&scene("3")).unwrap_or_else(|errors| panic!("{errors}"));
     let expected = vec![("left/ball".to_owned(), 2, 0.5), ("right/ball".to_owned(), 2, 1.5)];
-    assert_eq!(simulation.world().resource::<Painted>().0, expected);
+    assert_eq!(simulation.resource::<Painted>().0, expected);
     let error = with_paint(&scene("-3")).err().expect("it is wrong").errors()[0].clone();
     assert_eq!(error.path, "templates[\"bob\"].paint[0].thickness");
     assert_eq!((error.line, error.message.as_str()), (Some(4), "must be a finite number above zero, got -1.5"));
@@ -266,7 +266,7 @@ fn patterns_and_channels_keep_to_their_file() {
     let mut made = Simulation::load(&scene("patterns", &[("main.ron", main), ("part.ron", part)]))
         .unwrap_or_else(|errors| panic!("{errors}"));
     made.run_to_end().unwrap();
-    let results = made.world().resource::<jostle::expect::Expectations>().outcomes();
+    let results = made.resource::<jostle::expect::Expectations>().outcomes();
     assert_eq!(results.len(), 4);
     assert!(results.iter().all(|result| result.holds), "{results:?}");
 }

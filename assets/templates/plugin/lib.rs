@@ -139,7 +139,7 @@ impl Entry for HomeSpringStretch {
         for place in entries.iter().flat_map(|entry| entry.value.of.matching(Kind::BODY, outline)) {
             let name = format!("{}.{STRETCH}", outline.names(Kind::BODY)[place]);
             if let Some(channel) = sensors::find(app.world_mut(), &name) {
-                app.world_mut().get_resource_or_init::<Channels>().0.push(channel);
+                Channels::add(app.world_mut(), channel);
             }
         }
     }
@@ -152,7 +152,7 @@ fn find_stretch(world: &mut World, owner: &str, quantity: &str) -> Option<Channe
         let springs = world.get_resource::<Springs>().map_or(&[][..], |springs| &springs.0);
         springs.iter().filter(|spring| spring.body == body).fold(0.0, |most, spring| spring.greatest.max(most))
     };
-    Some(Channel { name: format!("{owner}.{quantity}"), unit: "m", read: Box::new(read) })
+    Some(Channel::new(format!("{owner}.{quantity}"), "m", read))
 }
 
 fn body_named(world: &mut World, name: &str) -> Option<Entity> {

@@ -51,9 +51,9 @@ fn the_body_swings_as_the_law_says() {
 #[test]
 fn the_sensor_gives_the_greatest_stretch() {
     let simulation = run(0.001);
-    let channel = &simulation.world().resource::<Channels>().0[0];
+    let channel = simulation.resource::<Channels>().iter().next().expect("the scene asks for one");
     assert_eq!((channel.name.as_str(), channel.unit), ("ball.home_spring.stretch", "m"));
-    let stretch = (channel.read)(simulation.world());
+    let stretch = simulation.value(channel);
     assert!((stretch - V / W).abs() < V / W * (W * 0.001_f64).powi(2) / 4.0, "{stretch}");
 }
 

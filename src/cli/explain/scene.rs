@@ -72,7 +72,7 @@ impl Anatomy {
         let _ = watched.run_to_tick(ticks);
         let known = known_in(&watched);
         let parts = stages(&watched, &known);
-        let pairs = plain.world().resource::<State>().pairs();
+        let pairs = plain.resource::<State>().pairs();
         Ok(Self {
             title: plain.header().title.clone(),
             things: things(&plain),
@@ -82,7 +82,7 @@ impl Anatomy {
             atoms: plain.bodies().atom_count(),
             pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.walls.len())),
             search: pairs.map(|pairs| {
-                let evaluations = plain.world().resource::<State>().evaluation.count;
+                let evaluations = plain.resource::<State>().evaluation.count;
                 (pairs.search.told(), evaluations as f64 / pairs.version.max(1) as f64)
             }),
             per_tick: plain.seconds_spent() / ticks.max(1) as f64,
@@ -219,7 +219,7 @@ fn things(simulation: &Simulation) -> String {
 /// The sections of the scene in the order of the file, their entries instead of those that take some.
 fn named(simulation: &Simulation) -> Vec<Named> {
     let outline = &simulation.header().outline;
-    let registry = simulation.world().resource::<SceneRegistry>();
+    let registry = simulation.resource::<SceneRegistry>();
     let sections = registry.sections();
     let mut named = Vec::new();
     for section in outline.sections() {
@@ -247,7 +247,7 @@ fn named(simulation: &Simulation) -> Vec<Named> {
 /// What the scene names, with the modules that read it.
 fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
     let outline = &simulation.header().outline;
-    let registry = simulation.world().resource::<SceneRegistry>();
+    let registry = simulation.resource::<SceneRegistry>();
     let mut known = Vec::new();
     for section in registry.sections() {
         for entry in registry.entries(section.name) {
@@ -266,12 +266,12 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
 }
 
 fn stages(watched: &Simulation, known: &[(String, Known)]) -> Vec<Stage> {
-    let Some(watch) = &watched.world().resource::<State>().stopwatch else { return Vec::new() };
+    let Some(watch) = &watched.resource::<State>().stopwatch else { return Vec::new() };
     let spent = |part: Part| watch.spent(part).as_secs_f64();
     // Between two ticks, but for the loop, is the time in which nothing runs.
     let in_ticks = |part: &Part| *part != Part::Between;
     let all: f64 = Part::ALL.into_iter().filter(in_ticks).map(spent).sum();
-    let systems = stopwatch::systems(watched.world());
+    let systems = stopwatch::systems(watched.unpublished_world());
     let stage = |(part, names): (Part, Vec<String>)| Stage {
         name: part.name(),
         share: if all > 0.0 { spent(part) / all } else { 0.0 },

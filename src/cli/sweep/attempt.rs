@@ -65,7 +65,7 @@ pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, title: Option<&str>
     let failure = run(&mut simulation, &mut tracks).err();
     // A run that went wrong ends anywhere.
     let picture = title.filter(|_| failure.is_none()).and_then(|title| {
-        let camera = simulation.world().get_resource::<CameraChoice>().cloned();
+        let camera = simulation.get_resource::<CameraChoice>().cloned();
         picture(&mut simulation, camera.as_ref(), title).map(|frame| (frame, camera))
     });
     let trial = Trial::of(&simulation, failure.as_ref());
@@ -73,7 +73,7 @@ pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, title: Option<&str>
 }
 
 fn tracks_of(simulation: &Simulation) -> Vec<Track> {
-    let channels = simulation.world().get_resource::<Channels>();
+    let channels = simulation.get_resource::<Channels>();
     let track = |channel: &crate::sensors::Channel| Track {
         name: channel.name.clone(),
         unit: channel.unit,
@@ -88,9 +88,9 @@ fn tracks_of(simulation: &Simulation) -> Vec<Track> {
 fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure> {
     let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     loop {
-        if let Some(channels) = simulation.world().get_resource::<Channels>() {
+        if let Some(channels) = simulation.get_resource::<Channels>() {
             for (track, channel) in tracks.iter_mut().zip(&channels.0) {
-                track.see((channel.read)(simulation.world()));
+                track.see(simulation.value(channel));
             }
         }
         let (done, end) = (simulation.clock().ticks, simulation.ticks());

@@ -145,7 +145,7 @@ impl Sweep {
         let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
         let path = folder.join(self.file("table", "csv"));
-        let sweep = self.shard.map(|_| self.fingerprint(&source, plain.world().resource()));
+        let sweep = self.shard.map(|_| self.fingerprint(&source, plain.resource()));
         write_whole(&path, &Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
         let image = folder.join(self.file("contact_sheet", "png"));
         if sheet {
@@ -164,7 +164,7 @@ impl Sweep {
 
     /// What varies and is neither a parameter nor, as a path, within a section: most likely a slip.
     fn strangers(&self, source: &Source, plain: &Simulation) -> Result<(), String> {
-        let registry = plain.world().resource::<SceneRegistry>();
+        let registry = plain.resource::<SceneRegistry>();
         let params = source.params();
         let sections = registry.sections().into_iter().map(|section| section.name);
         let known: Vec<&str> = params.iter().map(String::as_str).chain(sections).collect();

@@ -60,7 +60,7 @@ pub fn scene(discs: &[(f64, f64, f64)], rest: &str, tick: f64) -> String {
 /// Contact forces in N from the floor up, the floor's own first: each contact between discs carries the contact forces on all
 /// above it.
 pub fn carried(simulation: &Simulation) -> Vec<f64> {
-    let Some(forces) = simulation.world().resource::<State>().contact_forces() else { return Vec::new() };
+    let Some(forces) = simulation.resource::<State>().contact_forces() else { return Vec::new() };
     let mut carried: Vec<f64> = forces
         .on_body
         .iter()

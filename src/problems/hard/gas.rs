@@ -128,7 +128,7 @@ fn show(eta: f64, pause: u64, samples: usize) -> Result<Shown, Box<dyn Error>> {
             for _ in 0..pause {
                 let next = simulation.clock().ticks + 1;
                 simulation.run_to_tick(next)?;
-                let world = simulation.world();
+                let world = simulation.unpublished_world();
                 let forces = world.resource::<State>().contact_forces().ok_or("no contact forces")?;
                 push += forces.on_wall.iter().map(|force| force.length()).sum::<f64>();
                 heat += simulation.bodies().velocity.iter().map(|velocity| velocity.length_squared()).sum::<f64>();

@@ -25,6 +25,7 @@ pub use mark::{Mark, MarkShape};
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, install_word};
+use crate::tick::State;
 use crate::world::Bodies;
 
 /// The built-in layers by the words of the command line, with their names in the scene, from back to front.
@@ -115,15 +116,21 @@ fn stride(memory: Memory, dt: f64) -> u64 {
 
 /// How plugins add a layer.
 pub trait FilmAppExt {
-    /// Adds a layer in front of those before.
+    /// Adds a layer in front of those before. Components are up to date when it looks at the world.
     fn add_layer(&mut self, layer: impl Layer) -> &mut Self;
 }
 
 impl FilmAppExt for App {
     fn add_layer(&mut self, layer: impl Layer) -> &mut Self {
-        self.world_mut().get_resource_or_init::<Layers>().0.push(Box::new(layer));
+        self.world_mut().get_resource_or_init::<State>().show_components();
+        add_own_layer(self, layer);
         self
     }
+}
+
+/// Adds a layer that reads no pose and no velocity of a component.
+fn add_own_layer(app: &mut App, layer: impl Layer) {
+    app.world_mut().get_resource_or_init::<Layers>().0.push(Box::new(layer));
 }
 
 /// The height of a film's picture in metres: whoever records a film says so, so that arrows get lengths that can be seen.

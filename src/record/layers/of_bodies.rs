@@ -4,7 +4,7 @@ use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
-use super::{FilmAppExt, Layer, Shown};
+use super::{Layer, Shown, add_own_layer};
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, Written};
@@ -47,7 +47,7 @@ impl<L: OfBodies> Entry for L {
         Self::prepare(app);
         for entry in entries {
             let shown = Shown::new(entry.value.of(), outline);
-            app.add_layer(entry.value.layer(shown, outline));
+            add_own_layer(app, entry.value.layer(shown, outline));
         }
     }
 }

@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{FilmAppExt, Mark, MarkShape};
+use super::{Mark, MarkShape, add_own_layer};
 use crate::record::sections::look::LAYERS;
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
 
@@ -24,7 +24,7 @@ impl Entry for ScaleBar {
     }
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        app.add_layer(|_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::ScaleBar)));
+        add_own_layer(app, |_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::ScaleBar)));
     }
 }
 

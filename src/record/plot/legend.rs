@@ -175,7 +175,7 @@ mod tests {
             crate::Simulation::load_with(&Source::new("legend.ron", scene), &Default::default(), move |app| {
                 app.add_legend(added.clone());
             });
-        let legend = Legend::of(simulation.unwrap_or_else(|errors| panic!("{errors}")).world());
+        let legend = Legend::of(simulation.unwrap_or_else(|errors| panic!("{errors}")).unpublished_world());
         let line = |label: &str, place| LegendEntry { label: label.into(), mark: LegendMark::Body(place) };
         // Bodies without a colour of their own get one each, so they have a line each.
         let bodies = [line("first", 1), line("second", 2), line("third", 3), line("gas", 4), line("pegs", 0)];

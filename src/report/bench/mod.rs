@@ -192,10 +192,10 @@ pub fn measure(
     let mut watched = load(plan)?;
     stopwatch::watch(watched.world_mut());
     watched.run_to_tick(first + ticks)?;
-    let before = watched.world().resource::<State>().stopwatch.clone();
+    let before = watched.resource::<State>().stopwatch.clone();
     watched.run_to_tick(first + 2 * ticks)?;
     step();
-    Ok(Measured { stages: stages(before.as_ref(), watched.world().resource::<State>().stopwatch.as_ref()), ..measured })
+    Ok(Measured { stages: stages(before.as_ref(), watched.resource::<State>().stopwatch.as_ref()), ..measured })
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
@@ -207,7 +207,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
 /// How many pairs are near each other, and how many of them touch.
 fn pairs(simulation: &Simulation) -> (usize, usize) {
     let bodies = simulation.bodies();
-    let Some(pairs) = simulation.world().resource::<State>().pairs() else { return (0, 0) };
+    let Some(pairs) = simulation.resource::<State>().pairs() else { return (0, 0) };
     let (place, radius) = (|atom| bodies.atom_place(atom), &bodies.atom_radius);
     let touch = |a: usize, b: usize| DVec2::distance(place(a), place(b)) < radius[a] + radius[b];
     let atoms = pairs.atoms.iter().filter(|pair| touch(pair.a as usize, pair.b as usize)).count();

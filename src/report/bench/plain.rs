@@ -87,7 +87,7 @@ impl Plain {
     /// # Errors
     /// What the scene has that the loop does not know.
     pub fn of(simulation: &Simulation) -> Result<Self, &'static str> {
-        let (world, bodies) = (simulation.world(), simulation.bodies());
+        let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
         if !simulation.header().outline.entries("forces").is_empty() {
             return Err("it has forces beside gravity and contacts");
         }

@@ -128,7 +128,7 @@ impl Repeated<'_> {
 
 /// Makes ready to estimate the error of a run that is at its beginning: some of its states are kept.
 pub fn watch(simulation: &mut Simulation, wanted: Wanted) {
-    let known = simulation.world().contains_resource::<KnownError>();
+    let known = simulation.contains_resource::<KnownError>();
     if wanted.rounding || wanted.model || (wanted.effort != Effort::None && !known) {
         let moments = moments(simulation);
         Trajectory::watch(simulation, moments);
@@ -172,7 +172,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -
         return Ok(());
     }
     let run = Trajectory::watched(simulation, None);
-    let known = simulation.world().get_resource::<KnownError>().and_then(|known| known.estimate);
+    let known = simulation.get_resource::<KnownError>().and_then(|known| known.estimate);
     let mut found = EstimatedError { estimate: known, ..EstimatedError::default() };
     if known.is_none() && wanted.effort != Effort::None && simulation.clock().ticks > 0 {
         discretisation(simulation, &run, wanted.effort, scene, &mut found)?;
@@ -189,7 +189,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -
 
 /// The work of a run so far, in evaluations of the forces of a world of one atom.
 fn work(simulation: &Simulation) -> f64 {
-    let evaluations = simulation.world().resource::<State>().evaluation.count as f64;
+    let evaluations = simulation.resource::<State>().evaluation.count as f64;
     evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
 }
 
@@ -203,7 +203,7 @@ fn affordable(simulation: &Simulation, times: f64) -> f64 {
 
 /// The order with which errors are expected to fall: jumps of forces that are not located leave one.
 fn expected_order(simulation: &Simulation) -> f64 {
-    let world = simulation.world();
+    let world = simulation.unpublished_world();
     let chosen = world.resource::<ChosenMethod>();
     if touches(simulation) && !chosen.located {
         return 1.0;
@@ -213,7 +213,7 @@ fn expected_order(simulation: &Simulation) -> f64 {
 
 /// Whether anything has touched in a run.
 fn touches(simulation: &Simulation) -> bool {
-    simulation.world().resource::<State>().deepest_overlap().overlap > 0.0
+    simulation.resource::<State>().deepest_overlap().overlap > 0.0
 }
 
 /// The error that finite steps make.

@@ -27,7 +27,7 @@ pub(super) fn estimate(
     found: &mut EstimatedError,
 ) -> Result<(), SceneErrors> {
     let estimate = found.estimate.get_or_insert_with(ErrorEstimate::default);
-    if simulation.world().resource::<State>().contact_law().is_none() || !touches(simulation) {
+    if simulation.resource::<State>().contact_law().is_none() || !touches(simulation) {
         (estimate.position.model, estimate.velocity.model) = (Some(0.0), Some(0.0));
         return Ok(());
     }

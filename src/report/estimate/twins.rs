@@ -82,7 +82,7 @@ fn cycle(ticks: u64) -> u32 {
 /// Ticks after which ticks of the twins that a run may need end with one of it. The two numbers have no factor in common, so that
 /// hardly a tick of the run ends with one of both.
 pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
-    let world = simulation.world();
+    let world = simulation.unpublished_world();
     let per_tick = world.resource::<State>().contact_law().is_some() && !ChosenMethod::locates(world);
     match if per_tick { cycle(simulation.ticks()) } else { 1 } {
         1 => [1, 1],
@@ -93,7 +93,7 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
 
 /// The twins that tell the error of a run that is over.
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
-    let world = simulation.world();
+    let world = simulation.unpublished_world();
     let located = ChosenMethod::locates(world);
     let jumped = if located { world.resource::<State>().located.count > 0 } else { touches(simulation) };
     match (jumped, located) {

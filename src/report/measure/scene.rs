@@ -51,7 +51,7 @@ impl Scene {
     pub fn look(load: Load) -> Result<Self, SceneErrors> {
         let probe = |tick| load(Way::Plan(&reference::located(tick, 1.0, tick)));
         let simulation = probe(1e-3).or_else(|wrong| probe(1e-9).or_else(|_| probe(1e3)).map_err(|_| wrong))?;
-        let world = simulation.world();
+        let world = simulation.unpublished_world();
         let (duration, bodies) = (simulation.duration(), simulation.bodies().len());
         let fastest = world.resource::<State>().stability.fastest_foreseen().map(|fastest| fastest.angular_frequency);
         let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
@@ -133,7 +133,7 @@ impl Subject for Compared<'_> {
                 return Ok((setting, 0.0));
             }
         };
-        setting.located = simulation.world().get_resource::<ChosenMethod>().is_some_and(|method| method.located);
+        setting.located = simulation.get_resource::<ChosenMethod>().is_some_and(|method| method.located);
         let (stride, every) = scene.strides(count);
         let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, stride, &|| budget.within(1.0)));
         let spent = spent.as_secs_f64();
@@ -145,7 +145,7 @@ impl Subject for Compared<'_> {
                 "never stable without losses".to_owned()
             });
         }
-        let given_up = simulation.world().resource::<State>().located.given_up;
+        let given_up = simulation.resource::<State>().located.given_up;
         if given_up > 0 {
             setting.notes.push(format!("{given_up} of {count} ticks with too many events to locate them"));
         }

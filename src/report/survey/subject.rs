@@ -36,12 +36,12 @@ impl Subject for Asked<'_> {
                     return Ok((setting, spent));
                 }
             };
-            let world = simulation.world();
+            let world = simulation.unpublished_world();
             setting.located = world.get_resource::<ChosenMethod>().is_some_and(|method| method.located);
             let (time, found) = timed(|| problem.run(&mut simulation, &run));
             let time = time.as_secs_f64();
             spent += time;
-            let evaluations = simulation.world().resource::<State>().evaluation.count as f64;
+            let evaluations = simulation.resource::<State>().evaluation.count as f64;
             match found {
                 Ok(found) => error = if found.is_finite() { error.max(found) } else { f64::INFINITY },
                 Err(failure) => {

@@ -183,7 +183,7 @@ impl Trajectory {
             lookout.ticks.clear();
             std::mem::take(&mut lookout.moments)
         });
-        let world = simulation.world();
+        let world = simulation.unpublished_world();
         Self {
             moments,
             extents: simulation.bodies().extents().to_vec(),
