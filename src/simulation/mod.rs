@@ -25,8 +25,7 @@ use crate::sensors::Channel;
 use crate::simd::{Level, give_back};
 use crate::threads::Threads;
 use crate::tick::{
-    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, rebuild,
-    show_components,
+    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, open, rebuild,
 };
 use crate::world::{Name, atom};
 use accuracy::Tell;
@@ -155,15 +154,13 @@ impl Simulation {
 
     /// The world with components brought up to date, for queries. Resources alone are had with [`Self::resource`].
     pub fn world(&mut self) -> &World {
-        show_components(self.app.world_mut());
-        self.app.world()
+        self.world_mut()
     }
 
     /// The world, to change it between ticks. Components count: the state follows them.
     pub fn world_mut(&mut self) -> &mut World {
         let world = self.app.world_mut();
-        show_components(world);
-        world.resource_mut::<State>().expect_changes();
+        open(world);
         world
     }
 
@@ -172,7 +169,7 @@ impl Simulation {
         self.app.world()
     }
 
-    /// A resource of the world.
+    /// A resource of the world. Between ticks the schedules of the tick are there after [`Self::world`] only.
     ///
     /// # Panics
     /// If there is none of this type.

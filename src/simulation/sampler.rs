@@ -153,7 +153,7 @@ impl Sampler {
 }
 
 fn gauge(simulation: &mut Simulation, entry: &PlotEntry, outline: &Outline) -> Result<Gauge, String> {
-    let world = simulation.app.world_mut();
+    let world = simulation.world_mut();
     let mut find = |names: Vec<String>| {
         let found = sensors::find_all(world, &names).into_iter().zip(names);
         found.map(|(channel, name)| channel.ok_or(name)).collect::<Result<Vec<_>, _>>()

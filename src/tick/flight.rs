@@ -21,7 +21,7 @@ pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, [evaluate, m
     note_looks(world);
 }
 
-/// Systems in the tick look at the bodies from now on; see [`see_writers`].
+/// Systems in the tick look at the bodies from now on; see [`State::see_writers`].
 pub(super) fn note_looks(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     // Noting it is a change too.
@@ -30,17 +30,13 @@ pub(super) fn note_looks(world: &mut World) {
     state.note_looks(changed);
 }
 
-/// Before a tick and after the last: where one of the systems in the tick wrote into the state, that counts and not what flights say.
-pub(super) fn see_writers(world: &mut World) {
-    let changed = world.resource_ref::<State>().last_changed();
-    world.resource_mut::<State>().see_writers(changed);
-}
-
 impl State {
     pub(super) fn note_looks(&mut self, changed: Tick) {
         self.progress.shown_at = Some(changed);
     }
 
+    /// Before a tick and after the last: where one of the systems in the tick wrote into the state, that counts and not what flights
+    /// say.
     pub(super) fn see_writers(&mut self, changed: Tick) {
         if self.progress.looked_at && self.progress.shown_at.is_some_and(|shown| shown != changed) {
             self.bodies.forget_flights();

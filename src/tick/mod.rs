@@ -26,6 +26,7 @@
 
 pub mod after_load;
 pub mod balance;
+mod batch;
 pub mod bounds;
 pub mod clock;
 mod components;
@@ -60,6 +61,8 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use after_load::{AfterLoad, LoadErrors};
 pub use balance::{Balance, Ledger, Totals};
+pub use batch::step;
+pub(crate) use batch::{advance, foresee_components, open, rebuild};
 pub use clock::{Clock, Evaluation, Span, Style};
 pub(crate) use components::place_of;
 pub use context::Tick;
@@ -76,8 +79,7 @@ use registered::{Kind, register};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
-pub(crate) use step::{advance, foresee_components, rebuild, show_components};
-pub use step::{energy_seen, set_method, step};
+pub use step::{energy_seen, set_method};
 pub use travel::{FarTravel, far_travel, largest_travel};
 pub use undo::Undo;
 

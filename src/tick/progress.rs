@@ -1,12 +1,13 @@
 //! How a run goes: what it has come to, and what went wrong.
 
 use bevy_ecs::change_detection::Tick;
+use bevy_ecs::prelude::*;
 
 use super::Method;
 use super::balance::Totals;
+use super::batch::Running;
 use super::failure::Trouble;
 use super::guard::EnergyGuard;
-use super::step::Running;
 use super::travel::FarTravel;
 
 /// How a run goes.
@@ -15,8 +16,13 @@ pub(super) struct Progress {
     pub method: Option<Method>,
     /// Counts changes of method and models.
     pub version: u64,
-    pub components: ComponentAccess,
-    /// What runs during a batch.
+    /// The schedule of the tick, as long as the world is given to no one else.
+    pub sim: Option<Box<Schedule>>,
+    /// Something reads components after each batch.
+    pub shown: bool,
+    /// Components hold the state of an earlier tick.
+    pub behind: bool,
+    /// What runs during a batch, and stays as long as the schedule of the tick.
     pub running: Option<Box<Running>>,
     /// The totals before others changed the state, if they did since the last tick.
     pub before: Option<Totals>,
@@ -42,17 +48,6 @@ pub(super) struct Progress {
     pub trouble: Option<Trouble>,
     /// How many indicators each model with events told last, in order.
     pub told: Vec<usize>,
-}
-
-/// Who sees the components between batches of ticks.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ComponentAccess {
-    /// Something reads them after each batch.
-    pub shown: bool,
-    /// They hold the state of an earlier tick.
-    pub behind: bool,
-    /// The world was given to no one else since the last batch: components are as they were.
-    pub closed: bool,
 }
 
 /// How many events were located, and how many ticks had too many.

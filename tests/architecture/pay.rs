@@ -16,7 +16,7 @@ fn systems(sections: &str) -> [usize; 3] {
     let mut simulation = Simulation::load(&Source::new("pay.ron", scene)).unwrap_or_else(|errors| panic!("{errors}"));
     // Whatever is added while running counts as well.
     simulation.run_to_tick(2).unwrap();
-    let schedules = simulation.resource::<Schedules>();
+    let schedules = simulation.world().resource::<Schedules>();
     [SimTick.intern(), Evaluate.intern(), Modes.intern()].map(|label| schedules.get(label).unwrap().systems_len())
 }
 

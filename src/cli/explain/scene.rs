@@ -1,5 +1,6 @@
 //! A scene taken apart: what it names, what runs in a tick, where the time goes.
 
+use bevy_ecs::prelude::World;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -71,7 +72,7 @@ impl Anatomy {
         // It fails where the other one did.
         let _ = watched.run_to_tick(ticks);
         let known = known_in(&watched);
-        let parts = stages(&watched, &known);
+        let parts = stages(watched.world(), &known);
         let pairs = plain.resource::<State>().pairs();
         Ok(Self {
             title: plain.header().title.clone(),
@@ -265,13 +266,13 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
     known
 }
 
-fn stages(watched: &Simulation, known: &[(String, Known)]) -> Vec<Stage> {
-    let Some(watch) = &watched.resource::<State>().stopwatch else { return Vec::new() };
+fn stages(world: &World, known: &[(String, Known)]) -> Vec<Stage> {
+    let Some(watch) = &world.resource::<State>().stopwatch else { return Vec::new() };
     let spent = |part: Part| watch.spent(part).as_secs_f64();
     // Between two ticks, but for the loop, is the time in which nothing runs.
     let in_ticks = |part: &Part| *part != Part::Between;
     let all: f64 = Part::ALL.into_iter().filter(in_ticks).map(spent).sum();
-    let systems = stopwatch::systems(watched.unpublished_world());
+    let systems = stopwatch::systems(world);
     let stage = |(part, names): (Part, Vec<String>)| Stage {
         name: part.name(),
         share: if all > 0.0 { spent(part) / all } else { 0.0 },

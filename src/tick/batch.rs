@@ -1,0 +1,323 @@
+//! A batch of ticks.
+
+use bevy_ecs::change_detection::{DetectChanges, Tick as ChangeTick};
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{ScheduleCleanupPolicy, ScheduleLabel, Schedules};
+
+use super::balance::Totals;
+use super::components::{
+    clear_forces, collect_forces, components_differ, load_state, make_pushable, publish_components,
+};
+use super::failure::Failure;
+use super::flight;
+use super::progress::Progress;
+use super::registered::{Kind, Registered};
+use super::stages::schedule_stages;
+use super::step::{integrate, integrate_among_systems, refresh};
+use super::stopwatch::Part;
+use super::{Evaluate, EvaluateStage, Method, Modes, SimTick, Stage, State};
+use crate::world::{Roster, packed};
+
+/// What runs while a batch of ticks does.
+pub(super) struct Running {
+    pub method: Method,
+    /// Evaluations and modes as schedules, where systems of users stand in them.
+    pub schedules: Option<[Schedule; 2]>,
+    /// No system beside the integrator changes anything of the state in the tick.
+    pub alone: bool,
+    /// Others look at it.
+    pub looked_at: bool,
+}
+
+/// What is known of the systems of users.
+#[derive(Resource, Default)]
+pub(super) struct Others {
+    /// Some live in the tick: components are kept up to date around it.
+    pub in_tick: bool,
+    /// Some live in the evaluation: components are kept up to date around it.
+    in_evaluation: bool,
+    /// Some stage has been given a condition.
+    conditional: bool,
+    /// The integrator runs the schedules of evaluations and modes.
+    scheduled: bool,
+    /// No system beside the integrator changes anything of the state in the tick.
+    alone: bool,
+    /// Others look at it.
+    looked_at: bool,
+    /// When the schedules had changed last, and which models there were, as this was found out.
+    known_at: Option<(ChangeTick, u64)>,
+}
+
+/// Runs `ticks` ticks. State that changed in components since the last call is taken up; afterwards the components
+/// hold the new state.
+///
+/// # Errors
+/// When a position, angle, velocity or spin stops being finite, or energy comes out of nowhere. The state stays as it was found then.
+pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
+    let result = advance(world, ticks);
+    open(world);
+    result
+}
+
+/// Runs `ticks` ticks. Between batches of a world that nobody else sees what runs them stays at hand: [`open`] comes before all
+/// that changes the world or reads components.
+pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
+    let mut state = world.resource_mut::<State>();
+    let watched = state.stopwatch.is_some();
+    let (kept, looked_at) = (state.progress.sim.take(), state.progress.looked_at);
+    let mut sim = match kept {
+        Some(sim) => {
+            if looked_at {
+                flight::note_looks(world);
+            }
+            sim
+        }
+        None => begin(world),
+    };
+    let mut stale = false;
+    for _ in 0..ticks {
+        if watched {
+            world.resource_mut::<State>().turn_to(Part::Begin);
+        }
+        sim.run(world);
+        let state = world.resource::<State>();
+        stale = state.evaluation.stale;
+        if state.progress.trouble.is_some() {
+            break;
+        }
+    }
+    if stale {
+        refresh(world);
+    }
+    let mut state = world.resource_mut::<State>();
+    let changed = state.last_changed();
+    state.see_writers(changed);
+    state.complete();
+    let Progress { trouble, shown, .. } = state.progress;
+    let stays = trouble.is_none() && state.progress.running.as_ref().is_some_and(|running| running.stays());
+    state.progress.sim = Some(sim);
+    if !stays {
+        open(world);
+    } else if shown {
+        show_components(world);
+    }
+    match trouble {
+        Some(trouble) => Err(trouble.named(world)),
+        None => Ok(()),
+    }
+}
+
+/// Takes up what was changed between batches, and takes what runs a batch out of the world.
+fn begin(world: &mut World) -> Box<Schedule> {
+    let sim = Box::new(prepare(world));
+    let others = world.resource::<Others>();
+    let (in_tick, scheduled, alone, looked_at) = (others.in_tick, others.scheduled, others.alone, others.looked_at);
+    let schedules = scheduled.then(|| [take(world, Evaluate), take(world, Modes)]);
+    let mut state = world.resource_mut::<State>();
+    let method = state.progress.method.take().expect("the plugin of integrators sets a method");
+    state.progress.running = Some(Box::new(Running { method, schedules, alone, looked_at }));
+    if !in_tick {
+        take_up(world);
+    }
+    sim
+}
+
+/// Opens the world to others: components show the state, and schedules and method stand in their places.
+pub(crate) fn open(world: &mut World) {
+    show_components(world);
+    let mut state = world.resource_mut::<State>();
+    let Some(sim) = state.progress.sim.take() else { return };
+    let Running { method, schedules, .. } = *state.progress.running.take().expect("it is there with the schedule");
+    state.progress.method = Some(method);
+    let models = state.progress.version;
+    let mut there = world.resource_mut::<Schedules>();
+    there.insert(*sim);
+    for schedule in schedules.into_iter().flatten() {
+        there.insert(schedule);
+    }
+    let changed = there.last_changed();
+    world.resource_mut::<Others>().known_at = Some((changed, models));
+    // What others change from now on is changed later.
+    world.increment_change_tick();
+}
+
+/// Brings the components up to date, if they are not.
+fn show_components(world: &mut World) {
+    if std::mem::take(&mut world.resource_mut::<State>().progress.behind) {
+        run_once(world, publish_components);
+    }
+}
+
+impl Running {
+    /// Whether no system of a user may change the schedules or the components.
+    fn stays(&self) -> bool {
+        self.alone && self.schedules.is_none()
+    }
+}
+
+impl State {
+    /// After a batch forces are those of where bodies stand, and all of them have landed.
+    fn complete(&mut self) {
+        self.bodies.catch_up();
+        self.land();
+        // The last kick of the batch is seen by no drift any more.
+        if self.progress.trouble.is_none() {
+            self.note_failure();
+        }
+        self.progress.behind = true;
+        self.turn_to(Part::Between);
+    }
+
+    /// Something reads components between ticks: they are brought up to date after each batch.
+    pub(crate) fn show_components(&mut self) {
+        self.progress.shown = true;
+    }
+}
+
+/// The schedule of the tick, ready to run. What systems there are is found out anew where schedules, models or the method were
+/// changed.
+fn prepare(world: &mut World) -> Schedule {
+    let now = (world.resource_ref::<Schedules>().last_changed(), world.resource::<State>().progress.version);
+    if world.get_resource_or_init::<Others>().known_at == Some(now) {
+        if world.resource::<State>().progress.looked_at {
+            flight::note_looks(world);
+        }
+        return take(world, SimTick);
+    }
+    world.resource_mut::<State>().find_roles();
+    schedule_stages(world);
+    let mut sim = take(world, SimTick);
+    let (mut evaluate, mut modes) = (take(world, Evaluate), take(world, Modes));
+    keep_components_current(world, &mut sim, &mut evaluate);
+    choose_way(world, &mut sim, [&evaluate, &modes]);
+    for schedule in [&mut sim, &mut evaluate, &mut modes] {
+        apply_only_what_is_deferred(world, schedule);
+    }
+    let flies = world.resource::<State>().progress.method.as_ref().is_some_and(|method| method.0.flies());
+    flight::allow(world, flies, &sim, [&evaluate, &modes]);
+    let alone = world.resource::<Registered>().none_writes(SimTick, &sim);
+    let looked_at = sim.graph().systems.len() > 1;
+    let mut others = world.resource_mut::<Others>();
+    (others.alone, others.looked_at) = (alone, looked_at);
+    let mut schedules = world.resource_mut::<Schedules>();
+    schedules.insert(evaluate);
+    schedules.insert(modes);
+    sim
+}
+
+/// Before bodies are spawned: sees whether systems that work on components are there already, so that bodies are
+/// spawned with all that those need.
+pub(crate) fn foresee_components(world: &mut World) {
+    let (registered, schedules) = (world.resource::<Registered>(), world.resource::<Schedules>());
+    let ordinary = schedules.get(SimTick).is_some_and(|schedule| !registered.all_packed(SimTick, schedule))
+        || schedules.get(Evaluate).is_some_and(|schedule| !registered.all_packed(Evaluate, schedule));
+    world.get_resource_or_init::<Roster>().pushed |= ordinary;
+}
+
+fn take(world: &mut World, label: impl ScheduleLabel) -> Schedule {
+    let missing = "the tick was added with `TickAppExt::add_tick`";
+    world.resource_mut::<Schedules>().remove(label).expect(missing)
+}
+
+/// Whether stages have conditions that the schedule has not yet taken up.
+fn has_conditions(schedule: &Schedule) -> bool {
+    schedule.graph().system_sets.iter().any(|(.., conditions)| !conditions.is_empty())
+}
+
+fn run_once<M>(world: &mut World, system: impl IntoSystem<(), (), M> + 'static) {
+    // The system has no parameters that could be missing.
+    let _ = world.run_system_cached(system);
+}
+
+/// Where no system has anything to be applied later, nothing looks for it after each run.
+fn apply_only_what_is_deferred(world: &mut World, schedule: &mut Schedule) {
+    // What is wrong with a schedule is told when it runs.
+    if schedule.initialize(world).is_ok() {
+        let deferred = schedule.systems().is_ok_and(|mut systems| systems.any(|(_, system)| system.has_deferred()));
+        schedule.set_apply_final_deferred(deferred);
+    }
+}
+
+/// Sees whether systems were added that work on components, and puts the copying around them.
+fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut Schedule) {
+    let registered = world.resource::<Registered>();
+    let ordinary = (!registered.all_packed(SimTick, sim), !registered.all_packed(Evaluate, evaluate));
+    if (ordinary.0 || ordinary.1) && !Roster::pushes(world) {
+        make_pushable(world);
+    }
+    let mut others = world.resource_mut::<Others>();
+    if ordinary.0 && !others.in_tick {
+        others.in_tick = true;
+        sim.add_systems(publish_components.after(Stage::Integrate).before(Stage::Observe));
+    }
+    if ordinary.1 && !others.in_evaluation {
+        others.in_evaluation = true;
+        let current = (publish_components, clear_forces).chain();
+        evaluate.add_systems(current.after(EvaluateStage::Bounds).before(EvaluateStage::Systems));
+        evaluate.add_systems(collect_forces.after(EvaluateStage::Systems).before(EvaluateStage::Forces));
+    }
+}
+
+/// Sees whether systems of users are part of evaluations or of the tick: the integrator then runs the schedules, with the whole
+/// world at hand.
+fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedule; 2]) {
+    let registered = world.resource::<Registered>();
+    let as_registered = registered.is_as_registered(Evaluate, evaluate) && registered.is_as_registered(Modes, modes);
+    // Schedules hand conditions on when they are made ready.
+    let conditional = [evaluate, modes].into_iter().any(has_conditions);
+    let mut others = world.resource_mut::<Others>();
+    others.conditional |= conditional;
+    let scheduled = !as_registered || others.conditional || others.in_tick;
+    if scheduled && !others.scheduled {
+        others.scheduled = true;
+        // Where a user took the integrator out it stays out.
+        let gone = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
+        if gone.is_ok_and(|gone| gone > 0) {
+            Registered::add(world, SimTick, sim, Kind::Flies, |sim| {
+                sim.add_systems(integrate_among_systems.in_set(Stage::Integrate));
+            });
+        }
+    }
+}
+
+/// Takes up what others changed, and remembers the totals of before if anything did.
+pub(super) fn take_up(world: &mut World) {
+    let before = take_up_changes(world);
+    let mut state = world.resource_mut::<State>();
+    // A change of models is noted when it is made.
+    state.progress.before = state.progress.before.or(before);
+}
+
+/// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
+/// anything changed.
+fn take_up_changes(world: &mut World) -> Option<Totals> {
+    let changed = world.resource::<Roster>().changed;
+    let state = world.resource::<State>();
+    let (touched, beginning) = (state.bodies.touched, state.ledger.start.is_none());
+    let differs = changed || touched || beginning || world.run_system_cached(components_differ).unwrap_or(false);
+    if !differs {
+        return None;
+    }
+    let mut state = world.resource_mut::<State>();
+    state.bodies.touched = false;
+    state.bodies.end_flights();
+    let before = state.totals();
+    if changed {
+        show_components(world);
+        rebuild(world);
+    } else {
+        run_once(world, load_state);
+    }
+    Some(before)
+}
+
+/// Fills the packed arrays anew.
+pub(crate) fn rebuild(world: &mut World) {
+    if Roster::pushes(world) {
+        make_pushable(world);
+    }
+    let previous = std::mem::take(&mut world.resource_mut::<State>().bodies);
+    let bodies = packed::rebuild(world, previous);
+    world.resource_mut::<State>().bodies = bodies;
+    world.resource_mut::<Roster>().changed = false;
+}
