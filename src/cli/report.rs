@@ -1,13 +1,13 @@
 //! `jostle report`: speed against error on problems whose answer is known, and hard cases.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::Exit;
 use super::progress::Progress;
 use super::say::{count, say};
-use crate::output::flat_picture;
+use crate::output::{flat_picture, write_whole};
 use crate::problems::hard::{self, Case, Verdict};
 use crate::problems::{ALL, Problem};
 use crate::raster::{Theme, draw_diagram};
@@ -162,7 +162,6 @@ impl Report {
     }
 
     fn put(&self, file: &str, bytes: &[u8]) -> Result<(), String> {
-        let path: &Path = &self.output.join(file);
-        std::fs::write(path, bytes).map_err(|error| format!("error: `{}` cannot be written: {error}", path.display()))
+        write_whole(&self.output.join(file), bytes).map_err(|error| format!("error: {error}"))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Frames stream: they are drawn and packed in small groups, several at once, and written in order, so the memory
 //! needed does not grow with the length of the film, and the bytes do not depend on the number of threads. A file is
-//! written beside its target as `<name>.part` and takes the target's name when it is complete.
+//! written beside its target as `<name>.<random letters>.part` and takes the target's name when it is complete.
 
 mod apng;
 mod crew;
@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 
 pub use self::png::{flat_picture, write_picture};
 pub use error::OutputError;
-pub use whole::write_whole;
+pub use whole::{write_new, write_whole};
 
 use crate::raster::View;
 use crate::record::frame::Frame;
@@ -55,7 +55,7 @@ impl Default for FilmSettings {
 
 /// A film in the making.
 ///
-/// A film that is dropped before [`Film::finish`] leaves the frames written so far in `<name>.part`.
+/// A film that is dropped before [`Film::finish`] leaves the frames written so far in its `.part` file.
 pub trait Film: Send {
     /// Adds the next frame.
     ///
@@ -153,7 +153,7 @@ impl Target {
     }
 }
 
-/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `<name>.part`, so that a
+/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `.part` file, so that a
 /// target that cannot be written is known before the run.
 ///
 /// # Errors

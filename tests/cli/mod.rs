@@ -18,6 +18,7 @@ mod look;
 mod measure;
 mod new;
 mod numbers;
+mod one_writer;
 mod outputs;
 mod plots;
 mod promises;

@@ -141,7 +141,7 @@ impl Measure {
         exit = exit.worse(print_line(&text));
         for path in &self.output {
             let written = if ends_with(path, "csv") {
-                write_whole(path, &told::csv(measured))
+                write_whole(path, told::csv(measured))
             } else {
                 self.draw(request, measured, path)
             };

@@ -38,7 +38,7 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
     }
     let merged = Table::merged(tables).map_err(|why| format!("the tables in `{shown}` do not fit together: {why}"))?;
     let path = folder.join("table.csv");
-    write_whole(&path, &merged.to_csv()).map_err(|error| error.to_string())?;
+    write_whole(&path, merged.to_csv()).map_err(|error| error.to_string())?;
     if !quiet {
         let runs = count(merged.rows.len(), "run", "runs");
         say(&format!("{}: {runs} of {}", path.display(), count(of, "shard", "shards")));

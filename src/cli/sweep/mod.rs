@@ -146,7 +146,7 @@ impl Sweep {
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
         let path = folder.join(self.file("table", "csv"));
         let sweep = self.shard.map(|_| self.fingerprint(&source, plain.world().resource()));
-        write_whole(&path, &Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
+        write_whole(&path, Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
         let image = folder.join(self.file("contact_sheet", "png"));
         if sheet {
             picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
