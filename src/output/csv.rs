@@ -73,7 +73,7 @@ impl Table {
     pub fn finish(self) -> Result<(), OutputError> {
         match self.way {
             Way::Out(mut out) => out.flush().map_err(|cause| OutputError::io(&self.path, cause)),
-            Way::File(part) => part.complete().map(|_| ()),
+            Way::File(part) => part.complete(),
         }
     }
 }

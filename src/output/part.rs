@@ -88,23 +88,21 @@ impl PartFile {
         file.seek(SeekFrom::Start(end)).map(|_| ())
     }
 
-    /// The same as [`PartFile::complete`] for a file that another program has written.
-    pub(super) fn complete_elsewhere(mut self) -> Result<u64, OutputError> {
-        let length = fs::metadata(self.part()).map(|written| written.len());
-        self.bytes = length.map_err(|cause| OutputError::io(&self.name, cause))?;
-        self.complete()
-    }
-
-    /// Gives the file its name; returns its length in bytes.
-    pub(super) fn complete(mut self) -> Result<u64, OutputError> {
+    /// Gives the file its name.
+    pub(super) fn complete(mut self) -> Result<(), OutputError> {
         let named = self.name_it(|part, target| part.persist(target));
-        named.map(|()| self.bytes).map_err(|cause| self.failed(cause))
+        named.and_then(|()| sync_folder(folder_of(&self.target))).map_err(|cause| self.failed(cause))
     }
 
     /// The same where no file has the name yet.
-    pub(super) fn complete_new(mut self) -> Result<u64, OutputError> {
+    pub(super) fn complete_new(mut self) -> Result<(), OutputError> {
         let named = self.name_it(|part, target| part.persist_noclobber(target));
-        named.map(|()| self.bytes).map_err(|cause| self.failed(cause))
+        named.and_then(|()| sync_folder(folder_of(&self.target))).map_err(|cause| self.failed(cause))
+    }
+
+    /// The same for one of many files in a folder that is written out after the last of them.
+    pub(super) fn complete_one_of_many(mut self) -> Result<(), OutputError> {
+        self.name_it(|part, target| part.persist(target)).map_err(|cause| self.failed(cause))
     }
 
     fn failed(&self, cause: io::Error) -> OutputError {
@@ -127,7 +125,7 @@ impl PartFile {
             return Err(refused.error);
         }
         self.file = None;
-        sync_folder(folder_of(&self.target))
+        Ok(())
     }
 }
 
@@ -203,7 +201,7 @@ fn beginning(target: &Path) -> OsString {
 }
 
 /// Writes out that a file has its name. Some systems have no such thing for folders, and some folders may not be read.
-fn sync_folder(folder: &Path) -> io::Result<()> {
+pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
     if !cfg!(unix) {
         return Ok(());
     }

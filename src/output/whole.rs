@@ -12,7 +12,7 @@ use super::part::{PartFile, Unfinished};
 /// # Errors
 /// If the system refuses to write.
 pub fn write_whole(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
-    written(path, content.as_ref())?.complete().map(|_| ())
+    written(path, content.as_ref())?.complete()
 }
 
 /// Writes a file whose name no other file has. A file that gets the name meanwhile stays as it is.
@@ -23,7 +23,7 @@ pub fn write_new(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputErr
     if path.symlink_metadata().is_ok() {
         return Err(OutputError::io(path, std::io::ErrorKind::AlreadyExists));
     }
-    written(path, content.as_ref())?.complete_new().map(|_| ())
+    written(path, content.as_ref())?.complete_new()
 }
 
 fn written(path: &Path, content: &[u8]) -> Result<PartFile, OutputError> {

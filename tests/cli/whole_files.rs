@@ -41,6 +41,33 @@ fn a_film_killed_at_any_moment_is_the_old_one_or_the_whole_new_one() {
     }
 }
 
+/// A film that has to fit is made several times. A program that looks at its name all the while finds the old film and then
+/// the one that stays, so a kill at any moment leaves one of the two.
+#[test]
+fn a_film_within_a_size_is_the_old_one_until_the_last_is_made() {
+    for most in ["20kB", "60kB", "1kB"] {
+        let folder = Folder::new(&format!("squeezed_{most}")).with("film.gif", OLD);
+        let arguments =
+            format!("render example:tetris --duration 4 --size 320x180 --quiet --max-size {most} -o film.gif");
+        let mut child = folder.command(&arguments).stderr(Stdio::null()).spawn().unwrap();
+        let mut seen = vec![OLD.to_vec()];
+        loop {
+            let ended = child.try_wait().unwrap();
+            let now = folder.read("film.gif");
+            if *seen.last().unwrap() != now {
+                seen.push(now);
+            }
+            if let Some(ended) = ended {
+                assert_eq!(seen.len(), if ended.success() { 2 } else { 1 }, "{most}");
+                assert_eq!(ended.success(), most != "1kB");
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert_eq!(folder.names(), ["film.gif"]);
+    }
+}
+
 /// A disk that takes no more than 16 kB, as the limit of the shell for files.
 #[cfg(target_os = "linux")]
 #[test]
