@@ -7,6 +7,7 @@ use clap::Args;
 use super::Exit;
 use super::estimate::EstimateFlags;
 use super::flags::{self, OverrideFlags};
+use super::inputs::Inputs;
 use super::load::Request;
 use super::pace::Runner;
 use super::progress::Progress;
@@ -102,6 +103,10 @@ impl Run {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
+        let inputs = Inputs::of(request, &simulation);
+        if let Some(message) = self.output.as_deref().and_then(|path| inputs.objection(path)) {
+            return request.usage(&message);
+        }
         self.estimates.watch(&mut simulation);
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let measures = simulation.world().get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());

@@ -8,6 +8,7 @@ use clap::Args;
 use super::Exit;
 use super::find::scenes_in;
 use super::flags::{self, OverrideFlags};
+use super::inputs::is_same_file;
 use super::junit;
 use super::load::Request;
 use super::progress::Progress;
@@ -118,8 +119,16 @@ impl Test {
         if let Some(path) = &self.junit {
             let named: Vec<junit::Named> =
                 candidates.iter().zip(&results).map(|(candidate, tried)| (&*candidate.name, tried.trial())).collect();
-            if let Err(error) = write_whole(path, &junit::report(&named, seconds)) {
-                say(&format!("error: {error}"));
+            let read = named.iter().any(|(name, trial)| {
+                let files = trial.iter().flat_map(|trial| &trial.files).map(PathBuf::as_path);
+                files.chain([Path::new(name)]).any(|file| is_same_file(file, path))
+            });
+            let written = match read {
+                true => Err(format!("`{}` belongs to a scene: write the report to another file", path.display())),
+                false => write_whole(path, junit::report(&named, seconds)).map_err(|error| error.to_string()),
+            };
+            if let Err(message) = written {
+                say(&format!("error: {message}"));
                 return Exit::Usage;
             }
         }

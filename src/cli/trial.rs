@@ -1,5 +1,7 @@
 //! How a run ended when many are made at once: in a word, with the reason.
 
+use std::path::PathBuf;
+
 use super::Exit;
 use crate::expect::Outcome;
 use crate::scene::SceneErrors;
@@ -54,6 +56,8 @@ pub(super) struct Trial {
     pub hash: Option<String>,
     /// Seconds spent computing.
     pub seconds: f64,
+    /// The files that were read for it, without the scene's own.
+    pub files: Vec<PathBuf>,
 }
 
 impl Trial {
@@ -76,6 +80,7 @@ impl Trial {
             warnings: Vec::new(),
             hash: None,
             seconds: 0.0,
+            files: Vec::new(),
         }
     }
 
@@ -97,6 +102,7 @@ impl Trial {
             hash: Some(card.hash),
             warnings: card.warnings,
             seconds: simulation.seconds_spent(),
+            files: simulation.header().files.clone(),
         }
     }
 

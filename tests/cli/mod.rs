@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod door;
 mod estimates;
 mod explain;
 mod failures;
@@ -11,6 +12,7 @@ mod fmt;
 mod formats;
 mod harness;
 mod help;
+mod inputs;
 mod interrupt;
 mod json;
 mod list;

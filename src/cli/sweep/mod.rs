@@ -18,6 +18,7 @@ use super::Exit;
 use super::colors;
 use super::film::{Order, Shot};
 use super::flags::{self, OverrideFlags};
+use super::inputs::Inputs;
 use super::load::{self, Request};
 use super::progress::Progress;
 use super::say::{count, print_line, say};
@@ -131,6 +132,8 @@ impl Sweep {
         };
         self.strangers(&source, &plain)?;
         grid.scene(&source, 0)?;
+        let inputs = Inputs::of(request, &plain).and(colors::file(&source, &plain, None));
+        self.outputs(folder, grid.runs).find_map(|path| inputs.objection(&path)).map_or(Ok(()), Err)?;
         std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
         let runs: Vec<usize> = (first..grid.runs).step_by(step).collect();
@@ -144,10 +147,10 @@ impl Sweep {
         let rows = runs.iter().zip(&attempts);
         let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
-        let path = folder.join(self.file("table", "csv"));
+        let path = self.table(folder);
         let sweep = self.shard.map(|_| self.fingerprint(&source, plain.world().resource()));
         write_whole(&path, Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
-        let image = folder.join(self.file("contact_sheet", "png"));
+        let image = self.sheet(folder);
         if sheet {
             picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
         }
@@ -181,7 +184,8 @@ impl Sweep {
     /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
     fn fingerprint(&self, source: &Source, registry: &SceneRegistry) -> String {
         let OverrideFlags { duration, tick, method, tolerance, settings, simd: _ } = &self.overrides;
-        let flags = format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
+        let flags =
+            format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
         let texts = [&source.text, &source.made(registry), &flags, env!("CARGO_PKG_VERSION")];
         // No text has a byte 255 in it.
         let bytes = texts.into_iter().flat_map(|text| text.bytes().chain([255]));
@@ -261,8 +265,7 @@ impl Sweep {
     /// The film of a run. It is run once more for it.
     fn film(&self, scene: &Source, label: &str, grid: &Grid, run: usize, folder: &Path) -> Exit {
         let overrides = self.overrides.overrides();
-        let digits = grid.runs.to_string().len();
-        let path = folder.join(format!("run_{:0digits$}.gif", run + 1));
+        let path = film_of(folder, run, grid.runs);
         let name = format!("{} ({label})", scene.name);
         let request = Request { name: &name, json: false };
         let (Ok(mut simulation), Ok(target)) =
@@ -289,6 +292,21 @@ impl Sweep {
         order.make(&mut simulation).map_or_else(|exit| exit, |_| Exit::Good)
     }
 
+    fn table(&self, folder: &Path) -> PathBuf {
+        folder.join(self.file("table", "csv"))
+    }
+
+    fn sheet(&self, folder: &Path) -> PathBuf {
+        folder.join(self.file("contact_sheet", "png"))
+    }
+
+    /// All files that may be written.
+    fn outputs(&self, folder: &Path, runs: usize) -> impl Iterator<Item = PathBuf> {
+        let films = if self.films { runs } else { 0 };
+        let films = (0..films).map(move |run| film_of(folder, run, runs));
+        [self.table(folder), self.sheet(folder)].into_iter().chain(films)
+    }
+
     /// The name of a file; those of shards say which.
     fn file(&self, stem: &str, ending: &str) -> String {
         self.shard.map_or_else(|| format!("{stem}.{ending}"), |(which, of)| format!("{stem}.{which}-of-{of}.{ending}"))
@@ -299,6 +317,11 @@ impl Sweep {
 fn all_refused(attempts: &[Attempt]) -> Option<&crate::scene::SceneErrors> {
     let refused = |attempt: &Attempt| attempt.trial.verdict == Verdict::Refused;
     attempts.first().filter(|_| attempts.iter().all(refused))?.trial.errors.as_ref()
+}
+
+fn film_of(folder: &Path, run: usize, runs: usize) -> PathBuf {
+    let digits = runs.to_string().len();
+    folder.join(format!("run_{:0digits$}.gif", run + 1))
 }
 
 fn owned(grid: &Grid, run: usize) -> Vec<String> {
