@@ -84,13 +84,14 @@ impl Trial {
         }
     }
 
-    /// A run that has ended, as it should or not.
-    pub fn of(simulation: &Simulation, failure: Option<&Failure>) -> Self {
+    /// A run that has ended, as it should or not; `strict`: one that is not to be trusted has failed.
+    pub fn of(simulation: &Simulation, failure: Option<&Failure>, strict: bool) -> Self {
         let card = simulation.card();
         let expect = simulation.outcomes();
         let broken: Vec<String> = expect.iter().filter(|outcome| !outcome.holds).map(told).collect();
         let (verdict, reason) = match failure {
             Some(failure) => (Verdict::Failed, format!("{failure}; {}", card.why.as_deref().unwrap_or_default())),
+            None if strict && card.is_distrusted() => (Verdict::Failed, card.verdict.clone()),
             None if broken.is_empty() => (Verdict::Good, String::new()),
             None => (Verdict::Broken, broken.join("; ")),
         };

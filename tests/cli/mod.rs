@@ -29,6 +29,7 @@ mod scene_files;
 mod schema;
 mod stills;
 mod streams;
+mod strict;
 mod sweep;
 mod test_command;
 mod values;

@@ -17,7 +17,7 @@ use self::vary::{Grid, Variation};
 use super::Exit;
 use super::colors;
 use super::film::{Order, Shot};
-use super::flags::{self, OverrideFlags};
+use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::Inputs;
 use super::load::{self, Request};
 use super::progress::Progress;
@@ -63,6 +63,8 @@ pub(super) struct Sweep {
     merge: Option<PathBuf>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    #[command(flatten)]
+    strict: StrictFlag,
     /// Runs at the same time; no number depends on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
@@ -185,7 +187,7 @@ impl Sweep {
     fn fingerprint(&self, source: &Source, registry: &SceneRegistry) -> String {
         let OverrideFlags { duration, tick, method, tolerance, settings, simd: _ } = &self.overrides;
         let flags =
-            format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
+            format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?} {:?}", self.vary, self.strict);
         let texts = [&source.text, &source.made(registry), &flags, env!("CARGO_PKG_VERSION")];
         // No text has a byte 255 in it.
         let bytes = texts.into_iter().flat_map(|text| text.bytes().chain([255]));
@@ -229,7 +231,7 @@ impl Sweep {
                 Err(message) => (refused(source, message), Exit::Good),
                 Ok(scene) => {
                     let label = label(grid, run);
-                    let done = attempt(&scene, &self.overrides, sheet.then_some(&*label));
+                    let done = attempt(&scene, &self.overrides, self.strict, sheet.then_some(&*label));
                     let film = if self.films { self.film(&scene, &label, grid, run, folder) } else { Exit::Good };
                     (done, film)
                 }
