@@ -22,6 +22,9 @@ pub(super) enum Verdict {
 }
 
 impl Verdict {
+    /// Every verdict, the best first.
+    pub const ALL: [Self; 4] = [Self::Good, Self::Broken, Self::Refused, Self::Failed];
+
     /// The word in tables and JSON.
     pub fn word(self) -> &'static str {
         match self {

@@ -31,6 +31,7 @@ mod stills;
 mod streams;
 mod strict;
 mod sweep;
+mod sweep_interrupted;
 mod test_command;
 mod values;
 mod verdicts;
