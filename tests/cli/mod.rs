@@ -1,6 +1,7 @@
 //! The command line as its users meet it: the built program, run in folders of its own, one file per promise.
 
 mod bench;
+mod budgets;
 mod check;
 mod door;
 mod estimates;
