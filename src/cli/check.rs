@@ -2,13 +2,15 @@
 
 use clap::Args;
 
-use super::Exit;
-use super::flags::OverrideFlags;
+use super::flags::{OverrideFlags, StrictFlag};
 use super::load::Request;
+use super::moments::Misfit;
 use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail, Ran};
 use super::say::{count, print_line, say};
+use super::{Exit, colors};
+use crate::scene::Source;
 use crate::simulation::{Overrides, Simulation};
 
 /// The command `check`.
@@ -23,6 +25,8 @@ pub(super) struct Check {
     run: bool,
     #[command(flatten)]
     overrides: OverrideFlags,
+    #[command(flatten)]
+    strict: StrictFlag,
     /// Print for each scene one line of JSON on standard output: its mistakes, or with --run its result
     #[arg(long)]
     json: bool,
@@ -35,32 +39,45 @@ Examples:
 
 impl Check {
     pub(super) fn execute(self) -> Exit {
+        if self.strict.strict && !self.run {
+            say("error: --strict is about runs: add --run");
+            return Exit::Usage;
+        }
         let check = |name: &String| {
             let request = Request { name, json: self.json };
             let overrides = Overrides { untried: !self.run, ..self.overrides.overrides() };
             match request.load(&self.overrides.settings, &overrides) {
                 Err(exit) => exit,
-                Ok((_, simulation)) if self.run => self.run(request, simulation),
-                Ok((_, simulation)) if self.json => {
-                    let notes = simulation.notes();
-                    print_line(&serde_json::json!({ "scene": name, "errors": [], "notes": notes }).to_string())
-                }
-                Ok((_, simulation)) => {
-                    for note in simulation.notes() {
-                        say(&format!("note: {name}: {note}"));
-                    }
-                    print_line(&format!("{name}: good; {}", contents(&simulation)))
-                }
+                Ok((source, simulation)) => match refused_by_render(request, &source, &simulation) {
+                    Some(exit) => exit,
+                    None => self.tell(request, simulation),
+                },
             }
         };
         self.scenes.iter().map(check).fold(Exit::Good, Exit::worse)
+    }
+
+    fn tell(&self, request: Request, simulation: Simulation) -> Exit {
+        let name = request.name;
+        if self.run {
+            return self.run(request, simulation);
+        }
+        let notes = simulation.notes();
+        if self.json {
+            return print_line(&serde_json::json!({ "scene": name, "errors": [], "notes": notes }).to_string());
+        }
+        for note in notes {
+            say(&format!("note: {name}: {note}"));
+        }
+        print_line(&format!("{name}: good; {}", contents(&simulation)))
     }
 
     fn run(&self, request: Request, mut simulation: Simulation) -> Exit {
         let progress = Progress::new(simulation.ticks(), "ticks", self.json);
         let end = simulation.ticks();
         let failure = Runner { progress, wall_clock: None }.run_to(&mut simulation, end).err();
-        let exit = result::tell(request, &Ran::whole(&simulation, failure.as_ref()), Detail::of(self.json, true));
+        let ran = Ran { strict: self.strict.strict, ..Ran::whole(&simulation, failure.as_ref()) };
+        let exit = result::tell(request, &ran, Detail::of(self.json, true));
         if exit == Exit::Good && !self.json {
             let holding = match simulation.outcomes().len() {
                 0 => "nothing is expected".to_owned(),
@@ -70,6 +87,12 @@ impl Check {
         }
         exit
     }
+}
+
+/// What only a film would be refused for: its theme, and moments that are not in the run.
+fn refused_by_render(request: Request, source: &Source, simulation: &Simulation) -> Option<Exit> {
+    let theme = colors::theme(request, source, simulation, None).err();
+    theme.or_else(|| Misfit::of(simulation).map(|misfit| misfit.refuse(request, Exit::SceneWrong)))
 }
 
 /// What is in a scene.

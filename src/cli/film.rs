@@ -3,6 +3,7 @@
 use std::io;
 
 use super::aim::Aim;
+use super::inputs::Inputs;
 use super::load::Request;
 use super::progress::Progress;
 use super::projector::Projector;
@@ -124,6 +125,11 @@ impl Order<'_> {
         let settings = FilmSettings { frames_per_second, threads: 1, live: self.pace, ..FilmSettings::default() };
         let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step, panel: None };
         let mut set = Set { order: self, settings, view };
+        let theme = colors::file(self.source, simulation, self.theme);
+        let inputs = Inputs::of(self.request, simulation).and(theme);
+        if let Some(message) = inputs.objection(self.place.target.path()) {
+            return Err(self.request.usage(&message));
+        }
         if let Some(folder) = &self.place.folder {
             let made = std::fs::create_dir_all(folder);
             made.map_err(|cause| self.request.usage(&format!("`{}` cannot be made: {cause}", folder.display())))?;

@@ -21,6 +21,14 @@ const MOST_THREADS: usize = 1024;
 /// More frames in one picture nobody can tell apart.
 const MOST_FRAMES_IN_A_PICTURE: u32 = 400;
 
+/// How much of a verdict an exit code tells.
+#[derive(Args, Clone, Copy, Debug)]
+pub(super) struct StrictFlag {
+    /// Exit with 3 too where the verdict on the error card is `Do not trust it`
+    #[arg(long)]
+    pub strict: bool,
+}
+
 /// Flags that override the scene.
 #[derive(Args, Clone, Debug)]
 pub(super) struct OverrideFlags {

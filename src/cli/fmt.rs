@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::Args;
 
 use super::Exit;
+use super::load;
 use super::say::{print_line, say};
 use crate::output::write_whole;
 use crate::scene::{LARGEST_SCENE, SceneErrors, Source, laid_out};
@@ -77,8 +78,7 @@ impl Fmt {
 
 fn file(name: &str) -> Result<Source, Exit> {
     let path = Path::new(name);
-    Source::read(path)
-        .map_err(|errors| if path.exists() { refuse(&errors) } else { refuse(&errors).worse(Exit::Usage) })
+    load::file(path).map_err(|errors| if path.exists() { refuse(&errors) } else { refuse(&errors).worse(Exit::Usage) })
 }
 
 fn standard_input() -> Result<Source, Exit> {

@@ -123,6 +123,7 @@ mod tests {
         let outcome =
             |text: &str, holds| Outcome { text: text.into(), holds, measured: "1 < 2 & \"3\"".into(), judged: true };
         let trial = Trial {
+            files: Vec::new(),
             verdict: Verdict::Broken,
             reason: String::new(),
             errors: None,

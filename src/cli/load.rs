@@ -1,8 +1,10 @@
 //! Reading scenes for the commands, and telling what is wrong with them.
 
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::inputs::is_same_file;
 use super::say::{print_line, say};
 use super::{Exit, examples};
 use crate::cli::author;
@@ -11,6 +13,14 @@ use crate::simulation::{Overrides, Simulation};
 
 /// What scenes that come with the program are called by.
 pub(super) const EXAMPLE: &str = "example:";
+
+/// Whether scenes may read files that lie elsewhere (`--allow-outside`).
+static OUTSIDE: AtomicBool = AtomicBool::new(false);
+
+/// Says for all scenes of this program whether they may read files that lie elsewhere.
+pub(super) fn allow_outside(allowed: bool) {
+    OUTSIDE.store(allowed, Ordering::Relaxed);
+}
 
 /// A scene as the command line names it.
 #[derive(Clone, Copy, Debug)]
@@ -81,14 +91,18 @@ impl Request<'_> {
 
     /// Whether a path leads to the scene's own file.
     pub fn is_at(self, path: &Path) -> bool {
-        let real = |path: &Path| std::fs::canonicalize(path).ok();
-        !self.name.starts_with(EXAMPLE) && real(path).is_some_and(|path| Some(path) == real(Path::new(self.name)))
+        !self.name.starts_with(EXAMPLE) && is_same_file(path, Path::new(self.name))
     }
+}
+
+/// Reads the text of a scene from a file.
+pub(super) fn file(path: &Path) -> Result<Source, SceneErrors> {
+    Ok(Source { outside: OUTSIDE.load(Ordering::Relaxed), ..Source::read(path)? })
 }
 
 /// Reads the text of a scene: a file, or `example:NAME`.
 pub(super) fn source(scene: &str) -> Result<Source, SceneErrors> {
-    let Some(name) = scene.strip_prefix(EXAMPLE) else { return Source::read(&PathBuf::from(scene)) };
+    let Some(name) = scene.strip_prefix(EXAMPLE) else { return file(Path::new(scene)) };
     let found = examples::SCENES.iter().find(|(known, _)| *known == name);
     found.map(|(_, text)| Source::new(scene, *text)).ok_or_else(|| {
         let known: Vec<&str> = examples::SCENES.iter().map(|(name, _)| *name).collect();

@@ -13,6 +13,7 @@ mod film;
 mod find;
 mod flags;
 mod fmt;
+mod inputs;
 mod junit;
 mod list;
 mod load;
@@ -98,6 +99,9 @@ pub use author::main_with;
 pub struct CommandLine {
     #[command(subcommand)]
     command: Command,
+    /// Let scenes read files that lie neither in their folder or below it, nor in one above it
+    #[arg(long, global = true)]
+    allow_outside: bool,
 }
 
 #[derive(Subcommand, Debug)]
@@ -135,6 +139,7 @@ enum Command {
 impl CommandLine {
     /// Does what was asked for; messages go to standard error, results to standard output.
     pub fn execute(self) -> Exit {
+        load::allow_outside(self.allow_outside);
         match self.command {
             Command::Run(run) => run.execute(),
             Command::Render(render) => render.execute(),

@@ -4,6 +4,7 @@ use bevy_ecs::entity::Entity;
 
 use super::Exit;
 use super::film::{Order, Shot};
+use super::load::Request;
 use super::say::{number, say};
 use crate::contacts::events::{ContactEvents, Touching, watch};
 use crate::record::Schedule;
@@ -21,10 +22,9 @@ impl Order<'_> {
     /// The moments to draw, and the seconds of physics from frame to frame: what the clock has to tell apart.
     pub(super) fn moments(&self, simulation: &Simulation, frames_per_second: f64) -> Result<(Schedule, f64), Exit> {
         let film = simulation.film();
-        let end = simulation.ticks() as f64 * simulation.clock().dt;
+        let end = end(simulation);
         let step = film.speed() / frames_per_second;
-        let beyond = |time: f64| time > end * (1.0 + ROUNDING);
-        let times = |flag: &str, times: &[f64]| match times.iter().find(|time| beyond(**time)) {
+        let times = |flag: &str, times: &[f64]| match times.iter().find(|time| is_beyond(simulation, **time)) {
             Some(late) => {
                 let (late, end) = (number(*late), number(end));
                 Err(self.request.usage(&format!("{flag} {late} s is after the end: the run lasts {end} s")))
@@ -39,11 +39,9 @@ impl Order<'_> {
             }
             Shot::Film | Shot::Sheet(..) => (),
         }
-        let (from, exit) = (film.begin(), if self.is_overridden() { Exit::Usage } else { Exit::SceneWrong });
-        if beyond(from) {
-            let message = format!("the film begins at {} s, but the run ends at {} s", number(from), number(end));
-            let help = "begin earlier, or let the run last longer: `clock: (duration: ..)` or `--duration`";
-            return Err(self.request.refuse(exit, "film.from", &message, help));
+        let from = film.begin();
+        if let Some(misfit) = begins_too_late(simulation) {
+            return Err(self.misfit(&misfit));
         }
         let to = film.end().min(end);
         if let Shot::Sheet((columns, rows)) = self.shot {
@@ -52,24 +50,13 @@ impl Order<'_> {
             let time = |place: u32| if place == last { to } else { from + f64::from(place) * every };
             return Ok((Schedule::at((0..columns * rows).map(time)), every));
         }
-        let standing: f64 = film.freeze.iter().map(|freeze| freeze.lasts.si()).sum();
-        let frames = ((to - from) / film.speed() + standing) * frames_per_second;
-        if frames > MOST_FRAMES {
-            let (seconds, frames) = (number(to - from), number(frames.round()));
-            let message = format!("{seconds} s of physics would be {frames} frames, more than {MOST_FRAMES}");
-            let help = "choose fewer frames per second (`fps`), a higher `speed`, or an earlier end (`to`)";
-            return Err(self.request.refuse(exit, "film", &message, help));
+        if let Some(misfit) = too_many_frames(simulation, frames_per_second).or_else(|| stands_too_late(simulation)) {
+            return Err(self.misfit(&misfit));
         }
         let mut schedule = Schedule::new(from, to, film.speed(), frames_per_second);
         let touched = self.first_touches(simulation, from, to)?;
         for (place, freeze) in film.freeze.iter().enumerate() {
             let at = match freeze.at {
-                Some(at) if beyond(at.si()) => {
-                    let (at, end) = (number(at.si()), number(end));
-                    let message = format!("the film is to stand still at {at} s, but the run ends at {end} s");
-                    let help = "choose an earlier moment, or let the run last longer";
-                    return Err(self.request.refuse(exit, &format!("film.freeze[{place}].at"), &message, help));
-                }
                 Some(at) => Some(at.si().min(end)),
                 None => touched[place],
             };
@@ -84,6 +71,11 @@ impl Order<'_> {
             }
         }
         Ok((schedule, step))
+    }
+
+    fn misfit(&self, misfit: &Misfit) -> Exit {
+        let exit = if self.is_overridden() { Exit::Usage } else { Exit::SceneWrong };
+        misfit.refuse(self.request, exit)
     }
 
     /// Whether the command line, not the scene, says how long the run and the film are.
@@ -124,6 +116,74 @@ impl Order<'_> {
         }
         Ok(found)
     }
+}
+
+/// Why a film does not fit its run.
+pub(super) struct Misfit {
+    path: String,
+    message: String,
+    help: &'static str,
+}
+
+impl Misfit {
+    /// What the film of a scene would be refused for, at the frames per second that the scene says.
+    pub(super) fn of(simulation: &Simulation) -> Option<Self> {
+        let late = begins_too_late(simulation);
+        let many = || too_many_frames(simulation, simulation.film().frames_per_second());
+        late.or_else(many).or_else(|| stands_too_late(simulation))
+    }
+
+    /// Tells it.
+    pub(super) fn refuse(&self, request: Request, exit: Exit) -> Exit {
+        request.refuse(exit, &self.path, &self.message, self.help)
+    }
+}
+
+/// The end of the run, in seconds of physics.
+fn end(simulation: &Simulation) -> f64 {
+    simulation.ticks() as f64 * simulation.clock().dt
+}
+
+/// Whether a moment is after the end of the run.
+fn is_beyond(simulation: &Simulation, time: f64) -> bool {
+    time > end(simulation) * (1.0 + ROUNDING)
+}
+
+fn begins_too_late(simulation: &Simulation) -> Option<Misfit> {
+    let from = simulation.film().begin();
+    is_beyond(simulation, from).then(|| Misfit {
+        path: "film.from".to_owned(),
+        message: format!("the film begins at {} s, but the run ends at {} s", number(from), number(end(simulation))),
+        help: "begin earlier, or let the run last longer: `clock: (duration: ..)` or `--duration`",
+    })
+}
+
+fn too_many_frames(simulation: &Simulation, frames_per_second: f64) -> Option<Misfit> {
+    let film = simulation.film();
+    let seconds = film.end().min(end(simulation)) - film.begin();
+    let standing: f64 = film.freeze.iter().map(|freeze| freeze.lasts.si()).sum();
+    let frames = (seconds / film.speed() + standing) * frames_per_second;
+    (frames > MOST_FRAMES).then(|| {
+        let (seconds, frames) = (number(seconds), number(frames.round()));
+        Misfit {
+            path: "film".to_owned(),
+            message: format!("{seconds} s of physics would be {frames} frames, more than {MOST_FRAMES}"),
+            help: "choose fewer frames per second (`fps`), a higher `speed`, or an earlier end (`to`)",
+        }
+    })
+}
+
+fn stands_too_late(simulation: &Simulation) -> Option<Misfit> {
+    let moments = simulation.film().freeze.iter().enumerate();
+    let mut moments = moments.filter_map(|(place, freeze)| Some((place, freeze.at?.si())));
+    moments.find(|(_, at)| is_beyond(simulation, *at)).map(|(place, at)| {
+        let (at, end) = (number(at), number(end(simulation)));
+        Misfit {
+            path: format!("film.freeze[{place}].at"),
+            message: format!("the film is to stand still at {at} s, but the run ends at {end} s"),
+            help: "choose an earlier moment, or let the run last longer",
+        }
+    })
 }
 
 /// The two that are to touch.

@@ -1,13 +1,15 @@
 //! `jostle new`: writes starting points, a plugin or a scene.
 
-use std::fs::{DirBuilder, OpenOptions};
-use std::io::{ErrorKind, Write};
+use std::fs::DirBuilder;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
+use tempfile::TempDir;
 
 use super::Exit;
 use super::say::{print_line, say};
+use crate::output::{OutputError, write_new};
 
 /// What the templates are called by until they get a name of their own.
 const TEMPLATE: [&str; 2] = ["home_spring", "HomeSpring"];
@@ -114,12 +116,17 @@ impl NewPlugin {
         };
         let own = |text: &str| text.replace(TEMPLATE[0], name).replace(TEMPLATE[1], &in_camel_case(name));
         let folder = Path::new(name);
-        DirBuilder::new().create(folder).map_err(|error| refusal(folder, &error))?;
-        DirBuilder::new().create(folder.join("src")).map_err(|error| refusal(folder, &error))?;
-        create(&folder.join("Cargo.toml"), &own(MANIFEST).replace("JOSTLE", &source))?;
-        for (path, text) in PLUGIN_FILES {
-            create(&folder.join(path), &own(text))?;
+        // The crate is there as a whole or not at all.
+        let made = beside(folder).map_err(|error| refusal(folder, &error))?;
+        let path = made.path();
+        DirBuilder::new().create(path.join("src")).map_err(|error| refusal(folder, &error))?;
+        create(&path.join("Cargo.toml"), &own(MANIFEST).replace("JOSTLE", &source))?;
+        for (file, text) in PLUGIN_FILES {
+            create(&path.join(file), &own(text))?;
         }
+        std::fs::rename(path, folder).map_err(|error| refusal(folder, &error))?;
+        // Under its new name it stays.
+        let _ = made.keep();
         Ok(format!("{name}/ is written; next: cd {name} && cargo test"))
     }
 }
@@ -153,10 +160,27 @@ fn quoted_path(path: &Path) -> Result<String, String> {
     Ok(serde_json::Value::from(text).to_string())
 }
 
+/// A folder in the making; it goes unless it is kept.
+fn beside(folder: &Path) -> std::io::Result<TempDir> {
+    if folder.symlink_metadata().is_ok() {
+        return Err(ErrorKind::AlreadyExists.into());
+    }
+    let mut maker = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // The system takes away what the user's mask says, as from any new folder.
+        maker.permissions(std::fs::Permissions::from_mode(0o777));
+    }
+    maker.prefix(&format!("{}.", folder.display())).suffix(".part").tempdir_in(".")
+}
+
 /// Writes a file that is not there yet.
 fn create(path: &Path, text: &str) -> Result<(), String> {
-    let file = OpenOptions::new().write(true).create_new(true).open(path);
-    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| refusal(path, &error))
+    write_new(path, text).map_err(|error| match error {
+        OutputError::Io { cause, .. } => refusal(path, &cause),
+        other => other.to_string(),
+    })
 }
 
 fn refusal(path: &Path, error: &std::io::Error) -> String {

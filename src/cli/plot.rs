@@ -7,6 +7,7 @@ use clap::builder::PossibleValuesParser;
 
 use super::Exit;
 use super::flags::{self, OverrideFlags};
+use super::inputs::Inputs;
 use super::load::Request;
 use super::progress::Progress;
 use super::say::{number, say};
@@ -16,6 +17,7 @@ use crate::raster::{Theme, figure};
 use crate::record::plot::table::{self, Column};
 use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit};
 use crate::record::sections::{PlotEntry, PlotsSection};
+use crate::scene::embed::{Wanted, told};
 use crate::scene::values::Names;
 use crate::scene::{Report, fits, suggest};
 use crate::sensors::{self, Channels};
@@ -72,6 +74,10 @@ const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 720;
 const HEIGHT_OF_SEVERAL: u32 = 480;
 
+/// What is plotted.
+const TABLE: Wanted =
+    Wanted { most: 256 << 20, noun: "a table of comma-separated values", smaller: "plot fewer rows or columns" };
+
 /// More plots than one picture holds.
 const MOST_PLOTS: usize = 12;
 
@@ -84,8 +90,11 @@ impl PlotCommand {
         }
         let is_table =
             ["csv", "tsv"].into_iter().any(|ending| self.source.to_lowercase().ends_with(&format!(".{ending}")));
-        let made =
-            if is_table { self.of_table(request).map(|plots| (plots, Exit::Good)) } else { self.of_scene(request) };
+        let made = if is_table {
+            self.of_table(request).map(|plots| (plots, Exit::Good))
+        } else {
+            self.of_scene(request, &path)
+        };
         let (mut plots, exit) = match made {
             Ok(made) => made,
             Err(exit) => return exit,
@@ -117,8 +126,11 @@ impl PlotCommand {
     }
 
     /// The plots of a scene, or of channels of it.
-    fn of_scene(&self, request: Request) -> Result<(Vec<Plot>, Exit), Exit> {
+    fn of_scene(&self, request: Request, path: &Path) -> Result<(Vec<Plot>, Exit), Exit> {
         let (_, mut simulation) = request.load(&self.overrides.settings, &self.overrides.overrides())?;
+        if let Some(message) = Inputs::of(request, &simulation).objection(path) {
+            return Err(request.usage(&message));
+        }
         let own = simulation.get_resource::<PlotsSection>().map_or_else(Vec::new, |plots| plots.0.clone());
         let entries = if self.channels.is_empty() {
             if self.x.is_some() {
@@ -205,7 +217,7 @@ impl PlotCommand {
     /// Plots of the columns of a table, those of one unit together.
     fn of_table(&self, request: Request) -> Result<Vec<Plot>, Exit> {
         let name = &self.source;
-        let read = std::fs::read(name).map_err(|error| request.usage(&format!("`{name}` cannot be read: {error}")))?;
+        let read = TABLE.take(Path::new(name), name, "").map_err(|wrong| request.usage(&told(wrong)))?;
         let text = String::from_utf8(read).map_err(|_| request.usage(&format!("`{name}` is no text in UTF-8")))?;
         let columns = table::read(&text).map_err(|error| request.usage(&format!("`{name}`, {error}")))?;
         let column = |flag: &str, wanted: &str| {

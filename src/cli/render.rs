@@ -7,7 +7,7 @@ use clap::Args;
 use super::Exit;
 use super::estimate::EstimateFlags;
 use super::film::{Made, Order, Shot};
-use super::flags::{self, OverrideFlags};
+use super::flags::{self, OverrideFlags, StrictFlag};
 use super::load::Request;
 use super::result::{self, Detail, Ran};
 use super::say::{count as in_words, say};
@@ -66,6 +66,8 @@ pub(super) struct Render {
     overrides: OverrideFlags,
     #[command(flatten)]
     estimates: EstimateFlags,
+    #[command(flatten)]
+    strict: StrictFlag,
     /// Threads that draw and that share the work of a tick; the film does not depend on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
@@ -175,7 +177,8 @@ impl Render {
         {
             return exit;
         }
-        let ran = Ran { cut: self.still().is_some(), ..Ran::whole(&simulation, failure.as_ref()) };
+        let (cut, strict) = (self.still().is_some(), self.strict.strict);
+        let ran = Ran { cut, strict, ..Ran::whole(&simulation, failure.as_ref()) };
         result::tell(request, &ran, detail)
     }
 }

@@ -1,17 +1,19 @@
 //! `jostle report`: speed against error on problems whose answer is known, and hard cases.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::Exit;
+use super::inputs::is_same_file;
 use super::progress::Progress;
 use super::say::{count, say};
-use crate::output::flat_picture;
+use crate::output::{flat_picture, write_whole};
 use crate::problems::hard::{self, Case, Verdict};
 use crate::problems::{ALL, Problem};
 use crate::raster::{Theme, draw_diagram};
 use crate::report::survey::{self, Judged, Made, Order, Peers, Picture, Sheet};
+use crate::scene::embed::{Wanted, told};
 use crate::scene::nearest_name;
 
 /// The command `report`.
@@ -50,12 +52,18 @@ With --quick the expensive ones are left out, and the report says which.
 
 Exit codes: 0 good, 1 a hard case fails (the report is complete all the same), 2 usage or a file cannot be read or written.";
 
+/// Curves of other engines.
+const PEERS: Wanted = Wanted { most: 64 << 20, noun: "a table of comma-separated values", smaller: "keep fewer rows" };
+
 /// The size of diagrams in pixels.
 const SIZE: (u32, u32) = (960, 600);
 
 impl Report {
     pub(super) fn execute(self) -> Exit {
-        let chosen = self.chosen().and_then(|chosen| Ok((chosen, self.read_peers()?)));
+        let chosen = self.chosen().and_then(|chosen| {
+            self.spare_peers(&chosen.0)?;
+            Ok((chosen, self.read_peers()?))
+        });
         let ((problems, cases), peers) = match chosen {
             Ok(chosen) => chosen,
             Err(message) => {
@@ -128,10 +136,23 @@ impl Report {
         Ok((problems, cases))
     }
 
+    /// Nothing that is written takes the place of the table that is read.
+    fn spare_peers(&self, problems: &[Problem]) -> Result<(), String> {
+        let Some(peers) = &self.peers else { return Ok(()) };
+        let own = problems.iter().map(|problem| format!("{}.csv", problem.name));
+        let all = own.chain(["hard_cases.csv", "report.md", "report.html"].map(str::to_owned));
+        let mut all = all.map(|file| self.output.join(file));
+        match all.find(|path| is_same_file(path, peers)) {
+            Some(path) => Err(format!("error: `{}` is a table of the report: copy it out of there", path.display())),
+            None => Ok(()),
+        }
+    }
+
     fn read_peers(&self) -> Result<Peers, String> {
         let Some(path) = &self.peers else { return Ok(Peers::default()) };
         let name = path.display();
-        let text = std::fs::read_to_string(path).map_err(|error| format!("error: `{name}` cannot be read: {error}"))?;
+        let bytes = PEERS.take(path, &name.to_string(), "").map_err(|wrong| format!("error: {}", told(wrong)))?;
+        let text = String::from_utf8(bytes).map_err(|_| format!("error: `{name}` is no text in UTF-8"))?;
         Peers::read(&text).map_err(|wrong| format!("error: {name}: {wrong}"))
     }
 
@@ -162,7 +183,6 @@ impl Report {
     }
 
     fn put(&self, file: &str, bytes: &[u8]) -> Result<(), String> {
-        let path: &Path = &self.output.join(file);
-        std::fs::write(path, bytes).map_err(|error| format!("error: `{}` cannot be written: {error}", path.display()))
+        write_whole(&self.output.join(file), bytes).map_err(|error| format!("error: {error}"))
     }
 }

@@ -41,22 +41,27 @@ pub(super) struct Ran<'a> {
     pub cut: bool,
     /// How it came back, if that was asked for.
     pub back: Option<&'a Result<Reversal, Failure>>,
+    /// A verdict that nothing is to be trusted counts as a run that went wrong.
+    pub strict: bool,
 }
 
 impl<'a> Ran<'a> {
     pub fn whole(simulation: &'a Simulation, failure: Option<&'a Failure>) -> Self {
-        Self { simulation, failure, cut: false, back: None }
+        Self { simulation, failure, cut: false, back: None, strict: false }
     }
 }
 
 /// Tells how a run went, and returns how it ended.
 pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
-    let Ran { simulation, failure, cut, back } = *ran;
+    let Ran { simulation, failure, cut, back, strict } = *ran;
     let card = simulation.card();
     let mut exit = Exit::Good;
     if let Some(failure) = failure {
         let why = card.why.as_deref().unwrap_or_default();
         say(&format!("error: {}: the run went wrong: {failure}\nhelp: {why}", request.name));
+        exit = Exit::RunWrong;
+    } else if strict && card.is_distrusted() {
+        say(&format!("error: {}: {}", request.name, card.verdict));
         exit = Exit::RunWrong;
     }
     for warning in &card.warnings {

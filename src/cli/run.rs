@@ -1,12 +1,14 @@
 //! `jostle run`: runs a scene, prints its error card, writes its channels.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::Exit;
 use super::estimate::EstimateFlags;
-use super::flags::{self, OverrideFlags};
+use super::flags::{self, OverrideFlags, StrictFlag};
+use super::inputs::Inputs;
 use super::load::Request;
 use super::pace::Runner;
 use super::progress::Progress;
@@ -38,6 +40,8 @@ pub(super) struct Run {
     overrides: OverrideFlags,
     #[command(flatten)]
     estimates: EstimateFlags,
+    #[command(flatten)]
+    strict: StrictFlag,
     /// Afterwards run there and back: to the end, all velocities turned round, and as long again. Says how closely the scene
     /// comes back to its beginning
     #[arg(long)]
@@ -102,6 +106,10 @@ impl Run {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
+        let inputs = Inputs::of(request, &simulation);
+        if let Some(message) = self.output.as_deref().and_then(|path| inputs.objection(path)) {
+            return request.usage(&message);
+        }
         self.estimates.watch(&mut simulation);
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
@@ -126,6 +134,10 @@ impl Run {
         let failure = match ran {
             Ok(()) => None,
             Err(Trouble::Run(failure)) => Some(failure),
+            // A reader that has gone away wants no more.
+            Err(Trouble::Output(OutputError::Io { cause, .. })) if cause.kind() == ErrorKind::BrokenPipe => {
+                return Exit::Good;
+            }
             Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
         };
         if failure.is_none() {
@@ -143,7 +155,8 @@ impl Run {
         } else {
             None
         };
-        let ran = Ran { simulation: &simulation, failure: failure.as_ref(), cut: false, back: back.as_ref() };
+        let strict = self.strict.strict;
+        let ran = Ran { back: back.as_ref(), strict, ..Ran::whole(&simulation, failure.as_ref()) };
         result::tell(request, &ran, Detail::of(self.json, self.quiet))
     }
 }

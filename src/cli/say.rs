@@ -7,9 +7,18 @@ use super::Exit;
 
 pub(super) use crate::scene::{count, number};
 
+/// Longer lines than this many bytes are cut: a name or a cell of any length may stand in them.
+const LONGEST_LINE: usize = 10_000;
+
 /// Prints a message to standard error; nobody is left to be told if that fails.
 pub(super) fn say(message: &str) {
-    let _ = writeln!(std::io::stderr(), "{message}");
+    let mut text = String::with_capacity(message.len() + 1);
+    for line in message.split('\n') {
+        let end = line.floor_char_boundary(LONGEST_LINE);
+        let cut = if end < line.len() { format!(" ... ({} bytes left out)", line.len() - end) } else { String::new() };
+        text.extend([&line[..end], &cut, "\n"]);
+    }
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 /// Prints a result to standard output, one line.

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::Exit;
 use super::say::{print_line, say};
+use super::target::takes_no_file;
 use crate::output::write_whole;
 use crate::plugins;
 use crate::scene::SceneRegistry;
@@ -38,10 +39,11 @@ impl SchemaCommand {
         let language = Language::of(app.world().resource::<SceneRegistry>());
         let text = if self.manual { language.manual() } else { format!("{:#}\n", language.json()) };
         let Some(path) = self.output else { return print_line(text.trim_end()) };
-        match write_whole(&path, &text) {
+        let refused = takes_no_file(&path).map_or(Ok(()), Err);
+        match refused.and_then(|()| write_whole(&path, &text).map_err(|error| error.to_string())) {
             Ok(()) => Exit::Good,
-            Err(error) => {
-                say(&format!("error: {error}"));
+            Err(message) => {
+                say(&format!("error: {message}"));
                 Exit::Usage
             }
         }

@@ -4,7 +4,7 @@
 use super::film::{Order, Trouble};
 use super::flags::bytes_in_words;
 use super::say::{number, say};
-use crate::output::{self, Film, FilmSettings, OutputError, Written};
+use crate::output::{self, Draft, Film, FilmSettings, OutputError, Written};
 use crate::raster::View;
 
 /// A film within a size.
@@ -79,14 +79,15 @@ impl Squeeze<'_> {
         order: &Order,
         mut play: impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
     ) -> Result<Written, Trouble> {
-        let mut best: Option<(usize, Written)> = None;
+        // Only the best one gets its name: the film of before stays until then.
+        let mut best: Option<(usize, Draft)> = None;
         // All rungs before this one are known to be too large.
         let (mut low, mut next) = (0, 0);
         let mut smallest = 0.0;
         while best.as_ref().is_none_or(|(fits, _)| low < *fits) {
             match self.attempt(order, LADDER[next], &mut play) {
-                Ok(written) => {
-                    best = Some((next, written));
+                Ok(draft) => {
+                    best = Some((next, draft));
                     next = low + (next - low) / 2;
                 }
                 Err(Trouble::Output(OutputError::TooLarge { bytes, frames, .. })) => {
@@ -113,7 +114,8 @@ impl Squeeze<'_> {
             ));
             return Err(Trouble::Told);
         };
-        let (rung, written) = self.refine(order, LADDER[place], fitting, &mut play)?;
+        let (rung, draft) = self.refine(order, LADDER[place], fitting, &mut play)?;
+        let written = draft.keep()?;
         if !order.quiet {
             self.tell(rung);
         }
@@ -125,18 +127,18 @@ impl Squeeze<'_> {
         &self,
         order: &Order,
         mut rung: Rung,
-        mut written: Written,
+        mut draft: Draft,
         play: &mut impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
-    ) -> Result<(Rung, Written), Trouble> {
-        let mut next = rung.grown(written.bytes, self.most);
+    ) -> Result<(Rung, Draft), Trouble> {
+        let mut next = rung.grown(draft.bytes(), self.most);
         for _ in 0..MOST_REFINEMENTS {
-            if written.bytes as f64 >= GOOD_USE * self.most as f64 || self.size(next) == self.size(rung) {
+            if draft.bytes() as f64 >= GOOD_USE * self.most as f64 || self.size(next) == self.size(rung) {
                 break;
             }
             match self.attempt(order, next, play) {
                 Ok(larger) => {
-                    (rung, written) = (next, larger);
-                    next = rung.grown(written.bytes, self.most);
+                    (rung, draft) = (next, larger);
+                    next = rung.grown(draft.bytes(), self.most);
                 }
                 Err(Trouble::Output(OutputError::TooLarge { .. })) => {
                     next.scale = (rung.scale * next.scale).sqrt();
@@ -144,7 +146,7 @@ impl Squeeze<'_> {
                 Err(other) => return Err(other),
             }
         }
-        Ok((rung, written))
+        Ok((rung, draft))
     }
 
     fn attempt(
@@ -152,7 +154,7 @@ impl Squeeze<'_> {
         order: &Order,
         rung: Rung,
         play: &mut impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
-    ) -> Result<Written, Trouble> {
+    ) -> Result<Draft, Trouble> {
         let view = self.view.resized(self.size(rung));
         let settings = FilmSettings {
             frames_per_second: self.settings.frames_per_second / rung.every as f64,
@@ -162,7 +164,7 @@ impl Squeeze<'_> {
         };
         let mut film = output::open(&order.place.target, &settings, view)?;
         play(film.as_mut(), rung.every)?;
-        Ok(film.finish()?)
+        Ok(film.close()?)
     }
 
     /// Width and height in pixels.

@@ -34,6 +34,9 @@ pub(super) fn places(scenes: &[Request], wish: &Wish) -> Result<Vec<Place>, Exit
     for scene in scenes {
         let place = wish.place(*scene, scenes.len()).map_err(usage)?;
         let target = &place.target;
+        if let Some(scene) = scenes.iter().find(|scene| scene.is_at(target.path())) {
+            return Err(usage(format!("`{}` is a scene: say with -o where its film is to go", scene.name)));
+        }
         if let Some(other) = taken.insert(target.path().to_owned(), scene.name) {
             let path = target.path().display();
             return Err(usage(if other == scene.name {
@@ -131,14 +134,22 @@ impl Wish<'_> {
     }
 }
 
-/// What speaks against giving a finished file this name: it would take the place of a device or a pipe, or has no directory to be in.
+/// What speaks against giving a finished file this name: it would take the place of a scene, a device or a pipe, or has no
+/// directory to be in.
 pub(super) fn takes_no_file(path: &Path) -> Option<String> {
     let directory = path.parent().filter(|directory| !directory.as_os_str().is_empty() && !directory.is_dir());
     let missing = directory.map(|directory| {
         let (path, directory) = (path.display(), directory.display());
         format!("`{path}` could not be written: there is no `{directory}`; create its directory first")
     });
-    missing.or_else(|| is_special(path))
+    missing.or_else(|| is_special(path)).or_else(|| is_scene(path))
+}
+
+/// What speaks against a name that is made for scenes, also behind a link.
+fn is_scene(path: &Path) -> Option<String> {
+    let ends = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+    let scene = ends(path) || std::fs::canonicalize(path).is_ok_and(|real| ends(&real));
+    scene.then(|| format!("`{}` has the name of a scene: this would not be one; take another ending", path.display()))
 }
 
 /// What speaks against a name of a device or a pipe.

@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::Exit;
 use super::find::scenes_in;
-use super::flags::{self, OverrideFlags};
+use super::flags::{self, OverrideFlags, StrictFlag};
+use super::inputs::is_same_file;
 use super::junit;
 use super::load::Request;
 use super::progress::Progress;
@@ -30,6 +31,8 @@ pub(super) struct Test {
     junit: Option<PathBuf>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    #[command(flatten)]
+    strict: StrictFlag,
     /// Scenes that run at the same time; no number depends on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
@@ -49,7 +52,7 @@ Examples:
   jostle test scenes/ --tick 0.1ms             do they hold with a finer tick?
 
 A line for each scene: good, untested (it ran, but expects nothing), broken (an expectation does not hold), refused (the \
-scene is wrong), failed (the run went wrong), skipped (a file in a folder that is no scene, or a part for others to \
+scene is wrong), failed (the run went wrong, or with --strict is not to be trusted), skipped (a file in a folder that is no scene, or a part for others to \
 include: without mistakes of syntax and without a `clock`).
 
 Exit codes: 0 all good, 1 broken or refused, 2 usage, 3 failed.";
@@ -118,8 +121,16 @@ impl Test {
         if let Some(path) = &self.junit {
             let named: Vec<junit::Named> =
                 candidates.iter().zip(&results).map(|(candidate, tried)| (&*candidate.name, tried.trial())).collect();
-            if let Err(error) = write_whole(path, &junit::report(&named, seconds)) {
-                say(&format!("error: {error}"));
+            let read = named.iter().any(|(name, trial)| {
+                let files = trial.iter().flat_map(|trial| &trial.files).map(PathBuf::as_path);
+                files.chain([Path::new(name)]).any(|file| is_same_file(file, path))
+            });
+            let written = match read {
+                true => Err(format!("`{}` belongs to a scene: write the report to another file", path.display())),
+                false => write_whole(path, junit::report(&named, seconds)).map_err(|error| error.to_string()),
+            };
+            if let Err(message) = written {
+                say(&format!("error: {message}"));
                 return Exit::Usage;
             }
         }
@@ -170,7 +181,7 @@ impl Test {
             Err(errors) => Trial::refused(errors),
             Ok((_, mut simulation)) => {
                 let failure = simulation.run_to_end().err();
-                Trial::of(&simulation, failure.as_ref())
+                Trial::of(&simulation, failure.as_ref(), self.strict.strict)
             }
         }))
     }

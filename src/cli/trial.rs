@@ -1,5 +1,7 @@
 //! How a run ended when many are made at once: in a word, with the reason.
 
+use std::path::PathBuf;
+
 use super::Exit;
 use crate::expect::Outcome;
 use crate::scene::SceneErrors;
@@ -20,6 +22,9 @@ pub(super) enum Verdict {
 }
 
 impl Verdict {
+    /// Every verdict, the best first.
+    pub const ALL: [Self; 4] = [Self::Good, Self::Broken, Self::Refused, Self::Failed];
+
     /// The word in tables and JSON.
     pub fn word(self) -> &'static str {
         match self {
@@ -54,6 +59,8 @@ pub(super) struct Trial {
     pub hash: Option<String>,
     /// Seconds spent computing.
     pub seconds: f64,
+    /// The files that were read for it, without the scene's own.
+    pub files: Vec<PathBuf>,
 }
 
 impl Trial {
@@ -76,16 +83,18 @@ impl Trial {
             warnings: Vec::new(),
             hash: None,
             seconds: 0.0,
+            files: Vec::new(),
         }
     }
 
-    /// A run that has ended, as it should or not.
-    pub fn of(simulation: &Simulation, failure: Option<&Failure>) -> Self {
+    /// A run that has ended, as it should or not; `strict`: one that is not to be trusted has failed.
+    pub fn of(simulation: &Simulation, failure: Option<&Failure>, strict: bool) -> Self {
         let card = simulation.card();
         let expect = simulation.outcomes();
         let broken: Vec<String> = expect.iter().filter(|outcome| !outcome.holds).map(told).collect();
         let (verdict, reason) = match failure {
             Some(failure) => (Verdict::Failed, format!("{failure}; {}", card.why.as_deref().unwrap_or_default())),
+            None if strict && card.is_distrusted() => (Verdict::Failed, card.verdict.clone()),
             None if broken.is_empty() => (Verdict::Good, String::new()),
             None => (Verdict::Broken, broken.join("; ")),
         };
@@ -97,6 +106,7 @@ impl Trial {
             hash: Some(card.hash),
             warnings: card.warnings,
             seconds: simulation.seconds_spent(),
+            files: simulation.header().files.clone(),
         }
     }
 

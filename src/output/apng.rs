@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::delta::Patch;
 use super::part::{PartFile, Unfinished};
-use super::stream::{Sink, Stream};
+use super::stream::{Closed, Sink, Stream};
 use super::{FilmSettings, Format, Opened, OutputError};
 use crate::raster::View;
 
@@ -81,7 +81,7 @@ impl Sink for Apng {
         self.write_frame(&patch, &data).map_err(|cause| OutputError::io(&self.path, cause))
     }
 
-    fn complete(mut self, frames: u64) -> Result<(u64, f64), OutputError> {
+    fn close(mut self, frames: u64) -> Result<Closed, OutputError> {
         let mut count = Vec::new();
         chunk(&mut count, b"acTL", &[&(frames as u32).to_be_bytes(), &0_u32.to_be_bytes()]);
         let mut end = Vec::new();
@@ -89,7 +89,7 @@ impl Sink for Apng {
         let written = self.file.write_all(&end).and_then(|()| self.file.overwrite(COUNT_AT, &count));
         written.map_err(|cause| OutputError::io(&self.path, cause))?;
         let (parts, seconds) = (parts(self.rate), end_of(frames, self.rate));
-        Ok((self.file.complete()?, seconds / parts))
+        Ok(Closed { bytes: self.file.bytes(), file: Some(self.file), seconds: seconds / parts })
     }
 }
 

@@ -8,7 +8,7 @@ use super::OutputError;
 use super::part::{PartFile, Unfinished};
 use super::raw::STANDARD_OUTPUT;
 
-/// A table in the making: `<name>.part` until it is complete, or standard output.
+/// A table in the making: a `.part` file until it is complete, or standard output.
 pub struct Table {
     path: PathBuf,
     way: Way,
@@ -73,7 +73,7 @@ impl Table {
     pub fn finish(self) -> Result<(), OutputError> {
         match self.way {
             Way::Out(mut out) => out.flush().map_err(|cause| OutputError::io(&self.path, cause)),
-            Way::File(part) => part.complete().map(|_| ()),
+            Way::File(part) => part.complete(),
         }
     }
 }

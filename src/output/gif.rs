@@ -12,7 +12,7 @@ use super::lzw::Packer;
 use super::palette::{Histogram, Matcher, Palette};
 use super::part::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
-use super::{Film, FilmSettings, Format, Opened, OutputError, Written, crew};
+use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, Written, crew};
 use crate::raster::{Painter, View};
 use crate::record::frame::Frame;
 
@@ -267,15 +267,15 @@ impl Film for Gif {
         self.advance(false)
     }
 
-    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+    fn close(mut self: Box<Self>) -> Result<Draft, OutputError> {
         self.advance(true)?;
         let Stage::Running(_, encoder) = std::mem::replace(&mut self.stage, Stage::GivenUp) else {
             return Err(OutputError::NoFrames { path: self.path });
         };
         let file = encoder.into_inner().map_err(|cause| self.failed(cause))?;
-        let bytes = file.complete()?;
         let seconds = end(self.frames, self.settings.frames_per_second) / 100.0;
-        Ok(Written { path: self.path, frames: self.frames, bytes, seconds, left_over: 0 })
+        let written = Written { path: self.path, frames: self.frames, bytes: file.bytes(), seconds, left_over: 0 };
+        Ok(Draft { written, file: Some(file) })
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Frames stream: they are drawn and packed in small groups, several at once, and written in order, so the memory
 //! needed does not grow with the length of the film, and the bytes do not depend on the number of threads. A file is
-//! written beside its target as `<name>.part` and takes the target's name when it is complete.
+//! written beside its target as `<name>.<random letters>.part` and takes the target's name when it is complete.
 
 mod apng;
 mod crew;
@@ -23,9 +23,11 @@ mod whole;
 
 use std::path::{Path, PathBuf};
 
+use part::PartFile;
+
 pub use self::png::{flat_picture, write_picture};
 pub use error::OutputError;
-pub use whole::write_whole;
+pub use whole::{write_new, write_whole};
 
 use crate::raster::View;
 use crate::record::frame::Frame;
@@ -55,7 +57,7 @@ impl Default for FilmSettings {
 
 /// A film in the making.
 ///
-/// A film that is dropped before [`Film::finish`] leaves the frames written so far in `<name>.part`.
+/// A film that is dropped before [`Film::finish`] leaves the frames written so far in its `.part` file.
 pub trait Film: Send {
     /// Adds the next frame.
     ///
@@ -64,12 +66,46 @@ pub trait Film: Send {
     /// film is lost beyond the frames written so far.
     fn push(&mut self, frame: Frame) -> Result<(), OutputError>;
 
-    /// Writes what is left and gives the file its name. May be called at any time: the film then ends with the last
-    /// frame pushed.
+    /// Writes what is left, and leaves it open whether the film is kept. May be called at any time: the film then ends
+    /// with the last frame pushed.
     ///
     /// # Errors
     /// If there is no frame, or the system refuses to write.
-    fn finish(self: Box<Self>) -> Result<Written, OutputError>;
+    fn close(self: Box<Self>) -> Result<Draft, OutputError>;
+
+    /// Writes what is left and gives the file its name.
+    ///
+    /// # Errors
+    /// If there is no frame, or the system refuses to write.
+    fn finish(self: Box<Self>) -> Result<Written, OutputError> {
+        self.close()?.keep()
+    }
+}
+
+/// A film that is complete, but for its name. Dropped, it is given up as any other unfinished film.
+#[derive(Debug)]
+pub struct Draft {
+    /// What will have been written.
+    written: Written,
+    /// None where there is no name to be given.
+    file: Option<PartFile>,
+}
+
+impl Draft {
+    /// How many bytes it has.
+    pub fn bytes(&self) -> u64 {
+        self.written.bytes
+    }
+
+    /// Gives the film its name.
+    ///
+    /// # Errors
+    /// If the system refuses to write.
+    pub fn keep(self) -> Result<Written, OutputError> {
+        let Draft { written, file } = self;
+        file.map_or(Ok(()), PartFile::complete)?;
+        Ok(written)
+    }
 }
 
 /// What was written.
@@ -153,7 +189,7 @@ impl Target {
     }
 }
 
-/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `<name>.part`, so that a
+/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `.part` file, so that a
 /// target that cannot be written is known before the run.
 ///
 /// # Errors

@@ -1,8 +1,11 @@
-//! A file that gets its name when it is complete.
+//! The one writer of files: each gets its name when it is complete, and until then nothing that has a name is touched.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
 
 use super::OutputError;
 
@@ -15,11 +18,26 @@ pub(super) enum Unfinished {
     Removed,
 }
 
-/// A file in the making, `<name>.part` beside its target.
+/// The ending of names of files in the making.
+const ENDING: &str = ".part";
+
+/// A name with more bytes than this leaves no room for the random letters and the ending in most file systems.
+const LONGEST_BEGINNING: usize = 200;
+
+/// So many links lead on from each other in Linux; more of them lead in a circle.
+const MOST_LINKS: usize = 40;
+
+/// A file in the making: `<name>.<random letters>.part` beside its target. Two programs that write one target have a file each.
 #[derive(Debug)]
 pub(super) struct PartFile {
+    /// As messages call it.
+    name: PathBuf,
+    /// What takes the place: the file that a link leads to.
     target: PathBuf,
-    part: PathBuf,
+    /// Where the file is, as messages call the folder.
+    shown: PathBuf,
+    /// None once complete.
+    part: Option<TempPath>,
     /// None once complete.
     file: Option<BufWriter<File>>,
     bytes: u64,
@@ -27,32 +45,28 @@ pub(super) struct PartFile {
 }
 
 impl PartFile {
-    /// Creates the temporary file for a target.
-    pub(super) fn create(target: &Path, unfinished: Unfinished) -> Result<PartFile, OutputError> {
-        let mut name = target.file_name().unwrap_or_default().to_os_string();
-        name.push(".part");
-        let part = target.with_file_name(name);
-        if target.exists() && !target.is_dir() && !target.is_file() {
-            // Renaming would put a file in the place of a device or pipe.
-            let cause = io::Error::new(io::ErrorKind::InvalidInput, "it is a device or a pipe, not a file");
-            return Err(OutputError::io(target, cause));
+    /// Creates the temporary file for a target. A target that is there keeps its permissions and, if it is a link, stays one.
+    pub(super) fn create(name: &Path, unfinished: Unfinished) -> Result<PartFile, OutputError> {
+        let told = |cause: io::Error| OutputError::io(name, cause);
+        let target = behind_links(name).map_err(told)?;
+        let before = writable(&target).map_err(told)?;
+        let (folder, beginning) = (folder_of(&target), beginning(&target));
+        let mut maker = tempfile::Builder::new();
+        // Permissions are those of any new file: the maker's own way would let only the user read it.
+        let make = |path: &Path| File::options().write(true).create_new(true).open(path);
+        let made = maker.prefix(&beginning).suffix(ENDING).make_in(folder, make);
+        let (file, part) = made.map_err(told)?.into_parts();
+        if let Some(before) = before {
+            file.set_permissions(before).map_err(told)?;
         }
-        if target.is_dir() {
-            return Err(OutputError::io(target, io::Error::from(io::ErrorKind::IsADirectory)));
-        }
-        let file = File::create(&part).map_err(|cause| OutputError::io(target, cause))?;
-        Ok(PartFile {
-            target: target.to_path_buf(),
-            part,
-            file: Some(BufWriter::with_capacity(1 << 16, file)),
-            bytes: 0,
-            unfinished,
-        })
+        let shown = target.with_file_name(part.file_name().unwrap_or_default());
+        let file = Some(BufWriter::with_capacity(1 << 16, file));
+        Ok(PartFile { name: name.to_path_buf(), target, shown, part: Some(part), file, bytes: 0, unfinished })
     }
 
     /// Where the file is until it is complete.
     pub(super) fn part(&self) -> &Path {
-        &self.part
+        &self.shown
     }
 
     /// How many bytes were written so far.
@@ -74,23 +88,44 @@ impl PartFile {
         file.seek(SeekFrom::Start(end)).map(|_| ())
     }
 
-    /// The same as [`PartFile::complete`] for a file that another program has written.
-    pub(super) fn complete_elsewhere(mut self) -> Result<u64, OutputError> {
-        let length = fs::metadata(&self.part).map(|written| written.len());
-        self.bytes = length.map_err(|cause| OutputError::io(&self.target, cause))?;
-        self.complete()
+    /// Gives the file its name.
+    pub(super) fn complete(mut self) -> Result<(), OutputError> {
+        let named = self.name_it(|part, target| part.persist(target));
+        named.and_then(|()| sync_folder(folder_of(&self.target))).map_err(|cause| self.failed(cause))
     }
 
-    /// Gives the file its name; returns its length in bytes.
-    pub(super) fn complete(mut self) -> Result<u64, OutputError> {
-        let renamed = self.flush().and_then(|()| fs::rename(&self.part, &self.target));
-        renamed.map_err(|cause| OutputError::Io {
-            path: self.target.clone(),
-            cause,
-            kept: self.is_kept().then(|| self.part.clone()),
-        })?;
+    /// The same where no file has the name yet.
+    pub(super) fn complete_new(mut self) -> Result<(), OutputError> {
+        let named = self.name_it(|part, target| part.persist_noclobber(target));
+        named.and_then(|()| sync_folder(folder_of(&self.target))).map_err(|cause| self.failed(cause))
+    }
+
+    /// The same for one of many files in a folder that is written out after the last of them.
+    pub(super) fn complete_one_of_many(mut self) -> Result<(), OutputError> {
+        self.name_it(|part, target| part.persist(target)).map_err(|cause| self.failed(cause))
+    }
+
+    fn failed(&self, cause: io::Error) -> OutputError {
+        let kept = self.is_kept().then(|| self.part().to_path_buf());
+        OutputError::Io { path: self.name.clone(), cause, kept }
+    }
+
+    /// Makes sure that a machine without power finds the old file or the whole new one.
+    fn name_it(
+        &mut self,
+        persist: impl FnOnce(TempPath, &Path) -> Result<(), tempfile::PathPersistError>,
+    ) -> io::Result<()> {
+        self.flush()?;
+        if let Some(file) = &self.file {
+            file.get_ref().sync_all()?;
+        }
+        let Some(part) = self.part.take() else { return Ok(()) };
+        if let Err(refused) = persist(part, &self.target) {
+            self.part = Some(refused.path);
+            return Err(refused.error);
+        }
         self.file = None;
-        Ok(self.bytes)
+        Ok(())
     }
 }
 
@@ -109,9 +144,70 @@ impl Write for PartFile {
 
 impl Drop for PartFile {
     fn drop(&mut self) {
-        if self.file.is_some() && !self.is_kept() {
-            // Nobody is left to be told if this fails, and the file does no harm.
-            let _ = fs::remove_file(&self.part);
+        // The temporary file goes with its path, unless its beginning can be shown.
+        let kept = self.is_kept();
+        if let Some(part) = &mut self.part {
+            part.disable_cleanup(kept);
         }
+    }
+}
+
+/// The file that a name stands for: renaming would put a file in the place of a link.
+fn behind_links(name: &Path) -> io::Result<PathBuf> {
+    let mut target = name.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        // A link may lead to a file that is still to be made.
+        let Ok(next) = fs::read_link(&target) else { return Ok(target) };
+        target = folder_of(&target).join(next);
+    }
+    Err(io::Error::new(ErrorKind::InvalidInput, "its links lead in a circle"))
+}
+
+/// The permissions of a file that is there. Renaming would replace it even where it may not be written.
+fn writable(target: &Path) -> io::Result<Option<fs::Permissions>> {
+    let before = match fs::metadata(target) {
+        Ok(before) => before,
+        Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(cause) => return Err(cause),
+    };
+    if before.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if !before.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is a device or a pipe, not a file"));
+    }
+    if before.permissions().readonly() {
+        return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
+    }
+    // Opening changes nothing, and the system knows more reasons against it than the permissions tell.
+    File::options().write(true).open(target)?;
+    Ok(Some(before.permissions()))
+}
+
+/// The folder in which a path ends.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// What the names of temporary files for a target begin with.
+fn beginning(target: &Path) -> OsString {
+    let mut name = target.file_name().unwrap_or_default().to_os_string();
+    if name.len() > LONGEST_BEGINNING {
+        let text = name.to_string_lossy();
+        name = text[..text.floor_char_boundary(LONGEST_BEGINNING)].into();
+    }
+    name.push(".");
+    name
+}
+
+/// Writes out that a file has its name. Some systems have no such thing for folders, and some folders may not be read.
+pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
+    if !cfg!(unix) {
+        return Ok(());
+    }
+    let Ok(folder) = File::open(folder) else { return Ok(()) };
+    match folder.sync_all() {
+        Err(cause) if matches!(cause.kind(), ErrorKind::InvalidInput | ErrorKind::Unsupported) => Ok(()),
+        synced => synced,
     }
 }

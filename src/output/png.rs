@@ -7,9 +7,10 @@ use std::sync::Arc;
 
 use tiny_skia::Pixmap;
 
-use super::part::{PartFile, Unfinished};
+use super::part::{PartFile, Unfinished, sync_folder};
 use super::studio::{Easel, Studio};
-use super::{Film, FilmSettings, Format, Opened, OutputError, Written, crew};
+use super::whole::write_whole;
+use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, Written, crew};
 use crate::raster::{Painter, View};
 use crate::record::frame::Frame;
 
@@ -44,15 +45,15 @@ impl Film for Still {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+    fn close(mut self: Box<Self>) -> Result<Draft, OutputError> {
         let Some(frame) = self.last.take() else { return Err(OutputError::NoFrames { path: self.path }) };
         let painter = self.studio.painter(&frame)?;
         let mut easel = self.studio.easel()?;
         easel.paint(&painter, &frame);
         let packed = pack(&easel.picture, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
         self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
-        let bytes = self.file.complete()?;
-        Ok(Written { path: self.path, frames: 1, bytes, seconds: 0.0, left_over: 0 })
+        let written = Written { path: self.path, frames: 1, bytes: self.file.bytes(), seconds: 0.0, left_over: 0 };
+        Ok(Draft { written, file: Some(self.file) })
     }
 }
 
@@ -107,7 +108,7 @@ impl Job {
             pack(&worker.easel.picture, &mut worker.rgb).map_err(|cause| OutputError::io(&self.path, cause))?;
         let mut file = PartFile::create(&self.path, Unfinished::Removed)?;
         file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
-        file.complete()
+        file.complete_one_of_many().map(|()| packed.len() as u64)
     }
 }
 
@@ -152,15 +153,17 @@ impl Film for Sequence {
         if self.waiting.len() < FRAMES_PER_THREAD * self.workers.len() { Ok(()) } else { self.write_waiting() }
     }
 
-    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+    fn close(mut self: Box<Self>) -> Result<Draft, OutputError> {
         self.check()?;
         self.write_waiting()?;
         if self.frames == 0 {
             return Err(OutputError::NoFrames { path: self.path });
         }
+        sync_folder(&self.path).map_err(|cause| OutputError::io(&self.path, cause))?;
         let left_over = (self.frames..).take_while(|place| self.file(*place).exists()).count() as u64;
         let seconds = self.frames as f64 / self.frames_per_second;
-        Ok(Written { path: self.path, frames: self.frames, bytes: self.bytes, seconds, left_over })
+        let written = Written { path: self.path, frames: self.frames, bytes: self.bytes, seconds, left_over };
+        Ok(Draft { written, file: None })
     }
 }
 
@@ -170,9 +173,7 @@ impl Film for Sequence {
 /// If the system refuses to write.
 pub fn write_picture(path: &Path, picture: &Pixmap) -> Result<u64, OutputError> {
     let packed = pack(picture, &mut Vec::new()).map_err(|cause| OutputError::io(path, cause))?;
-    let mut file = PartFile::create(path, Unfinished::Removed)?;
-    file.write_all(&packed).map_err(|cause| OutputError::io(path, cause))?;
-    file.complete()
+    write_whole(path, &packed).map(|()| packed.len() as u64)
 }
 
 /// A picture of few colours, such as a diagram, as the bytes of a PNG file: small, and slower than a frame of a film could bear.

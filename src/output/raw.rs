@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::part::{PartFile, Unfinished};
-use super::stream::{Sink, Stream};
+use super::stream::{Closed, Sink, Stream};
 use super::{FilmSettings, Format, Opened, OutputError};
 use crate::raster::View;
 
@@ -62,10 +62,11 @@ impl Sink for Raw {
         written.map_err(|cause| OutputError::io(&self.path, cause))
     }
 
-    fn complete(self, frames: u64) -> Result<(u64, f64), OutputError> {
-        if let Way::File(file) = self.way {
-            file.complete()?;
-        }
-        Ok((self.bytes, frames as f64 / self.rate))
+    fn close(self, frames: u64) -> Result<Closed, OutputError> {
+        let file = match self.way {
+            Way::File(file) => Some(file),
+            Way::Out(_) => None,
+        };
+        Ok(Closed { file, bytes: self.bytes, seconds: frames as f64 / self.rate })
     }
 }

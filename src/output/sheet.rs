@@ -7,7 +7,7 @@ use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::part::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
-use super::{Film, OutputError, Target, Written, png};
+use super::{Draft, Film, OutputError, Target, Written, png};
 use crate::raster::View;
 use crate::record::frame::Frame;
 
@@ -80,13 +80,14 @@ impl Film for Sheet {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+    fn close(mut self: Box<Self>) -> Result<Draft, OutputError> {
         if self.frames == 0 {
             return Err(OutputError::NoFrames { path: self.path });
         }
         let packed = png::pack(&self.sheet, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
         self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
-        let bytes = self.file.complete()?;
-        Ok(Written { path: self.path, frames: u64::from(self.frames), bytes, seconds: 0.0, left_over: 0 })
+        let (frames, bytes) = (u64::from(self.frames), self.file.bytes());
+        let written = Written { path: self.path, frames, bytes, seconds: 0.0, left_over: 0 };
+        Ok(Draft { written, file: Some(self.file) })
     }
 }

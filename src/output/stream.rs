@@ -5,8 +5,9 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::part::PartFile;
 use super::studio::{Easel, Studio};
-use super::{Film, FilmSettings, OutputError, Written, crew};
+use super::{Draft, Film, FilmSettings, OutputError, Written, crew};
 use crate::raster::{Painter, View};
 use crate::record::frame::Frame;
 
@@ -28,8 +29,18 @@ pub(super) trait Sink: Send + Sync {
     /// Writes the next picture.
     fn write(&mut self, packed: Self::Packed) -> Result<(), OutputError>;
 
-    /// Writes what is left; returns the number of bytes and the length in seconds.
-    fn complete(self, frames: u64) -> Result<(u64, f64), OutputError>;
+    /// Writes what is left.
+    fn close(self, frames: u64) -> Result<Closed, OutputError>;
+}
+
+/// A film whose pictures are all written.
+pub(super) struct Closed {
+    /// What is to get its name; none for standard output.
+    pub file: Option<PartFile>,
+    /// How many bytes it has.
+    pub bytes: u64,
+    /// How long it lasts.
+    pub seconds: f64,
 }
 
 /// A film in the making.
@@ -103,12 +114,13 @@ impl<S: Sink> Film for Stream<S> {
         if self.waiting.len() < self.group { Ok(()) } else { self.write_waiting() }
     }
 
-    fn finish(mut self: Box<Self>) -> Result<Written, OutputError> {
+    fn close(mut self: Box<Self>) -> Result<Draft, OutputError> {
         self.write_waiting()?;
         let Some(sink) = self.sink.take().filter(|_| self.frames > 0) else {
             return Err(OutputError::NoFrames { path: self.path });
         };
-        let (bytes, seconds) = sink.complete(self.frames)?;
-        Ok(Written { path: self.path, frames: self.frames, bytes, seconds, left_over: 0 })
+        let Closed { file, bytes, seconds } = sink.close(self.frames)?;
+        let written = Written { path: self.path, frames: self.frames, bytes, seconds, left_over: 0 };
+        Ok(Draft { written, file })
     }
 }

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::JoinHandle;
 
 use super::part::{PartFile, Unfinished};
-use super::stream::{Sink, Stream};
+use super::stream::{Closed, Sink, Stream};
 use super::{FilmSettings, Format, Opened, OutputError};
 use crate::raster::View;
 
@@ -110,7 +110,7 @@ impl Sink for Video {
         Err(OutputError::io(&self.path, cause))
     }
 
-    fn complete(mut self, frames: u64) -> Result<(u64, f64), OutputError> {
+    fn close(mut self, frames: u64) -> Result<Closed, OutputError> {
         self.wait()?;
         let Some(file) = &self.file else { return Err(OutputError::GivenUp { path: self.path.clone() }) };
         // The empty file was there before it began.
@@ -122,8 +122,7 @@ impl Sink for Video {
                 said: String::new(),
             });
         }
-        let bytes = self.file.take().map_or(Ok(0), PartFile::complete_elsewhere)?;
-        Ok((bytes, frames as f64 / self.rate))
+        Ok(Closed { file: self.file.take(), bytes: written, seconds: frames as f64 / self.rate })
     }
 }
 

@@ -6,24 +6,28 @@ use std::path::Path;
 use super::OutputError;
 use super::part::{PartFile, Unfinished};
 
-/// Writes a file so that whoever looks finds the old one or the whole new one, never a part. A file that is there keeps
+/// Writes a file so that a reader finds the old one or the whole new one, never a part. A file that is there keeps
 /// its permissions; a link stays a link; a file that is read-only stays as it is.
 ///
 /// # Errors
 /// If the system refuses to write.
-pub fn write_whole(path: &Path, text: &str) -> Result<(), OutputError> {
-    let told = |cause| OutputError::io(path, cause);
-    // Renaming would put a file in the place of a link.
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let before = std::fs::metadata(&target).ok();
-    // Renaming would replace it all the same.
-    if before.as_ref().is_some_and(|before| before.permissions().readonly()) {
-        return Err(told(std::io::Error::new(std::io::ErrorKind::PermissionDenied, "it is read-only")));
+pub fn write_whole(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
+    written(path, content.as_ref())?.complete()
+}
+
+/// Writes a file whose name no other file has. A file that gets the name meanwhile stays as it is.
+///
+/// # Errors
+/// If there is such a file, or the system refuses to write.
+pub fn write_new(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
+    if path.symlink_metadata().is_ok() {
+        return Err(OutputError::io(path, std::io::ErrorKind::AlreadyExists));
     }
-    let mut file = PartFile::create(&target, Unfinished::Removed)?;
-    if let Some(before) = before {
-        std::fs::set_permissions(file.part(), before.permissions()).map_err(told)?;
-    }
-    file.write_all(text.as_bytes()).map_err(told)?;
-    file.complete().map(|_| ())
+    written(path, content.as_ref())?.complete_new()
+}
+
+fn written(path: &Path, content: &[u8]) -> Result<PartFile, OutputError> {
+    let mut file = PartFile::create(path, Unfinished::Removed)?;
+    file.write_all(content).map_err(|cause| OutputError::io(path, cause))?;
+    Ok(file)
 }

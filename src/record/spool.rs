@@ -1,13 +1,12 @@
 //! Frames kept aside in a file, to be played backwards or several times.
 //!
-//! A frame takes 24 bytes for each body; memory holds only one at a time. The file is a temporary one: where the system
-//! allows, it has no name from the beginning, so that nothing is left of it however the program ends.
+//! A frame takes 24 bytes for each body; memory holds only one at a time. The file is a temporary one without a name, so that
+//! nothing is left of it however the program ends.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::DVec2;
 
@@ -21,8 +20,6 @@ const LENGTH: u64 = 8;
 #[derive(Debug)]
 pub struct Spool {
     file: BufWriter<File>,
-    /// The name that is still there to be removed.
-    path: Option<PathBuf>,
     /// The casts of the frames, each once.
     casts: Vec<Arc<Cast>>,
     frames: u64,
@@ -40,19 +37,8 @@ impl Spool {
     /// # Errors
     /// If the file cannot be created.
     pub fn new() -> io::Result<Self> {
-        static NEXT: AtomicU64 = AtomicU64::new(0);
-        loop {
-            let number = NEXT.fetch_add(1, Ordering::Relaxed);
-            let path = Self::folder().join(format!("jostle-{}-{number}.frames", std::process::id()));
-            let file = match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
-                // Left by a program that had this number before.
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
-                opened => opened?,
-            };
-            let path = if cfg!(unix) && fs::remove_file(&path).is_ok() { None } else { Some(path) };
-            let file = BufWriter::with_capacity(1 << 16, file);
-            return Ok(Self { file, path, casts: Vec::new(), frames: 0, bytes: 0 });
-        }
+        let file = BufWriter::with_capacity(1 << 16, tempfile::tempfile_in(Self::folder())?);
+        Ok(Self { file, casts: Vec::new(), frames: 0, bytes: 0 })
     }
 
     /// How many frames there are.
@@ -108,15 +94,6 @@ impl Spool {
             file.seek(SeekFrom::Start(end))?;
             read(file, casts)
         }))
-    }
-}
-
-impl Drop for Spool {
-    fn drop(&mut self) {
-        if let Some(path) = &self.path {
-            // Nobody is left to be told if this fails; the system clears its temporary files.
-            let _ = fs::remove_file(path);
-        }
     }
 }
 
@@ -279,10 +256,11 @@ mod tests {
         assert_eq!(spool.frames(), 6);
     }
 
-    #[cfg(unix)]
+    #[cfg(target_os = "linux")]
     #[test]
     fn the_file_has_no_name() {
+        use std::os::unix::fs::MetadataExt;
         let spool = Spool::new().expect("a temporary file");
-        assert_eq!(spool.path, None);
+        assert_eq!(spool.file.get_ref().metadata().expect("a file").nlink(), 0);
     }
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::advice::{Known, Remedy, rounded_down};
 use super::estimate::EstimatedError;
-use super::verdict::Evidence;
+use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
 use crate::integrate::ChosenMethod;
 use crate::integrate::StepCount;
@@ -171,13 +171,18 @@ impl Card {
         let evidence = Evidence { world, card: &card };
         let (missing, why) = (evidence.missing_energy(), failure.map(|failure| evidence.why(failure)));
         let verdict = match failure.zip(why.as_ref()) {
-            Some((failure, why)) => format!("Do not trust it: the run went wrong: {failure}; {why}."),
+            Some((failure, why)) => format!("{DISTRUST}: the run went wrong: {failure}; {why}."),
             None => evidence.verdict(),
         };
         card.warnings.extend(missing);
         card.notes.extend(card.warnings.iter().map(|warning| format!("warning: {warning}")));
         (card.verdict, card.why) = (verdict, why);
         card
+    }
+
+    /// Whether the verdict is that nothing of the run is to be trusted.
+    pub fn is_distrusted(&self) -> bool {
+        self.verdict.starts_with(DISTRUST)
     }
 
     /// Energy residual over the energy that went round.

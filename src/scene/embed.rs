@@ -6,7 +6,7 @@ use std::any::Any;
 use std::path::Path;
 use std::sync::Arc;
 
-pub(crate) use super::expand::Wanted;
+pub(crate) use super::expand::{Door, Wanted, told};
 
 /// Where entries that name files stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,13 +36,14 @@ pub(crate) struct Embedding {
 
 /// Reads the files of one scene. It may remember those that it has read.
 pub(crate) trait Embed {
-    /// Reads the file of an entry, whose text `entry` is in its brackets. `folder` is the one of the file in which it stands.
+    /// Reads the file of an entry, whose text `entry` is in its brackets. `folder` is the one of the file in which it stands;
+    /// files are read through `door`.
     ///
     /// Nothing, if the entry is wrong in itself: its section tells that when it is read.
     ///
     /// # Errors
     /// When the file cannot be read, or cannot become what the entry asks for.
-    fn embed(&mut self, entry: &str, folder: Option<&Path>) -> Result<Option<Embedded>, Unfit>;
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit>;
 }
 
 /// What a file became.

@@ -14,6 +14,9 @@ const SHOWN: usize = 20;
 /// Longer excerpts than this many bytes are not shown, only named.
 const LONGEST_EXCERPT: usize = 4000;
 
+/// No part of a message is longer than this many bytes.
+const LONGEST_PART: usize = 2000;
+
 /// How many steps of the way to a mistake are shown: instances, repetitions, included files.
 const STEPS_SHOWN: usize = 4;
 
@@ -69,6 +72,15 @@ pub struct SceneError {
 
 fn labels<S: serde::Serializer>(chain: &[Mark], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(chain.iter().map(|mark| &mark.label))
+}
+
+/// Cuts a text that nobody reads to its end.
+fn clip(text: &mut String) {
+    if text.len() > LONGEST_PART {
+        let left_out = text.len() - LONGEST_PART;
+        text.truncate(text.floor_char_boundary(LONGEST_PART));
+        text.push_str(&format!(" ... ({left_out} bytes left out)"));
+    }
 }
 
 impl SceneError {
@@ -131,6 +143,11 @@ impl SceneErrors {
             }
         }
         drop(lines);
+        // What stands in a scene may be of any length, and comes back in what is said of it.
+        for error in &mut errors {
+            [&mut error.path, &mut error.message, &mut error.label].into_iter().for_each(clip);
+            error.help.iter_mut().for_each(clip);
+        }
         Self { sources, errors, notes }
     }
 

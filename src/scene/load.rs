@@ -1,6 +1,7 @@
 //! From a scene's text to a filled `App`: walk, read, declare, check, install.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use bevy_app::App;
 use bevy_ecs::world::World;
@@ -34,6 +35,8 @@ pub struct SceneHeader {
     pub remarks: Vec<String>,
     /// The names, sections and entries of the scene.
     pub outline: Outline,
+    /// The files that were read for the scene, without its own: included ones, pictures, tables.
+    pub files: Vec<PathBuf>,
 }
 
 /// Reads a scene and installs what it asks for.
@@ -69,6 +72,7 @@ pub fn load(app: &mut App, source: &Source) -> Result<SceneHeader, SceneErrors> 
     let mut header = load_text(app, &registry, &expanded.text, &found.tree, found.errors, tables)
         .map_err(|(errors, notes)| expanded.told(&found.tree, errors, notes))?;
     header.remarks.splice(0..0, expanded.notes.iter().cloned());
+    header.files = expanded.opened;
     Ok(header)
 }
 

@@ -78,7 +78,7 @@ impl Names {
 
     /// The places of all names that fit a pattern.
     pub fn matching(&self, pattern: &str) -> Vec<usize> {
-        let names = self.runs.iter().flat_map(Run::names).enumerate();
+        let names = self.list().iter().enumerate();
         names.filter(|(_, name)| fits(pattern, name)).map(|(place, _)| place).collect()
     }
 

@@ -12,6 +12,11 @@ use super::names::{self, Names};
 use super::report::Report;
 use super::suggest;
 
+/// Longer names, in bytes, are no names.
+const LONGEST_NAME: usize = 1000;
+/// For so many mistakes names are looked for that may be meant.
+const MOST_EXPLAINED: usize = 30;
+
 /// What a name stands for. Plugins may make kinds of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Kind {
@@ -143,6 +148,11 @@ impl Outline {
             self.report.error_at(path.to_owned(), "a name must not be empty".into());
             return false;
         }
+        if name.len() > LONGEST_NAME {
+            let message = format!("a name of {} bytes is too long: {LONGEST_NAME} are allowed", name.len());
+            self.report.error_at(path.to_owned(), message).help("give it a name that people can read");
+            return false;
+        }
         if let Some(bad) = name.chars().find(|&c| matches!(c, '*' | '.' | ',' | '"') || c.is_control()) {
             let why = match bad {
                 '*' => "`*` stands for any letters where bodies are chosen",
@@ -224,6 +234,10 @@ impl Outline {
 
     /// The places of all names that fit a pattern; a pattern that fits none is reported at `path`.
     pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Report) -> Vec<usize> {
+        let parts = pattern.matches('*').count();
+        if !report.may_compare(path, parts * self.count(kind)) {
+            return Vec::new();
+        }
         let found = self.matching(kind, pattern);
         if found.is_empty() {
             self.report_unknown(&[kind], pattern, path, report);
@@ -237,6 +251,11 @@ impl Outline {
         }
         let noun = kinds.iter().map(|kind| kind.noun).collect::<Vec<_>>().join(" or ");
         let plural = kinds.iter().map(|kind| kind.plural()).collect::<Vec<_>>().join(" and ");
+        if report.problems().len() > MOST_EXPLAINED {
+            let message = format!("there is no {noun} of the name or choice \"{name}\"");
+            report.error(path, message);
+            return;
+        }
         let message = if kinds.iter().any(|&kind| !self.matching(kind, name).is_empty()) {
             format!("expected the name of one {noun}, found the choice \"{name}\"")
         } else if name.contains('*') {

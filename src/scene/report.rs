@@ -4,6 +4,9 @@ use glam::DVec2;
 
 use super::outline::join;
 
+/// So many names are compared with a part of a pattern; that takes a few seconds.
+const MOST_COMPARED: usize = 50_000_000;
+
 /// A mistake found by a check. Its place in the text is looked up only when it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
@@ -49,6 +52,8 @@ pub struct Report {
     scope: String,
     problems: Vec<Problem>,
     notes: Vec<String>,
+    /// How much work it was to compare patterns with names.
+    compared: usize,
 }
 
 impl Report {
@@ -80,6 +85,17 @@ impl Report {
     /// Writes down something the author should know though it is no mistake; it ends on the run's error card.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
+    }
+
+    /// Takes up that a pattern is compared with so many names. More of it than there may be is a mistake, told once.
+    pub(crate) fn may_compare(&mut self, path: &str, work: usize) -> bool {
+        let before = self.compared;
+        self.compared = before.saturating_add(work);
+        if self.compared > MOST_COMPARED && before <= MOST_COMPARED {
+            let message = "here patterns and names have become too many to be compared, each with each";
+            self.error(path, message).help("name bodies in fewer patterns: one with `*` may stand for many");
+        }
+        self.compared <= MOST_COMPARED
     }
 
     /// Runs checks whose paths begin at `scope`, such as `"[3]"` or `"atoms"`.

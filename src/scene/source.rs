@@ -24,6 +24,8 @@ pub struct Source {
     pub folder: Option<PathBuf>,
     /// Parameters that are to have another value than the scene says: name, and number or expression.
     pub settings: Vec<(String, String)>,
+    /// Whether the scene may name files that lie neither in its folder or below it, nor in a folder above it.
+    pub outside: bool,
 }
 
 impl Source {

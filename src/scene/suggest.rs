@@ -1,12 +1,22 @@
 //! The nearest known name to one that is not known.
 
+/// Longer names, in letters, are not compared: that takes time and memory as the product of both lengths.
+const LONGEST: usize = 200;
+
 /// The known name most like the given one, if any is near enough to be meant.
 pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
-    let allowed = 1 + name.chars().count() / 4;
+    let length = name.chars().count();
+    if length > LONGEST {
+        return None;
+    }
+    let allowed = 1 + length / 4;
     known
         .map(|other| {
-            let distance = strsim::damerau_levenshtein(&lower, &other.to_lowercase());
+            // Names are at least as far apart as their lengths.
+            let apart = other.chars().take(2 * LONGEST).count().abs_diff(length);
+            let near = apart <= allowed;
+            let distance = if near { strsim::damerau_levenshtein(&lower, &other.to_lowercase()) } else { apart };
             // A word that begins like the known one (or the known one like it) is a likely abbreviation.
             let short = lower.len().min(other.len()) >= 3;
             let begins =

@@ -269,10 +269,10 @@ impl Simulation {
         self.spent.as_secs_f64()
     }
 
-    /// Name of the body at `place`; empty for a body spawned without one.
+    /// Name of the body at `place`; empty for a body spawned without one, and where there is no body.
     pub fn name(&self, place: usize) -> String {
-        let entity = self.bodies().entity[place];
-        self.unpublished_world().get::<Name>(entity).map(Name::to_string).unwrap_or_default()
+        let name = self.bodies().entity.get(place).and_then(|&entity| self.unpublished_world().get::<Name>(entity));
+        name.map(Name::to_string).unwrap_or_default()
     }
 
     /// Seconds of physics from frame to frame of the film, by default 1/30.

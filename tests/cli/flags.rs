@@ -49,7 +49,7 @@ fn unknown_flags_and_missing_scenes_are_usage() {
     let folder = Folder::new("usage").with("fall.ron", FALL);
     folder.jostle("render fall.ron --durration 20").code(2).says("a similar argument exists: '--duration'");
     folder.jostle("render").code(2).says("<SCENE>...");
-    folder.jostle("").code(2).says("Usage: jostle <COMMAND>");
+    folder.jostle("").code(2).says("Usage: jostle [OPTIONS] <COMMAND>");
     folder.jostle("play fall.ron").code(2).says("unrecognized subcommand 'play'");
 }
 

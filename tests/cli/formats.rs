@@ -125,7 +125,7 @@ fn videos_are_made_by_ffmpeg() {
         assert!(said.contains(&format!("{name}: 2 frames, 0.20 s, 19 kB")), "{said}");
         assert!(folder.read(name) == pictures, "the program was given the frames");
         let arguments = String::from_utf8(folder.read("arguments.txt")).unwrap();
-        let part = format!("file:{name}.part");
+        let part = format!("file:{name}.");
         for words in ["rawvideo\n-pixel_format\nrgba\n-video_size\n64x36\n-framerate\n10\n-i\npipe:0", codec, &part] {
             assert!(arguments.contains(words), "{words}: {arguments}");
         }

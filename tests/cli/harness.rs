@@ -79,6 +79,21 @@ impl Folder {
         names
     }
 
+    /// The temporary files for a name: with random letters and the ending `.part`.
+    pub fn parts(&self, name: &str) -> Vec<String> {
+        let begin = format!("{name}.");
+        let mut names = self.names();
+        names.retain(|other| other.starts_with(&begin) && other.ends_with(".part"));
+        names
+    }
+
+    /// Removes the temporary files for a name, and returns what they were called.
+    pub fn without_parts(&self, name: &str) -> Vec<String> {
+        let parts = self.parts(name);
+        parts.iter().for_each(|part| std::fs::remove_file(self.path(part)).unwrap());
+        parts
+    }
+
     /// The program, about to run in this folder.
     pub fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_jostle"));

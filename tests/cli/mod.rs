@@ -1,7 +1,9 @@
 //! The command line as its users meet it: the built program, run in folders of its own, one file per promise.
 
 mod bench;
+mod budgets;
 mod check;
+mod door;
 mod estimates;
 mod explain;
 mod failures;
@@ -11,6 +13,7 @@ mod fmt;
 mod formats;
 mod harness;
 mod help;
+mod inputs;
 mod interrupt;
 mod json;
 mod list;
@@ -18,6 +21,7 @@ mod look;
 mod measure;
 mod new;
 mod numbers;
+mod one_writer;
 mod outputs;
 mod plots;
 mod promises;
@@ -26,7 +30,9 @@ mod scene_files;
 mod schema;
 mod stills;
 mod streams;
+mod strict;
 mod sweep;
+mod sweep_interrupted;
 mod test_command;
 mod values;
 mod verdicts;

@@ -169,7 +169,7 @@ fn what_cannot_be_plotted_is_told() {
         ("n.csv", &["`n.csv`, line 1: expected the names of the columns, found the number `1`"]),
         ("x.csv", &["`x.csv`, line 2: `high` in the column `height` is not a number"]),
         ("good.csv --channels heigth", &["`good.csv` has no column `heigth`: did you mean `height`?"]),
-        ("none.csv", &["`none.csv` cannot be read"]),
+        ("none.csv", &["there is no file `none.csv`"]),
         ("fly.ron --theme blak", &["blak", "paper", "night"]),
     ] {
         let ended = folder.jostle(&format!("plot {arguments}")).code(2);

@@ -48,6 +48,6 @@ fn what_cannot_be_reported_is_refused() {
     std::fs::write(folder.path("file"), "").unwrap();
     folder.jostle("report kepler -o file/out").code(2).says("cannot be made");
     folder.jostle("report gas -o out --quick").code(2).says("--quick leaves out gas");
-    folder.jostle("report kepler -o out --peers nowhere.csv").code(2).says("`nowhere.csv` cannot be read");
+    folder.jostle("report kepler -o out --peers nowhere.csv").code(2).says("there is no file `nowhere.csv`");
     folder.jostle("report kepler -o out --peers table.csv").code(2).says("table.csv: line 1: the columns of");
 }

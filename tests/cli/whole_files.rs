@@ -33,9 +33,38 @@ fn a_film_killed_at_any_moment_is_the_old_one_or_the_whole_new_one() {
             if found == OLD { old += 1 } else { whole += 1 }
         }
         assert!(old > 0, "{name}: {old} old, {whole} new: none was killed in time");
-        // What is left over is in the way of nobody.
+        // What is left over is in the way of no later film.
         folder.jostle(&arguments).code(0);
+        assert!(folder.read(name) == new);
+        folder.without_parts(name);
         assert_eq!(folder.names(), [name]);
+    }
+}
+
+/// A film that has to fit is made several times. A program that looks at its name all the while finds the old film and then
+/// the one that stays, so a kill at any moment leaves one of the two.
+#[test]
+fn a_film_within_a_size_is_the_old_one_until_the_last_is_made() {
+    for most in ["20kB", "60kB", "1kB"] {
+        let folder = Folder::new(&format!("squeezed_{most}")).with("film.gif", OLD);
+        let arguments =
+            format!("render example:tetris --duration 4 --size 320x180 --quiet --max-size {most} -o film.gif");
+        let mut child = folder.command(&arguments).stderr(Stdio::null()).spawn().unwrap();
+        let mut seen = vec![OLD.to_vec()];
+        loop {
+            let ended = child.try_wait().unwrap();
+            let now = folder.read("film.gif");
+            if *seen.last().unwrap() != now {
+                seen.push(now);
+            }
+            if let Some(ended) = ended {
+                assert_eq!(seen.len(), if ended.success() { 2 } else { 1 }, "{most}");
+                assert_eq!(ended.success(), most != "1kB");
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert_eq!(folder.names(), ["film.gif"]);
     }
 }
 
@@ -62,9 +91,11 @@ fn a_full_disk_leaves_the_old_file_and_is_told() {
         assert_eq!(folder.read(name), OLD);
         // The beginning of a GIF can be watched, that of a table read, and the message says where it is.
         let is_of_use = name.ends_with(".gif") || name.ends_with(".csv");
-        let left = if is_of_use { vec![name.to_owned(), format!("{name}.part")] } else { vec![name.to_owned()] };
-        assert_eq!(folder.names(), left, "{said}");
-        assert_eq!(said.contains("What was written so far is in"), left.len() == 2, "{said}");
+        let parts = folder.without_parts(name);
+        assert_eq!(parts.len(), usize::from(is_of_use), "{said}");
+        assert_eq!(folder.names(), [name], "{said}");
+        let place = parts.iter().all(|part| said.contains(&format!("What was written so far is in `{part}`")));
+        assert!(place && said.contains("so far") == is_of_use, "{said}");
     }
 }
 

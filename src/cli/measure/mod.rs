@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 
 use super::Exit;
 use super::flags;
+use super::inputs::Inputs;
 use super::load::{self, Request};
 use super::progress::Progress;
 use super::say::{number, print_line, say};
@@ -96,6 +97,16 @@ impl Measure {
             Ok(source) => source.with_settings(&self.settings),
             Err(errors) => return request.refuse_scene(&errors),
         };
+        if !self.output.is_empty() {
+            let overrides = Overrides { duration: self.duration, untried: true, ..Overrides::default() };
+            let inputs = match Simulation::load_with(&source, &overrides, author::plugin) {
+                Ok(simulation) => Inputs::of(request, &simulation),
+                Err(errors) => return request.refuse_scene(&errors),
+            };
+            if let Some(message) = self.output.iter().find_map(|path| inputs.objection(path)) {
+                return request.usage(&message);
+            }
+        }
         let load = |way: Way| {
             let mut overrides = Overrides { duration: self.duration, ..Overrides::default() };
             match way {
@@ -141,7 +152,7 @@ impl Measure {
         exit = exit.worse(print_line(&text));
         for path in &self.output {
             let written = if ends_with(path, "csv") {
-                write_whole(path, &told::csv(measured))
+                write_whole(path, told::csv(measured))
             } else {
                 self.draw(request, measured, path)
             };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::cli::author;
-use crate::cli::flags::OverrideFlags;
+use crate::cli::flags::{OverrideFlags, StrictFlag};
 use crate::cli::trial::Trial;
 use crate::record::follow::Follower;
 use crate::record::frame::{Cast, Frame};
@@ -56,7 +56,7 @@ pub(super) fn refused(source: &Source, message: String) -> Attempt {
 }
 
 /// Runs a scene to its end. `title` stands on its picture, if one is wanted.
-pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, title: Option<&str>) -> Attempt {
+pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, strict: StrictFlag, title: Option<&str>) -> Attempt {
     let mut simulation = match Simulation::load_with(scene, &flags.overrides(), author::plugin) {
         Ok(simulation) => simulation,
         Err(errors) => return Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None },
@@ -68,7 +68,7 @@ pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, title: Option<&str>
         let camera = simulation.get_resource::<CameraChoice>().cloned();
         picture(&mut simulation, camera.as_ref(), title).map(|frame| (frame, camera))
     });
-    let trial = Trial::of(&simulation, failure.as_ref());
+    let trial = Trial::of(&simulation, failure.as_ref(), strict.strict);
     Attempt { trial, tracks, card: Some(simulation.card()), picture }
 }
 

@@ -7,6 +7,10 @@ use super::table::Table;
 use crate::cli::Exit;
 use crate::cli::say::{count, say};
 use crate::output::write_whole;
+use crate::scene::embed::{Wanted, told};
+
+/// A table of a shard.
+const SHARD: Wanted = Wanted { most: 1 << 30, noun: "the table of a shard", smaller: "use more shards" };
 
 /// Merges all shards in a directory into `table.csv`.
 pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
@@ -19,8 +23,8 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
         return Err(format!("of {of} shards in `{shown}` these are missing: {missing}"));
     }
     let read = |path: &PathBuf| {
-        let text =
-            std::fs::read_to_string(path).map_err(|cause| format!("cannot read `{}`: {cause}", path.display()))?;
+        let bytes = SHARD.take(path, &path.display().to_string(), "").map_err(told)?;
+        let text = String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))?;
         Table::from_csv(&text).map_err(|why| format!("`{}`: {why}", path.display()))
     };
     let tables = shards.values().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -38,7 +42,7 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
     }
     let merged = Table::merged(tables).map_err(|why| format!("the tables in `{shown}` do not fit together: {why}"))?;
     let path = folder.join("table.csv");
-    write_whole(&path, &merged.to_csv()).map_err(|error| error.to_string())?;
+    write_whole(&path, merged.to_csv()).map_err(|error| error.to_string())?;
     if !quiet {
         let runs = count(merged.rows.len(), "run", "runs");
         say(&format!("{}: {runs} of {}", path.display(), count(of, "shard", "shards")));

@@ -3,6 +3,7 @@
 mod attempt;
 mod merge;
 mod picture;
+mod record;
 mod table;
 mod vary;
 
@@ -12,12 +13,14 @@ use std::time::Instant;
 use clap::Args;
 
 use self::attempt::{Attempt, attempt, refused};
+use self::record::Record;
 use self::table::{Row, Table};
 use self::vary::{Grid, Variation};
 use super::Exit;
 use super::colors;
 use super::film::{Order, Shot};
-use super::flags::{self, OverrideFlags};
+use super::flags::{self, OverrideFlags, StrictFlag};
+use super::inputs::Inputs;
 use super::load::{self, Request};
 use super::progress::Progress;
 use super::say::{count, print_line, say};
@@ -62,6 +65,8 @@ pub(super) struct Sweep {
     merge: Option<PathBuf>,
     #[command(flatten)]
     overrides: OverrideFlags,
+    #[command(flatten)]
+    strict: StrictFlag,
     /// Runs at the same time; no number depends on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
@@ -81,6 +86,8 @@ Examples:
   jostle sweep my.ron --vary mass=0.1..10:5:log -o out/ --films           a GIF of each run
   jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of them, on one of 16 computers
   jostle sweep --merge out/                                               when all shards are there
+
+A sweep that is interrupted goes on where it was when the same command is given again: DIR/table.runs holds what is done.
 
 DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the \
 energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and \
@@ -131,30 +138,51 @@ impl Sweep {
         };
         self.strangers(&source, &plain)?;
         grid.scene(&source, 0)?;
+        let inputs = Inputs::of(request, &plain).and(colors::file(&source, &plain, None));
+        self.outputs(folder, grid.runs).find_map(|path| inputs.objection(&path)).map_or(Ok(()), Err)?;
         std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
         let runs: Vec<usize> = (first..grid.runs).step_by(step).collect();
         let sheet = !self.no_sheet && runs.len() <= picture::MOST_PICTURES;
         let start = Instant::now();
-        let (attempts, mut exit) = self.run_all(&source, &grid, &runs, folder, sheet);
+        let fingerprint = self.fingerprint(&source, plain.resource());
+        let films = if self.films { format!(" films {:?}", self.size) } else { String::new() };
+        let record = folder.join(self.file("table", "runs"));
+        let mut record = Record::open(&record, &format!("{fingerprint}{films}"))?;
+        let left: Vec<usize> = runs.iter().copied().filter(|run| !record.rows.contains_key(&(run + 1))).collect();
+        let taken = record.rows.len();
+        if taken > 0 && !self.quiet {
+            let taken = count(taken, "run is", "runs are");
+            say(&format!("note: {taken} there already: the sweep goes on where it was interrupted"));
+        }
+        let (attempts, mut exit) = self.run_all(&source, &grid, &left, folder, sheet, &mut record);
         let seconds = start.elapsed().as_secs_f64();
-        if let Some(errors) = all_refused(&attempts) {
+        if let Some(errors) = all_refused(&attempts).filter(|_| taken == 0) {
             exit = exit.worse(request.refuse_scene(errors));
         }
-        let rows = runs.iter().zip(&attempts);
-        let rows = rows.map(|(&run, attempt)| Row::of(run + 1, owned(&grid, run), attempt)).collect();
+        let mut rows = std::mem::take(&mut record.rows);
+        exit = rows.values().filter_map(Row::verdict).fold(exit, |exit, verdict| exit.worse(verdict.exit()));
+        let made = left.iter().zip(&attempts);
+        rows.extend(made.map(|(&run, attempt)| (run + 1, Row::of(run + 1, owned(&grid, run), attempt))));
+        let rows: Vec<Row> = rows.into_values().collect();
+        let told = summary(&rows);
         let names = self.vary.iter().map(|variation| variation.name.clone()).collect();
-        let path = folder.join(self.file("table", "csv"));
-        let sweep = self.shard.map(|_| self.fingerprint(&source, plain.resource()));
-        write_whole(&path, &Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
-        let image = folder.join(self.file("contact_sheet", "png"));
+        let path = self.table(folder);
+        let sweep = self.shard.map(|_| fingerprint);
+        write_whole(&path, Table { names, sweep, rows }.to_csv()).map_err(|error| error.to_string())?;
+        let image = self.sheet(folder);
+        // A sheet of some of the runs would be taken for the whole.
+        let sheet = sheet && taken == 0;
         if sheet {
             picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
         }
+        record.close()?;
         if !self.quiet && !self.json {
-            say(&format!("{}: {}, {seconds:.2} s", path.display(), summary(&attempts)));
+            say(&format!("{}: {told}, {seconds:.2} s", path.display()));
             if sheet && attempts.iter().any(|attempt| attempt.picture.is_some()) {
                 say(&format!("{}: the last moment of each run", image.display()));
+            } else if !self.no_sheet && taken > 0 {
+                say("note: no contact sheet, as some runs were there already: the same command once more makes it");
             } else if !self.no_sheet && !sheet {
                 say(&format!("note: no contact sheet of more than {} runs", picture::MOST_PICTURES));
             }
@@ -181,7 +209,8 @@ impl Sweep {
     /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
     fn fingerprint(&self, source: &Source, registry: &SceneRegistry) -> String {
         let OverrideFlags { duration, tick, method, tolerance, settings, simd: _ } = &self.overrides;
-        let flags = format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?}", self.vary);
+        let flags =
+            format!("{duration:?} {tick:?} {method:?} {tolerance:?} {settings:?} {:?} {:?}", self.vary, self.strict);
         let texts = [&source.text, &source.made(registry), &flags, env!("CARGO_PKG_VERSION")];
         // No text has a byte 255 in it.
         let bytes = texts.into_iter().flat_map(|text| text.bytes().chain([255]));
@@ -214,10 +243,11 @@ impl Sweep {
         runs: &[usize],
         folder: &Path,
         sheet: bool,
+        record: &mut Record,
     ) -> (Vec<Attempt>, Exit) {
         let progress = Progress::new(runs.len() as u64, "runs", self.quiet || self.json);
         let mut attempts: Vec<Attempt> = Vec::new();
-        let (mut exit, mut told) = (Exit::Good, 0);
+        let (mut exit, mut told, mut recorded) = (Exit::Good, 0, true);
         in_order(
             runs,
             self.threads.unwrap_or_else(all_cores),
@@ -225,7 +255,7 @@ impl Sweep {
                 Err(message) => (refused(source, message), Exit::Good),
                 Ok(scene) => {
                     let label = label(grid, run);
-                    let done = attempt(&scene, &self.overrides, sheet.then_some(&*label));
+                    let done = attempt(&scene, &self.overrides, self.strict, sheet.then_some(&*label));
                     let film = if self.films { self.film(&scene, &label, grid, run, folder) } else { Exit::Good };
                     (done, film)
                 }
@@ -240,6 +270,14 @@ impl Sweep {
                     if told <= MOST_TOLD {
                         progress.aside(|| say(&line));
                     }
+                }
+                // Without a record the sweep is as good, as long as nobody interrupts it. A run without its film is not done.
+                if recorded
+                    && film == Exit::Good
+                    && let Err(message) = record.add(&Row::of(run + 1, owned(grid, run), &attempt))
+                {
+                    recorded = false;
+                    progress.aside(|| say(&format!("note: {message}; if the sweep is interrupted, it begins anew")));
                 }
                 if self.json {
                     exit = exit.worse(print_line(&json(grid, run, &attempt).to_string()));
@@ -261,8 +299,7 @@ impl Sweep {
     /// The film of a run. It is run once more for it.
     fn film(&self, scene: &Source, label: &str, grid: &Grid, run: usize, folder: &Path) -> Exit {
         let overrides = self.overrides.overrides();
-        let digits = grid.runs.to_string().len();
-        let path = folder.join(format!("run_{:0digits$}.gif", run + 1));
+        let path = film_of(folder, run, grid.runs);
         let name = format!("{} ({label})", scene.name);
         let request = Request { name: &name, json: false };
         let (Ok(mut simulation), Ok(target)) =
@@ -289,6 +326,22 @@ impl Sweep {
         order.make(&mut simulation).map_or_else(|exit| exit, |_| Exit::Good)
     }
 
+    fn table(&self, folder: &Path) -> PathBuf {
+        folder.join(self.file("table", "csv"))
+    }
+
+    fn sheet(&self, folder: &Path) -> PathBuf {
+        folder.join(self.file("contact_sheet", "png"))
+    }
+
+    /// All files that may be written.
+    fn outputs(&self, folder: &Path, runs: usize) -> impl Iterator<Item = PathBuf> {
+        let films = if self.films { runs } else { 0 };
+        let films = (0..films).map(move |run| film_of(folder, run, runs));
+        let record = folder.join(self.file("table", "runs"));
+        [self.table(folder), self.sheet(folder), record].into_iter().chain(films)
+    }
+
     /// The name of a file; those of shards say which.
     fn file(&self, stem: &str, ending: &str) -> String {
         self.shard.map_or_else(|| format!("{stem}.{ending}"), |(which, of)| format!("{stem}.{which}-of-{of}.{ending}"))
@@ -299,6 +352,11 @@ impl Sweep {
 fn all_refused(attempts: &[Attempt]) -> Option<&crate::scene::SceneErrors> {
     let refused = |attempt: &Attempt| attempt.trial.verdict == Verdict::Refused;
     attempts.first().filter(|_| attempts.iter().all(refused))?.trial.errors.as_ref()
+}
+
+fn film_of(folder: &Path, run: usize, runs: usize) -> PathBuf {
+    let digits = runs.to_string().len();
+    folder.join(format!("run_{:0digits$}.gif", run + 1))
 }
 
 fn owned(grid: &Grid, run: usize) -> Vec<String> {
@@ -312,12 +370,11 @@ fn label(grid: &Grid, run: usize) -> String {
     pairs.join(", ")
 }
 
-fn summary(attempts: &[Attempt]) -> String {
-    let of = |wanted: Verdict| attempts.iter().filter(|attempt| attempt.trial.verdict == wanted).count();
-    let verdicts = [Verdict::Good, Verdict::Broken, Verdict::Refused, Verdict::Failed];
-    let parts = verdicts.into_iter().map(|verdict| (of(verdict), verdict.word())).filter(|(number, _)| *number > 0);
+fn summary(rows: &[Row]) -> String {
+    let of = |wanted: Verdict| rows.iter().filter(|row| row.verdict() == Some(wanted)).count();
+    let parts = Verdict::ALL.into_iter().map(|verdict| (of(verdict), verdict.word())).filter(|(number, _)| *number > 0);
     let parts: Vec<String> = parts.map(|(number, word)| format!("{number} {word}")).collect();
-    let runs = count(attempts.len(), "run", "runs");
+    let runs = count(rows.len(), "run", "runs");
     if parts.is_empty() { runs } else { format!("{runs}, {}", parts.join(", ")) }
 }
 

@@ -5,8 +5,11 @@ use crate::cli::columns::quoted;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
+use serde::{Deserialize, Serialize};
+
 use super::attempt::{Attempt, Track};
 use crate::cli::trial::Verdict;
+use crate::digest::of_bytes;
 use crate::output::csv;
 
 /// The columns that every table has after those of what varies.
@@ -24,9 +27,11 @@ const RUN: &str = "run";
 const REASON: &str = "reason";
 /// What the header of a shard's last column begins with; the column has no cells.
 const SWEEP: &str = "sweep ";
+/// Before the check sum of a shard's table, in the same header: that of the text without it.
+const SUM: &str = " sum ";
 
 /// One run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct Row {
     /// Counted from 1.
     pub run: usize,
@@ -69,9 +74,14 @@ impl Row {
         Self { run, values, fixed, channels, reason: trial.reason.clone() }
     }
 
+    /// How the run ended; none for a word that is no verdict.
+    pub fn verdict(&self) -> Option<Verdict> {
+        Verdict::ALL.into_iter().find(|verdict| self.fixed[0] == verdict.word())
+    }
+
     /// Whether the scene was read, so that its channels count.
     fn ran(&self) -> bool {
-        self.fixed[0] != Verdict::Refused.word()
+        self.verdict() != Some(Verdict::Refused)
     }
 }
 
@@ -124,11 +134,16 @@ impl Table {
             let last = [row.reason.as_str()].into_iter().chain(sweep.as_ref().map(|_| ""));
             line([run.as_str()].into_iter().chain(own).chain(channels).chain(last).collect());
         }
+        if self.sweep.is_some() {
+            let sum = format!("{SUM}{:016x}", of_bytes(text.bytes()));
+            text.insert_str(text.find('\n').unwrap_or(text.len()), &sum);
+        }
         text
     }
 
     /// Reads a table that [`Table::to_csv`] has written.
     pub fn from_csv(text: &str) -> Result<Self, String> {
+        let text = &checked(text)?;
         let mut lines = records(text)?.into_iter();
         let mut header = lines.next().ok_or("it is empty")?;
         let columns = header.len();
@@ -195,6 +210,21 @@ impl Table {
             })
         };
         size == self.rows.len() && self.rows.iter().enumerate().all(fits)
+    }
+}
+
+/// The text of a table without its check sum, which a shard has to have.
+fn checked(text: &str) -> Result<String, String> {
+    let (head, rest) = text.split_at(text.find('\n').unwrap_or(text.len()));
+    let again = "run this shard again";
+    match head.rsplit_once(SUM) {
+        Some((head, sum)) => {
+            let text = format!("{head}{rest}");
+            let fits = sum == format!("{:016x}", of_bytes(text.bytes()));
+            fits.then_some(text).ok_or_else(|| format!("it was cut or changed, as its check sum tells: {again}"))
+        }
+        None if head.contains(&format!(",{SWEEP}")) => Err(format!("it has no check sum: {again}")),
+        None => Ok(text.to_owned()),
     }
 }
 

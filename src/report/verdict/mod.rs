@@ -131,7 +131,7 @@ impl std::fmt::Display for Cause {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { trust, what, remedy } = self;
         match trust {
-            Trust::Not => write!(f, "Do not trust it: {what}.")?,
+            Trust::Not => write!(f, "{DISTRUST}: {what}.")?,
             Trust::NotTheModel => write!(f, "Trust the numbers, not the model: {what}.")?,
             Trust::Roughly => write!(f, "Trust it roughly: {what}.")?,
             Trust::Partly(part) => write!(f, "{part}: {what}.")?,
@@ -139,6 +139,9 @@ impl std::fmt::Display for Cause {
         remedy.as_ref().map_or(Ok(()), |remedy| write!(f, " Use {remedy}."))
     }
 }
+
+/// How a verdict begins that leaves nothing to be trusted.
+pub(super) const DISTRUST: &str = "Do not trust it";
 
 /// A share of how far bodies go.
 fn of_the_way(share: f64) -> String {

@@ -28,14 +28,15 @@ impl Expander {
         let name = if known.place == EmbeddingPlace::Atoms { known.name.len() } else { 0 };
         let entry = format!("{})", &out.text[start + name..]);
         let folder = context.file.source.folder.as_deref();
-        let read = self.readers[reader].1.embed(&entry, folder).map_err(|Unfit { message, help, field }| {
-            let (tree, text) = (&context.file.tree, &context.file.source.text);
-            let at = self.field(context, id, field).unwrap_or(id);
-            let mut error = self.wrong(context, tree.head_or_value(at), message);
-            error.path = tree.path(at, text);
-            error.label = "this value".into();
-            Box::new(error.with_help(help))
-        })?;
+        let read =
+            self.readers[reader].1.embed(&entry, folder, &self.door).map_err(|Unfit { message, help, field }| {
+                let (tree, text) = (&context.file.tree, &context.file.source.text);
+                let at = self.field(context, id, field).unwrap_or(id);
+                let mut error = self.wrong(context, tree.head_or_value(at), message);
+                error.path = tree.path(at, text);
+                error.label = "this value".into();
+                Box::new(error.with_help(help))
+            })?;
         let Some(read) = read else {
             for field in known.required {
                 self.required(context, id, field, known.example)?;

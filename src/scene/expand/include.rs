@@ -198,6 +198,7 @@ impl Expander {
                 "include fewer".to_owned(),
             ));
         }
+        self.door.admit(&path, &name).map_err(|(message, help)| wrong(self, message, help))?;
         let source = Source::read(&path).map_err(|errors| {
             let (message, help) = errors
                 .errors()

@@ -31,7 +31,7 @@ use super::scan::{Scan, scan};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
-pub(crate) use door::Wanted;
+pub(crate) use door::{Door, Wanted, told};
 use emit::{Context, Place};
 use instance::Template;
 use scope::Scope;
@@ -90,6 +90,8 @@ pub(super) struct Expanded {
     pub(super) text: String,
     pub(super) notes: Vec<String>,
     pub(super) tables: Tables,
+    /// The files that were read.
+    pub(super) opened: Vec<PathBuf>,
     files: Vec<Rc<File>>,
     steps: Vec<Step>,
     pieces: Vec<write::Piece>,
@@ -128,7 +130,7 @@ pub(super) fn made(source: &Source, embeddings: &[Embedding]) -> Option<BTreeMap
 /// Makes what the scene asks for, from what the walk over its text found.
 pub(super) fn expand(source: &Source, found: Scan, embeddings: &[Embedding]) -> Result<Expanded, SceneErrors> {
     let readers = embeddings.iter().map(|known| (*known, (known.reader)())).collect();
-    let mut expander = Expander { readers, ..Expander::default() };
+    let mut expander = Expander { readers, door: Door::of(source), ..Expander::default() };
     expander.steps.push(Step { before: 0, depth: 0, file: 0, at: (0, 0), cause: None });
     expander.errors = found.errors;
     let file = expander.add_file(source.clone(), found.tree);
@@ -161,6 +163,7 @@ struct Expander {
     open_files: Vec<PathBuf>,
     /// Entries that name files, with what reads them.
     readers: Vec<Reader>,
+    door: Door,
     tables: Tables,
     made: u64,
     work: usize,
@@ -217,7 +220,8 @@ impl Expander {
         }
         let Buffer { text, pieces } = out;
         let (files, steps) = (self.files, self.steps);
-        Ok(Expanded { text, notes: self.notes, tables: self.tables, files, steps, pieces, reasons: self.reasons })
+        let (notes, tables, opened) = (self.notes, self.tables, self.door.opened());
+        Ok(Expanded { text, notes, tables, opened, files, steps, pieces, reasons: self.reasons })
     }
 
     /// A mistake at a place of a file, with the way there.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::door::{Wanted, Wrong};
+use super::door::{Door, Wanted, Wrong};
 use super::emit::{Context, WORK};
 use super::write::Buffer;
 use super::{Expander, Outcome};
@@ -33,7 +33,7 @@ impl Expander {
         if name.contains(['{', '}']) {
             name = self.filled(context, child, &name, shift)?.text;
         }
-        let points = read_points(context, &name).map_err(|(message, help)| {
+        let points = read_points(&self.door, context, &name).map_err(|(message, help)| {
             let mut error = self.wrong(context, context.file.tree.span(child), message);
             error.path = context.file.tree.path(child, &context.file.source.text);
             error.label = "this value".into();
@@ -52,12 +52,12 @@ impl Expander {
     }
 }
 
-fn read_points(context: &Context, name: &str) -> Result<Vec<(f64, f64)>, Wrong> {
+fn read_points(door: &Door, context: &Context, name: &str) -> Result<Vec<(f64, f64)>, Wrong> {
     let Some(folder) = &context.file.source.folder else {
         let message = "this scene is in no file, so no table can be found from it".to_owned();
         return Err((message, "save it as a file, or write the points out: `Piecewise([(0, 1), (2, 0)])`".into()));
     };
-    let bytes = TABLE.read(&folder.join(name), name)?;
+    let bytes = TABLE.read(door, &folder.join(name), name)?;
     let text = String::from_utf8(bytes).map_err(|error| {
         (format!("cannot read `{name}` as text: {error}"), "it has to be a table of numbers, one line each".to_owned())
     })?;

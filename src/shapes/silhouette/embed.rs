@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::{Covering, Fineness, Mask};
-use crate::scene::embed::{Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
+use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Report, read_value, suggest};
 use crate::shapes::png::{MOST_ATOMS, Png};
@@ -41,13 +41,13 @@ struct Known {
 type Wrong = (String, String, &'static str);
 
 impl Embed for Pictures {
-    fn embed(&mut self, entry: &str, folder: Option<&Path>) -> Result<Option<Embedded>, Unfit> {
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
         // What the shape's own reading and check find is told by them, in their words.
         let Some(png) = read_value::<Png>(entry).ok().filter(|png| png.numbers_are_good(&mut Report::new())) else {
             return Ok(None);
         };
         let (found, note) =
-            self.covering(folder, &png).map_err(|(message, help, field)| Unfit { message, help, field })?;
+            self.covering(folder, door, &png).map_err(|(message, help, field)| Unfit { message, help, field })?;
         let (height, covered) = (png.height.si(), &self.0[found].covering.discs);
         let mut fields = String::from("discs: [");
         for disc in covered {
@@ -62,7 +62,7 @@ impl Embed for Pictures {
 
 impl Pictures {
     /// The discs of a silhouette: which of the known ones, and a note if it was not known before.
-    fn covering(&mut self, folder: Option<&Path>, png: &Png) -> Result<(usize, Option<String>), Wrong> {
+    fn covering(&mut self, folder: Option<&Path>, door: &Door, png: &Png) -> Result<(usize, Option<String>), Wrong> {
         let shipped = png.file.starts_with(SHIPPED);
         let file = match folder {
             Some(folder) if !shipped => folder.join(&png.file).display().to_string(),
@@ -87,7 +87,7 @@ impl Pictures {
                 let help = "save it as a file, or use a picture that comes with the program: `example:cow.png`";
                 return Err((message.into(), help.into(), "file"));
             }
-            None => PICTURE.read(Path::new(&file), name).map_err(|(message, help)| (message, help, "file"))?,
+            None => PICTURE.read(door, Path::new(&file), name).map_err(|(message, help)| (message, help, "file"))?,
         };
         let mask = Mask::read(&bytes).map_err(|(why, help)| (format!("`{name}` {why}"), help.to_owned(), "file"))?;
         let covering = cover(&mask, fineness, png)?;

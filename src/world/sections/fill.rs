@@ -20,6 +20,12 @@ use crate::world::{material, sections};
 pub const LARGEST_COUNT: u64 = 1_000_000;
 /// How often a place is tried for one body before the region counts as full.
 const TRIES: usize = 20_000;
+/// Bodies that would take a smaller share of their region do not fill it.
+const SPARSE: f64 = 0.3;
+/// How much work the tries of one entry may be: about as many looks at a place among four corners. That takes seconds.
+const MOST_WORK: usize = 100_000_000;
+/// So many corners take about as long as the other work of a try.
+const CORNERS: usize = 16;
 /// Cells of the search grid along one side, at most.
 const CELLS: usize = 512;
 
@@ -72,7 +78,7 @@ pub struct FillSection(pub Vec<FillEntry>);
 
 impl FillSection {
     /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the region
-    /// is full, which `check` reports. The outline tells which places are taken.
+    /// is full or too narrow to be met by chance, which `check` reports. The outline tells which places are taken.
     pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
         let mut taken = outline.obstacles().to_vec();
         let mut all = Vec::new();
@@ -135,8 +141,11 @@ impl Section for FillSection {
                     entry.within.noun(),
                     100.0 * share,
                 );
+                let narrow =
+                    if share < SPARSE { ". So little is hard to meet by chance: use a wider region" } else { "" };
                 let help = format!(
-                    "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the area"
+                    "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the \
+                     area{narrow}"
                 );
                 report.error(&format!("[{index}].count"), message).help(help);
             }
@@ -181,8 +190,10 @@ impl FillEntry {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed.0);
         // The upper 53 bits: a number from 0 up to, not including, 1, the same on every machine.
         let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let mut left = MOST_WORK / (1 + self.within.corner_count() / CORNERS);
         for _ in 0..self.count.0.min(LARGEST_COUNT) {
-            let free = (0..TRIES)
+            let free = (0..TRIES.min(left))
+                .inspect(|_| left -= 1)
                 .map(|_| low + (high - low) * DVec2::new(chance(), chance()))
                 .find(|&at| self.within.holds(at, radius) && grid.is_free(at));
             let Some(position) = free else { break };

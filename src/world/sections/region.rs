@@ -125,6 +125,11 @@ impl Region {
         self.corners.iter().copied().zip(self.corners.iter().copied().cycle().skip(1))
     }
 
+    /// How many corners it has.
+    pub(super) fn corner_count(&self) -> usize {
+        self.corners.len()
+    }
+
     /// The area that its outline goes round, in m2.
     pub(super) fn area(&self) -> f64 {
         // Counted from a corner, so that a polygon far from the origin keeps its digits.

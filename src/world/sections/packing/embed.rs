@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{MOST_ATOMS, PackingEntry, PackingTable, PackingsSection};
 use crate::digest::of_bytes;
-use crate::scene::embed::{Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
+use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
 use crate::scene::{Section, count, read_value};
 
 /// Entries of `packings`.
@@ -28,10 +28,10 @@ struct Tables(Vec<(PathBuf, u64)>);
 type Wrong = (String, String);
 
 impl Embed for Tables {
-    fn embed(&mut self, entry: &str, folder: Option<&Path>) -> Result<Option<Embedded>, Unfit> {
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
         let Ok(entry) = read_value::<PackingEntry>(entry) else { return Ok(None) };
         let (key, read) =
-            self.key(&entry.file, folder).map_err(|(message, help)| Unfit { message, help, field: "file" })?;
+            self.key(&entry.file, folder, door).map_err(|(message, help)| Unfit { message, help, field: "file" })?;
         let fields = format!("table: {key}");
         Ok(Some(match read {
             None => Embedded { fields, ..Embedded::default() },
@@ -44,7 +44,12 @@ impl Embed for Tables {
 
 impl Tables {
     /// The key of the table in a file; the table with a note, if it was not read before.
-    fn key(&mut self, name: &str, folder: Option<&Path>) -> Result<(u64, Option<(PackingTable, String)>), Wrong> {
+    fn key(
+        &mut self,
+        name: &str,
+        folder: Option<&Path>,
+        door: &Door,
+    ) -> Result<(u64, Option<(PackingTable, String)>), Wrong> {
         let Some(folder) = folder else {
             let message = "this scene is in no file, so no table can be found from it";
             return Err((message.into(), "save it as a file, or write the bodies into `bodies`".into()));
@@ -53,7 +58,7 @@ impl Tables {
         if let Some((_, key)) = self.0.iter().find(|(known, _)| *known == path) {
             return Ok((*key, None));
         }
-        let mut bytes = TABLE.read(&path, name)?;
+        let mut bytes = TABLE.read(door, &path, name)?;
         if path.extension().is_some_and(|ending| ending == "gz") {
             bytes = TABLE.bytes(flate2::read::MultiGzDecoder::new(&*bytes), name)?;
         }

@@ -1,0 +1,92 @@
+//! What a sweep has done so far, beside its table: a sweep that was killed goes on where it was.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::table::Row;
+use crate::digest::of_bytes;
+
+/// What a record begins with; behind it stands of which sweep it is.
+const HEAD: &str = "jostle sweep ";
+
+/// A larger file is no record.
+const LARGEST: u64 = 1 << 30;
+
+/// A line for each run that has ended: the check sum of the rest, and its row.
+pub(super) struct Record {
+    path: PathBuf,
+    /// Locked, so that no other sweep writes into the folder at the same time.
+    file: File,
+    /// Rows of runs that an interrupted sweep has made, by their numbers.
+    pub rows: BTreeMap<usize, Row>,
+}
+
+impl Record {
+    /// Opens the record of a sweep, or begins one. A record of another sweep is given up.
+    pub fn open(path: &Path, sweep: &str) -> Result<Self, String> {
+        let shown = path.display();
+        if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
+            return Err(format!("`{shown}` is no file: a sweep keeps there what it has done; move it away"));
+        }
+        let told = |cause: std::io::Error| format!("`{shown}` cannot be written: {cause}");
+        let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+        let mut file = opened.map_err(told)?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => {
+                return Err(format!("another sweep writes into this folder (`{shown}`): wait for it, or name another"));
+            }
+            // Some systems know no locks.
+            Err(TryLockError::Error(_)) | Ok(()) => {}
+        }
+        let mut text = Vec::new();
+        (&mut file).take(LARGEST).read_to_end(&mut text).map_err(told)?;
+        if !text.is_empty() && !text.starts_with(HEAD.as_bytes()) {
+            return Err(format!("`{shown}` is not what a sweep has done so far: move it away"));
+        }
+        let head = format!("{HEAD}{sweep}\n");
+        let (rows, good) = match text.strip_prefix(head.as_bytes()) {
+            Some(lines) => read(lines),
+            None => (BTreeMap::new(), 0),
+        };
+        // What a kill has left of a line is written over.
+        let length = if good > 0 || text.starts_with(head.as_bytes()) { head.len() + good } else { 0 };
+        file.set_len(length as u64).and_then(|()| file.seek(SeekFrom::End(0)).map(|_| ())).map_err(told)?;
+        if length == 0 {
+            file.write_all(head.as_bytes()).map_err(told)?;
+        }
+        Ok(Self { path: path.to_owned(), file, rows })
+    }
+
+    /// Adds a run that has ended.
+    pub fn add(&mut self, row: &Row) -> Result<(), String> {
+        let told = |cause: &dyn std::fmt::Display| format!("`{}` cannot be written: {cause}", self.path.display());
+        let row = serde_json::to_string(row).map_err(|cause| told(&cause))?;
+        let line = format!("{} {row}\n", sum(&row));
+        self.file.write_all(line.as_bytes()).map_err(|cause| told(&cause))
+    }
+
+    /// Removes the record of a sweep whose table is written.
+    pub fn close(self) -> Result<(), String> {
+        let removed = std::fs::remove_file(&self.path);
+        removed.map_err(|cause| format!("`{}` cannot be removed: {cause}", self.path.display()))
+    }
+}
+
+fn sum(text: &str) -> String {
+    format!("{:016x}", of_bytes(text.bytes()))
+}
+
+/// The rows of whole lines, and how many bytes those have.
+fn read(lines: &[u8]) -> (BTreeMap<usize, Row>, usize) {
+    let (mut rows, mut good) = (BTreeMap::new(), 0);
+    for line in lines.split_inclusive(|&byte| byte == b'\n') {
+        let text = line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok());
+        let whole = text.and_then(|text| text.split_once(' ')).filter(|(known, row)| *known == sum(row));
+        let Some(row) = whole.and_then(|(_, row)| serde_json::from_str::<Row>(row).ok()) else { break };
+        rows.insert(row.run, row);
+        good += line.len();
+    }
+    (rows, good)
+}
