@@ -1,13 +1,23 @@
 //! The two ends of a spring: points of two bodies, or of a body and the world.
 
+use bevy_app::App;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
 use std::borrow::Cow;
 
-use crate::scene::{Kind, Outline, Report};
+use crate::scene::{Kind, Outline, Report, SceneAppExt};
 use crate::tick::Balance;
+use crate::tick::energy::CHANNELS;
 use crate::world::Bodies;
+
+/// The account of what dampers take.
+pub const DAMPING: &str = "damping";
+
+/// Registers the channel of this account.
+pub fn plugin(app: &mut App) {
+    app.register_word(CHANNELS, "energy.damping");
+}
 
 /// What holds an end: the body of a name, or the word `World`.
 #[derive(Clone, Debug, PartialEq, Eq)]

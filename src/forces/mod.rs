@@ -32,6 +32,7 @@ pub fn plugin(app: &mut App) {
         .add_plugins(torque::plugin)
         .add_plugins(drag::plugin)
         .add_plugins(wind::plugin)
+        .add_plugins(link::plugin)
         .add_plugins(spring::plugin)
         .add_plugins(torsion_spring::plugin)
         .add_plugins(drive::plugin)

@@ -1,6 +1,6 @@
 //! A spring and a damper between two points (Hooke 1678; Kelvin and Voigt): with the distance `l` of its ends, both are
 //! pulled towards each other by `F = k (l - l0) + c dl/dt`, in newtons. Elastic energy `k (l - l0)^2/2`; the damper takes
-//! `c (dl/dt)^2` watts, booked with drag.
+//! `c (dl/dt)^2` watts, booked as `damping`.
 //!
 //! In a place without distance the force of the spring has no direction: a spring that has a length of its own pushes
 //! nowhere then, and one of no length does not push at all; the damper acts along the motion of one end against the other,
@@ -12,11 +12,11 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::link::{self, End, Link, Partner};
+use super::link::{self, DAMPING, End, Link, Partner};
 use crate::scene::units::{Damping, Length, Position, Stiffness};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
 use crate::tick::response;
-use crate::tick::{Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Dependence, Energies, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
 /// `stiffness (distance - length) + damping d(distance)/dt`, and pushes where that is negative.
@@ -68,6 +68,7 @@ impl Entry for Spring {
                 link: Link::named(&value.a, &value.b, (value.anchor_a.si(), value.anchor_b.si()), outline),
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
+                power: 0.0,
                 length: value.length.map(Length::si),
                 path: mention.path.clone(),
             });
@@ -84,6 +85,8 @@ pub struct SpringForce {
     pub stiffness: f64,
     /// Damping in N s/m.
     pub damping: f64,
+    /// Power that the damper took in the last evaluation, in watts.
+    power: f64,
     /// Length without force in metres; `None`: the distance of the ends at the start, which takes its place then.
     pub length: Option<f64>,
     /// Where it stands in the scene, such as `forces[0]`.
@@ -127,6 +130,10 @@ impl Model for SpringForce {
         }
     }
 
+    fn loss(&self) -> Option<Loss> {
+        (self.damping > 0.0).then_some(Loss { account: DAMPING, power: self.power })
+    }
+
     fn energies(&self, state: &State) -> Energies {
         let stretched =
             self.link.ends(&state.bodies).map(|(a, b)| self.lengthening((b.position - a.position).length()));
@@ -147,11 +154,12 @@ impl Model for SpringForce {
 
     fn apply_forces(&mut self, state: &mut State) {
         let (bodies, rates) = state.bodies_and_rates();
+        self.power = 0.0;
         self.link.refresh(bodies);
         let Some((a, b)) = self.link.ends(bodies) else { return };
         let (direction, distance, speed) = stretch(&a, &b);
         let elastic = if distance > 0.0 { self.stiffness * self.lengthening(distance) } else { 0.0 };
-        rates.drag += self.damping * speed * speed;
+        self.power = self.damping * speed * speed;
         link::pull(&a, &b, direction * (elastic + self.damping * speed), bodies, rates);
     }
 }
@@ -206,7 +214,7 @@ mod tests {
         );
         simulation.run_to_end().unwrap();
         let card = simulation.card();
-        assert!(card.energy.work > 1.0 && card.energy.drag > 0.1, "{:?}", card.energy);
+        assert!(card.energy.work > 1.0 && card.energy.accounts["damping"] > 0.1, "{:?}", card.energy);
         assert!(card.energy_error() < 1e-4, "{:e}", card.energy_error());
         assert!(card.momentum_residual[0].abs() < 1e-12 && card.angular_momentum_residual.abs() < 1e-12);
     }

@@ -1,6 +1,6 @@
 //! A torsion spring and a damper between two bodies: with the angle `phi` of B relative to A, continuous over full turns,
 //! B is turned by `M = -kappa (phi - phi0) - c dphi/dt` and A by its opposite, in N m. Elastic energy
-//! `kappa (phi - phi0)^2/2`; the damper takes `c (dphi/dt)^2` watts, booked with drag.
+//! `kappa (phi - phi0)^2/2`; the damper takes `c (dphi/dt)^2` watts, booked as `damping`.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -8,11 +8,11 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::link::{self, End, Link, Partner};
+use super::link::{self, DAMPING, End, Link, Partner};
 use crate::scene::units::{Angle, Dimension, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::response;
-use crate::tick::{Dependence, Energies, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Dependence, Energies, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
 /// A spring, and a damper beside it, against turning one body over another or over the world: torque
@@ -76,6 +76,7 @@ impl Entry for TorsionSpring {
                 link: Link::named(&value.a, &value.b, (DVec2::ZERO, DVec2::ZERO), outline),
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
+                power: 0.0,
                 angle: value.angle.map(Angle::si),
             });
         }
@@ -91,6 +92,8 @@ pub struct TorsionSpringForce {
     pub stiffness: f64,
     /// Damping in N m s/rad.
     pub damping: f64,
+    /// Power that the damper took in the last evaluation, in watts.
+    power: f64,
     /// Relative angle without torque in rad; `None`: that of the start, which takes its place then.
     pub angle: Option<f64>,
 }
@@ -124,6 +127,10 @@ impl Model for TorsionSpringForce {
         }
     }
 
+    fn loss(&self) -> Option<Loss> {
+        (self.damping > 0.0).then_some(Loss { account: DAMPING, power: self.power })
+    }
+
     fn energies(&self, state: &State) -> Energies {
         let turned = self.link.ends(&state.bodies).map(|(a, b)| self.turned(twist(&a, &b, &state.bodies).0));
         Energies { potential: 0.0, elastic: 0.5 * self.stiffness * turned.unwrap_or(0.0).powi(2) }
@@ -139,11 +146,12 @@ impl Model for TorsionSpringForce {
 
     fn apply_forces(&mut self, state: &mut State) {
         let (bodies, rates) = state.bodies_and_rates();
+        self.power = 0.0;
         self.link.refresh(bodies);
         let Some((a, b)) = self.link.ends(bodies) else { return };
         let (angle, spin) = twist(&a, &b, bodies);
         let torque = -self.stiffness * self.turned(angle) - self.damping * spin;
-        rates.drag += self.damping * spin * spin;
+        self.power = self.damping * spin * spin;
         link::twist(&a, &b, torque, bodies, rates);
     }
 }

@@ -128,6 +128,7 @@ impl Card {
         let shortest_contact = responses.briefest.map(|brief| brief.duration());
         let shortest_contact = shortest_contact.or(stability.stiffest_contact().map(|frequency| PI / frequency));
         let energy = EnergyLedger::of(state);
+        let energy_scale = energy.turned_over(state);
         let now = state.totals();
         let start = ledger.start.unwrap_or(now);
         let momentum = now.momentum - start.momentum;
@@ -162,7 +163,7 @@ impl Card {
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,
-            energy_scale: energy.turned_over(state),
+            energy_scale,
             asked: known.map(|known| known.tolerance),
         };
         card.notes.extend(estimated.notes);
@@ -271,8 +272,7 @@ impl fmt::Display for Card {
             "energy",
             parts(&[("kinetic", energy.kinetic), ("potential", energy.potential), ("elastic", energy.elastic)]),
         )?;
-        let lost = [("friction", energy.friction), ("inelasticity", energy.inelasticity), ("drag", energy.drag)];
-        row("energy lost", parts(&lost))?;
+        row("energy lost", parts(&energy.losses().collect::<Vec<_>>()))?;
         row("work of drives", parts(&[("", energy.work)]))?;
         row(
             "energy residual",

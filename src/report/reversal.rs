@@ -58,8 +58,7 @@ impl Reversal {
 /// What in a run has a direction of time, in words.
 fn direction_of_time(simulation: &Simulation) -> Option<String> {
     let energy = simulation.card().energy;
-    let lost = [("friction", energy.friction), ("inelasticity", energy.inelasticity), ("drag", energy.drag)];
-    let lost = lost.into_iter().filter(|(_, lost)| *lost != 0.0).map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+    let lost = energy.losses().filter(|(_, lost)| *lost != 0.0).map(|(name, _)| name).collect::<Vec<_>>().join(", ");
     let prescribed = !simulation.bodies().prescribed.motions.is_empty();
     if !lost.is_empty() {
         Some(format!("energy was lost on the way ({lost}), and does not come back"))

@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::tick::State;
 use crate::tick::energy::EnergyLedger;
 
 const CHANNELS: &[&str] = &[
@@ -23,7 +24,7 @@ const CHANNELS: &[&str] = &[
 ];
 
 /// The energy ledger in J: `energy.kinetic`, `energy.potential`, `energy.elastic` and their sum `energy.total`; what was
-/// lost, `energy.friction`, `energy.inelasticity`, `energy.drag`; `energy.work` of drives; `energy.residual`, what cannot be
+/// lost, `energy.friction`, `energy.inelasticity`, `energy.drag`, and where springs have dampers `energy.damping`; `energy.work` of drives; `energy.residual`, what cannot be
 /// accounted for.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -39,13 +40,20 @@ impl Entry for Energy {
     }
 
     fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));
+        let models = app.world().resource::<State>().models();
+        let accounts: Vec<_> = models.filter_map(|model| Some(format!("energy.{}", model.loss()?.account))).collect();
+        add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()).chain(accounts));
     }
 }
 
-fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let part = entry(owner, quantity)?;
-    Some(Channel::of_state(format!("energy.{quantity}"), "J", move |state| part(&EnergyLedger::of(state))))
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let name = format!("{owner}.{quantity}");
+    let Some(part) = entry(owner, quantity) else {
+        let mut accounts = world.resource::<State>().models().filter_map(|model| model.loss());
+        let account = accounts.find(|loss| owner == "energy" && loss.account == quantity)?.account;
+        return Some(Channel::of_state(name, "J", move |state| state.ledger().lost(account).unwrap_or(0.0)));
+    };
+    Some(Channel::of_state(name, "J", move |state| part(&EnergyLedger::of(state))))
 }
 
 /// The entry of the ledger that a channel reads.

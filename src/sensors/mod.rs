@@ -17,6 +17,7 @@ use bevy_ecs::prelude::*;
 
 use crate::scene::values::Word;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
+use crate::tick::energy::CHANNELS;
 use crate::tick::{State, place_of};
 use crate::world::{Bodies, Body, Name, Wall};
 
@@ -98,8 +99,6 @@ struct Finders(Vec<Finder>);
 
 /// The open list of what can be measured of a body or wall, such as `position.x`.
 pub(crate) const QUANTITIES: &str = "quantity";
-/// The open list of channels that belong to no body, such as `energy.total`.
-const CHANNELS: &str = "channel";
 
 /// How plugins add something that can be measured.
 pub trait SensorAppExt {

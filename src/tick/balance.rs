@@ -73,7 +73,7 @@ impl Sum {
 }
 
 /// What has gone in and out since the beginning.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Energy lost to friction in J.
     pub friction: Sum,
@@ -81,6 +81,8 @@ pub struct Ledger {
     pub inelasticity: Sum,
     /// Energy lost to drag in J.
     pub drag: Sum,
+    /// Energy lost to accounts of models in J, in the order in which models name them.
+    pub accounts: Vec<(&'static str, Sum)>,
     /// Work done by drives in J.
     pub work: Sum,
     /// The same with what they took counted as what they put in: a drive that swings to and fro works, though the sum of it
@@ -102,6 +104,20 @@ impl Ledger {
         self.angular_impulse.add(balance.torque * dt);
         self.drag.add(balance.drag * dt);
         self.book_work(balance.work * dt);
+    }
+
+    /// The energy lost to an account of models in J; `None` if no model has it.
+    pub fn lost(&self, account: &str) -> Option<f64> {
+        self.accounts.iter().find(|(name, _)| *name == account).map(|(_, lost)| lost.value())
+    }
+
+    /// The index of an account, which is opened if it is new.
+    pub(super) fn account(&mut self, account: &'static str) -> usize {
+        let known = self.accounts.iter().position(|(name, _)| *name == account);
+        known.unwrap_or_else(|| {
+            self.accounts.push((account, Sum::default()));
+            self.accounts.len() - 1
+        })
     }
 
     /// Books work of drives.

@@ -339,6 +339,7 @@ impl Tick<'_> {
         let balance: Balance = self.state.balance;
         self.alert |= balance.alert;
         self.state.ledger.book(&balance, dt);
+        self.state.book_losses(dt);
     }
 
     /// Whether a model holds more than can be resolved exactly in steps from event to event.

@@ -1,14 +1,19 @@
 //! The energy ledger of a run: what is there, what was lost, and what is missing.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::State;
 use crate::tick::balance::Totals;
 use crate::tick::{Ledger, energy_seen};
 
-/// Energies in J. `kinetic + potential + elastic + friction + inelasticity + drag - work` was constant but for
-/// `residual`: the error of the integration.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// The open list of channels that belong to no body, such as `energy.total`.
+pub const CHANNELS: &str = "channel";
+
+/// Energies in J. `kinetic + potential + elastic - work` and all losses together were constant but for `residual`: the error of the
+/// integration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyLedger {
     /// Energy of motion.
     pub kinetic: f64,
@@ -26,6 +31,9 @@ pub struct EnergyLedger {
     pub work: f64,
     /// What the present energies and the losses exceed the energy at the beginning and the work by.
     pub residual: f64,
+    /// Lost to accounts of models since the beginning, by their names: `damping` of springs. Only those that the scene has.
+    #[serde(flatten)]
+    pub accounts: BTreeMap<&'static str, f64>,
 }
 
 impl EnergyLedger {
@@ -39,7 +47,8 @@ impl EnergyLedger {
         let start = ledger.start.unwrap_or(now);
         let (friction, inelasticity) = (ledger.friction.value(), ledger.inelasticity.value());
         let (drag, work) = (ledger.drag.value(), ledger.work.value());
-        let lost = friction + inelasticity + drag;
+        let accounts: BTreeMap<_, _> = ledger.accounts.iter().map(|(name, lost)| (*name, lost.value())).collect();
+        let lost = friction + inelasticity + drag + accounts.values().sum::<f64>();
         Self {
             kinetic: now.kinetic,
             potential: now.potential,
@@ -49,7 +58,14 @@ impl EnergyLedger {
             drag,
             work,
             residual: (now.energy() + lost) - (start.energy() + work),
+            accounts,
         }
+    }
+
+    /// All losses with the names of their accounts.
+    pub fn losses(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let known = [("friction", self.friction), ("inelasticity", self.inelasticity), ("drag", self.drag)];
+        known.into_iter().chain(self.accounts.iter().map(|(name, lost)| (*name, *lost)))
     }
 
     /// The energy that went round in the run, in J: what the residual is to be compared with. The zero of potential
@@ -58,7 +74,7 @@ impl EnergyLedger {
         let ledger = &state.ledger;
         let start = ledger.start.unwrap_or_default();
         let fallen = (self.potential - start.potential).abs();
-        let lost = self.friction.abs() + self.inelasticity.abs() + self.drag.abs();
+        let lost = self.losses().map(|(_, lost)| lost.abs()).sum::<f64>();
         let present = start.kinetic.max(self.kinetic) + fallen + self.elastic;
         present.max(energy_seen(state)) + lost + ledger.gross_work
     }

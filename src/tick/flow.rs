@@ -7,7 +7,7 @@ use super::model::Events;
 use super::{Balance, State, Tick};
 use crate::tick::Flow;
 
-/// Accounts at the end of a state: drag, work, friction, inelasticity, impulse (2), angular impulse.
+/// Accounts at the end of a state, behind those of models: drag, work, friction, inelasticity, impulse (2), angular impulse.
 const ACCOUNTS: usize = 7;
 /// Those that depend on no velocity if forces do not.
 const IMPULSES: usize = 3;
@@ -29,6 +29,8 @@ pub struct WorldFlow<'t, 'w> {
     /// Lengths of what models keep of their own, and all together.
     blocks: Vec<usize>,
     own: usize,
+    /// Accounts of models.
+    others: usize,
     dimension: usize,
     velocity_dependent: bool,
     watched: bool,
@@ -42,14 +44,15 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let mut blocks = Vec::new();
         tick.state.each_with_events(|model, _| blocks.push(model.length()));
         let own = blocks.iter().sum();
-        let dimension = 6 * dynamic.len() + own + ACCOUNTS;
+        let others = tick.state.ledger.accounts.len();
+        let dimension = 6 * dynamic.len() + own + others + ACCOUNTS;
         let (velocity_dependent, watched) = (tick.velocity_dependent, tick.state.has_events());
-        Self { tick, dynamic, blocks, own, dimension, velocity_dependent, watched }
+        Self { tick, dynamic, blocks, own, others, dimension, velocity_dependent, watched }
     }
 
     /// Places of the accounts in a state.
     pub fn places_of_accounts(&self) -> std::ops::Range<usize> {
-        self.dimension - ACCOUNTS..self.dimension
+        self.dimension - ACCOUNTS - self.others..self.dimension
     }
 
     /// Places of what models keep of their own.
@@ -115,8 +118,10 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let own = self.places_of_own();
         self.each_own(&mut rates[own], |model, state, rates| model.rates(state, rates));
         let Balance { force, torque, drag, work, friction, inelasticity, .. } = self.tick.state.balance;
-        let accounts = self.places_of_accounts();
-        rates[accounts].copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
+        let (others, accounts) = rates[self.places_of_accounts()].split_at_mut(self.others);
+        others.fill(0.0);
+        self.tick.state.add_losses(others);
+        accounts.copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
     }
 
     /// Positions and angles of the dynamic bodies.
@@ -173,14 +178,16 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         sizes.clear();
         sizes.extend(self.dynamic.iter().flat_map(|&body| [distance, distance, turns(distance, body)]));
         sizes.extend(self.dynamic.iter().flat_map(|&body| [speed, speed, turns(speed, body)]));
-        sizes.resize(self.dimension - ACCOUNTS, distance);
+        sizes.resize(self.places_of_accounts().start, distance);
         sizes.resize(self.dimension, f64::INFINITY);
     }
 
     /// Books what a step has added to the accounts.
     pub fn book(&mut self, change: &[f64]) {
-        let [drag, work, friction, inelasticity, x, y, angular] = change[self.places_of_accounts()] else { return };
+        let (others, accounts) = change[self.places_of_accounts()].split_at(self.others);
+        let &[drag, work, friction, inelasticity, x, y, angular] = accounts else { return };
         let ledger = &mut self.tick.state.ledger;
+        ledger.accounts.iter_mut().zip(others).for_each(|((_, sum), lost)| sum.add(*lost));
         ledger.impulse[0].add(x);
         ledger.impulse[1].add(y);
         ledger.angular_impulse.add(angular);
@@ -207,7 +214,7 @@ impl Flow for WorldFlow<'_, '_> {
 
     fn accounts(&self) -> usize {
         // Powers of contacts depend on velocities where their forces do not.
-        if self.velocity_dependent || self.watched { IMPULSES } else { ACCOUNTS }
+        if self.velocity_dependent || self.watched { IMPULSES } else { ACCOUNTS + self.others }
     }
 
     fn velocity_dependent(&self) -> bool {

@@ -71,7 +71,7 @@ pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use method::{Integrator, Method};
-pub use model::{Departure, Dependence, Energies, Events, Indicator, Model, Objection, Rhythm};
+pub use model::{Departure, Dependence, Energies, Events, Indicator, Loss, Model, Objection, Rhythm};
 pub use notes::Notes;
 pub use ode::Flow;
 pub use progress::{LocatedEvents, StepCount};

@@ -43,6 +43,12 @@ pub trait Model: Any + Send + Sync {
     /// The energies in J that it holds in the present state.
     fn energies(&self, state: &State) -> Energies;
 
+    /// The power that it took in the evaluation just made, if that goes to an account of its own; drag, friction and inelasticity
+    /// have theirs in [`Balance`](super::Balance). Default: it has no such account.
+    fn loss(&self) -> Option<Loss> {
+        None
+    }
+
     /// Adds its springs in their present state: the critical tick follows from them. Contact laws tell
     /// [`Model::responses`] instead.
     fn stiffness(&self, state: &State, springs: &mut Vec<SteadySpring>);
@@ -155,6 +161,15 @@ pub trait Model: Any + Send + Sync {
     fn inner_mut(&mut self) -> Option<&mut dyn Any> {
         None
     }
+}
+
+/// Energy that a model takes out of the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loss {
+    /// The account of the ledger: `damping` stands on the card and is the channel `energy.damping`. Models may share one.
+    pub account: &'static str,
+    /// Power in watts.
+    pub power: f64,
 }
 
 /// State of a model's own and its events, for methods that take several stages per step.

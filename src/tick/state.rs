@@ -53,6 +53,8 @@ pub(super) struct Roles {
     end_tick: Vec<usize>,
     events: Vec<usize>,
     edges: Vec<usize>,
+    /// Places of models with an account of their own, and of that account in the ledger.
+    accounts: Vec<(usize, usize)>,
     /// How many are neither contact laws nor their search for pairs; those follow.
     others: usize,
     velocity_dependent: bool,
@@ -80,6 +82,7 @@ impl Roles {
             end_tick: places(|model| model.looks_at_ticks()),
             events,
             edges: places(|model| model.has_edges()),
+            accounts: Vec::new(),
             others,
             velocity_dependent: depends(models, &[Dependence::Velocity]),
             velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
@@ -234,6 +237,9 @@ impl State {
     pub(super) fn find_roles(&mut self) {
         if self.roles.version != Some(self.progress.version) {
             self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models) };
+            let Self { models, ledger, roles, .. } = self;
+            let losses = models.iter().enumerate().filter_map(|(place, model)| Some((place, model.loss()?.account)));
+            roles.accounts.extend(losses.map(|(place, account)| (place, ledger.account(account))));
         }
     }
 
@@ -264,6 +270,7 @@ impl State {
         };
         let place = self.models.iter().position(|model| has(&**model))?;
         self.note_change();
+        self.progress.version += 1;
         let model = &mut *self.models[place];
         if (model as &dyn std::any::Any).is::<T>() {
             return (model as &mut dyn std::any::Any).downcast_mut();
@@ -324,6 +331,23 @@ impl State {
     /// All contacts of the present state in canonical order; `None` without a contact law that tells them.
     pub fn contact_points(&self) -> Option<Vec<ContactPoint>> {
         self.models.iter().find_map(|model| model.contact_points(self))
+    }
+
+    /// Books what models with accounts of their own took, at the power of the last evaluation, over `dt` seconds.
+    #[inline]
+    pub(super) fn book_losses(&mut self, dt: f64) {
+        let Self { models, ledger, roles, .. } = self;
+        for &(model, account) in &roles.accounts {
+            let power = models[model].loss().map_or(0.0, |loss| loss.power);
+            ledger.accounts[account].1.add(power * dt);
+        }
+    }
+
+    /// Adds the powers of models with accounts of their own, one number for each account of the ledger.
+    pub(super) fn add_losses(&self, powers: &mut [f64]) {
+        for &(model, account) in &self.roles.accounts {
+            powers[account] += self.models[model].loss().map_or(0.0, |loss| loss.power);
+        }
     }
 
     /// Energies of all models together.

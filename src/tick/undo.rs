@@ -22,7 +22,7 @@ impl Tick<'_> {
         undo.angle.clone_from(&bodies.angle);
         undo.velocity.clone_from(&bodies.velocity);
         undo.spin.clone_from(&bodies.spin);
-        undo.ledger = self.state.ledger;
+        undo.ledger.clone_from(&self.state.ledger);
     }
 
     /// Goes back to the state that was remembered. It is to be evaluated.
@@ -34,6 +34,6 @@ impl Tick<'_> {
         bodies.spin.clone_from(&undo.spin);
         bodies.estimated_velocity.clear();
         bodies.estimated_spin.clear();
-        self.state.ledger = undo.ledger;
+        self.state.ledger.clone_from(&undo.ledger);
     }
 }

@@ -12,7 +12,7 @@ fn run(name: &str, text: &str, level: Level, duration: f64) -> (u64, Ledger) {
     let simulation = Simulation::load_with(&Source::new(name, text), &overrides, |_| {});
     let mut simulation = simulation.unwrap_or_else(|errors| panic!("{name}: {errors}"));
     simulation.run_to_end().expect("numbers stay finite");
-    (state_hash(simulation.bodies()), *simulation.state().ledger())
+    (state_hash(simulation.bodies()), simulation.state().ledger().clone())
 }
 
 fn demand_same_bits(name: &str, text: &str, duration: f64) {

@@ -72,7 +72,7 @@ fn end_of(text: &str, threads: usize, level: Level) -> (u64, Ledger, DVec2) {
     let overrides = Overrides { threads: Some(threads), level: Some(level), ..Overrides::default() };
     let mut simulation = Simulation::load_with(&Source::new("many", text), &overrides, |_| {}).unwrap();
     simulation.run_to_end().unwrap();
-    let (bodies, ledger) = (simulation.bodies(), *simulation.state().ledger());
+    let (bodies, ledger) = (simulation.bodies(), simulation.state().ledger().clone());
     (hash(&simulation), ledger, momentum(bodies))
 }
 
@@ -89,7 +89,7 @@ fn threads_that_share_the_work_change_no_bit() {
         assert!(ledger.friction.value() + ledger.inelasticity.value() > 0.0, "{contacts}: nothing happened");
         for (threads, level) in [(2, Level::best()), (5, Level::Baseline)] {
             let other = end_of(&text, threads, level);
-            assert_eq!((other.0, other.1), (hash, ledger), "{contacts}, {threads} threads, {level}");
+            assert_eq!((other.0, other.1), (hash, ledger.clone()), "{contacts}, {threads} threads, {level}");
         }
     }
 }

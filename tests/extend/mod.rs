@@ -1,5 +1,6 @@
 //! Extension from outside the crate: one of each kind, through the public interface only, one file each.
 
+mod account;
 mod axis_wise;
 mod bevy_app;
 mod components;

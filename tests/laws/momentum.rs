@@ -92,7 +92,7 @@ fn the_card_accounts_for_every_impulse_from_outside() {
         // Everything happens within two metres of the origin.
         let residual = card.angular_momentum_residual;
         assert!(residual.abs() <= 2.0 * allowed, "{method}: angular momentum residual {residual:e} of {allowed:e}");
-        let energy = card.energy;
+        let energy = &card.energy;
         let exchanged = [energy.friction, energy.inelasticity, energy.drag, energy.work];
         assert!(exchanged.iter().all(|&energy| energy > 1.0), "nothing happened: {energy:?}");
         println!("{method}: {x:e} {y:e} {residual:e} of {allowed:e}; {:?}", card.energy);

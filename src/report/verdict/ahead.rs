@@ -30,11 +30,12 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     (share > COMPRESSED).then_some(Cause { trust: Trust::NotTheModel, what, remedy })
 }
 
-/// Drag that takes more than there is: a method of whole steps then turns a velocity round and makes it larger.
+/// Drag or a damper that takes more than there is: a method of whole steps then turns a velocity round and makes it larger.
 pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
-    let taken = card.energy.drag / card.energy_scale;
-    let mad = card.energy.drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
+    let drag = card.energy.drag + card.energy.accounts.values().sum::<f64>();
+    let taken = drag / card.energy_scale;
+    let mad = drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
     let what = "drag takes more than the whole velocity of a body in a tick, and turns it round".to_owned();
     // How far anything travelled came of that: it says nothing of the tick that would do.
     let finer = Remedy::Tick(card.tick_for(1.0, 0.1, 1.0));
