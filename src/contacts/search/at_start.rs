@@ -6,14 +6,17 @@ use glam::DVec2;
 
 use super::cells;
 use crate::numbers::number;
-use crate::tick::{Notes, State};
+use crate::scene::SceneError;
+use crate::tick::{LoadErrors, Notes, State};
 use crate::world::{Bodies, Name};
 
 /// What overlaps by no more than this share of the smaller radius is not told: contacts at rest bear their loads so.
 const SHARE: f64 = 0.05;
-/// Pairs that are counted, and pairs of atoms that are looked at, at most: what lies in one heap has billions, and a second or
-/// two are enough to say so.
+/// Pairs that are counted for the note: what lies in one heap has billions.
 const MOST_PAIRS: usize = 1 << 22;
+/// Contacts of so many pairs of atoms take more than ten gigabytes.
+const TOO_MANY: usize = 1 << 24;
+/// Pairs of atoms that are looked at, at most: a second or two are enough.
 const MOST_LOOKS: usize = 1 << 30;
 
 /// The deepest overlap before the first tick, if there is one worth telling.
@@ -36,6 +39,8 @@ enum Pair {
 #[derive(Default)]
 struct Overlaps {
     pairs: Vec<Pair>,
+    /// How many pairs of atoms that are.
+    atoms: usize,
     /// Whether there may be more.
     more: bool,
     /// The deepest, as a share of the smaller radius: the share, the overlap in metres, and whose it is.
@@ -62,7 +67,7 @@ impl Overlaps {
                 found.add(radius - height(bodies.atom_place(atom)), radius, whose);
             }
         }
-        found.more = !complete || bodies.walls.len() > looked_at && !touching.is_empty();
+        found.more |= !complete || bodies.walls.len() > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();
         found
@@ -72,23 +77,32 @@ impl Overlaps {
     fn add(&mut self, overlap: f64, smaller_radius: f64, pair: Pair) -> bool {
         let share = overlap / smaller_radius;
         if share > SHARE {
+            self.atoms += 1;
             // Atoms of one body follow each other, so most of what is there already is seen here.
-            if self.pairs.last() != Some(&pair) {
+            self.more |= self.pairs.len() == MOST_PAIRS;
+            if self.pairs.last() != Some(&pair) && !self.more {
                 self.pairs.push(pair);
             }
             if self.deepest.is_none_or(|(most, ..)| share > most) {
                 self.deepest = Some((share, overlap, pair));
             }
         }
-        self.pairs.len() < MOST_PAIRS
+        self.atoms < TOO_MANY
     }
 }
 
 /// Says on the card who overlaps.
 pub(super) fn note_overlaps(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
-    let Overlaps { pairs, more, deepest } = Overlaps::of(bodies);
+    let Overlaps { pairs, atoms, more, deepest } = Overlaps::of(bodies);
     let Some((share, overlap, deepest)) = deepest else { return };
+    if atoms >= TOO_MANY {
+        let message =
+            format!("at the start {TOO_MANY} pairs of atoms or more overlap: so many contacts do not fit into memory");
+        let help = "move them apart, or give those that are not to touch `collides: false`";
+        let error = SceneError::new("bodies", message).with_help(help);
+        return world.get_resource_or_init::<LoadErrors>().0.push(error);
+    }
     let [a, b] = match deepest {
         Pair::Bodies(a, b) => [bodies.entity[a as usize], bodies.entity[b as usize]],
         Pair::Wall(body, wall) => [bodies.entity[body as usize], bodies.walls[wall as usize].entity],
