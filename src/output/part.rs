@@ -152,6 +152,11 @@ impl Drop for PartFile {
     }
 }
 
+/// Finds reasons against a target, and changes nothing.
+pub(super) fn look_at(name: &Path) -> io::Result<()> {
+    behind_links(name).and_then(|target| writable(&target)).map(|_| ())
+}
+
 /// The file that a name stands for: renaming would put a file in the place of a link.
 fn behind_links(name: &Path) -> io::Result<PathBuf> {
     let mut target = name.to_path_buf();

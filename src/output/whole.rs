@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use super::OutputError;
-use super::part::{PartFile, Unfinished};
+use super::part::{self, PartFile, Unfinished};
 
 /// Writes a file so that a reader finds the old one or the whole new one, never a part. A file that is there keeps
 /// its permissions; a link stays a link; a file that is read-only stays as it is.
@@ -13,6 +13,14 @@ use super::part::{PartFile, Unfinished};
 /// If the system refuses to write.
 pub fn write_whole(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputError> {
     written(path, content.as_ref())?.complete()
+}
+
+/// Whether a file may be written, as far as that can be known beforehand.
+///
+/// # Errors
+/// If it is read-only, a folder, a device or a pipe.
+pub fn may_be_written(path: &Path) -> Result<(), OutputError> {
+    part::look_at(path).map_err(|cause| OutputError::io(path, cause))
 }
 
 /// Writes a file whose name no other file has. A file that gets the name meanwhile stays as it is.

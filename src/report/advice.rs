@@ -69,6 +69,8 @@ impl Known {
 
 /// The next lower of 1, 2, 2.5 and 5 times a power of ten.
 pub(super) fn rounded_down(value: f64) -> f64 {
+    // What asks for no time at all is told the shortest there is.
+    let value = value.max(f64::MIN_POSITIVE);
     let exponent = value.log10().floor() as i32;
     let candidates = [(5.0, exponent), (2.5, exponent), (2.0, exponent), (1.0, exponent), (5.0, exponent - 1)];
     // Read back from decimal digits, so that it is the same number as on a command line; a part in 1e12 is rounding.
@@ -94,5 +96,6 @@ mod tests {
         assert_eq!(Known { shortest_contact: Some(4e-3), ..known }.advised_tick(), 2e-4);
         assert_eq!(Known { travel: 3.0, ..known }.advised_tick(), 1e-4);
         assert_eq!(Known { critical: Some(9e-4), travel: 1e6, ..known }.advised_tick(), 5e-5);
+        assert_eq!(Known { travel: f64::MAX, ..known }.advised_tick(), 2e-308);
     }
 }

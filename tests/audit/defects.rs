@@ -326,3 +326,12 @@ fn a_contact_that_grazes_is_no_lack_of_digits() {
     let found = run(scene, 1).unwrap();
     assert!(!found.card.verdict.contains("from the origin"), "{}", found.card.verdict);
 }
+
+/// A place behind the last body is nobody's mistake that a program should end for.
+#[test]
+fn a_place_without_a_body_has_no_name() {
+    let scene =
+        "Scene(format: 1, clock: (duration: 1), bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 1))])";
+    let simulation = Simulation::load(&Source::new("one", scene)).unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!([0, 1, 99].map(|place| simulation.name(place)), ["ball", "", ""]);
+}

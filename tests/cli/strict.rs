@@ -43,7 +43,7 @@ fn check_finds_what_render_refuses() {
     for (name, film, told) in [
         ("lost", "look: (theme: \"lost.ron\"), ", "look.theme: there is no file `lost.ron`"),
         ("bad", "look: (theme: \"bad.ron\"), ", "look.theme: `bad.ron` is no theme: "),
-        ("slow", "film: (speed: 1e-9), ", "film: 0.2 s of physics would be 6000000000 frames, more than 1000000"),
+        ("slow", "film: (speed: 1e-9), ", "film: 0.2 s of physics would be 6e9 frames, more than 1000000"),
         ("late", "film: (from: 0.3), ", "film.from: the film begins at 0.3 s, but the run ends at 0.2 s"),
         ("still", "film: (freeze: [(at: 0.3, for: 1)]), ", "film.freeze[0].at: the film is to stand still at 0.3 s"),
     ] {

@@ -29,7 +29,7 @@ use super::target::Place;
 use super::trial::Verdict;
 use crate::cli::author;
 use crate::digest::of_bytes;
-use crate::output::{Target, write_whole};
+use crate::output::{Target, may_be_written, write_whole};
 use crate::scene::{SceneRegistry, Source, suggest};
 use crate::simulation::Simulation;
 
@@ -141,6 +141,8 @@ impl Sweep {
         let inputs = Inputs::of(request, &plain).and(colors::file(&source, &plain, None));
         self.outputs(folder, grid.runs).find_map(|path| inputs.objection(&path)).map_or(Ok(()), Err)?;
         std::fs::create_dir_all(folder).map_err(|cause| format!("`{}` cannot be made: {cause}", folder.display()))?;
+        // That a table cannot be written is to be known before the first run.
+        may_be_written(&self.table(folder)).map_err(|error| error.to_string())?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
         let runs: Vec<usize> = (first..grid.runs).step_by(step).collect();
         let sheet = !self.no_sheet && runs.len() <= picture::MOST_PICTURES;

@@ -42,7 +42,8 @@ impl Record {
         }
         let mut text = Vec::new();
         (&mut file).take(LARGEST).read_to_end(&mut text).map_err(told)?;
-        if !text.is_empty() && !text.starts_with(HEAD.as_bytes()) {
+        // A full disk may have left a part of the head.
+        if !text.starts_with(HEAD.as_bytes()) && !HEAD.as_bytes().starts_with(&text) {
             return Err(format!("`{shown}` is not what a sweep has done so far: move it away"));
         }
         let head = format!("{HEAD}{sweep}\n");

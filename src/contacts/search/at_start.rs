@@ -12,8 +12,10 @@ use crate::world::{Bodies, Name};
 
 /// What overlaps by no more than this share of the smaller radius is not told: contacts at rest bear their loads so.
 const SHARE: f64 = 0.05;
-/// Pairs of atoms that overlap: contacts of more of them take gigabytes, and what lies in one heap has billions.
+/// Pairs that are counted for the note: what lies in one heap has billions.
 const MOST_PAIRS: usize = 1 << 22;
+/// Contacts of so many pairs of atoms take more than ten gigabytes.
+const TOO_MANY: usize = 1 << 24;
 /// Pairs of atoms that are looked at, at most: a second or two are enough.
 const MOST_LOOKS: usize = 1 << 30;
 
@@ -65,7 +67,7 @@ impl Overlaps {
                 found.add(radius - height(bodies.atom_place(atom)), radius, whose);
             }
         }
-        found.more = !complete || bodies.walls.len() > looked_at && !touching.is_empty();
+        found.more |= !complete || bodies.walls.len() > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();
         found
@@ -77,14 +79,15 @@ impl Overlaps {
         if share > SHARE {
             self.atoms += 1;
             // Atoms of one body follow each other, so most of what is there already is seen here.
-            if self.pairs.last() != Some(&pair) {
+            self.more |= self.pairs.len() == MOST_PAIRS;
+            if self.pairs.last() != Some(&pair) && !self.more {
                 self.pairs.push(pair);
             }
             if self.deepest.is_none_or(|(most, ..)| share > most) {
                 self.deepest = Some((share, overlap, pair));
             }
         }
-        self.atoms < MOST_PAIRS
+        self.atoms < TOO_MANY
     }
 }
 
@@ -93,10 +96,9 @@ pub(super) fn note_overlaps(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let Overlaps { pairs, atoms, more, deepest } = Overlaps::of(bodies);
     let Some((share, overlap, deepest)) = deepest else { return };
-    if atoms >= MOST_PAIRS {
-        let message = format!(
-            "at the start {MOST_PAIRS} pairs of atoms or more overlap: so many contacts do not fit into memory"
-        );
+    if atoms >= TOO_MANY {
+        let message =
+            format!("at the start {TOO_MANY} pairs of atoms or more overlap: so many contacts do not fit into memory");
         let help = "move them apart, or give those that are not to touch `collides: false`";
         let error = SceneError::new("bodies", message).with_help(help);
         return world.get_resource_or_init::<LoadErrors>().0.push(error);
