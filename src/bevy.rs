@@ -1,4 +1,4 @@
-//! A scene inside a Bevy app (feature `bevy`): [`PhysicsPlugin`] reads it into the app's world and runs one tick in each
+//! A scene inside a Bevy app: [`PhysicsPlugin`] reads it into the app's world and runs one tick in each
 //! `FixedPostUpdate`.
 //!
 //! A tick always lasts the physics clock's `dt`, whatever the app believes: the bits are those of a headless run. The

@@ -64,7 +64,6 @@ pub mod simulation;
 pub mod problems;
 pub mod report;
 
-#[cfg(feature = "bevy")]
 pub mod bevy;
 pub mod cli;
 

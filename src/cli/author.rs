@@ -1,4 +1,4 @@
-//! The command line for programs with a plugin of their own: each command knows what the plugin registers.
+//! What a program tells the command line when it starts: the plugin of its author, and the commit it is built from.
 
 use std::process::ExitCode;
 use std::sync::OnceLock;
@@ -12,6 +12,9 @@ type Plugin = Box<dyn Fn(&mut App) + Send + Sync>;
 
 /// The plugin of this program, set once when it starts.
 static PLUGIN: OnceLock<Plugin> = OnceLock::new();
+
+/// The commit that this program is built from, if it tells one.
+static COMMIT: OnceLock<String> = OnceLock::new();
 
 /// The program `jostle` with a plugin: each command reads, runs, draws and explains scenes that name what it registers.
 ///
@@ -28,6 +31,19 @@ static PLUGIN: OnceLock<Plugin> = OnceLock::new();
 pub fn main_with(plugin: impl Fn(&mut App) + Send + Sync + 'static) -> ExitCode {
     assert!(PLUGIN.set(Box::new(plugin)).is_ok(), "`main_with` is called once");
     CommandLine::parse().execute().into()
+}
+
+/// Tells the commit that the program is built from, for reports; without it they call the commit unknown.
+///
+/// # Panics
+/// When it is called twice: a program is built from one commit.
+pub fn tell_commit(commit: String) {
+    assert!(COMMIT.set(commit).is_ok(), "`tell_commit` is called once");
+}
+
+/// The commit that the program told.
+pub(super) fn commit() -> Option<&'static str> {
+    COMMIT.get().map(String::as_str)
 }
 
 /// Registers what the program of an author brings; nothing in `jostle` itself.

@@ -90,7 +90,7 @@ fn after_help() -> String {
     EXAMPLES.replace("{scenes}", &names.join(", "))
 }
 
-pub use author::main_with;
+pub use author::{main_with, tell_commit};
 
 /// 2D physics without a window: a scene in a RON file goes in; films, numbers and a statement of how wrong they are
 /// come out.

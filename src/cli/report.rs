@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Exit;
 use super::inputs::is_same_file;
 use super::progress::Progress;
 use super::say::{count, say};
+use super::{Exit, author};
 use crate::output::{flat_picture, write_whole};
 use crate::problems::hard::{self, Case, Verdict};
 use crate::problems::{ALL, Problem};
@@ -166,7 +166,7 @@ impl Report {
             let (file, shows) = (format!("{name}.png"), format!("Cost against error of {name}"));
             Some(Picture { file, shows, bytes: flat_picture(&drawn).ok()? })
         };
-        let page = survey::page(&Made::here(), sheets, cases, peers, &picture);
+        let page = survey::page(&Made::here(author::commit()), sheets, cases, peers, &picture);
         for block in &page {
             if let survey::Block::Picture(picture) = block {
                 self.put(&picture.file, &picture.bytes)?;

@@ -7,6 +7,7 @@ mod camera;
 mod canvas;
 mod layers;
 mod light;
+mod outline;
 mod plots;
 mod silhouette;
 mod text;

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
-use skrifa::{FontRef, MetadataProvider};
 use tiny_skia::{Path, PathBuilder, Transform};
+
+use super::outline::{Font, Letter};
 
 /// The weights of the shipped font, Inter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,19 +14,12 @@ pub(super) enum Weight {
 }
 
 impl Weight {
-    fn file(self) -> &'static [u8] {
+    fn text(self) -> &'static str {
         match self {
-            Weight::Regular => include_bytes!("../../assets/fonts/Inter-Regular.ttf"),
-            Weight::SemiBold => include_bytes!("../../assets/fonts/Inter-SemiBold.ttf"),
+            Weight::Regular => include_str!("../../assets/fonts/Inter-Regular.txt"),
+            Weight::SemiBold => include_str!("../../assets/fonts/Inter-SemiBold.txt"),
         }
     }
-}
-
-/// One letter: its outline at the origin of the baseline (y down), none for a space, and the way to the next one.
-#[derive(Clone, Debug)]
-struct Letter {
-    outline: Option<Path>,
-    advance: f32,
 }
 
 /// A set of letters at one size, drawn once and used for every label.
@@ -41,8 +33,9 @@ impl Lettering {
     /// The letters that occur in `text`, at a size in pixels per em. A letter the font lacks becomes its empty box.
     pub(super) fn new(weight: Weight, size: f32, text: &str) -> Lettering {
         // A shipped font that does not read would give empty labels; the tests see that it does.
-        let letters = FontRef::new(weight.file()).map(|font| outline(&font, size, text)).unwrap_or_default();
-        Lettering { letters, size }
+        let font = Font::read(weight.text());
+        let letter = |character: char| Some((character, font.as_ref()?.letter(character, size)?));
+        Lettering { letters: text.chars().filter_map(letter).collect(), size }
     }
 
     /// Like [`Lettering::new`], but all digits are as wide as the widest, so that a running clock stands still.
@@ -86,45 +79,6 @@ impl Lettering {
     }
 }
 
-fn outline(font: &FontRef, size: f32, text: &str) -> BTreeMap<char, Letter> {
-    let (size, location) = (Size::new(size), LocationRef::default());
-    let (characters, outlines) = (font.charmap(), font.outline_glyphs());
-    let metrics = font.glyph_metrics(size, location);
-    let draw = |character: char| {
-        let glyph = characters.map(character).unwrap_or_default();
-        let mut pen = Pen(PathBuilder::new());
-        let drawn = outlines.get(glyph).map(|outline| outline.draw(DrawSettings::unhinted(size, location), &mut pen));
-        let outline = drawn.and_then(Result::ok).and_then(|_| pen.0.finish());
-        Letter { outline, advance: metrics.advance_width(glyph).unwrap_or(0.0) }
-    };
-    text.chars().map(|character| (character, draw(character))).collect()
-}
-
-/// Takes the outline of a letter; the y axis turns over on the way.
-struct Pen(PathBuilder);
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to(x, -y);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to(x, -y);
-    }
-
-    fn quad_to(&mut self, cx0: f32, cy0: f32, x: f32, y: f32) {
-        self.0.quad_to(cx0, -cy0, x, -y);
-    }
-
-    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        self.0.cubic_to(cx0, -cy0, cx1, -cy1, x, -y);
-    }
-
-    fn close(&mut self) {
-        self.0.close();
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,9 +87,10 @@ mod tests {
     fn both_weights_have_the_letters_of_science() {
         let text = "Aaé ßØµ αβγλμωΩΔ m² s⁻¹ 10³ – — “x” … ± × · ° ≤ ≈ → 0123456789";
         for weight in [Weight::Regular, Weight::SemiBold] {
-            let font = FontRef::new(weight.file()).expect("the shipped font reads");
+            let font = Font::read(weight.text()).expect("the shipped font reads");
             for letter in text.chars() {
-                assert!(font.charmap().map(letter).is_some(), "{weight:?} lacks {letter}");
+                assert!(font.has(letter), "{weight:?} lacks {letter}");
+                assert!(font.letter(letter, 20.0).is_some(), "{weight:?}: {letter} does not read");
             }
         }
     }

@@ -41,6 +41,22 @@ fn problems_are_reported_with_tables_diagrams_and_pages() {
     assert!(cases.lines().skip(1).all(|row| row.starts_with("spin,") && row.contains(",passed,")), "{cases}");
 }
 
+/// Where Git keeps no files, there is nothing to compare with; `JOSTLE_COMMIT` tells another commit on purpose.
+#[test]
+fn a_report_tells_the_commit_that_is_checked_out() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    if !std::path::Path::new(root).join(".git").exists() || option_env!("JOSTLE_COMMIT").is_some() {
+        return;
+    }
+    let told =
+        std::process::Command::new("git").args(["-C", root, "rev-parse", "HEAD"]).output().expect("git is there");
+    let commit = String::from_utf8(told.stdout).unwrap();
+    let folder = Folder::new("commit");
+    folder.jostle("report spin -o out --quick").code(0);
+    let page = std::fs::read_to_string(folder.path("out/report.md")).unwrap();
+    assert!(page.contains(&format!("| commit | {} |", &commit[..12])), "{commit}: {page}");
+}
+
 #[test]
 fn what_cannot_be_reported_is_refused() {
     let folder = Folder::new("no_report").with("table.csv", "a,b\n1,2\n");

@@ -8,14 +8,14 @@ pub struct Made {
 }
 
 impl Made {
-    /// By this program, on this computer.
-    pub fn here() -> Self {
+    /// By this program, on this computer. A program that knows no commit passes `None`.
+    pub fn here(commit: Option<&str>) -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let system = format!("{} {}", std::env::consts::OS, std::env::consts::ARCH);
         let processor = processor().unwrap_or_else(|| "unknown".to_owned());
         let lines = vec![
             ("jostle", env!("CARGO_PKG_VERSION").to_owned()),
-            ("commit", env!("JOSTLE_COMMIT").to_owned()),
+            ("commit", commit.unwrap_or("unknown").to_owned()),
             ("rustc", env!("JOSTLE_RUSTC").to_owned()),
             ("system", system),
             ("processor", format!("{processor}, {cores} cores, {}", crate::simd::Level::best())),
