@@ -52,7 +52,7 @@ const FEWEST_MOMENTS: usize = 4;
 pub enum Effort {
     /// None: nothing is estimated.
     None,
-    /// A share of three in a hundred of the run; a twentieth of a second if that is more, and three times as much where that
+    /// Three hundredths of the work of the run; about a tenth of a second if that is more, and four times as much if that
     /// suffices for the whole run.
     #[default]
     Little,
