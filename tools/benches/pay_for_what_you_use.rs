@@ -58,7 +58,7 @@ fn needed(app: &mut App) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [which, duration] = &arguments[..] else { return Err("usage: all|needed SECONDS".into()) };
-    let source = Source::new("projectile.ron", include_str!("../scenes/projectile.ron"));
+    let source = Source::new("projectile.ron", include_str!("../../scenes/projectile.ron"));
     let overrides = Overrides { duration: Some(duration.parse()?), ..Overrides::default() };
     let mut simulation = match which.as_str() {
         "all" => Simulation::load_only(&source, &overrides, plugins::standard)?,
