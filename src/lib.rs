@@ -41,6 +41,7 @@ pub mod scene;
 pub mod shapes;
 pub mod world;
 
+pub mod constraints;
 pub mod tick;
 
 pub mod contacts;

@@ -198,17 +198,7 @@ pub fn angular_momentum(bodies: &Bodies) -> f64 {
 
 /// Kinetic energy of all dynamic bodies in J.
 pub fn kinetic_energy(bodies: &Bodies) -> f64 {
-    (0..bodies.len()).map(|body| kinetic_energy_of(bodies, body)).fold(0.0, |sum, term| sum + term)
-}
-
-/// Kinetic energy of one body in J, zero if it does not move by forces.
-#[inline]
-pub fn kinetic_energy_of(bodies: &Bodies, body: usize) -> f64 {
-    if !bodies.dynamic[body] {
-        return 0.0;
-    }
-    let (velocity, spin) = (bodies.velocity[body], bodies.spin[body]);
-    0.5 * (bodies.mass[body] * velocity.length_squared() + bodies.inertia[body] * spin.powi(2))
+    (0..bodies.len()).map(|body| bodies.kinetic_energy(body)).fold(0.0, |sum, term| sum + term)
 }
 
 fn dynamic(bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {

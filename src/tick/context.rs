@@ -144,6 +144,7 @@ impl Tick<'_> {
             None => {
                 self.state.update_bounding_boxes();
                 self.state.apply_forces();
+                self.state.solve_constraints();
                 self.state.settle();
             }
         }

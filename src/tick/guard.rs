@@ -13,7 +13,6 @@
 //! nothing in it, to the order of the method, but bodies move.
 
 use super::State;
-use super::balance::kinetic_energy_of;
 
 const BEYOND: f64 = 1e3;
 const ENORMOUS: f64 = 1e9;
@@ -76,8 +75,7 @@ impl EnergyGuard {
         if first && energy.is_finite() || put_in == 0.0 || energy <= too_much && put_in.is_finite() {
             return None;
         }
-        let most =
-            (0..bodies.len()).max_by(|&a, &b| kinetic_energy_of(bodies, a).total_cmp(&kinetic_energy_of(bodies, b)));
+        let most = (0..bodies.len()).max_by(|&a, &b| bodies.kinetic_energy(a).total_cmp(&bodies.kinetic_energy(b)));
         Some((most?, Created { energy, put_in }))
     }
 }

@@ -9,6 +9,7 @@
 //! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now, candidate pairs are found |
 //! | | [`EvaluateStage::Systems`] | systems of users add to `Force` and `Torque` |
 //! | | [`EvaluateStage::Forces`] | the models of the scene add their forces in order, contact laws last |
+//! | | [`EvaluateStage::Constraints`] | what models hold exactly is solved for, all rows at once |
 //! | | [`EvaluateStage::Settle`] | what depends on all forces |
 //!
 //! **State and models.** [`State`] is the one resource that all of this works on. A [`Model`] is anything that acts: it is added with
@@ -116,6 +117,8 @@ pub enum EvaluateStage {
     Systems,
     /// Models add their forces, contact laws last.
     Forces,
+    /// What models hold exactly is solved for, all rows at once.
+    Constraints,
     /// What depends on all forces.
     Settle,
 }
@@ -154,8 +157,8 @@ impl TickAppExt for App {
         let mut tick = single_threaded(SimTick);
         tick.configure_sets((Stage::Begin, Stage::Integrate, Stage::Observe).chain());
         let mut evaluate = single_threaded(Evaluate);
-        use EvaluateStage::{Bounds, Forces, Settle, Systems};
-        evaluate.configure_sets((Bounds, Systems, Forces, Settle).chain());
+        use EvaluateStage::{Bounds, Constraints, Forces, Settle, Systems};
+        evaluate.configure_sets((Bounds, Systems, Forces, Constraints, Settle).chain());
         self.add_schedule(tick).add_schedule(evaluate).add_schedule(single_threaded(Modes));
         self.init_resource::<State>().insert_resource(crate::world::Roster { changed: true, pushed: false });
         register(self.world_mut(), SimTick, Kind::Flies, |schedule| {

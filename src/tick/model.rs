@@ -78,6 +78,15 @@ pub trait Model: Any + Send + Sync {
     /// Stage Forces of an evaluation: adds to the forces and torques of bodies, and to the rates of the ledger.
     fn apply_forces(&mut self, _: &mut State) {}
 
+    /// Stage Constraints of an evaluation: its rows, added to [`State::rows_mut`] in [`Model::apply_forces`], have been solved.
+    /// It gives their forces to the bodies. See [`Model::has_rows`].
+    fn take_rows(&mut self, _: &mut State) {}
+
+    /// Whether it may hold something exactly, by rows. Default: no.
+    fn has_rows(&self) -> bool {
+        false
+    }
+
     /// Stage Settle of an evaluation, after all forces. See [`Model::settles`].
     fn settle(&mut self, _: &mut State) {}
 

@@ -19,6 +19,11 @@ pub fn apply_forces(mut state: ResMut<State>) {
     state.apply_forces();
 }
 
+/// Stage Constraints: the rows of all models together.
+pub fn solve_constraints(mut state: ResMut<State>) {
+    state.solve_constraints();
+}
+
 /// Stage Settle.
 pub fn settle(mut state: ResMut<State>) {
     state.settle();
@@ -55,6 +60,11 @@ pub(super) fn schedule_stages(world: &mut World) {
             evaluate.add_systems(apply_forces.in_set(EvaluateStage::Forces));
         });
     });
+    add(needed.constraints, present.constraints, |world| {
+        register(world, Evaluate, Kind::Flies, |evaluate| {
+            evaluate.add_systems(solve_constraints.in_set(EvaluateStage::Constraints));
+        });
+    });
     add(needed.settle, present.settle, |world| {
         register(world, Evaluate, Kind::Flies, |evaluate| {
             evaluate.add_systems(settle.in_set(EvaluateStage::Settle));
@@ -68,6 +78,7 @@ pub(super) fn schedule_stages(world: &mut World) {
     world.insert_resource(Scheduled(Stages {
         bounds: needed.bounds || present.bounds,
         forces: needed.forces || present.forces,
+        constraints: needed.constraints || present.constraints,
         settle: needed.settle || present.settle,
         modes: needed.modes || present.modes,
     }));

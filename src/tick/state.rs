@@ -11,6 +11,7 @@ use super::progress::{LocatedEvents, Progress, StepCount};
 use super::stopwatch::{Part, Stopwatch};
 use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
 use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
+use crate::constraints::{Cancelled, Rows};
 use crate::world::Bodies;
 
 /// The state of a run.
@@ -22,6 +23,8 @@ pub struct State {
     pub(crate) bodies: Bodies,
     pub(crate) balance: Balance,
     pub(crate) ledger: Ledger,
+    /// What models hold exactly in the present evaluation.
+    pub(crate) rows: Rows,
     pub(crate) evaluation: Evaluation,
     pub(crate) span: Span,
     pub(crate) clock: Clock,
@@ -48,6 +51,7 @@ pub struct State {
 pub(super) struct Roles {
     /// Places of those that take part in a stage.
     find_pairs: Vec<usize>,
+    rows: Vec<usize>,
     settle: Vec<usize>,
     begin_step: Vec<usize>,
     end_tick: Vec<usize>,
@@ -77,6 +81,7 @@ impl Roles {
             |models: &[Box<dyn Model>], on: &[Dependence]| models.iter().any(|m| on.contains(&m.dependence()));
         Self {
             find_pairs: places(|model| model.finds_pairs()),
+            rows: places(|model| model.has_rows()),
             settle: places(|model| model.settles()),
             begin_step: places(|model| model.has_modes()),
             end_tick: places(|model| model.looks_at_ticks()),
@@ -128,6 +133,7 @@ impl State {
     /// Stage Forces: all models add to the sums.
     pub(super) fn apply_forces(&mut self) {
         self.turn_to(Part::Forces);
+        self.rows.clear();
         let mut models = std::mem::take(&mut self.models);
         let (forces, contacts) = models.split_at_mut(self.roles.others);
         forces.iter_mut().for_each(|model| model.apply_forces(self));
@@ -136,6 +142,21 @@ impl State {
             contacts.iter_mut().for_each(|model| model.apply_forces(self));
         }
         self.models = models;
+    }
+
+    /// Stage Constraints: the rows of all models are solved together, and each model takes its answers.
+    #[inline]
+    pub(super) fn solve_constraints(&mut self) {
+        if self.rows.is_empty() {
+            return;
+        }
+        self.turn_to(Part::Constraints);
+        self.rows.solve(&self.bodies);
+        each!(self, rows, model => model.take_rows(self));
+        let Self { rows, bodies, balance, .. } = self;
+        rows.cancel(bodies, |bodies, Cancelled { body, force, torque }| {
+            balance.outside(bodies.position[body], force, torque);
+        });
     }
 
     /// Stage Settle: what depends on all forces.
@@ -166,12 +187,13 @@ impl State {
         self.progress.alone
     }
 
-    /// Which stages there are: bounding boxes and pairs, forces, settling, modes.
+    /// Which stages there are.
     pub(super) fn stages(&self) -> Stages {
-        let Roles { find_pairs, settle, begin_step, .. } = &self.roles;
+        let Roles { find_pairs, rows, settle, begin_step, .. } = &self.roles;
         Stages {
             bounds: self.bounds.is_some() || !find_pairs.is_empty(),
             forces: !self.models.is_empty(),
+            constraints: !rows.is_empty(),
             settle: !settle.is_empty(),
             modes: !begin_step.is_empty(),
         }
@@ -191,6 +213,7 @@ impl State {
 pub(super) struct Stages {
     pub bounds: bool,
     pub forces: bool,
+    pub constraints: bool,
     pub settle: bool,
     pub modes: bool,
 }
@@ -381,6 +404,16 @@ impl State {
     /// All bodies, atoms and walls, to be changed.
     pub fn bodies_mut(&mut self) -> &mut Bodies {
         &mut self.bodies
+    }
+
+    /// The rows of the present evaluation.
+    pub fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// The rows of the present evaluation, to be added to.
+    pub fn rows_mut(&mut self) -> &mut Rows {
+        &mut self.rows
     }
 
     /// Bodies and the rates of energy and momentum at once: forces add to both.

@@ -22,6 +22,8 @@ pub enum Part {
     Forces,
     /// The same stage: contact laws.
     Contacts,
+    /// [`EvaluateStage::Constraints`](super::EvaluateStage::Constraints).
+    Constraints,
     /// [`EvaluateStage::Settle`](super::EvaluateStage::Settle).
     Settle,
     /// What is left of [`Stage::Integrate`](super::Stage::Integrate): the integrator itself.
@@ -34,13 +36,14 @@ pub enum Part {
 
 impl Part {
     /// All parts of a tick, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Begin,
         Self::Modes,
         Self::Bounds,
         Self::Pairs,
         Self::Forces,
         Self::Contacts,
+        Self::Constraints,
         Self::Settle,
         Self::Integrate,
         Self::Observe,
@@ -56,6 +59,7 @@ impl Part {
             Self::Pairs => "Evaluate: Pairs",
             Self::Forces => "Evaluate: Forces",
             Self::Contacts => "Evaluate: Contacts",
+            Self::Constraints => "Evaluate: Constraints",
             Self::Settle => "Evaluate: Settle",
             Self::Integrate => "Integrate",
             Self::Observe => "Observe",
@@ -130,6 +134,7 @@ fn part_of(name: &str) -> Option<Part> {
         ("tick::stages::begin_step", Part::Modes),
         ("tick::stages::update_bounding_boxes", Part::Bounds),
         ("tick::stages::apply_forces", Part::Forces),
+        ("tick::stages::solve_constraints", Part::Constraints),
         ("tick::stages::settle", Part::Settle),
         ("tick::step::integrate", Part::Integrate),
         ("tick::step::integrate_among_systems", Part::Integrate),

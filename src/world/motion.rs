@@ -20,6 +20,16 @@ pub struct Travel {
 }
 
 impl Bodies {
+    /// Kinetic energy of one body in J, zero if it does not move by forces.
+    #[inline]
+    pub fn kinetic_energy(&self, body: usize) -> f64 {
+        if !self.dynamic[body] {
+            return 0.0;
+        }
+        let (velocity, spin) = (self.velocity[body], self.spin[body]);
+        0.5 * (self.mass[body] * velocity.length_squared() + self.inertia[body] * spin.powi(2))
+    }
+
     /// Velocities change by the present forces over `dt` seconds.
     pub fn kick(&mut self, dt: f64) {
         self.note_kick();

@@ -8,6 +8,7 @@ use super::contact::Losses;
 use super::coulomb::Slider;
 use super::critical::Watch;
 use super::follow::Touch;
+use super::held::Held;
 use super::kernel::{self, Moment};
 use super::law::{LawTable, PairLaw, Side};
 use super::list::{ContactList, lanes};
@@ -17,9 +18,9 @@ use super::patience::Patience;
 use super::records::Records;
 use super::rest::{Rest, Sleep};
 use super::rolling::RollingContacts;
-use super::rows::Rows;
 use super::staged;
 use super::switching::Told;
+use crate::constraints::Rows;
 use crate::contacts::Touches;
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::contacts::{ContactPoint, Other};
@@ -47,7 +48,7 @@ pub struct PenaltyContacts {
     /// them. It changes nothing of the motion.
     pub may_sleep: bool,
     pub(super) watch: Watch,
-    pub(super) rows: Rows,
+    pub(super) held: Held,
     pub(super) told: Told,
     /// Energy in J of the tangential springs before modes were switched.
     pub(super) held_before: Option<f64>,
@@ -74,7 +75,7 @@ impl Default for PenaltyContacts {
             sleep: Sleep::Never,
             may_sleep: true,
             watch: Watch::default(),
-            rows: Rows::default(),
+            held: Held::default(),
             told: Told::default(),
             held_before: None,
             before: Vec::new(),
@@ -235,6 +236,7 @@ pub(super) struct Shared<'a> {
     pub balance: &'a mut Balance,
     pub ledger: &'a mut Ledger,
     pub evaluation: &'a Evaluation,
+    pub rows: &'a mut Rows,
 }
 
 /// What contacts have beside it.
@@ -247,7 +249,7 @@ pub(super) struct Own<'a> {
 
 /// All contacts follow the state, or are evaluated as in a stage of a step.
 pub(super) fn apply<N: NormalForce>(
-    Shared { bodies, balance, ledger, evaluation }: Shared,
+    Shared { bodies, balance, ledger, evaluation, rows }: Shared,
     Own { pairs, contacts, mut rolling, mut forces }: Own,
     deepest: &mut DeepestOverlap,
     touches: Option<&mut Touches>,
@@ -273,7 +275,7 @@ pub(super) fn apply<N: NormalForce>(
         if let Some(rolling) = &mut rolling {
             rolling.carry(pairs);
         }
-        staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, &mut sink);
+        staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, (&mut sink, rows));
         if let Some(touches) = touches {
             note_touches(contacts, sink.bodies, pairs, touches);
         }

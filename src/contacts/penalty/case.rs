@@ -4,9 +4,10 @@ use glam::DVec2;
 
 use super::apply::{End, Sink, arms};
 use super::contact::Contact;
-use super::hold::Mover;
 use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
+use crate::constraints::islands::Link;
+use crate::constraints::rest_solver::Mover;
 use crate::world::Bodies;
 
 /// What stands on side A of a contact.
@@ -23,6 +24,16 @@ pub(super) struct Case {
     pub normal: DVec2,
     pub other: Other,
     pub end: End,
+}
+
+impl Link for Case {
+    fn other_body(&self) -> Option<usize> {
+        Case::other_body(self)
+    }
+
+    fn own_body(&self) -> usize {
+        self.end.body
+    }
 }
 
 impl Case {

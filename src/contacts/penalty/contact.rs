@@ -3,9 +3,9 @@
 use glam::DVec2;
 
 use super::coulomb::Slider;
-use super::hold::Friction;
 use super::law::PairLaw;
 use super::normal::{Approach, Mode, NormalForce, elastic_energy};
+use crate::constraints::rest_solver::Friction;
 
 /// History of a candidate pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,10 +6,10 @@
 //! the contact opens, and the work of slipping, is energy lost to friction.
 //!
 //! At rest the law is set-valued: any force up to `mu N` keeps the contact there. Which one it is the balance of forces
-//! decides ([`super::hold`]).
+//! decides ([`crate::constraints::rest_solver`]).
 
-use super::hold::{Drawn, Friction};
 use super::switching::Base;
+use crate::constraints::rest_solver::{Drawn, Friction};
 
 /// A share of a force or of a velocity that counts as rounding.
 const ROUNDING: f64 = 1e-12;

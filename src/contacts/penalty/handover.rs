@@ -37,7 +37,7 @@ pub(super) fn crowded(contacts: &PenaltyContacts, rolling: Option<&RollingContac
 pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) {
     view.contacts.rest.clear();
     if style == Style::Following {
-        view.contacts.rows.clear();
+        view.contacts.held.clear();
         let slip = |slider: &mut Slider| {
             if slider.grip == Grip::Slide {
                 slider.grip = Grip::Slip;

@@ -7,7 +7,7 @@
 //! does; it never pulls.
 //!
 //! At rest, `v_n = 0`, the law is set-valued: any force between the two keeps the contact there. Which one it is the
-//! balance of forces decides ([`super::hold`]).
+//! balance of forces decides ([`crate::constraints::rest_solver`]).
 
 use super::Penalty;
 use super::law::PairLaw;

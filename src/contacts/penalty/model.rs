@@ -5,11 +5,11 @@ use std::marker::PhantomData;
 
 use bevy_ecs::prelude::*;
 
-use super::apply::{Own, PenaltyContacts, Shared, apply};
+use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
-use super::{Penalty, RollingLaw, handover, limits, meetings, patience, watched};
+use super::{Penalty, RollingLaw, handover, limits, meetings, patience, staged, watched};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
     Dependence, Energies, Events, Foreseen, Holder, Model, Notes, Objection, Responses, State, SteadySpring, Style,
@@ -89,28 +89,41 @@ impl<N: NormalForce> Model for Contacts<N> {
     }
 
     fn begin_step(&mut self, state: &mut State) {
-        let State { bodies, balance, ledger, evaluation, clock, span, pairs: Some(pairs), .. } = state else { return };
+        let State { bodies, balance, ledger, evaluation, rows, clock, span, pairs: Some(pairs), .. } = state else {
+            return;
+        };
         let (forces, known) = (state.contact_forces.as_mut(), (&state.stability, &state.springs));
         let PenaltyState { contacts, rolling } = &mut self.own;
-        let shared = Shared { bodies, balance, ledger, evaluation };
+        let shared = Shared { bodies, balance, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
         choose::<N>(shared, (clock, span), own, known, &mut self.scratch);
     }
 
     fn apply_forces(&mut self, state: &mut State) {
         let alone = state.is_alone();
-        let State { bodies, balance, ledger, evaluation, pairs: Some(pairs), .. } = state else { return };
+        let State { bodies, balance, ledger, evaluation, rows, pairs: Some(pairs), .. } = state else { return };
         let PenaltyState { contacts, rolling } = &mut self.own;
-        let shared = Shared { bodies, balance, ledger, evaluation };
+        let shared = Shared { bodies, balance, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces: state.contact_forces.as_mut() };
         apply::<N>(shared, own, &mut state.deepest, state.touches.as_mut());
         if alone {
             contacts.records.lend(bodies);
         }
         if let Some(rolling) = rolling {
-            let shared = Shared { bodies, balance, ledger, evaluation };
+            let shared = Shared { bodies, balance, ledger, evaluation, rows };
             rolling::apply(shared, pairs, contacts, rolling);
         }
+    }
+
+    fn has_rows(&self) -> bool {
+        true
+    }
+
+    fn take_rows(&mut self, state: &mut State) {
+        let PenaltyState { contacts, rolling } = &mut self.own;
+        let State { bodies, balance, rows, .. } = state;
+        let mut sink = Sink { bodies, balance, forces: state.contact_forces.as_mut() };
+        staged::take_rows(contacts, rolling.as_mut(), rows, &mut sink);
     }
 
     fn settles(&self) -> bool {

@@ -6,15 +6,14 @@ use super::apply::{End, Own, PenaltyContacts, Shared, Sink, approach};
 use super::case::{Case, Other};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
-use super::frame::Frame;
-use super::hold::{self, Friction, Mover, Seen, Verdict};
-use super::islands::{Islands, Marked, Members};
 use super::law::PairLaw;
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
 use super::patience::{Found, MANY, is_thorough};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
+use crate::constraints::islands::{Islands, Marked, Members};
+use crate::constraints::rest_solver::{Frame, Friction, Island, Mover, Seen, Verdict, loads};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
@@ -29,13 +28,13 @@ pub(super) struct Scratch {
     moved: Marked,
     islands: Islands,
     members: Members,
-    island: hold::Island,
+    island: Island,
 }
 
 /// Touching pairs choose loading, unloading or hold for the coming step; where that changes a force, the sums are corrected by the
 /// difference.
 pub(super) fn choose<N: NormalForce>(
-    Shared { bodies, balance, ledger, evaluation }: Shared,
+    Shared { bodies, balance, ledger, evaluation, .. }: Shared,
     (clock, span): (&Clock, &Span),
     Own { pairs, contacts, rolling, forces }: Own,
     (stability, steady): (&Stability, &SteadySprings),
@@ -278,7 +277,7 @@ impl Choice<'_> {
     fn stop<N: NormalForce>(
         &mut self,
         (cases, members): (&[Case], &Members),
-        island: &mut hold::Island,
+        island: &mut Island,
         (may_rest, thorough): (bool, bool),
         ledger: &mut Ledger,
         found: &mut Found,
@@ -296,8 +295,8 @@ impl Choice<'_> {
         }
         for case in cases {
             let belt = case.belt(self.sink.bodies).and_then(|_| belt.next());
-            let other = case.other_body().map_or(belt.unwrap_or(0), |body| members.place(body));
-            let seen = self.seen::<N>(case, (other, members.place(case.end.body)));
+            let other = case.other_body().map_or(belt.unwrap_or(0), |body| members.index(body));
+            let seen = self.seen::<N>(case, (other, members.index(case.end.body)));
             island.seen.push(seen);
         }
         island.set_up(self.dt);
@@ -344,7 +343,7 @@ impl Choice<'_> {
             let each = movers.iter_mut().enumerate();
             each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
         }
-        let loads = hold::loads(candidates, movers.len());
+        let loads = loads(candidates, movers.len());
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
             let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };

@@ -1,6 +1,6 @@
 //! When so many contacts touch under a law with a dashpot that rest is not looked for at each tick.
 //!
-//! The search ([`super::hold`]) costs some twenty times what the contacts themselves do. Under a law whose normal force has one
+//! The search ([`crate::constraints::rest_solver`]) costs some twenty times what the contacts themselves do. Under a law whose normal force has one
 //! value at rest all that it can find is whether the whole of a heap may be laid to rest: as long as one grain moves, forces
 //! change everywhere, and springs hold friction without it. So among thousands of contacts it is made now and then. After a
 //! search that laid nothing to rest the time to the next doubles. Under `Inelasticity` it is made at each tick, whatever

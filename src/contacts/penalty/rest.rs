@@ -1,6 +1,6 @@
 //! Bodies at rest: islands whose contacts hold every load stand still to the last bit until something changes.
 //!
-//! A body is laid to rest only with its whole island, when [`super::hold`] found forces within the bounds of the contact
+//! A body is laid to rest only with its whole island, when [`crate::constraints::rest_solver`] found forces within the bounds of the contact
 //! law that balance all loads and take the last velocity away. It stays while the sum of all forces on it does not change
 //! by a bit; anything new (a touch, another load, a changed velocity or place) wakes it.
 
@@ -25,7 +25,7 @@ struct Resting {
     body: usize,
     position: DVec2,
     angle: f64,
-    /// Force against which its imbalance is judged, in newtons; see [`super::hold::loads`].
+    /// Force against which its imbalance is judged, in newtons; see [`crate::constraints::rest_solver::loads`].
     load: f64,
     /// Sum of all forces and torques: what rounding leaves of zero. `None` before the first evaluation.
     left_over: Option<(DVec2, f64)>,

@@ -137,7 +137,7 @@ fn carried(before: &[u32], old: &[Slider]) -> Vec<Slider> {
 
 /// All rolling springs follow the state, behind their contacts.
 pub(super) fn apply(
-    Shared { bodies, balance, ledger, evaluation }: Shared,
+    Shared { bodies, balance, ledger, evaluation, .. }: Shared,
     pairs: &CandidatePairs,
     contacts: &PenaltyContacts,
     rolling: &mut RollingContacts,

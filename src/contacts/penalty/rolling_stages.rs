@@ -1,17 +1,17 @@
 //! Rolling springs where contacts are stages of a step: their angles are state, they stick and slip at events of their own, and
-//! where the normal force is held and nothing rolls they are held with it ([`super::rows`]).
+//! where the normal force is held and nothing rolls they are held with it ([`super::held`]).
 
 use super::apply::{PenaltyContacts, Sink};
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
+use super::held::Held;
 use super::indicators::{Ends, Motion, Pressure, tell_slider};
 use super::law::PairLaw;
 use super::normal::Mode;
 use super::rolling::{RollingContacts, twist};
-use super::rows::Rows;
-use super::split::Share;
 use super::staged::Look;
 use super::switching::{Base, What};
+use crate::constraints::{Rows, Share};
 use crate::contacts::CandidatePairs;
 use crate::tick::Indicator;
 use crate::world::Bodies;
@@ -86,10 +86,10 @@ pub(super) fn stage(
     (contact, pair): (&Contact, &PairLaw),
     look: &Look,
     sink: &mut Sink,
-    rows: &mut Rows,
+    (held, rows): (&mut Held, &mut Rows),
 ) {
     match slider.grip {
-        Grip::Hold => rows.add_rolling(look, Share::of(slider, &law, pair.stiffness * look.overlap), sink.bodies),
+        Grip::Hold => held.add_rolling(rows, look, share(slider, &law, pair.stiffness * look.overlap), sink.bodies),
         Grip::Slide if contact.mode == Mode::Hold => {}
         Grip::Slide => {
             slip(slider, &law, contact.normal_force);
@@ -179,10 +179,8 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, look: &Look) 
     }
 }
 
-impl Share {
-    /// What a rolling spring bears of its own accord, on side B, where the spring of the contact pulls with `pull` newtons.
-    fn of(slider: &Slider, law: &SliderLaw, pull: f64) -> Self {
-        let measure = (law.friction_static * pull).max(f64::MIN_POSITIVE);
-        Self { natural: -law.stiffness * slider.elongation, measure }
-    }
+/// What a rolling spring bears of its own accord, on side B, where the spring of the contact pulls with `pull` newtons.
+fn share(slider: &Slider, law: &SliderLaw, pull: f64) -> Share {
+    let measure = (law.friction_static * pull).max(f64::MIN_POSITIVE);
+    Share { natural: -law.stiffness * slider.elongation, measure }
 }

@@ -10,11 +10,12 @@ use super::apply::{End, PenaltyContacts, Sink, approach, arms};
 use super::case::{Case, Other};
 use super::contact::Contact;
 use super::coulomb::Grip;
+use super::held::{Held, Kind};
 use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
-use super::rows::{Kind, Rows};
+use crate::constraints::Rows;
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::Style;
 use crate::world::Bodies;
@@ -205,23 +206,23 @@ impl Look {
     }
 }
 
-/// Evaluates all contacts of a state.
+/// Evaluates all contacts of a state. Those that are held give rows.
 pub(super) fn evaluate<N: NormalForce>(
     contacts: &mut PenaltyContacts,
     mut rolling: Option<&mut RollingContacts>,
     pairs: &CandidatePairs,
     style: Style,
-    sink: &mut Sink,
+    (sink, rows): (&mut Sink, &mut Rows),
 ) {
-    let PenaltyContacts { laws, atoms, walls, rows, .. } = contacts;
-    rows.clear();
+    let PenaltyContacts { laws, atoms, walls, held, .. } = contacts;
+    held.begin(rows);
     for (place, &pair) in pairs.atoms.iter().enumerate() {
         if style == Style::Instant || atoms.is_touching(place) {
             let look = Look::atoms(sink.bodies, place, pair);
             let mut contact = atoms.edit(place);
             let law = laws.get(contact.law);
             let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
-            stage::<N>((&mut contact, law, roller), &look, style, sink, rows);
+            stage::<N>((&mut contact, law, roller), &look, style, sink, (held, rows));
         }
     }
     for (place, &pair) in pairs.walls.iter().enumerate() {
@@ -230,20 +231,29 @@ pub(super) fn evaluate<N: NormalForce>(
             let mut contact = walls.edit(place);
             let law = laws.get(contact.law);
             let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
-            stage::<N>((&mut contact, law, roller), &look, style, sink, rows);
+            stage::<N>((&mut contact, law, roller), &look, style, sink, (held, rows));
         }
     }
-    rows.solve(sink.bodies);
-    for (look, kind, force) in rows.answers() {
+}
+
+/// Held contacts take the forces that were found for them.
+pub(super) fn take_rows(
+    contacts: &mut PenaltyContacts,
+    mut rolling: Option<&mut RollingContacts>,
+    rows: &Rows,
+    sink: &mut Sink,
+) {
+    let PenaltyContacts { laws, atoms, walls, held, .. } = contacts;
+    for (look, kind, force) in held.answers(rows) {
         let list = if look.case.other_end().is_some() { &mut *atoms } else { &mut *walls };
         let mut contact = list.edit(look.case.place as usize);
         let law = laws.get(contact.law);
-        let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&look, law));
+        let roller = rolling.as_deref_mut().map(|rolling| rolling.of(look, law));
         let (normal, tangent_force) = match (kind, roller) {
             (Kind::Rolling, roller) => {
                 if let Some((slider, rolling_law)) = roller {
                     slider.held = -force;
-                    rolling_stages::push(slider, &rolling_law, &look, sink);
+                    rolling_stages::push(slider, &rolling_law, look, sink);
                 }
                 continue;
             }
@@ -257,7 +267,7 @@ pub(super) fn evaluate<N: NormalForce>(
                     && slider.grip == Grip::Slide
                 {
                     rolling_stages::slip(slider, &rolling_law, force);
-                    rolling_stages::push(slider, &rolling_law, &look, sink);
+                    rolling_stages::push(slider, &rolling_law, look, sink);
                 }
                 let sliding = contact.tangential.grip == Grip::Slide;
                 if sliding {
@@ -268,9 +278,8 @@ pub(super) fn evaluate<N: NormalForce>(
         };
         let push = look.case.normal * normal.unwrap_or(0.0) - look.case.normal.perp() * tangent_force;
         look.case.push(sink, law, look.overlap, push);
-        book(&contact, law, &look, sink, normal, tangent_force);
+        book(&contact, law, look, sink, normal, tangent_force);
     }
-    rows.cancel(sink.bodies, sink.balance);
 }
 
 /// Evaluates one contact.
@@ -279,7 +288,7 @@ fn stage<N: NormalForce>(
     look: &Look,
     style: Style,
     sink: &mut Sink,
-    rows: &mut Rows,
+    (held, rows): (&mut Held, &mut Rows),
 ) {
     let approach = look.approach(sink.bodies);
     if style == Style::Instant {
@@ -308,10 +317,10 @@ fn stage<N: NormalForce>(
             0.0
         };
         let twist = roller.as_ref().map_or(0.0, |roller| rolling_stages::slope(roller, contact));
-        rows.add_normal(look, law, (slope, twist), sink.bodies);
+        held.add_normal(rows, look, law, (slope, twist), sink.bodies);
     }
     if tangent_held {
-        rows.add_tangent(look, law, contact, sink.bodies);
+        held.add_tangent(rows, look, law, contact, sink.bodies);
     }
     if normal.is_some() || tangential != 0.0 {
         let push = look.case.normal * normal.unwrap_or(0.0) - look.case.normal.perp() * tangential;
@@ -319,7 +328,7 @@ fn stage<N: NormalForce>(
         book(contact, law, look, sink, normal, tangential);
     }
     if let Some(roller) = roller {
-        rolling_stages::stage(roller, (contact, law), look, sink, rows);
+        rolling_stages::stage(roller, (contact, law), look, sink, (held, rows));
     }
 }
 

@@ -23,6 +23,7 @@ use super::normal::{Approach, Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use super::staged::Look;
+use crate::constraints::{Booking, LostTo, Rows};
 use crate::contacts::Touches;
 use crate::contacts::{CandidatePairs, DeepestOverlap};
 use crate::tick::Ledger;
@@ -141,7 +142,7 @@ impl PenaltyContacts {
     /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to look.
     pub(super) fn is_idle(&self) -> bool {
         let near = !self.atoms.is_empty() || !self.walls.is_empty();
-        !near && self.rows.is_empty() && self.held_before.is_none() && self.slid == 0.0
+        !near && self.held.is_empty() && self.held_before.is_none() && self.slid == 0.0
     }
 }
 
@@ -294,7 +295,7 @@ impl Base {
 
 /// After a step: what is held stands, and the deepest overlap is noted. Says whether velocities have changed.
 pub(super) fn tidy(
-    (bodies, ledger): (&mut Bodies, &mut Ledger),
+    (bodies, ledger, rows): (&mut Bodies, &mut Ledger, &mut Rows),
     (time, dt): (f64, f64),
     (pairs, contacts, mut rolling): (&CandidatePairs, &mut PenaltyContacts, Option<&mut RollingContacts>),
     deepest: &mut DeepestOverlap,
@@ -306,7 +307,7 @@ pub(super) fn tidy(
         view.contacts.slid = view.sliding_energy();
         ledger.friction.add(lost);
     }
-    let moved = stand_still((bodies, ledger), contacts, dt);
+    let moved = stand_still((bodies, ledger, rows), contacts, dt);
     View { bodies, pairs, contacts, rolling }.note_overlaps(time, deepest);
     moved
 }
@@ -314,15 +315,19 @@ pub(super) fn tidy(
 /// Takes out of velocities what rounding and the error of a step have left along held rows, and books it: what gives way begins
 /// to move in the direction of the forces, not of an error. Says whether there was anything.
 pub(super) fn stand_still(
-    (bodies, ledger): (&mut Bodies, &mut Ledger),
-    contacts: &mut PenaltyContacts,
+    (bodies, ledger, rows): (&mut Bodies, &mut Ledger, &mut Rows),
+    contacts: &PenaltyContacts,
     dt: f64,
 ) -> bool {
-    if contacts.rows.is_empty() {
+    if contacts.held.is_empty() {
         return false;
     }
     let before = (momentum(bodies), angular_momentum(bodies));
-    let moved = contacts.rows.stop(bodies, dt, ledger);
+    let moved = rows.stop(bodies, dt, |booking| match booking {
+        Booking::Lost(LostTo::Inelasticity, energy) => ledger.inelasticity.add(energy),
+        Booking::Lost(LostTo::Friction, energy) => ledger.friction.add(energy),
+        Booking::Work(energy) => ledger.work.add(energy),
+    });
     let by = momentum(bodies) - before.0;
     ledger.impulse[0].add(by.x);
     ledger.impulse[1].add(by.y);

@@ -84,9 +84,9 @@ impl<N: NormalForce> Events for Contacts<N> {
     }
 
     fn switch(&mut self, state: &mut State, fired: &[usize]) {
-        let State { bodies, ledger, clock, touches, pairs: Some(pairs), .. } = state else { return };
+        let State { bodies, ledger, rows, clock, touches, pairs: Some(pairs), .. } = state else { return };
         let PenaltyState { contacts, rolling } = &mut self.own;
-        switching::stand_still((bodies, ledger), contacts, clock.dt);
+        switching::stand_still((bodies, ledger, rows), contacts, clock.dt);
         let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
         view.switch::<N>(fired, ledger, touches.as_mut());
     }
@@ -102,10 +102,13 @@ impl<N: NormalForce> Events for Contacts<N> {
     }
 
     fn tidy(&mut self, state: &mut State) -> bool {
-        let State { bodies, ledger, evaluation, clock, deepest, pairs: Some(pairs), .. } = state else { return false };
+        let State { bodies, ledger, rows, evaluation, clock, deepest, pairs: Some(pairs), .. } = state else {
+            return false;
+        };
         let PenaltyState { contacts, rolling } = &mut self.own;
         let times = (evaluation.time, clock.dt);
-        !contacts.is_idle() && switching::tidy((bodies, ledger), times, (pairs, contacts, rolling.as_mut()), deepest)
+        !contacts.is_idle()
+            && switching::tidy((bodies, ledger, rows), times, (pairs, contacts, rolling.as_mut()), deepest)
     }
 
     fn hand_over(&mut self, state: &State, style: Style) {

@@ -12,8 +12,8 @@ const DEPENDENT: f64 = 1e-12;
 const NOTHING_NEW: f64 = 1e-10;
 
 /// An unknown force of its own accord.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Share {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
     /// What it would be, in newtons.
     pub natural: f64,
     /// What differences are measured by, in newtons; above zero.
@@ -22,7 +22,7 @@ pub(super) struct Share {
 
 /// Solves `matrix x = answer` in place of `answer`; `matrix` has as many rows as columns. Where rows depend on each other the
 /// solution is that nearest to what `shares` say.
-pub(super) fn solve(matrix: &[f64], answer: &mut [f64], shares: impl Iterator<Item = Share>, work: &mut Vec<f64>) {
+pub fn solve(matrix: &[f64], answer: &mut [f64], shares: impl Iterator<Item = Share>, work: &mut Vec<f64>) {
     work.clear();
     work.extend_from_slice(matrix);
     let right: Vec<f64> = answer.to_vec();

@@ -6,11 +6,11 @@
 
 use glam::DVec2;
 
-use super::hold::Mover;
+use super::Mover;
 
 /// Motion of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
+pub struct Frame {
     /// A point of it, in metres.
     pub origin: DVec2,
     /// Velocity of that point in m/s.

@@ -1,0 +1,145 @@
+//! Islands: what acts on each other within a tick, because it shares a body that moves by forces. Found by union-find.
+
+use std::ops::Range;
+
+use crate::world::Bodies;
+
+/// The bodies of a link between two sides: a contact or a joint. Side A may be none: the world, or a wall.
+pub trait Link {
+    /// The body of side A.
+    fn other_body(&self) -> Option<usize>;
+
+    /// The body of side B.
+    fn own_body(&self) -> usize;
+}
+
+/// The bodies of some links, one after the other.
+fn ends<L: Link>(links: &[L]) -> impl Iterator<Item = usize> + '_ {
+    links.iter().flat_map(|link| [Some(link.own_body()), link.other_body()]).flatten()
+}
+
+/// Groups links into islands. What memory it has it keeps for the next tick.
+#[derive(Debug, Default)]
+pub struct Islands {
+    /// For each body of a link the first of its island.
+    root: Vec<u32>,
+    ranges: Vec<Range<usize>>,
+}
+
+impl Islands {
+    /// Sorts links so that those that share a body that moves by forces stand together, in canonical order. Returns where each
+    /// island stands.
+    pub fn sort<L: Link>(&mut self, links: &mut [L], bodies: &Bodies) -> &[Range<usize>] {
+        self.ranges.clear();
+        if links.is_empty() {
+            return &self.ranges;
+        }
+        self.join(links, bodies);
+        let root = |link: &L| {
+            let own = link.own_body();
+            let body = if bodies.dynamic[own] { Some(own) } else { link.other_body() };
+            self.root[body.unwrap_or(own)]
+        };
+        links.sort_by_key(root);
+        let mut first = 0;
+        for island in links.chunk_by(|a, b| root(a) == root(b)) {
+            self.ranges.push(first..first + island.len());
+            first += island.len();
+        }
+        &self.ranges
+    }
+
+    /// Lets the root of each body of a link be the first body of its island.
+    fn join<L: Link>(&mut self, links: &[L], bodies: &Bodies) {
+        let root = &mut self.root;
+        root.resize(bodies.len(), 0);
+        for body in ends(links) {
+            root[body] = body as u32;
+        }
+        for link in links {
+            let own = link.own_body();
+            if let Some(other) = link.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[own]) {
+                let (a, b) = (find(root, other as u32), find(root, own as u32));
+                root[a.max(b) as usize] = a.min(b);
+            }
+        }
+        for body in ends(links) {
+            root[body] = find(root, body as u32);
+        }
+    }
+}
+
+fn find(root: &mut [u32], mut body: u32) -> u32 {
+    while root[body as usize] != body {
+        root[body as usize] = root[root[body as usize] as usize];
+        body = root[body as usize];
+    }
+    body
+}
+
+/// Bodies that are marked. To forget them takes as long as to mark them, however many others there are.
+#[derive(Debug, Default)]
+pub struct Marked {
+    list: Vec<usize>,
+    /// For each body whether it is.
+    is: Vec<bool>,
+}
+
+impl Marked {
+    /// Forgets all, among so many bodies.
+    pub fn forget(&mut self, bodies: usize) {
+        if self.is.len() == bodies {
+            self.list.drain(..).for_each(|body| self.is[body] = false);
+        } else {
+            self.list.clear();
+            self.is.clear();
+            self.is.resize(bodies, false);
+        }
+    }
+
+    /// Marks a body.
+    pub fn mark(&mut self, body: usize) {
+        self.is[body] = true;
+        self.list.push(body);
+    }
+
+    /// Whether a body is marked.
+    pub fn has(&self, body: usize) -> bool {
+        self.is[body]
+    }
+}
+
+/// The bodies of an island.
+#[derive(Debug, Default)]
+pub struct Members {
+    /// In canonical order.
+    pub list: Vec<usize>,
+    /// For each body its index in the list and one more; zero for all others.
+    index: Vec<u32>,
+}
+
+impl Members {
+    /// Becomes those of the island of these links, among so many bodies.
+    pub fn collect<L: Link>(&mut self, links: &[L], bodies: usize) {
+        for &body in &self.list {
+            self.index[body] = 0;
+        }
+        self.list.clear();
+        self.index.resize(bodies, 0);
+        for body in ends(links) {
+            if self.index[body] == 0 {
+                self.index[body] = 1;
+                self.list.push(body);
+            }
+        }
+        self.list.sort_unstable();
+        for (index, &body) in self.list.iter().enumerate() {
+            self.index[body] = index as u32 + 1;
+        }
+    }
+
+    /// The index of a member behind what does not move by forces, which has the first; that one for all others.
+    pub fn index(&self, body: usize) -> usize {
+        self.index[body] as usize
+    }
+}

@@ -1,0 +1,104 @@
+//! Conjugate gradients over the rows of an island that no bound holds.
+
+use glam::DVec2;
+
+use super::candidate::{Bounded, Candidate};
+use super::row::{Mover, Row, Sides};
+
+/// Share to which conjugate gradients bring down the velocities of an island in one tick. A few ticks reach rounding.
+const GAIN: f64 = 1e-4;
+/// Rows that conjugate gradients go through at most, and their steps in any case: islands of a thousand rows are solved, in
+/// those of a hundred thousand, which would take minutes, each search goes on where the one before ended.
+const WORK: usize = 4_000_000;
+const FEWEST_STEPS: usize = 32;
+
+/// Conjugate gradients over the forces that no bound holds. A force that would leave its bounds stops there, and what
+/// that leaves is for the sweeps that follow.
+#[derive(Debug, Default)]
+pub(super) struct Gradients {
+    rows: Vec<(Row, (usize, usize))>,
+    /// The movers without their velocities.
+    still: Vec<Mover>,
+    moved: Vec<Mover>,
+    impulses: Vec<f64>,
+    residual: Vec<f64>,
+    scaled: Vec<f64>,
+    search: Vec<f64>,
+    response: Vec<f64>,
+}
+
+impl Gradients {
+    pub fn finish(&mut self, candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
+        let Self { rows, still, moved, impulses, residual, scaled, search, response } = self;
+        rows.clear();
+        rows.extend(candidates.iter().flat_map(|c| c.free_rows().map(move |row| (row, c.ends))));
+        still.clear();
+        still.extend(movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }));
+        for list in [&mut *impulses, &mut *response] {
+            list.clear();
+            list.resize(rows.len(), 0.0);
+        }
+        residual.clear();
+        residual.extend(rows.iter().map(|(row, ends)| -row.velocity(&Sides::of(movers, *ends))));
+        scaled.clear();
+        scaled.extend(rows.iter().zip(&*residual).map(|((row, _), r)| r / row.mobility));
+        search.clone_from(scaled);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
+        let mut size = dot(residual, search);
+        let goal = size * GAIN * GAIN;
+        let affordable = (WORK / rows.len().max(1)).max(FEWEST_STEPS);
+        for _ in 0..affordable.min(4 * rows.len() + 10) {
+            if size <= goal || size == 0.0 {
+                break;
+            }
+            moved.clone_from(still);
+            for ((row, ends), &impulse) in rows.iter().zip(&*search) {
+                let mut sides = Sides::of(moved, *ends);
+                row.push(&mut sides, impulse);
+                sides.put_back(moved, *ends);
+            }
+            for (response, (row, ends)) in response.iter_mut().zip(&*rows) {
+                *response = row.velocity(&Sides::of(moved, *ends));
+            }
+            let curvature = dot(search, response);
+            if curvature <= 0.0 {
+                break;
+            }
+            let step = size / curvature;
+            for i in 0..rows.len() {
+                impulses[i] += step * search[i];
+                residual[i] -= step * response[i];
+                scaled[i] = residual[i] / rows[i].0.mobility;
+            }
+            let before = std::mem::replace(&mut size, dot(residual, scaled));
+            for i in 0..rows.len() {
+                search[i] = scaled[i] + size / before * search[i];
+            }
+        }
+        take_over(candidates, movers, impulses, dt);
+    }
+}
+
+/// Takes over the impulses of the free rows, each as far as its bounds allow.
+fn take_over(candidates: &mut [Candidate], movers: &mut [Mover], impulses: &[f64], dt: f64) {
+    let mut impulses = impulses.iter();
+    let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
+    for candidate in candidates {
+        let free = candidate.bounded.map(|bounded| bounded.is_free());
+        let mut sides = Sides::of(movers, candidate.ends);
+        if !candidate.at_limit {
+            candidate.set_normal(&mut sides, candidate.normal_force + next(), dt);
+        }
+        for (place, free) in free.into_iter().enumerate() {
+            let Bounded { coefficient, engaged, force, .. } = candidate.bounded[place];
+            if free {
+                candidate.set_bounded(&mut sides, place, force + next(), dt);
+            } else if engaged {
+                // The limit has moved with the normal force.
+                candidate.set_bounded(&mut sides, place, (coefficient * candidate.normal_force).copysign(force), dt);
+                candidate.bounded[place].at_limit = true;
+            }
+        }
+        sides.put_back(movers, candidate.ends);
+    }
+}
