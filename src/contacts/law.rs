@@ -7,6 +7,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::geometry::PairGeometry;
 use super::search;
 use crate::tick::response::{Spring, Springs};
 use crate::tick::touch::ContactPoint;
@@ -14,7 +15,6 @@ use crate::tick::{
     Departure, Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, Rhythm, State, SteadySpring,
     Style, TickAppExt,
 };
-use crate::world::Bodies;
 
 /// Ticks from one look at how fast the touching pairs respond together to the next.
 const PATIENCE: u64 = 64;
@@ -219,24 +219,14 @@ impl<L: Law> Watched<L> {
 /// The pairs that touch.
 fn touching(state: &State) -> Vec<LawTouch> {
     let (bodies, Some(pairs)) = (&state.bodies, &state.pairs) else { return Vec::new() };
-    let atoms = pairs.atoms.iter().map(|&pair| {
-        let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
-        let overlap = pair.reach(bodies) - distance(bodies, a, b);
-        LawTouch { a: LawSide::Atom(a), b, normal: pair.normal(bodies), overlap }
+    let touch = |a: LawSide, b: u32, PairGeometry { pair, overlap, .. }: PairGeometry| {
+        (overlap > 0.0).then_some(LawTouch { a, b: b as usize, normal: pair.normal, overlap })
+    };
+    let atoms = pairs.atoms.iter().enumerate().filter_map(|(index, &pair)| {
+        touch(LawSide::Atom(pair.a as usize), pair.b, PairGeometry::atoms(bodies, index, pair))
     });
-    let walls = pairs.walls.iter().map(|&pair| {
-        let (wall, b) = (pair.wall as usize, pair.atom as usize);
-        let height = (bodies.atom_place(b) - bodies.walls[wall].point).dot(bodies.walls[wall].normal);
-        LawTouch {
-            a: LawSide::Wall(wall),
-            b,
-            normal: bodies.walls[wall].normal,
-            overlap: bodies.atom_radius[b] - height,
-        }
+    let walls = pairs.walls.iter().enumerate().filter_map(|(index, &pair)| {
+        touch(LawSide::Wall(pair.wall as usize), pair.atom, PairGeometry::wall(bodies, index, pair))
     });
-    atoms.chain(walls).filter(|pair| pair.overlap > 0.0).collect()
-}
-
-fn distance(bodies: &Bodies, a: usize, b: usize) -> f64 {
-    (bodies.atom_place(b) - bodies.atom_place(a)).length()
+    atoms.chain(walls).collect()
 }

@@ -1,6 +1,7 @@
 //! Contacts: who may touch whom ([`search`]), and what follows from it: one contact law per scene.
 
 pub mod events;
+pub(crate) mod geometry;
 mod law;
 pub mod penalty;
 pub mod search;

@@ -10,7 +10,7 @@ use super::critical::Watch;
 use super::follow::Touch;
 use super::held::Held;
 use super::kernel::{self, Moment};
-use super::law::{LawTable, PairLaw, Side};
+use super::law::{LawTable, Side};
 use super::list::{ContactList, lanes};
 use super::meetings::Meetings;
 use super::normal::{Approach, Mode, NormalForce};
@@ -22,6 +22,7 @@ use super::staged;
 use super::switching::Told;
 use crate::constraints::Rows;
 use crate::contacts::Touches;
+use crate::contacts::geometry::{End, Shares, arms};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::contacts::{ContactPoint, Other};
 use crate::simd::BLOCK;
@@ -116,45 +117,6 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
     });
 }
 
-/// One side of a contact.
-#[derive(Clone, Copy)]
-pub(super) struct End {
-    pub body: usize,
-    /// Centre of the atom from the centre of mass of its body, in metres.
-    pub arm: DVec2,
-    /// Radius of the atom in metres.
-    pub radius: f64,
-}
-
-impl End {
-    #[inline(always)]
-    pub fn of(bodies: &Bodies, atom: u32) -> Self {
-        let atom = atom as usize;
-        let body = bodies.atom_body(atom);
-        Self { body, arm: bodies.atom_place(atom) - bodies.position[body], radius: bodies.atom_radius[atom] }
-    }
-
-    /// Relative velocity along `normal` that an impulse of one newton second makes on this side, in 1/kg.
-    #[inline]
-    pub fn mobility(&self, bodies: &Bodies, normal: DVec2) -> f64 {
-        let lever = self.arm.perp_dot(normal);
-        bodies.inverse_mass(self.body) + lever * lever * bodies.inverse_inertia(self.body)
-    }
-
-    /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
-    /// the turn of its body.
-    #[inline(always)]
-    pub fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
-        let (moved, turn) = bodies.displacement(self.body);
-        (moved + self.arm.perp() * turn + self.arm * (0.5 * turn * turn), turn)
-    }
-
-    #[inline]
-    pub fn velocity(&self, bodies: &Bodies) -> DVec2 {
-        bodies.velocity_at(self.body, self.arm)
-    }
-}
-
 /// How side B approaches side A; `None` is a wall.
 #[inline]
 pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2) -> Approach {
@@ -167,13 +129,6 @@ pub(super) struct Sink<'a> {
     pub bodies: &'a mut Bodies,
     pub balance: &'a mut Balance,
     pub forces: Option<&'a mut ContactForces>,
-}
-
-/// Arms of both sides to the point where they touch: between the centres, nearer to the undeformed surface of the harder
-/// side.
-#[inline]
-pub(super) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw) -> (DVec2, DVec2) {
-    (a.arm + normal * (a.radius - law.share_a * overlap), b.arm - normal * (b.radius - law.share_b * overlap))
 }
 
 /// Accounts of a force on side B that has gone to the bodies: for who asks for it, and for what does not move by forces.
@@ -206,11 +161,11 @@ pub(super) fn account(
 impl Sink<'_> {
     /// `force` acts on side B, the opposite on side A, at the point where they touch.
     #[inline]
-    pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, law: &PairLaw, force: DVec2) {
-        let (arm_a, arm_b) = arms((a, b), normal, overlap, law);
+    pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares, force: DVec2) {
+        let (arm_a, arm_b) = arms((a, b), normal, overlap, shares);
         self.bodies.push(a.body, arm_a, -force);
         self.bodies.push(b.body, arm_b, force);
-        let (arms, forces) = (arms((a, b), normal, overlap, law), self.forces.as_deref_mut());
+        let (arms, forces) = (arms((a, b), normal, overlap, shares), self.forces.as_deref_mut());
         account(self.bodies, (self.balance, forces), (a, b), arms, force);
     }
 
@@ -433,7 +388,7 @@ impl PenaltyContacts {
             let (pair, contact) = (pairs.atoms[place], self.atoms.get(place));
             let (law, ends) = (self.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
             let normal = pair.normal(bodies);
-            let (_, arm) = arms(ends, normal, contact.overlap, law);
+            let (_, arm) = arms(ends, normal, contact.overlap, law.shares());
             let force = contact.force(law, normal);
             let point = bodies.position[ends.1.body] + arm;
             (place, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force })

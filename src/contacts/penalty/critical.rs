@@ -6,10 +6,11 @@
 //! eigenvalue itself is worked out, which costs some ten times as much, and so is done less often unless the bound has
 //! risen clearly.
 
-use super::apply::{End, PenaltyContacts, arms};
+use super::apply::PenaltyContacts;
 use super::law::PairLaw;
 use super::normal::NormalForce;
 use super::rolling;
+use crate::contacts::geometry::{End, arms};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::response::{Spring, Springs};
 use crate::tick::steady::SteadySprings;
@@ -151,7 +152,7 @@ impl PenaltyContacts {
             let (a, b) = (End::of(bodies, a), End::of(bodies, b));
             let contact = self.atoms.get(place);
             let law = self.laws.get(contact.law);
-            let (arm_a, arm_b) = arms((&a, &b), normal, contact.overlap, law);
+            let (arm_a, arm_b) = arms((&a, &b), normal, contact.overlap, law.shares());
             let mobility = a.mobility(bodies, normal) + b.mobility(bodies, normal);
             let (stiffness, across, damped) = stiffness(law, mobility);
             let radius = rolling::rolling_radius(Some(&a), &b);

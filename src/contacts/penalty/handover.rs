@@ -12,8 +12,8 @@ use super::coulomb::{Grip, Slider, SliderLaw};
 use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
 use super::rolling::RollingContacts;
-use super::staged::Look;
 use super::switching::View;
+use crate::contacts::geometry::PairGeometry;
 use crate::tick::Style;
 
 /// Rows of held contacts that are solved together; they cost the third power of their number.
@@ -52,24 +52,24 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) 
     }
     view.contacts.held_before = Some(view.stored(|_| true));
     for place in 0..view.len() {
-        let (look, bodies) = (view.look(place), view.bodies);
-        let (mut contact, law, roller) = view.whole(place, &look);
+        let (geometry, bodies) = (view.look(place), view.bodies);
+        let (mut contact, law, roller) = view.whole(place, &geometry);
         if contact.mode == Mode::Open {
             continue;
         }
-        let rounding = ROUNDING * contact.normal_force * dt * look.approach(bodies).mobility;
-        contact.take_over::<N>(law, &look, rounding);
+        let rounding = ROUNDING * contact.normal_force * dt * geometry.approach(bodies).mobility;
+        contact.take_over::<N>(law, &geometry, rounding);
         if let Some((slider, rolling_law)) = roller {
-            let stands = look.turning().abs() * look.case.end.radius <= rounding;
-            slider.take_over(&rolling_law, stands && contact.mode == Mode::Hold, look.turning());
+            let stands = geometry.turning().abs() * geometry.pair.b.radius <= rounding;
+            slider.take_over(&rolling_law, stands && contact.mode == Mode::Hold, geometry.turning());
         }
     }
 }
 
 impl Contact {
     /// Goes on as a stage of a step; velocities up to `rounding` m/s count as none.
-    fn take_over<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, rounding: f64) {
-        let (parting, sliding) = (look.parting(), look.sliding(law));
+    fn take_over<N: NormalForce>(&mut self, law: &PairLaw, geometry: &PairGeometry, rounding: f64) {
+        let (parting, sliding) = (geometry.parting(), geometry.sliding(law.shares()));
         if self.mode == Mode::Hold && parting.abs() > rounding {
             self.mode = N::chosen(self.mode, parting);
         }

@@ -4,8 +4,9 @@ use glam::DVec2;
 
 use super::contact::Contact;
 use super::law::PairLaw;
-use super::staged::Look;
+use crate::constraints::islands::Link;
 use crate::constraints::{LostTo, Row, Rows, Share, Side};
+use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 
 /// What of a contact a row holds.
@@ -21,7 +22,7 @@ pub(super) enum Kind {
 pub(super) struct Held {
     /// The index of the first row.
     first: usize,
-    contacts: Vec<(Look, Kind)>,
+    contacts: Vec<(PairGeometry, Kind)>,
 }
 
 impl std::fmt::Debug for Held {
@@ -46,9 +47,9 @@ impl Held {
     }
 
     /// The contact of each row, what of it is held, and the force in newtons or torque in N m on side B.
-    pub fn answers<'a>(&'a self, rows: &'a Rows) -> impl Iterator<Item = (&'a Look, Kind, f64)> + 'a {
+    pub fn answers<'a>(&'a self, rows: &'a Rows) -> impl Iterator<Item = (&'a PairGeometry, Kind, f64)> + 'a {
         let indices = self.first..;
-        self.contacts.iter().zip(indices).map(|((look, kind), index)| (look, *kind, rows.force(index)))
+        self.contacts.iter().zip(indices).map(|((geometry, kind), index)| (geometry, *kind, rows.force(index)))
     }
 
     /// Holds the normal of a contact. While the contact slips its tangential force is `slope` times the normal one; while its
@@ -56,48 +57,62 @@ impl Held {
     pub fn add_normal(
         &mut self,
         rows: &mut Rows,
-        look: &Look,
+        geometry: &PairGeometry,
         law: &PairLaw,
         (slope, twist): (f64, f64),
         bodies: &Bodies,
     ) {
-        let normal = look.case.normal;
+        let normal = geometry.pair.normal;
         let force = normal - normal.perp() * slope;
-        let natural = law.stiffness * look.overlap;
+        let natural = law.stiffness * geometry.overlap;
         let share = Share { natural, measure: natural.max(f64::MIN_POSITIVE) };
-        let mut row =
-            row(look, law, (normal, force), look.inertial(law, bodies).0, share, LostTo::Inelasticity, bodies);
+        let mut row = row(
+            geometry,
+            law,
+            (normal, force),
+            geometry.inertial(law.shares(), bodies).0,
+            share,
+            LostTo::Inelasticity,
+            bodies,
+        );
         let [a, b] = &mut row.sides;
         for (side, sign) in [(a, 1.0), (b, -1.0)] {
             side.iter_mut().for_each(|side| side.torque += sign * twist);
         }
         rows.add(row);
-        self.contacts.push((*look, Kind::Normal));
+        self.contacts.push((*geometry, Kind::Normal));
     }
 
     /// Holds the tangent of a contact.
-    pub fn add_tangent(&mut self, rows: &mut Rows, look: &Look, law: &PairLaw, contact: &Contact, bodies: &Bodies) {
-        let tangent = look.case.normal.perp();
-        let measure = (law.friction_static * law.stiffness * look.overlap).max(f64::MIN_POSITIVE);
+    pub fn add_tangent(
+        &mut self,
+        rows: &mut Rows,
+        geometry: &PairGeometry,
+        law: &PairLaw,
+        contact: &Contact,
+        bodies: &Bodies,
+    ) {
+        let tangent = geometry.pair.normal.perp();
+        let measure = (law.friction_static * law.stiffness * geometry.overlap).max(f64::MIN_POSITIVE);
         let share = Share { natural: -law.tangential_stiffness * contact.tangential.elongation, measure };
-        let inertial = look.inertial(law, bodies).1;
-        rows.add(row(look, law, (tangent, tangent), inertial, share, LostTo::Friction, bodies));
-        self.contacts.push((*look, Kind::Tangent));
+        let inertial = geometry.inertial(law.shares(), bodies).1;
+        rows.add(row(geometry, law, (tangent, tangent), inertial, share, LostTo::Friction, bodies));
+        self.contacts.push((*geometry, Kind::Tangent));
     }
 
     /// Holds the turn of a contact.
-    pub fn add_rolling(&mut self, rows: &mut Rows, look: &Look, share: Share, bodies: &Bodies) {
+    pub fn add_rolling(&mut self, rows: &mut Rows, geometry: &PairGeometry, share: Share, bodies: &Bodies) {
         let side = |body: usize, sign: f64| Side { body, lever: sign, torque: sign, ..Side::default() };
-        let sides = [look.case.other_body().map(|body| side(body, -1.0)), Some(side(look.case.end.body, 1.0))];
+        let sides = [geometry.pair.other_body().map(|body| side(body, -1.0)), Some(side(geometry.pair.b.body, 1.0))];
         let turning = |side: &Side| side.lever * bodies.prescribed.acceleration(side.body).1;
         let inertial = sides.iter().flatten().map(turning).fold(0.0, |sum, term| sum + term);
         rows.add(Row { sides, inertial, surface: DVec2::ZERO, share, lost_to: LostTo::Friction });
-        self.contacts.push((*look, Kind::Rolling));
+        self.contacts.push((*geometry, Kind::Rolling));
     }
 }
 
 fn row(
-    look: &Look,
+    geometry: &PairGeometry,
     law: &PairLaw,
     (direction, force): (DVec2, DVec2),
     inertial: f64,
@@ -105,7 +120,7 @@ fn row(
     lost_to: LostTo,
     bodies: &Bodies,
 ) -> Row {
-    let (arm_a, arm_b) = look.contact_arms(law);
+    let (arm_a, arm_b) = geometry.contact_arms(law.shares());
     let side = |body: usize, arm: DVec2, sign: f64| Side {
         body,
         direction: sign * direction,
@@ -113,8 +128,8 @@ fn row(
         force: sign * force,
         torque: sign * arm.perp_dot(force),
     };
-    let other = look.case.other_body().map(|body| side(body, arm_a, -1.0));
-    let sides = [other, Some(side(look.case.end.body, arm_b, 1.0))];
-    let surface = look.case.belt(bodies).map_or(DVec2::ZERO, |belt| belt.velocity);
+    let other = geometry.pair.other_body().map(|body| side(body, arm_a, -1.0));
+    let sides = [other, Some(side(geometry.pair.b.body, arm_b, 1.0))];
+    let surface = geometry.pair.surface(bodies).unwrap_or_default();
     Row { sides, inertial, surface, share, lost_to }
 }

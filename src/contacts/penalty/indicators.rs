@@ -6,8 +6,8 @@ use super::coulomb::{Grip, Slider, SliderLaw};
 use super::law::PairLaw;
 use super::normal::{Change, Mode, NormalForce};
 use super::rolling_stages;
-use super::staged::Look;
 use super::switching::{View, What};
+use crate::contacts::geometry::PairGeometry;
 use crate::tick::Indicator;
 use crate::world::Bodies;
 
@@ -30,12 +30,18 @@ pub(super) struct Pressure {
 
 impl Pressure {
     /// Of a contact that touches. A force that is held follows from all others, and its rates are not known.
-    fn of<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodies: &Bodies, change: Change) -> Self {
+    fn of<N: NormalForce>(
+        contact: &Contact,
+        law: &PairLaw,
+        geometry: &PairGeometry,
+        bodies: &Bodies,
+        change: Change,
+    ) -> Self {
         let force = contact.normal_force;
         if contact.mode == Mode::Hold {
             return Self { force, rate: UNKNOWN, second_rate: UNKNOWN, swings: 0.0 };
         }
-        let approach = look.approach(bodies);
+        let approach = geometry.approach(bodies);
         let (stiffness, damping) = N::response(law, approach.mobility);
         let damped = damping * approach.mobility;
         Self {
@@ -53,23 +59,24 @@ impl View<'_> {
         let mut what = std::mem::take(&mut self.contacts.told);
         what.clear();
         for place in 0..self.len() {
-            let look = self.look(place);
+            let geometry = self.look(place);
             let bodies = self.bodies;
-            let (contact, law, roller) = self.whole(place, &look);
+            let (contact, law, roller) = self.whole(place, &geometry);
             if contact.mode == Mode::Open {
                 what.push((place as u32, What::Touch));
-                let (value, slope, bend) = (-look.overlap, look.parting(), look.bend(bodies));
+                let (value, slope, bend) = (-geometry.overlap, geometry.parting(), geometry.bend(bodies));
                 told.push(Indicator { value, slope, bend, ..Indicator::default() });
                 continue;
             }
-            let change = look.change(law, bodies);
-            let pressure = Pressure::of::<N>(&contact, law, &look, bodies, change);
+            let change = geometry.change(law, bodies);
+            let pressure = Pressure::of::<N>(&contact, law, &geometry, bodies, change);
             let mut say = |event: What, indicator: Indicator| {
                 what.push((place as u32, event));
                 told.push(indicator);
             };
             // Where a body is fast the line of centres turns faster than springs swing.
-            let turns = if contact.mode == Mode::Hold { 0.0 } else { TURNS * look.velocity.length() / look.distance };
+            let turns =
+                if contact.mode == Mode::Hold { 0.0 } else { TURNS * geometry.velocity.length() / geometry.distance };
             let known = |value: f64, slope: f64| {
                 let swings = pressure.swings.sqrt().max(turns);
                 Indicator { value, slope, swings, ..Indicator::default() }
@@ -80,17 +87,18 @@ impl View<'_> {
                 say(What::Upper, known(greatest - contact.normal_force, UNKNOWN));
             } else {
                 let (value, is_overlap) = N::remaining(contact.mode, contact.overlap, contact.normal_force);
-                say(What::Part, known(value, if is_overlap { -look.parting() } else { pressure.rate }));
-                let loading = N::smooth_force(law, Mode::Loading, look.overlap, look.approach(bodies));
-                if let Some((value, slope)) = N::stays(law, contact.mode, (look.parting(), change.parting), loading) {
+                say(What::Part, known(value, if is_overlap { -geometry.parting() } else { pressure.rate }));
+                let loading = N::smooth_force(law, Mode::Loading, geometry.overlap, geometry.approach(bodies));
+                if let Some((value, slope)) = N::stays(law, contact.mode, (geometry.parting(), change.parting), loading)
+                {
                     say(What::Turn, known(value, slope));
                 }
             }
             if law.tangential().acts() {
-                tell_friction(&contact, law, pressure, &look, bodies, &mut say);
+                tell_friction(&contact, law, pressure, &geometry, bodies, &mut say);
             }
             if let Some(roller) = roller {
-                rolling_stages::tell(&roller, &contact, pressure, &look, bodies, say);
+                rolling_stages::tell(&roller, &contact, pressure, &geometry, bodies, say);
             }
         }
         self.contacts.told = what;
@@ -102,16 +110,16 @@ fn tell_friction(
     contact: &Contact,
     law: &PairLaw,
     pressure: Pressure,
-    look: &Look,
+    geometry: &PairGeometry,
     bodies: &Bodies,
     say: &mut impl FnMut(What, Indicator),
 ) {
     let slider = &contact.tangential;
     let motion = Motion {
-        velocity: look.sliding(law),
-        rate: look.sliding_rate(law, bodies),
-        speed: look.speed(law),
-        mobility: look.mobility_along(law, bodies),
+        velocity: geometry.sliding(law.shares()),
+        rate: geometry.sliding_rate(law.shares(), bodies),
+        speed: geometry.speed(law.shares()),
+        mobility: geometry.mobility_along(law.shares(), bodies),
     };
     // Where the normal force is held, or friction has no spring, a spring that slips does not follow the limit.
     let held = law.exact || contact.mode == Mode::Hold;

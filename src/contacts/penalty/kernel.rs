@@ -8,13 +8,14 @@ use std::marker::PhantomData;
 
 use glam::DVec2;
 
-use super::apply::{End, Sink, account, arms};
+use super::apply::{Sink, account};
 use super::contact::Losses;
 use super::dashpot::Damping;
 use super::follow::{Followed, Touch};
 use super::law::{LawTable, PairLaw};
 use super::list::{ContactList, ListPart, Phases, lanes};
 use super::normal::{Approach, NormalForce};
+use crate::contacts::geometry::{End, arms};
 use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
 use crate::simd::{self, BLOCK, Kernel, Lanes, Level, PairBlock, PairedRecords, Pushes, Record};
 use crate::tick::Balance;
@@ -512,7 +513,7 @@ fn push_and_account(
         if forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
             let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
             let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
-            let arms = arms(ends, normal, overlaps[lane], laws.get(law[lane]));
+            let arms = arms(ends, normal, overlaps[lane], laws.get(law[lane]).shares());
             account(bodies, (&mut found.balance, forces.as_deref_mut()), ends, arms, force);
         }
     }

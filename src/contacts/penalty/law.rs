@@ -7,6 +7,7 @@ use super::dashpot::Damping;
 use super::inelasticity::mean_inelasticity;
 use super::normal::NormalForce;
 use super::{Penalty, TangentialLaw};
+use crate::contacts::geometry::Shares;
 use crate::simd::{Lanes, Record};
 use crate::world::{MaterialIndex, Materials};
 
@@ -44,6 +45,12 @@ impl PairLaw {
             friction_static: self.friction_static,
             friction_dynamic: self.friction_dynamic,
         }
+    }
+
+    /// How the sides share their overlap.
+    #[inline]
+    pub(crate) fn shares(&self) -> Shares {
+        Shares { a: self.share_a, b: self.share_b }
     }
 
     fn row(&self) -> Record {

@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::apply::{End, Own, PenaltyContacts, Shared, Sink, approach};
-use super::case::{Case, Other};
+use super::apply::{Own, PenaltyContacts, Shared, Sink, approach};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::law::PairLaw;
@@ -12,8 +11,9 @@ use super::normal::{Approach, Mode, NormalForce};
 use super::patience::{Found, MANY, is_thorough};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
-use crate::constraints::islands::{Islands, Marked, Members};
+use crate::constraints::islands::{Islands, Link, Marked, Members};
 use crate::constraints::rest_solver::{Frame, Friction, Island, Mover, Seen, Verdict, loads};
+use crate::contacts::geometry::{End, Pair, SideA};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
@@ -23,7 +23,7 @@ use crate::world::Bodies;
 #[derive(Default)]
 pub(super) struct Scratch {
     touching: Vec<u32>,
-    cases: Vec<Case>,
+    cases: Vec<Pair>,
     /// Bodies with a contact that does not stop.
     moved: Marked,
     islands: Islands,
@@ -67,7 +67,7 @@ pub(super) fn choose<N: NormalForce>(
         let (a, b) = (End::of(choice.sink.bodies, pair.a), End::of(choice.sink.bodies, pair.b));
         if !(choice.stands(a.body) && choice.stands(b.body)) {
             let normal = pair.normal(choice.sink.bodies);
-            choice.first_look::<N>(Case { place, normal, other: Other::Atom(a), end: b }, cases, moved);
+            choice.first_look::<N>(Pair { index: place, normal, a: SideA::Atom(a), b }, cases, moved);
         }
     }
     touching.clear();
@@ -77,7 +77,7 @@ pub(super) fn choose<N: NormalForce>(
         let end = End::of(choice.sink.bodies, atom);
         if !choice.stands(end.body) {
             let normal = choice.sink.bodies.walls[wall as usize].normal;
-            choice.first_look::<N>(Case { place, normal, other: Other::Wall(wall), end }, cases, moved);
+            choice.first_look::<N>(Pair { index: place, normal, a: SideA::Wall(wall), b: end }, cases, moved);
         }
     }
     let mut found = Found::default();
@@ -138,45 +138,45 @@ impl Choice<'_> {
     }
 
     /// A contact as it is, and its law.
-    fn known(&self, case: &Case) -> (Contact, PairLaw) {
+    fn known(&self, case: &Pair) -> (Contact, PairLaw) {
         let PenaltyContacts { laws, atoms, walls, .. } = &*self.contacts;
         let list = if case.other_end().is_some() { atoms } else { walls };
-        let contact = list.get(case.place as usize);
+        let contact = list.get(case.index as usize);
         (contact, *laws.get(contact.law))
     }
 
-    fn contact(&mut self, case: &Case) -> (Edited<'_>, &PairLaw) {
+    fn contact(&mut self, case: &Pair) -> (Edited<'_>, &PairLaw) {
         let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
         let list = if case.other_end().is_some() { atoms } else { walls };
-        let contact = list.edit(case.place as usize);
+        let contact = list.edit(case.index as usize);
         let law = laws.get(contact.law);
         (contact, law)
     }
 
     /// The rolling spring of a contact with its law, in scenes that have them.
-    fn roller(&mut self, case: &Case, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
+    fn roller(&mut self, case: &Pair, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref_mut()?;
-        let law = rolling.law(pair, case.other_end(), &case.end);
+        let law = rolling.law(pair, case.other_end(), &case.b);
         let list = if case.other_end().is_some() { &mut rolling.atoms } else { &mut rolling.walls };
-        Some((&mut list[case.place as usize], law))
+        Some((&mut list[case.index as usize], law))
     }
 
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
-    fn first_look<N: NormalForce>(&mut self, case: Case, cases: &mut Vec<Case>, moved: &mut Marked) {
-        let approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
+    fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
+        let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         let (seen, law) = self.known(&case);
         if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
-        moved.mark(case.end.body);
+        moved.mark(case.b.body);
         if let Some(other) = case.other_body() {
             moved.mark(other);
         }
         self.choose_by_velocity::<N>(&case, approach);
     }
 
-    fn choose_by_velocity<N: NormalForce>(&mut self, case: &Case, approach: Approach) {
+    fn choose_by_velocity<N: NormalForce>(&mut self, case: &Pair, approach: Approach) {
         self.change(case, Friction::Follows, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
     }
 
@@ -203,7 +203,7 @@ impl Choice<'_> {
                 self.sink.bodies.catch_up();
                 let normal = pair.normal(self.sink.bodies);
                 let approach = approach(self.sink.bodies, Some(&a), &b, normal);
-                self.choose_by_velocity::<N>(&Case { place, normal, other: Other::Atom(a), end: b }, approach);
+                self.choose_by_velocity::<N>(&Pair { index: place, normal, a: SideA::Atom(a), b }, approach);
             }
         }
         held.clear();
@@ -214,7 +214,7 @@ impl Choice<'_> {
             if !self.stands(end.body) {
                 self.sink.bodies.catch_up();
                 let approach = approach(self.sink.bodies, None, &end, normal);
-                self.choose_by_velocity::<N>(&Case { place, normal, other: Other::Wall(wall), end }, approach);
+                self.choose_by_velocity::<N>(&Pair { index: place, normal, a: SideA::Wall(wall), b: end }, approach);
             }
         }
     }
@@ -227,7 +227,7 @@ impl Choice<'_> {
     /// Changes a contact and corrects the sums of forces by the difference. `rolling`: what its rolling spring does.
     fn change(
         &mut self,
-        case: &Case,
+        case: &Pair,
         rolling: Friction,
         change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>,
     ) {
@@ -244,22 +244,22 @@ impl Choice<'_> {
                 let before = slider.force(&rolling_law);
                 losses.friction += slider.take_on(&rolling_law, rolling, after.normal_force);
                 let difference = slider.force(&rolling_law) - before;
-                twist(self.sink.bodies, self.sink.balance, case.other_end(), &case.end, difference);
+                twist(self.sink.bodies, self.sink.balance, case.other_end(), &case.b, difference);
             }
         }
         self.losses = losses;
     }
 
     /// A contact as the search for rest sees it.
-    fn seen<N: NormalForce>(&mut self, case: &Case, ends: (usize, usize)) -> Seen {
+    fn seen<N: NormalForce>(&mut self, case: &Pair, ends: (usize, usize)) -> Seen {
         let (contact, law) = self.known(case);
         let rolling = self.roller(case, &law);
         let rolls = rolling.as_ref().is_some_and(|(slider, law)| slider.slides_without_spring(law));
         let rolling = rolling.map(|(slider, law)| slider.drawn(&law));
-        let place = self.sink.bodies.position[case.end.body] + case.end.arm;
+        let place = self.sink.bodies.position[case.b.body] + case.b.arm;
         Seen {
             ends,
-            arms: case.arms(&law, contact.overlap),
+            arms: case.arms(law.shares(), contact.overlap),
             normal: case.normal,
             band: N::band(&law, contact.overlap, contact.normal_force),
             normal_force: contact.normal_force,
@@ -276,7 +276,7 @@ impl Choice<'_> {
     /// its contacts could stop within the tick; `thorough`: the search is.
     fn stop<N: NormalForce>(
         &mut self,
-        (cases, members): (&[Case], &Members),
+        (cases, members): (&[Pair], &Members),
         island: &mut Island,
         (may_rest, thorough): (bool, bool),
         ledger: &mut Ledger,
@@ -290,13 +290,14 @@ impl Choice<'_> {
         island.movers.extend(members.list.iter().map(|&body| mover(bodies, body, self.dt)));
         // Walls whose surface moves stand behind the bodies.
         let mut belt = island.movers.len()..;
+        let surface = |velocity: DVec2| Mover { velocity, ..Mover::default() };
         for list in [&mut island.begin, &mut island.movers] {
-            list.extend(cases.iter().filter_map(|case| case.belt(bodies)));
+            list.extend(cases.iter().filter_map(|case| case.surface(bodies)).map(surface));
         }
         for case in cases {
-            let belt = case.belt(self.sink.bodies).and_then(|_| belt.next());
+            let belt = case.surface(self.sink.bodies).and_then(|_| belt.next());
             let other = case.other_body().map_or(belt.unwrap_or(0), |body| members.index(body));
-            let seen = self.seen::<N>(case, (other, members.index(case.end.body)));
+            let seen = self.seen::<N>(case, (other, members.index(case.b.body)));
             island.seen.push(seen);
         }
         island.set_up(self.dt);
@@ -318,7 +319,7 @@ impl Choice<'_> {
             match candidate.verdict(movers, self.dt) {
                 Verdict::Moves { approaches } => {
                     entirely = false;
-                    let mut approach = approach(self.sink.bodies, case.other_end(), &case.end, case.normal);
+                    let mut approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
                     if !N::DEPENDS_ON_VELOCITY {
                         approach.parting = if approaches { -1.0 } else { 1.0 };
                     }
@@ -359,7 +360,7 @@ impl Choice<'_> {
 
     /// What carries an island: its first member that moves as prescribed, or its first belt. `movers` are those of its
     /// members and belts.
-    fn frame(&self, island: &[Case], members: &[usize], movers: &[Mover]) -> Option<Frame> {
+    fn frame(&self, island: &[Pair], members: &[usize], movers: &[Mover]) -> Option<Frame> {
         let bodies = &*self.sink.bodies;
         let carries = |mover: &Mover| mover.inverse_mass == 0.0 && (mover.velocity != DVec2::ZERO || mover.spin != 0.0);
         let place = movers.iter().position(carries)?;

@@ -5,10 +5,10 @@
 
 use std::ops::Range;
 
-use super::apply::End;
 use super::kernel::FEWEST;
 use super::list::ContactList;
 use crate::contacts::AtomPair;
+use crate::contacts::geometry::End;
 use crate::simd::{BLOCK, Record};
 use crate::world::Bodies;
 use crate::world::packed::Moved;

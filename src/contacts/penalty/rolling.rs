@@ -8,11 +8,12 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apply::{End, PenaltyContacts, Shared};
+use super::apply::{PenaltyContacts, Shared};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::law::PairLaw;
 use super::normal::Mode;
+use crate::contacts::geometry::End;
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::Balance;
 use crate::tick::pairs::NEW;

@@ -9,10 +9,10 @@ use super::indicators::{Ends, Motion, Pressure, tell_slider};
 use super::law::PairLaw;
 use super::normal::Mode;
 use super::rolling::{RollingContacts, twist};
-use super::staged::Look;
 use super::switching::{Base, What};
 use crate::constraints::{Rows, Share};
 use crate::contacts::CandidatePairs;
+use crate::contacts::geometry::PairGeometry;
 use crate::tick::Indicator;
 use crate::world::Bodies;
 
@@ -21,11 +21,11 @@ pub(super) type Roller<'a> = (&'a mut Slider, SliderLaw);
 
 impl RollingContacts {
     /// The spring of a contact.
-    pub(super) fn of(&mut self, look: &Look, pair: &PairLaw) -> Roller<'_> {
-        let other = look.case.other_end();
-        let law = self.law(pair, other, &look.case.end);
+    pub(super) fn of(&mut self, geometry: &PairGeometry, pair: &PairLaw) -> Roller<'_> {
+        let other = geometry.pair.other_end();
+        let law = self.law(pair, other, &geometry.pair.b);
         let list = if other.is_some() { &mut self.atoms } else { &mut self.walls };
-        (&mut list[look.case.place as usize], law)
+        (&mut list[geometry.pair.index as usize], law)
     }
 }
 
@@ -84,18 +84,20 @@ pub(super) fn slope((slider, law): &Roller, contact: &Contact) -> f64 {
 pub(super) fn stage(
     (slider, law): Roller,
     (contact, pair): (&Contact, &PairLaw),
-    look: &Look,
+    geometry: &PairGeometry,
     sink: &mut Sink,
     (held, rows): (&mut Held, &mut Rows),
 ) {
     match slider.grip {
-        Grip::Hold => held.add_rolling(rows, look, share(slider, &law, pair.stiffness * look.overlap), sink.bodies),
+        Grip::Hold => {
+            held.add_rolling(rows, geometry, share(slider, &law, pair.stiffness * geometry.overlap), sink.bodies)
+        }
         Grip::Slide if contact.mode == Mode::Hold => {}
         Grip::Slide => {
             slip(slider, &law, contact.normal_force);
-            push(slider, &law, look, sink);
+            push(slider, &law, geometry, sink);
         }
-        Grip::Stick | Grip::Slip => push(slider, &law, look, sink),
+        Grip::Stick | Grip::Slip => push(slider, &law, geometry, sink),
     }
 }
 
@@ -106,11 +108,11 @@ pub(super) fn slip(slider: &mut Slider, law: &SliderLaw, normal_force: f64) {
 }
 
 /// Lets the spring act, and books what slipping takes.
-pub(super) fn push(slider: &Slider, law: &SliderLaw, look: &Look, sink: &mut Sink) {
+pub(super) fn push(slider: &Slider, law: &SliderLaw, geometry: &PairGeometry, sink: &mut Sink) {
     let torque = slider.force(law);
-    twist(sink.bodies, sink.balance, look.case.other_end(), &look.case.end, torque);
+    twist(sink.bodies, sink.balance, geometry.pair.other_end(), &geometry.pair.b, torque);
     if slider.grip == Grip::Slide {
-        sink.balance.friction += torque * look.turning();
+        sink.balance.friction += torque * geometry.turning();
     }
 }
 
@@ -119,15 +121,15 @@ pub(super) fn tell(
     (slider, law): &Roller,
     contact: &Contact,
     pressure: Pressure,
-    look: &Look,
+    geometry: &PairGeometry,
     bodies: &Bodies,
     mut say: impl FnMut(What, Indicator),
 ) {
     let motion = Motion {
-        velocity: look.turning(),
-        rate: look.turning_rate(bodies),
-        speed: look.turning_speed(),
-        mobility: look.mobility_of_turning(bodies),
+        velocity: geometry.turning(),
+        rate: geometry.turning_rate(bodies),
+        speed: geometry.turning_speed(),
+        mobility: geometry.mobility_of_turning(bodies),
     };
     let modes = (contact.mode, contact.mode == Mode::Hold);
     tell_slider((slider, law), modes, pressure, motion, |event, indicator| {
@@ -142,8 +144,8 @@ pub(super) fn tell(
 }
 
 /// The modes of a spring whose contact begins, under the normal force of that moment; or, without one, is there at the beginning.
-pub(super) fn begin((slider, law): Roller, contact: &Contact, look: &Look, base: Option<Base>) {
-    let turning = look.turning();
+pub(super) fn begin((slider, law): Roller, contact: &Contact, geometry: &PairGeometry, base: Option<Base>) {
+    let turning = geometry.turning();
     *slider = Slider { held: 0.0_f64.copysign(turning), ..Slider::default() };
     slider.grip = match base.is_none_or(|base| base.bears(&law, turning)) {
         true if turning == 0.0 && contact.mode == Mode::Hold => Grip::Hold,
@@ -153,7 +155,7 @@ pub(super) fn begin((slider, law): Roller, contact: &Contact, look: &Look, base:
 }
 
 /// A mode of the spring or of its contact ends.
-pub(super) fn switch((slider, law): Roller, contact: &Contact, what: What, look: &Look) {
+pub(super) fn switch((slider, law): Roller, contact: &Contact, what: What, geometry: &PairGeometry) {
     match what {
         What::RollingGive(positive) => {
             slider.grip = Grip::Slide;
@@ -163,11 +165,11 @@ pub(super) fn switch((slider, law): Roller, contact: &Contact, what: What, look:
         What::RollingStop => slider.grip = if contact.mode == Mode::Hold { Grip::Hold } else { Grip::Stick },
         _ => {}
     }
-    come_loose((slider, law), contact, look);
+    come_loose((slider, law), contact, geometry);
 }
 
 /// Brings the spring into line with the normal mode of its contact.
-pub(super) fn come_loose((slider, law): Roller, contact: &Contact, look: &Look) {
+pub(super) fn come_loose((slider, law): Roller, contact: &Contact, geometry: &PairGeometry) {
     if contact.mode == Mode::Open {
         *slider = Slider::default();
     }
@@ -175,7 +177,7 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, look: &Look) 
         slider.let_go(&law);
     }
     if slider.grip == Grip::Stick {
-        slider.held = 0.0_f64.copysign(look.turning());
+        slider.held = 0.0_f64.copysign(geometry.turning());
     }
 }
 

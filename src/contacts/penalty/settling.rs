@@ -30,8 +30,8 @@ impl View<'_> {
         let springs = std::mem::take(&mut self.contacts.before);
         for place in 0..self.len() {
             let before = springs.get(place).copied().unwrap_or_default();
-            let look = self.look(place);
-            let (mut contact, law, mut roller) = self.whole(place, &look);
+            let geometry = self.look(place);
+            let (mut contact, law, mut roller) = self.whole(place, &geometry);
             if contact.mode != Mode::Hold {
                 continue;
             }
@@ -50,9 +50,9 @@ impl View<'_> {
                     continue;
                 }
                 contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
-                contact.come_loose(law, &look);
+                contact.come_loose(law, &geometry);
                 if let Some((slider, law)) = &mut roller {
-                    rolling_stages::come_loose((slider, *law), &contact, &look);
+                    rolling_stages::come_loose((slider, *law), &contact, &geometry);
                 }
                 corrected = true;
             }
@@ -69,14 +69,14 @@ impl View<'_> {
         let springs = std::mem::take(&mut self.contacts.before);
         for place in 0..self.len() {
             let before = springs.get(place).copied().unwrap_or_default();
-            let (look, bodies) = (self.look(place), self.bodies);
-            let (mut contact, law, roller) = self.whole(place, &look);
+            let (geometry, bodies) = (self.look(place), self.bodies);
+            let (mut contact, law, roller) = self.whole(place, &geometry);
             if contact.mode == Mode::Open {
                 continue;
             }
-            let base = Base::of::<N>(&contact, law, &look, bodies);
+            let base = Base::of::<N>(&contact, law, &geometry, bodies);
             if law.tangential().acts() && which(contact.tangential.grip) {
-                let motion = (look.sliding(law), look.speed(law));
+                let motion = (geometry.sliding(law.shares()), geometry.speed(law.shares()));
                 let slider = &mut contact.tangential;
                 // A spring that gives has its new elongation once it was evaluated.
                 corrected |= slider.settle_jump(&law.tangential(), before[0], motion.0)
@@ -84,7 +84,7 @@ impl View<'_> {
                     || !law.exact && slider.settle_motion(&law.tangential(), base, motion);
             }
             if let Some((slider, law)) = roller.filter(|(slider, _)| which(slider.grip)) {
-                let motion = (look.turning(), look.turning_speed());
+                let motion = (geometry.turning(), geometry.turning_speed());
                 corrected |= slider.settle_jump(&law, before[1], motion.0)
                     || slider.settle_force(&law, base, before[1])
                     || slider.settle_motion(&law, base, motion);
@@ -97,17 +97,17 @@ impl View<'_> {
     /// Chooses all modes of a state that did not follow from the one before.
     pub fn take_stock<N: NormalForce>(&mut self) {
         for place in 0..self.len() {
-            let look = self.look(place);
-            let (mut contact, law, roller) = self.whole(place, &look);
-            if contact.mode == Mode::Open && look.overlap > 0.0 {
-                contact.overlap = look.overlap;
-                contact.begin::<N>(law, &look, None);
+            let geometry = self.look(place);
+            let (mut contact, law, roller) = self.whole(place, &geometry);
+            if contact.mode == Mode::Open && geometry.overlap > 0.0 {
+                contact.overlap = geometry.overlap;
+                contact.begin::<N>(law, &geometry, None);
                 if let Some(roller) = roller {
-                    rolling_stages::begin(roller, &contact, &look, None);
+                    rolling_stages::begin(roller, &contact, &geometry, None);
                 }
             }
             if contact.mode != Mode::Open && contact.mode != Mode::Hold {
-                contact.mode = standing::<N>(law, contact.mode, look.parting());
+                contact.mode = standing::<N>(law, contact.mode, geometry.parting());
             }
         }
     }

@@ -14,7 +14,6 @@
 //! would hold it are out of bounds it takes the mode beyond the bound.
 
 use super::apply::PenaltyContacts;
-use super::case::Other;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
 use super::law::{LawTable, PairLaw};
@@ -22,9 +21,9 @@ use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
-use super::staged::Look;
 use crate::constraints::{Booking, LostTo, Rows};
 use crate::contacts::Touches;
+use crate::contacts::geometry::{PairGeometry, SideA};
 use crate::contacts::{CandidatePairs, DeepestOverlap};
 use crate::tick::Ledger;
 use crate::tick::balance::{angular_momentum, momentum};
@@ -62,21 +61,21 @@ impl View<'_> {
         self.contacts.atoms.len() + self.contacts.walls.len()
     }
 
-    pub fn look(&self, place: usize) -> Look {
+    pub fn look(&self, place: usize) -> PairGeometry {
         let atoms = self.contacts.atoms.len();
         match place.checked_sub(atoms) {
-            None => Look::atoms(self.bodies, place, self.pairs.atoms[place]),
-            Some(place) => Look::wall(self.bodies, place, self.pairs.walls[place]),
+            None => PairGeometry::atoms(self.bodies, place, self.pairs.atoms[place]),
+            Some(place) => PairGeometry::wall(self.bodies, place, self.pairs.walls[place]),
         }
     }
 
     /// A contact with its law, and its rolling spring in scenes that have them.
-    pub fn whole(&mut self, place: usize, look: &Look) -> (Edited<'_>, &PairLaw, Option<Roller<'_>>) {
+    pub fn whole(&mut self, place: usize, geometry: &PairGeometry) -> (Edited<'_>, &PairLaw, Option<Roller<'_>>) {
         let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
         let count = atoms.len();
         let contact = if place < count { atoms.edit(place) } else { walls.edit(place - count) };
         let law = laws.get(contact.law);
-        (contact, law, self.rolling.as_deref_mut().map(|rolling| rolling.of(look, law)))
+        (contact, law, self.rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law)))
     }
 
     pub fn contact(&mut self, place: usize) -> (Edited<'_>, &PairLaw) {
@@ -128,18 +127,20 @@ pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
 /// The rates of elongations that are state.
 pub(super) fn rates((bodies, pairs): (&Bodies, &CandidatePairs), contacts: &PenaltyContacts, rates: &mut [f64]) {
     let of_atoms = contacts.atoms.iter().zip(&pairs.atoms).enumerate();
-    let of_atoms = of_atoms
-        .filter(|(_, (contact, _))| is_spring(contact, &contacts.laws))
-        .map(|(place, (contact, pair))| Look::atoms(bodies, place, *pair).sliding(contacts.laws.get(contact.law)));
+    let of_atoms =
+        of_atoms.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
+            PairGeometry::atoms(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
+        });
     let of_walls = contacts.walls.iter().zip(&pairs.walls).enumerate();
-    let of_walls = of_walls
-        .filter(|(_, (contact, _))| is_spring(contact, &contacts.laws))
-        .map(|(place, (contact, pair))| Look::wall(bodies, place, *pair).sliding(contacts.laws.get(contact.law)));
+    let of_walls =
+        of_walls.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
+            PairGeometry::wall(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
+        });
     rates.iter_mut().zip(of_atoms.chain(of_walls)).for_each(|(rate, sliding)| *rate = sliding);
 }
 
 impl PenaltyContacts {
-    /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to look.
+    /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to geometry.
     pub(super) fn is_idle(&self) -> bool {
         let near = !self.atoms.is_empty() || !self.walls.is_empty();
         !near && self.held.is_empty() && self.held_before.is_none() && self.slid == 0.0
@@ -158,15 +159,15 @@ impl View<'_> {
         self.note_springs();
         for &place in fired {
             let (pair, what) = self.contacts.told[place];
-            let look = self.look(pair as usize);
+            let geometry = self.look(pair as usize);
             let bodies = self.bodies;
-            let (mut contact, law, roller) = self.whole(pair as usize, &look);
-            let base = Base::at_touch::<N>(law, &look, bodies);
-            contact.switch::<N>(law, what, &look, base);
-            contact.come_loose(law, &look);
+            let (mut contact, law, roller) = self.whole(pair as usize, &geometry);
+            let base = Base::at_touch::<N>(law, &geometry, bodies);
+            contact.switch::<N>(law, what, &geometry, base);
+            contact.come_loose(law, &geometry);
             match (roller, what) {
-                (Some(roller), What::Touch) => rolling_stages::begin(roller, &contact, &look, Some(base)),
-                (Some(roller), _) => rolling_stages::switch(roller, &contact, what, &look),
+                (Some(roller), What::Touch) => rolling_stages::begin(roller, &contact, &geometry, Some(base)),
+                (Some(roller), _) => rolling_stages::switch(roller, &contact, what, &geometry),
                 (None, _) => {}
             }
         }
@@ -178,8 +179,8 @@ impl View<'_> {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
         for place in 0..self.len() {
-            let look = self.look(place);
-            let (contact, law, roller) = self.whole(place, &look);
+            let geometry = self.look(place);
+            let (contact, law, roller) = self.whole(place, &geometry);
             let noted = |slider: &Slider| match (contact.mode, slider.grip) {
                 (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Hold | Grip::Slip) => None,
                 _ => Some(*slider),
@@ -194,10 +195,10 @@ impl View<'_> {
     /// the two holds.
     fn note_begun(&mut self, fired: &[usize], touches: &mut Touches) {
         let between = |view: &Self, place: usize| {
-            let case = view.look(place).case;
-            match case.other {
-                Other::Atom(other) => (false, other.body, case.end.body),
-                Other::Wall(wall) => (true, case.end.body, wall as usize),
+            let case = view.look(place).pair;
+            match case.a {
+                SideA::Atom(other) => (false, other.body, case.b.body),
+                SideA::Wall(wall) => (true, case.b.body, wall as usize),
             }
         };
         let touched: Vec<usize> = fired
@@ -233,8 +234,8 @@ impl View<'_> {
             }
             drop(contact);
             if self.rolling.is_some() {
-                let look = self.look(place);
-                if let (_, _, Some((slider, law))) = self.whole(place, &look)
+                let geometry = self.look(place);
+                if let (_, _, Some((slider, law))) = self.whole(place, &geometry)
                     && which(slider.grip)
                 {
                     sum += slider.energy(&law);
@@ -269,19 +270,19 @@ pub(super) struct Base {
 
 impl Base {
     /// At the touch itself, where a spring holds nothing yet.
-    fn at_touch<N: NormalForce>(law: &PairLaw, look: &Look, bodies: &Bodies) -> Self {
-        let approach = look.approach(bodies);
+    fn at_touch<N: NormalForce>(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Self {
+        let approach = geometry.approach(bodies);
         Self {
             force: N::smooth_force(law, Mode::Loading, 0.0, approach),
-            rate: N::force_rate(law, Mode::Loading, approach, look.change(law, bodies)),
+            rate: N::force_rate(law, Mode::Loading, approach, geometry.change(law, bodies)),
         }
     }
 
     /// Of a contact as it was evaluated; what is held does not change.
-    pub fn of<N: NormalForce>(contact: &Contact, law: &PairLaw, look: &Look, bodies: &Bodies) -> Self {
+    pub fn of<N: NormalForce>(contact: &Contact, law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Self {
         let rate = match contact.mode {
             Mode::Hold => 0.0,
-            mode => N::force_rate(law, mode, look.approach(bodies), look.change(law, bodies)),
+            mode => N::force_rate(law, mode, geometry.approach(bodies), geometry.change(law, bodies)),
         };
         Self { force: contact.normal_force, rate }
     }
@@ -341,27 +342,27 @@ impl View<'_> {
             if self.contact(place).0.mode == Mode::Open {
                 continue;
             }
-            let look = self.look(place);
+            let geometry = self.look(place);
             let entity = |body: usize| self.bodies.entity[body];
-            let (b, radius) = (look.case.end.body, look.case.end.radius);
-            let other = match look.case.other {
-                Other::Atom(a) => (entity(a.body), a.radius),
-                Other::Wall(wall) => (self.bodies.walls[wall as usize].entity, f64::INFINITY),
+            let (b, radius) = (geometry.pair.b.body, geometry.pair.b.radius);
+            let other = match geometry.pair.a {
+                SideA::Atom(a) => (entity(a.body), a.radius),
+                SideA::Wall(wall) => (self.bodies.walls[wall as usize].entity, f64::INFINITY),
             };
-            deepest.note(look.overlap, radius.min(other.1), time, || (other.0, entity(b)));
+            deepest.note(geometry.overlap, radius.min(other.1), time, || (other.0, entity(b)));
         }
     }
 }
 
 impl Contact {
     /// A pair begins to touch, under the normal force of that moment; or, without one, is found in touch where the motion begins.
-    pub(super) fn begin<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, base: Option<Base>) {
-        self.mode = standing::<N>(law, Mode::Loading, look.parting());
+    pub(super) fn begin<N: NormalForce>(&mut self, law: &PairLaw, geometry: &PairGeometry, base: Option<Base>) {
+        self.mode = standing::<N>(law, Mode::Loading, geometry.parting());
         self.tangential = Slider::default();
         if !law.tangential().acts() {
             return;
         }
-        let sliding = look.sliding(law);
+        let sliding = geometry.sliding(law.shares());
         let sticks =
             if law.exact { sliding == 0.0 } else { base.is_none_or(|base| base.bears(&law.tangential(), sliding)) };
         let held = law.exact || sliding == 0.0 && self.mode == Mode::Hold;
@@ -373,9 +374,9 @@ impl Contact {
     }
 
     /// One of the contact's modes ends.
-    fn switch<N: NormalForce>(&mut self, law: &PairLaw, what: What, look: &Look, base: Base) {
+    fn switch<N: NormalForce>(&mut self, law: &PairLaw, what: What, geometry: &PairGeometry, base: Base) {
         match what {
-            What::Touch if self.mode == Mode::Open => self.begin::<N>(law, look, Some(base)),
+            What::Touch if self.mode == Mode::Open => self.begin::<N>(law, geometry, Some(base)),
             What::Part => {
                 self.mode = N::after(self.mode, true);
                 if self.mode == Mode::Open {
@@ -400,13 +401,13 @@ impl Contact {
 
     /// Brings the spring into line with a normal mode that has changed: it takes over from a hold when the normal is held no
     /// longer, and one that holds remembers which way it is going.
-    pub(super) fn come_loose(&mut self, law: &PairLaw, look: &Look) {
+    pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry) {
         let slider = &mut self.tangential;
         if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {
             slider.let_go(&law.tangential());
         }
         if slider.grip == Grip::Stick {
-            slider.held = 0.0_f64.copysign(look.sliding(law));
+            slider.held = 0.0_f64.copysign(geometry.sliding(law.shares()));
         }
     }
 
@@ -418,8 +419,8 @@ impl Contact {
     }
 
     /// Modes that follow from the state itself.
-    pub(super) fn adapt<N: NormalForce>(&mut self, law: &PairLaw, look: &Look, approach: Approach) {
-        if look.overlap <= 0.0 {
+    pub(super) fn adapt<N: NormalForce>(&mut self, law: &PairLaw, geometry: &PairGeometry, approach: Approach) {
+        if geometry.overlap <= 0.0 {
             *self = Self::open(self.law);
             return;
         }
@@ -428,8 +429,8 @@ impl Contact {
             self.tangential = Slider::default();
             return;
         }
-        let limit = law.friction_dynamic * N::smooth_force(law, self.mode, look.overlap, approach).max(0.0);
-        let sliding = look.sliding(law);
+        let limit = law.friction_dynamic * N::smooth_force(law, self.mode, geometry.overlap, approach).max(0.0);
+        let sliding = geometry.sliding(law.shares());
         self.tangential.grip = Grip::Slide;
         self.tangential.held = limit.copysign(sliding);
     }

@@ -1,0 +1,291 @@
+//! The geometry of a candidate pair: overlap, normal, arms, velocities and their rates. Contact laws make forces of it.
+//!
+//! Side B is an atom, side A another atom or a wall. The normal points from A to B. The overlap is positive where they touch.
+//! The kernel for many discs ([`crate::contacts::penalty`]) works out the same for eight pairs at a time.
+
+use glam::DVec2;
+
+use super::{AtomPair, WallPair};
+use crate::constraints::islands::Link;
+use crate::world::Bodies;
+
+/// How two sides share their overlap: each gives way by its share, the softer one more. Both shares sum up to one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shares {
+    pub a: f64,
+    pub b: f64,
+}
+
+/// One side of a contact.
+#[derive(Clone, Copy)]
+pub(crate) struct End {
+    pub body: usize,
+    /// Centre of the atom from the centre of mass of its body, in metres.
+    pub arm: DVec2,
+    /// Radius of the atom in metres.
+    pub radius: f64,
+}
+
+impl End {
+    #[inline(always)]
+    pub fn of(bodies: &Bodies, atom: u32) -> Self {
+        let atom = atom as usize;
+        let body = bodies.atom_body(atom);
+        Self { body, arm: bodies.atom_place(atom) - bodies.position[body], radius: bodies.atom_radius[atom] }
+    }
+
+    /// Relative velocity along `normal` that an impulse of one newton second makes on this side, in 1/kg.
+    #[inline]
+    pub fn mobility(&self, bodies: &Bodies, normal: DVec2) -> f64 {
+        let lever = self.arm.perp_dot(normal);
+        bodies.inverse_mass(self.body) + lever * lever * bodies.inverse_inertia(self.body)
+    }
+
+    /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
+    /// the turn of its body.
+    #[inline(always)]
+    pub fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
+        let (moved, turn) = bodies.displacement(self.body);
+        (moved + self.arm.perp() * turn + self.arm * (0.5 * turn * turn), turn)
+    }
+
+    #[inline]
+    pub fn velocity(&self, bodies: &Bodies) -> DVec2 {
+        bodies.velocity_at(self.body, self.arm)
+    }
+}
+
+/// Side A of a pair.
+#[derive(Clone, Copy)]
+pub(crate) enum SideA {
+    Atom(End),
+    /// The index of a wall.
+    Wall(u32),
+}
+
+/// The two sides of a candidate pair.
+#[derive(Clone, Copy)]
+pub(crate) struct Pair {
+    /// The index of the pair among those of its kind.
+    pub index: u32,
+    /// Unit normal from A to B.
+    pub normal: DVec2,
+    pub a: SideA,
+    pub b: End,
+}
+
+impl Link for Pair {
+    fn other_body(&self) -> Option<usize> {
+        self.other_end().map(|end| end.body)
+    }
+
+    fn own_body(&self) -> usize {
+        self.b.body
+    }
+}
+
+impl Pair {
+    /// Side A unless it is a wall.
+    pub fn other_end(&self) -> Option<&End> {
+        match &self.a {
+            SideA::Atom(end) => Some(end),
+            SideA::Wall(_) => None,
+        }
+    }
+
+    /// Arms of both sides to the point where they touch, in metres.
+    pub fn arms(&self, shares: Shares, overlap: f64) -> (DVec2, DVec2) {
+        match &self.a {
+            SideA::Atom(other) => arms((other, &self.b), self.normal, overlap, shares),
+            SideA::Wall(_) => (DVec2::ZERO, self.b.arm - self.normal * (self.b.radius - overlap)),
+        }
+    }
+
+    /// Velocity in m/s of the surface of side A, if that is a wall with one.
+    pub fn surface(&self, bodies: &Bodies) -> Option<DVec2> {
+        let SideA::Wall(wall) = self.a else { return None };
+        bodies.belts.get(wall as usize).copied()
+    }
+}
+
+/// Arms of both sides to the point where they touch: between the centres, nearer to the undeformed surface of the harder
+/// side.
+#[inline]
+pub(crate) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares) -> (DVec2, DVec2) {
+    (a.arm + normal * (a.radius - shares.a * overlap), b.arm - normal * (b.radius - shares.b * overlap))
+}
+
+/// Where and how the two sides of a candidate pair stand and move.
+#[derive(Clone, Copy)]
+pub(crate) struct PairGeometry {
+    /// The sides.
+    pub pair: Pair,
+    /// Overlap in metres; negative: the gap.
+    pub overlap: f64,
+    /// Distance of the centres in metres; infinite for a wall.
+    pub distance: f64,
+    /// Velocity of the centre of side B seen from that of side A, or from the surface of the wall, in m/s.
+    pub velocity: DVec2,
+    /// Spins of side A and side B times their radii given way, for the velocity along the surface; see [`PairGeometry::sliding`].
+    spins: (f64, f64),
+}
+
+impl PairGeometry {
+    pub fn atoms(bodies: &Bodies, index: usize, pair: AtomPair) -> Self {
+        let (AtomPair { a, b }, reach) = (pair, pair.reach(bodies));
+        let between = bodies.atom_place(b as usize) - bodies.atom_place(a as usize);
+        let distance = between.length();
+        let normal = if distance > 0.0 { between / distance } else { DVec2::Y };
+        let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+        Self {
+            overlap: reach - distance,
+            distance,
+            velocity: b.velocity(bodies) - a.velocity(bodies),
+            spins: (bodies.spin[a.body], bodies.spin[b.body]),
+            pair: Pair { index: index as u32, normal, a: SideA::Atom(a), b },
+        }
+    }
+
+    pub fn wall(bodies: &Bodies, index: usize, WallPair { wall, atom }: WallPair) -> Self {
+        let (packed, end) = (bodies.walls[wall as usize], End::of(bodies, atom));
+        let height = (bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
+        let belt = bodies.belts.get(wall as usize).copied().unwrap_or(DVec2::ZERO);
+        Self {
+            overlap: end.radius - height,
+            distance: f64::INFINITY,
+            velocity: end.velocity(bodies) - belt,
+            spins: (0.0, bodies.spin[end.body]),
+            pair: Pair { index: index as u32, normal: packed.normal, a: SideA::Wall(wall), b: end },
+        }
+    }
+
+    /// Velocity in m/s with which the sides part.
+    pub fn parting(&self) -> f64 {
+        self.velocity.dot(self.pair.normal)
+    }
+
+    /// Velocity in m/s of side B along the surface of side A.
+    pub fn sliding(&self, shares: Shares) -> f64 {
+        let (radius_a, radius_b) = self.radii(shares);
+        self.velocity.dot(self.pair.normal.perp()) - self.spins.0 * radius_a - self.spins.1 * radius_b
+    }
+
+    /// The speeds in m/s of which [`PairGeometry::sliding`] is a difference.
+    pub fn speed(&self, shares: Shares) -> f64 {
+        let (radius_a, radius_b) = self.radii(shares);
+        self.velocity.length() + (self.spins.0 * radius_a).abs() + (self.spins.1 * radius_b).abs()
+    }
+
+    /// Spin of side B seen from side A, in rad/s.
+    pub fn turning(&self) -> f64 {
+        self.spins.1 - self.spins.0
+    }
+
+    /// The spins in rad/s of which [`PairGeometry::turning`] is a difference.
+    pub fn turning_speed(&self) -> f64 {
+        self.spins.1.abs() + self.spins.0.abs()
+    }
+
+    /// Distances of the centres from where the sides touch, in metres.
+    fn radii(&self, shares: Shares) -> (f64, f64) {
+        let radius_a = self.pair.other_end().map_or(0.0, |a| a.radius - shares.a * self.overlap);
+        (radius_a, self.pair.b.radius - shares.b * self.overlap)
+    }
+
+    /// What the relative accelerations along normal and tangent would be if no force acted: the frame of the contact turns
+    /// and its lever arms change.
+    pub fn inertial(&self, shares: Shares, bodies: &Bodies) -> (f64, f64) {
+        let own = |end: &End| {
+            let (acceleration, turning) = bodies.prescribed.acceleration(end.body);
+            end.arm * -(bodies.spin[end.body] * bodies.spin[end.body]) + acceleration + end.arm.perp() * turning
+        };
+        let spinning = |end: Option<&End>| end.map_or(0.0, |end| bodies.prescribed.acceleration(end.body).1);
+        let free = own(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, own);
+        let (radius_a, radius_b) = self.radii(shares);
+        let rolling = spinning(self.pair.other_end()) * radius_a + spinning(Some(&self.pair.b)) * radius_b;
+        let tangent = self.pair.normal.perp();
+        let (along, parting) = (self.velocity.dot(tangent), self.parting());
+        let turning = along / self.distance;
+        let giving_way = shares.a * self.spins.0 + shares.b * self.spins.1;
+        (
+            free.dot(self.pair.normal) + along * turning,
+            free.dot(tangent) - parting * turning - giving_way * parting - rolling,
+        )
+    }
+
+    /// Arms of both sides to where they touch.
+    pub fn contact_arms(&self, shares: Shares) -> (DVec2, DVec2) {
+        self.pair.arms(shares, self.overlap)
+    }
+
+    /// The rate of what [`End::mobility`] of both sides sums up to, in 1/(kg s).
+    pub fn mobility_rate(&self, bodies: &Bodies) -> f64 {
+        let normal = self.pair.normal;
+        let swing = normal.perp() * (self.velocity.dot(normal.perp()) / self.distance);
+        let mobility = |end: &End| {
+            let (lever, spin) = (end.arm.perp_dot(normal), bodies.spin[end.body]);
+            let rate = spin * end.arm.perp().perp_dot(normal) + end.arm.perp_dot(swing);
+            2.0 * lever * rate * bodies.inverse_inertia(end.body)
+        };
+        mobility(&self.pair.b) + self.pair.other_end().map_or(0.0, mobility)
+    }
+
+    /// The rate of [`PairGeometry::parting`] under the present forces, in m/s2.
+    pub fn parting_rate(&self, shares: Shares, bodies: &Bodies) -> f64 {
+        let acceleration = |end: &End| {
+            bodies.force[end.body] * bodies.inverse_mass(end.body)
+                + end.arm.perp() * (bodies.torque[end.body] * bodies.inverse_inertia(end.body))
+        };
+        let other = self.pair.other_end().map_or(DVec2::ZERO, acceleration);
+        (acceleration(&self.pair.b) - other).dot(self.pair.normal) + self.inertial(shares, bodies).0
+    }
+
+    /// The rate of [`PairGeometry::sliding`] under the present forces, in m/s2.
+    pub fn sliding_rate(&self, shares: Shares, bodies: &Bodies) -> f64 {
+        let (arm_a, arm_b) = self.contact_arms(shares);
+        let acceleration = |body: usize, arm: DVec2| {
+            bodies.force[body] * bodies.inverse_mass(body)
+                + arm.perp() * (bodies.torque[body] * bodies.inverse_inertia(body))
+        };
+        let other = self.pair.other_body().map_or(DVec2::ZERO, |body| acceleration(body, arm_a));
+        let apart = acceleration(self.pair.b.body, arm_b) - other;
+        apart.dot(self.pair.normal.perp()) + self.inertial(shares, bodies).1
+    }
+
+    /// The acceleration along the surface that one newton along it makes, in 1/kg.
+    pub fn mobility_along(&self, shares: Shares, bodies: &Bodies) -> f64 {
+        let (arm_a, arm_b) = self.contact_arms(shares);
+        let tangent = self.pair.normal.perp();
+        let own = |body: usize, arm: DVec2| {
+            let lever = arm.perp_dot(tangent);
+            bodies.inverse_mass(body) + lever * lever * bodies.inverse_inertia(body)
+        };
+        own(self.pair.b.body, arm_b) + self.pair.other_body().map_or(0.0, |body| own(body, arm_a))
+    }
+
+    /// The angular acceleration of one side seen from the other that one newton metre between them makes, in 1/(kg m2).
+    pub fn mobility_of_turning(&self, bodies: &Bodies) -> f64 {
+        let other = self.pair.other_body().map_or(0.0, |body| bodies.inverse_inertia(body));
+        bodies.inverse_inertia(self.pair.b.body) + other
+    }
+
+    /// The rate of [`PairGeometry::turning`] under the present forces, in rad/s2.
+    pub fn turning_rate(&self, bodies: &Bodies) -> f64 {
+        let own =
+            |body: usize| bodies.torque[body] * bodies.inverse_inertia(body) + bodies.prescribed.acceleration(body).1;
+        own(self.pair.b.body) - self.pair.other_body().map_or(0.0, own)
+    }
+
+    /// The greatest acceleration in m/s2 that one side may have seen from the other: the distance of two centres bends no more
+    /// than that, as all else lets it bend outwards.
+    pub fn bend(&self, bodies: &Bodies) -> f64 {
+        let acceleration = |end: &End| {
+            let body = end.body;
+            let (led, turned) = bodies.prescribed.acceleration(body);
+            let turning = bodies.torque[body] * bodies.inverse_inertia(body) + turned;
+            bodies.force[body] * bodies.inverse_mass(body) + led + end.arm.perp() * turning
+                - end.arm * (bodies.spin[body] * bodies.spin[body])
+        };
+        (acceleration(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, acceleration)).length()
+    }
+}
