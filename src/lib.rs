@@ -8,8 +8,8 @@
 //!     scene --> world --> tick --> record --> raster --------------> output
 //!                          |         ^
 //!                          v         | frames, readings
-//!    +-> forces -> contacts -> joints -> integrate -> bounds -> sensors -+
-//!    +------------------------------ next tick <-------------------------+
+//!    +-> integrate ( bounds -> forces, contacts -> constraints ) -> sensors -+
+//!    +------------------------------ next tick <----------------------------+
 //! ```
 //!
 //! The modules stand in this order. Nothing points back: a module uses those above it in the list below and none under it, and

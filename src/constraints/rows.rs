@@ -73,6 +73,11 @@ impl Rows {
         self.rows.push(row);
     }
 
+    /// A row.
+    pub fn row(&self, index: usize) -> &Row {
+        &self.rows[index]
+    }
+
     /// The force of a row in newtons, or its torque in N m; positive on side B along its direction.
     pub fn force(&self, index: usize) -> f64 {
         self.answer[index]

@@ -79,7 +79,7 @@ pub trait Model: Any + Send + Sync {
     fn apply_forces(&mut self, _: &mut State) {}
 
     /// Stage Constraints of an evaluation: its rows, added to [`State::rows_mut`] in [`Model::apply_forces`], have been solved.
-    /// It gives their forces to the bodies. See [`Model::has_rows`].
+    /// It gives their forces to the bodies, for example by [`State::apply_rows`]. See [`Model::has_rows`].
     fn take_rows(&mut self, _: &mut State) {}
 
     /// Whether it may hold something exactly, by rows. Default: no.

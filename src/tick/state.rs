@@ -1,5 +1,7 @@
 //! The state of a run: all that a step changes, as packed arrays in canonical order, and the models that change it.
 
+use std::ops::Range;
+
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
@@ -414,6 +416,25 @@ impl State {
     /// The rows of the present evaluation, to be added to.
     pub fn rows_mut(&mut self) -> &mut Rows {
         &mut self.rows
+    }
+
+    /// Gives the forces of some rows to their bodies, with what comes from outside: a model does so in [`Model::take_rows`] with
+    /// the rows that it added, given by their indices.
+    pub fn apply_rows(&mut self, indices: Range<usize>) {
+        let Self { rows, bodies, balance, .. } = self;
+        for index in indices {
+            let (row, amount) = (rows.row(index), rows.force(index));
+            balance.work += amount * row.powers(bodies)[2];
+            let inside = row.sides.iter().all(|side| side.is_some_and(|side| bodies.dynamic[side.body]));
+            for side in row.sides.iter().flatten() {
+                let (force, torque) = (side.force * amount, side.torque * amount);
+                bodies.force[side.body] += force;
+                bodies.torque[side.body] += torque;
+                if !inside && bodies.dynamic[side.body] {
+                    balance.outside(bodies.position[side.body], force, torque);
+                }
+            }
+        }
     }
 
     /// Bodies and the rates of energy and momentum at once: forces add to both.

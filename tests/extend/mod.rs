@@ -9,3 +9,4 @@ mod contact_law;
 mod film_layer;
 mod integrator;
 mod replaced_system;
+mod rows;
