@@ -6,13 +6,14 @@
 //! by `k d`, tangential ones by `mu k d`). So they are unique, a function of the state alone, and as far as they can be within
 //! the bounds of every contact. The motion does not depend on the choice.
 
+use serde::{Deserialize, Serialize};
 /// A pivot below this share of the largest coefficient of its unknown counts as zero.
 const DEPENDENT: f64 = 1e-12;
 /// A row of which less than this share is left, after what others say has been taken out, says nothing new.
 const NOTHING_NEW: f64 = 1e-10;
 
 /// An unknown force of its own accord.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Share {
     /// What it would be, in newtons.
     pub natural: f64,

@@ -4,9 +4,10 @@ use glam::DVec2;
 
 use super::Share;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// The account of the energy that a row takes along its direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LostTo {
     /// What contacts lose along their normals.
     Inelasticity,
@@ -15,7 +16,7 @@ pub enum LostTo {
 }
 
 /// One side of a row.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Side {
     /// The index of its body.
     pub body: usize,
@@ -30,7 +31,7 @@ pub struct Side {
 }
 
 /// A row of the equations of an evaluation. Its velocity is `sum (direction . v + lever w)` over both sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Side A, absent for walls and the world, and side B.
     pub sides: [Option<Side>; 2],

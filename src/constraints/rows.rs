@@ -10,12 +10,13 @@ use glam::DVec2;
 use super::redundant::{self, Share};
 use super::row::{LostTo, Row};
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// A share of a force that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A body with the sum of the forces that hold it, in newtons.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Loaded {
     body: usize,
     load: f64,
@@ -42,12 +43,14 @@ pub struct Cancelled {
 }
 
 /// The rows of one evaluation, in the order in which models added them.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Rows {
     rows: Vec<Row>,
     loads: Vec<Loaded>,
+    #[serde(skip)]
     matrix: Vec<f64>,
     answer: Vec<f64>,
+    #[serde(skip)]
     work: Vec<f64>,
 }
 

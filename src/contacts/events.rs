@@ -9,11 +9,13 @@ use std::collections::BTreeSet;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
+use serde::{Deserialize, Serialize};
+
 use crate::tick::{Notes, State, add_packed_observer};
 
 /// A body and another body or a wall. Of two bodies the first stands before the second in canonical order; a wall stands
 /// second.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Touching {
     /// The first body.
     pub a: Entity,
@@ -22,7 +24,7 @@ pub struct Touching {
 }
 
 /// What the last tick changed: an observer reads it in [`crate::tick::Stage::Observe`] after [`FindContactEvents`], or between ticks.
-#[derive(Resource, Clone, Debug, Default)]
+#[derive(Resource, Clone, Debug, Default, Serialize, Deserialize)]
 pub struct ContactEvents {
     /// Pairs that began to touch, in canonical order. In the first tick these are all that touch. Where events are located a
     /// pair stands here as often as it began to touch in the tick, else once if it touches and did not before.

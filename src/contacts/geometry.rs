@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::{AtomPair, WallPair};
 use crate::constraints::islands::Link;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// How two sides share their overlap: each gives way by its share, the softer one more. Both shares sum up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +18,7 @@ pub(crate) struct Shares {
 }
 
 /// One side of a contact.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct End {
     pub body: usize,
     /// Centre of the atom from the centre of mass of its body, in metres.
@@ -56,7 +57,7 @@ impl End {
 }
 
 /// Side A of a pair.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) enum SideA {
     Atom(End),
     /// The index of a wall.
@@ -64,7 +65,7 @@ pub(crate) enum SideA {
 }
 
 /// The two sides of a candidate pair.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct Pair {
     /// The index of the pair among those of its kind.
     pub index: u32,
@@ -116,7 +117,7 @@ pub(crate) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Sh
 }
 
 /// Where and how the two sides of a candidate pair stand and move.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct PairGeometry {
     /// The sides.
     pub pair: Pair,

@@ -10,6 +10,7 @@ use glam::DVec2;
 use super::geometry::PairGeometry;
 use super::search;
 use crate::tick::response::{Spring, Springs};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
     Departure, Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, Rhythm, State, SteadySpring,
@@ -68,6 +69,20 @@ struct Watched<L> {
 impl<L: Law> Model for Watched<L> {
     fn name(&self) -> &'static str {
         self.law.name()
+    }
+
+    fn save(&self) -> Memory {
+        match self.law.save() {
+            Memory::Untold => Memory::Untold,
+            Memory::Nothing => Memory::of(&(None::<Vec<u8>>, self.found, self.next)),
+            Memory::Bytes(bytes) => Memory::of(&(Some(bytes), self.found, self.next)),
+        }
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        let law: Option<Vec<u8>>;
+        (law, self.found, self.next) = recall(bytes)?;
+        law.map_or(Ok(()), |bytes| self.law.load(&bytes))
     }
 
     fn energies(&self, state: &State) -> Energies {

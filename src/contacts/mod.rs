@@ -9,6 +9,7 @@ pub mod search;
 use bevy_app::App;
 
 use crate::scene::{Arity, Outline, SceneAppExt};
+use crate::tick::kept::SnapshotAppExt;
 use crate::world::{Body, Wall, atom};
 
 pub use crate::tick::pairs::{AtomPair, CandidatePairs, WallPair};
@@ -25,6 +26,7 @@ pub fn plugin(app: &mut App) {
     app.register_entry_section("contacts", Arity::OneOrNone, "contacts: Penalty(tangential: Spring(ratio: 0.8))");
     app.describe_section("contacts", MEANING);
     penalty::plugin(app);
+    app.keep_resource::<ContactEvents>();
     app.reserve_entry("contacts", "Rigid");
 }
 

@@ -8,6 +8,7 @@ use super::{Expectations, Sight, Watch, places};
 use crate::scene::units::{Speed, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 
 /// From a time on every point of the bodies is slower than a speed; looked at every tick.
 #[derive(Deserialize, JsonSchema)]
@@ -53,6 +54,15 @@ struct Watching {
 }
 
 impl Watch for Watching {
+    fn save(&self) -> Memory {
+        Memory::of(&self.fastest)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.fastest = recall(bytes)?;
+        Ok(())
+    }
+
     fn observe(&mut self, sight: &Sight) {
         if sight.time < self.from {
             return;

@@ -10,6 +10,7 @@ use crate::scene::units::{Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::sensors::{self, energy};
 use crate::tick::energy::EnergyLedger;
+use crate::tick::snapshot::{Memory, Unfit, recall};
 
 /// The magnitude of a channel stays below a bound; looked at every tenth tick and at the end.
 #[derive(Deserialize, JsonSchema)]
@@ -59,6 +60,15 @@ struct Watching {
 }
 
 impl Watch for Watching {
+    fn save(&self) -> Memory {
+        Memory::of(&self.largest)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.largest = recall(bytes)?;
+        Ok(())
+    }
+
     fn needs_world(&self) -> bool {
         self.energy.is_none()
     }

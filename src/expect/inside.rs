@@ -9,6 +9,7 @@ use super::{Expectations, Sight, Watch, places};
 use crate::scene::units::Position as Place;
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 
 /// The centres of mass stay in a box, at every tick.
 #[derive(Deserialize, JsonSchema)]
@@ -61,6 +62,15 @@ struct Watching {
 }
 
 impl Watch for Watching {
+    fn save(&self) -> Memory {
+        Memory::of(&self.escaped)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.escaped = recall(bytes)?;
+        Ok(())
+    }
+
     fn observe(&mut self, sight: &Sight) {
         if self.escaped.is_some() {
             return;

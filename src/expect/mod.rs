@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::energy::EnergyLedger;
+use crate::tick::snapshot::{Memory, Unfit, Unsaved};
 use crate::tick::{State, add_looker};
 use crate::world::Bodies;
 
@@ -65,6 +66,19 @@ pub trait Watch: Send + Sync + 'static {
         true
     }
 
+    /// What it has seen so far. Default: it does not say, and snapshots refuse.
+    fn save(&self) -> Memory {
+        Memory::Untold
+    }
+
+    /// Goes on from what [`Watch::save`] gave. Called only if that gave bytes.
+    ///
+    /// # Errors
+    /// If the bytes are not its own.
+    fn load(&mut self, _: &[u8]) -> Result<(), Unfit> {
+        Ok(())
+    }
+
     /// Whether it held, and what was measured. `None` for the first: the run ended before it could be judged.
     fn verdict(&self) -> (Option<bool>, String);
 }
@@ -113,6 +127,19 @@ impl Expectations {
     /// From now on none leaves a tick out, as where ticks are frames.
     pub fn look_at_all_ticks(&mut self) {
         self.all_ticks = true;
+    }
+
+    /// What all of them have seen so far, as bytes.
+    pub(crate) fn save(&self) -> Result<Vec<Option<Vec<u8>>>, Unsaved> {
+        self.watches.iter().map(|(text, watch)| watch.save().bytes(|| format!("expect: {text}"))).collect()
+    }
+
+    /// Goes on from what [`Expectations::save`] gave.
+    pub(crate) fn load(&mut self, saved: &[Option<Vec<u8>>]) -> Result<(), Unfit> {
+        for ((_, watch), bytes) in self.watches.iter_mut().zip(saved) {
+            bytes.as_ref().map_or(Ok(()), |bytes| watch.load(bytes))?;
+        }
+        Ok(())
     }
 
     /// How each expectation went so far.

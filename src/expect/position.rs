@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::{Expectations, Sight, Watch, places};
 use crate::scene::units::{Length, Position as Place, Time};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::world::between::{Moment, position_between};
 
 /// A body is at a place at a time, which may lie between ticks.
@@ -65,6 +66,15 @@ struct Watching {
 }
 
 impl Watch for Watching {
+    fn save(&self) -> Memory {
+        Memory::of(&(self.before, self.found))
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        (self.before, self.found) = recall(bytes)?;
+        Ok(())
+    }
+
     fn observe(&mut self, sight: &Sight) {
         if self.found.is_some() {
             return;

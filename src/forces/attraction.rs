@@ -7,10 +7,11 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Name};
 
@@ -92,7 +93,7 @@ pub struct AttractionForce {
 }
 
 /// Where two bodies fell most steeply towards each other under an attraction without softening.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Nearest {
     /// Square of the angular frequency of a circular orbit at that distance, in 1/s2; zero where there was none.
     pub squared_rate: f64,
@@ -118,6 +119,15 @@ fn pairs(dynamic: &[bool]) -> impl Iterator<Item = (usize, usize)> + '_ {
 impl Model for AttractionForce {
     fn dependence(&self) -> Dependence {
         Dependence::Position
+    }
+
+    fn save(&self) -> Memory {
+        Memory::of(&self.nearest)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.nearest = recall(bytes)?;
+        Ok(())
     }
 
     fn energies(&self, state: &State) -> Energies {

@@ -10,6 +10,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
 /// Resistance of air that rests: `F = -(c1 + c2 |v|) v`, with `c1` linear (Stokes) and `c2` quadratic (Newton).
@@ -77,6 +78,10 @@ pub(super) fn resistance(state: &State, key: u64) -> Vec<Air> {
 }
 
 impl Model for DragForce {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
     fn energies(&self, _: &State) -> Energies {
         Energies::default()
     }

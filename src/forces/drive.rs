@@ -18,6 +18,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::Memory;
 use crate::tick::{Clock, Departure, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
 
 /// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
@@ -232,6 +233,10 @@ pub(super) fn plugin(app: &mut App) {
 
 /// The force does not depend on velocities, its power does.
 impl Model for DriveForce {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
     fn energies(&self, _: &State) -> Energies {
         Energies::default()
     }

@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use crate::scene::units::AccelerationPair;
 use crate::scene::{Outline, SceneAppExt, Section};
+use crate::tick::snapshot::Memory;
 use crate::tick::{Dependence, Energies, Model, State, SteadySpring};
 
 /// The acceleration of free fall. A scene without this section has no gravity.
@@ -50,6 +51,10 @@ impl Model for Weight {
 
     fn flies(&self) -> bool {
         true
+    }
+
+    fn save(&self) -> Memory {
+        Memory::Nothing
     }
 
     fn energies(&self, state: &State) -> Energies {

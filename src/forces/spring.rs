@@ -16,6 +16,7 @@ use super::link::{self, DAMPING, End, Link, Partner};
 use crate::scene::units::{Damping, Length, Position, Stiffness};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
 use crate::tick::response;
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
@@ -132,6 +133,15 @@ impl Model for SpringForce {
 
     fn loss(&self) -> Option<Loss> {
         (self.damping > 0.0).then_some(Loss { account: DAMPING, power: self.power })
+    }
+
+    fn save(&self) -> Memory {
+        Memory::of(&(self.power, self.length))
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        (self.power, self.length) = recall(bytes)?;
+        Ok(())
     }
 
     fn energies(&self, state: &State) -> Energies {

@@ -14,6 +14,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Balance, Clock, Departure, Energies, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
@@ -109,6 +110,15 @@ pub(super) fn plugin(app: &mut App) {
 
 /// The force does not depend on velocities, its power does.
 impl Model for ThrustForce {
+    fn save(&self) -> Memory {
+        Memory::of(&self.acts)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.acts = recall(bytes)?;
+        Ok(())
+    }
+
     fn energies(&self, _: &State) -> Energies {
         Energies::default()
     }

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::{Targets, check_targets};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written, units};
+use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
 /// A constant torque.
@@ -54,6 +55,10 @@ pub(super) fn plugin(app: &mut App) {
 
 /// The torque does not depend on velocities, its power does.
 impl Model for ConstantTorque {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
     fn energies(&self, _: &State) -> Energies {
         Energies::default()
     }

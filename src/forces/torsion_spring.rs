@@ -12,6 +12,7 @@ use super::link::{self, DAMPING, End, Link, Partner};
 use crate::scene::units::{Angle, Dimension, Powers, Quantity};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::response;
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
@@ -129,6 +130,15 @@ impl Model for TorsionSpringForce {
 
     fn loss(&self) -> Option<Loss> {
         (self.damping > 0.0).then_some(Loss { account: DAMPING, power: self.power })
+    }
+
+    fn save(&self) -> Memory {
+        Memory::of(&(self.power, self.angle))
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        (self.power, self.angle) = recall(bytes)?;
+        Ok(())
     }
 
     fn energies(&self, state: &State) -> Energies {

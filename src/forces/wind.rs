@@ -12,6 +12,7 @@ use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping, Velocity};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
 /// Resistance of air that moves evenly: `F = -(c1 + c2 |w|) w`, with `w` the velocity against the air.
@@ -78,6 +79,10 @@ pub(super) fn resistance(state: &State, key: u64) -> Vec<Air> {
 }
 
 impl Model for Gust {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
     fn energies(&self, _: &State) -> Energies {
         Energies::default()
     }

@@ -11,6 +11,7 @@ use glam::DVec2;
 use super::steps::OneStep;
 use crate::tick::Flow;
 use crate::tick::{Reach, WorldFlow};
+use serde::{Deserialize, Serialize};
 
 /// A step aims at this share of the length at which its error would be what is allowed.
 const SAFETY: f64 = 0.9;
@@ -36,7 +37,7 @@ const ROUNDING: f64 = f64::EPSILON / 64.0;
 const STILL: f64 = 1024.0 * f64::EPSILON;
 
 /// What error a step may have.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Allowance {
     /// Error of a step, as a share of how far and how fast bodies went so far.
     pub share: f64,
@@ -50,7 +51,7 @@ pub struct Allowance {
 pub const MOST_STEPS: f64 = 1e7;
 
 /// The control of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Control {
     allowance: Allowance,
     /// How far bodies went so far, in m, and how fast, in m/s.

@@ -9,6 +9,7 @@
 use super::VelocityVerlet;
 use crate::tick::Integrator;
 use crate::tick::Tick;
+use serde::{Deserialize, Serialize};
 
 /// Events that may be located in one tick after quiet ones.
 const MOST_EVENTS: u32 = 64;
@@ -24,7 +25,7 @@ const LONGEST: u32 = 1024;
 const FINE: f64 = 0.5;
 
 /// Whether a run is in such a stretch, and how long it lasts.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Crowd {
     following: bool,
     /// Ticks left of the stretch.

@@ -5,6 +5,7 @@
 
 use super::Description;
 use crate::tick::Tick;
+use crate::tick::snapshot::Memory;
 use crate::tick::{Integrator, Method};
 
 /// Semi-implicit Euler.
@@ -21,6 +22,10 @@ pub(super) const DESCRIPTION: Description = Description {
 };
 
 impl Integrator for SemiImplicitEuler {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
     fn advance(&mut self, tick: &mut Tick) {
         let dt = tick.dt;
         tick.advance(dt, dt, None);

@@ -16,7 +16,9 @@ use super::steps::{Divided, OneStep, Start};
 use super::whole::Whole;
 use crate::tick::Flow;
 use crate::tick::Integrator;
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Indicator, Style, Tick, WorldFlow};
+use serde::{Deserialize, Serialize};
 
 /// Steps as long as their error allows make ticks of frames, in which so many times as much may happen as in others.
 const EVENTS_PER_FRAME: u32 = 16;
@@ -89,7 +91,7 @@ pub struct Staged {
 }
 
 /// A step that was made: its change of the state is in the working memory.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Made {
     from: f64,
     until: f64,
@@ -115,14 +117,14 @@ enum Known {
     Inside,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Shown {
     state: Vec<f64>,
     change: Vec<f64>,
 }
 
 /// Working memory.
-#[derive(Default)]
+#[derive(Clone, Default, Serialize, Deserialize)]
 struct Work {
     rates: Vec<f64>,
     change: Vec<f64>,
@@ -464,7 +466,55 @@ fn add(state: &[f64], rest: &[f64], change: &[f64], sum: &mut Vec<f64>) {
     sum.extend(state.iter().zip(rest).zip(change).map(|((state, rest), change)| state + (change + rest)));
 }
 
+/// What a method with steps remembers from tick to tick.
+#[derive(Serialize, Deserialize)]
+struct Remembered {
+    state: Vec<f64>,
+    rest: Vec<f64>,
+    under_way: Option<Made>,
+    steps: u64,
+    looked: f64,
+    work: Work,
+    crowd: Crowd,
+    control: Option<Control>,
+    whole: Option<(bool, f64, Option<u64>)>,
+    method: Option<Vec<u8>>,
+}
+
 impl Integrator for Staged {
+    fn save(&self) -> Memory {
+        let method = match self.method.save() {
+            Memory::Untold => return Memory::Untold,
+            Memory::Nothing => None,
+            Memory::Bytes(bytes) => Some(bytes),
+        };
+        Memory::of(&Remembered {
+            state: self.state.clone(),
+            rest: self.rest.clone(),
+            under_way: self.under_way.clone(),
+            steps: self.steps,
+            looked: self.looked,
+            work: self.work.clone(),
+            crowd: self.crowd.clone(),
+            control: self.control.clone(),
+            whole: self.whole.as_ref().map(Whole::memory),
+            method,
+        })
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        let Remembered { state, rest, under_way, steps, looked, work, crowd, control, whole, method } = recall(bytes)?;
+        if control.is_some() != self.control.is_some() || whole.is_some() != self.whole.is_some() {
+            return Err(Unfit("the integrator was another one".to_owned()));
+        }
+        if let (Some(own), Some(saved)) = (&mut self.whole, whole) {
+            own.recall(saved);
+        }
+        (self.state, self.rest, self.under_way, self.steps, self.looked) = (state, rest, under_way, steps, looked);
+        (self.work, self.crowd, self.control) = (work, crowd, control);
+        method.map_or(Ok(()), |bytes| self.method.load(&bytes))
+    }
+
     fn style(&self) -> Style {
         match self.located {
             true if self.crowd.lasts() => Style::Following,

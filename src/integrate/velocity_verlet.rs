@@ -9,6 +9,7 @@
 
 use super::Description;
 use crate::tick::Tick;
+use crate::tick::snapshot::Memory;
 use crate::tick::{Integrator, Method};
 
 /// Velocity Verlet.
@@ -25,6 +26,10 @@ pub(super) const DESCRIPTION: Description = Description {
 };
 
 impl Integrator for VelocityVerlet {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
     fn advance(&mut self, tick: &mut Tick) {
         let dt = tick.dt;
         let ahead = tick.velocity_dependent().then_some(dt / 2.0);

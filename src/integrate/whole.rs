@@ -54,6 +54,16 @@ impl Whole {
         true
     }
 
+    /// What goes on from tick to tick.
+    pub fn memory(&self) -> (bool, f64, Option<u64>) {
+        (self.lasts, self.edge, self.lists)
+    }
+
+    /// Goes on from what another one knew.
+    pub fn recall(&mut self, (lasts, edge, lists): (bool, f64, Option<u64>)) {
+        (self.lasts, self.edge, self.lists) = (lasts, edge, lists);
+    }
+
     fn sees_something(&mut self, tick: &mut Tick) -> bool {
         self.told.clear();
         tick.tell(&mut self.told);

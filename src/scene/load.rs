@@ -17,6 +17,7 @@ use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::tree::{Form, Id, Tree};
 use super::values::WholeNumber;
+use crate::digest;
 
 const SMALLEST: &str = "the smallest scene is `Scene(format: 1, clock: (duration: 1), bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.1))])`";
 /// More mistakes than this are not looked up in the text.
@@ -35,6 +36,8 @@ pub struct SceneHeader {
     pub remarks: Vec<String>,
     /// The names, sections and entries of the scene.
     pub outline: Outline,
+    /// A number for the text of the scene with all that it includes: the same for the same scene.
+    pub digest: u64,
     /// The files that were read for the scene, without its own: included ones, pictures, tables.
     pub files: Vec<PathBuf>,
 }
@@ -102,6 +105,7 @@ fn load_text(
         return Err((errors, report.notes().to_vec()));
     }
     header.remarks = report.notes().to_vec();
+    header.digest = digest::of_bytes(text.bytes());
     install(app, &header.outline, sections, entries);
     header.outline.forget_places();
     Ok(header)

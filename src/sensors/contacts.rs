@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactEvents;
@@ -14,6 +14,7 @@ use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::add_packed_observer;
+use crate::tick::kept::SnapshotAppExt;
 
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 
@@ -28,7 +29,7 @@ struct Contacts {
 }
 
 /// How often something began to touch, for each body or wall that is asked for.
-#[derive(Resource, Default)]
+#[derive(Resource, Default, Serialize, Deserialize)]
 struct Begun(Vec<(Entity, u64)>);
 
 impl Contacts {
@@ -106,4 +107,5 @@ fn count_begun(events: Res<ContactEvents>, mut begun: ResMut<Begun>) {
 pub(super) fn plugin(app: &mut App) {
     app.add_quantities(QUANTITIES, find);
     app.register_entry::<Contacts>();
+    app.keep_resource::<Begun>();
 }

@@ -15,6 +15,7 @@ mod allocator;
 mod level;
 mod pairs;
 mod scalar;
+use serde::{Deserialize, Serialize};
 #[cfg(test)]
 mod tests;
 mod vectors;
@@ -32,7 +33,7 @@ pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
 pub use vectors::Vectors;
 
 /// Eight numbers that belong together and are loaded as one: a line of the cache.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[repr(C, align(64))]
 pub struct Record(pub [f64; BLOCK]);
 

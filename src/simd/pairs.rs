@@ -4,6 +4,8 @@
 
 use glam::DVec2;
 
+use serde::{Deserialize, Serialize};
+
 use super::{BLOCK, Lanes, Record};
 
 /// Eight pairs: the first place of each, then the second. A line of the cache. A place is written as that of the first number of a
@@ -27,7 +29,8 @@ impl PairBlock {
 const SCALE: u32 = BLOCK as u32;
 
 /// Pairs of places in blocks; the last is filled up with pairs of the place 0 with itself.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(into = "Listed", try_from = "Listed")]
 pub struct PairBlocks {
     blocks: Vec<PairBlock>,
     /// The places are below that.
@@ -37,6 +40,52 @@ pub struct PairBlocks {
     /// Those are below that.
     records: usize,
 }
+
+/// What is saved of blocks. Bounds are found anew, as the kernels trust them.
+#[derive(Serialize, Deserialize)]
+struct Listed {
+    blocks: Vec<[[u32; BLOCK]; 2]>,
+    sides: Vec<[[u32; BLOCK]; 2]>,
+    records: usize,
+}
+
+impl From<PairBlocks> for Listed {
+    fn from(PairBlocks { blocks, sides, records, .. }: PairBlocks) -> Self {
+        let [blocks, sides] = [blocks, sides].map(|list| list.iter().map(|pair| [pair.first, pair.second]).collect());
+        Self { blocks, sides, records }
+    }
+}
+
+impl TryFrom<Listed> for PairBlocks {
+    type Error = &'static str;
+
+    fn try_from(Listed { blocks, sides, records }: Listed) -> Result<Self, Self::Error> {
+        let bound = |list: &[[[u32; BLOCK]; 2]]| -> Option<usize> {
+            let mut bound = 0;
+            for &place in list.iter().flatten().flatten() {
+                if place % SCALE != 0 {
+                    return None;
+                }
+                bound = bound.max((place / SCALE) as usize + 1);
+            }
+            Some(bound)
+        };
+        let (places, of_records) = (bound(&blocks).ok_or(NOT_A_PLACE)?, bound(&sides).ok_or(NOT_A_PLACE)?);
+        let fits = sides.is_empty() || (sides.len() == blocks.len() && of_records <= records);
+        if !fits
+            || records > (u32::MAX / SCALE) as usize
+            || (sides.is_empty() && records < places && !blocks.is_empty())
+        {
+            return Err(NOT_A_PLACE);
+        }
+        let [blocks, sides] = [blocks, sides].map(|list| {
+            list.into_iter().map(|[first, second]| PairBlock { first, second }).collect::<Vec<PairBlock>>()
+        });
+        Ok(Self { blocks, bound: places, sides, records })
+    }
+}
+
+const NOT_A_PLACE: &str = "places of pairs are not among those there are";
 
 impl PairBlocks {
     /// Lists pairs anew.

@@ -5,10 +5,12 @@ mod choice;
 pub mod error;
 mod recorder;
 mod sampler;
+mod snapshot;
 
 pub use choice::{Goal, Plan};
 pub use recorder::Recorder;
 pub use sampler::{Missing, Sampler};
+pub use snapshot::Snapshot;
 
 use std::time::{Duration, Instant};
 

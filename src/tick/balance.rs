@@ -8,9 +8,10 @@ use glam::DVec2;
 
 use super::State;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Rates of the present evaluation. Cleared before each; every force adds its own.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balance {
     /// Force from outside the bodies in newtons: fields, walls, fixed bodies, drag, drives.
     pub force: DVec2,
@@ -50,7 +51,7 @@ impl Balance {
 }
 
 /// A sum that keeps what rounding leaves over (Neumaier 1974): a million ticks add up like one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sum {
     sum: f64,
     rest: f64,
@@ -73,7 +74,7 @@ impl Sum {
 }
 
 /// What has gone in and out since the beginning.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Energy lost to friction in J.
     pub friction: Sum,
@@ -82,6 +83,7 @@ pub struct Ledger {
     /// Energy lost to drag in J.
     pub drag: Sum,
     /// Energy lost to accounts of models in J, in the order in which models name them.
+    #[serde(with = "sums")]
     pub accounts: Vec<(&'static str, Sum)>,
     /// Work done by drives in J.
     pub work: Sum,
@@ -94,6 +96,21 @@ pub struct Ledger {
     pub angular_impulse: Sum,
     /// The state at the beginning.
     pub start: Option<Totals>,
+}
+
+/// Accounts of models in snapshots: sums in the order of the accounts, whose names the scene says.
+mod sums {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::Sum;
+
+    pub fn serialize<S: Serializer>(accounts: &[(&'static str, Sum)], to: S) -> Result<S::Ok, S::Error> {
+        accounts.iter().map(|account| account.1).collect::<Vec<Sum>>().serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(&'static str, Sum)>, D::Error> {
+        Ok(Vec::<Sum>::deserialize(from)?.into_iter().map(|sum| ("", sum)).collect())
+    }
 }
 
 impl Ledger {
@@ -151,7 +168,7 @@ impl State {
 }
 
 /// Energy and momentum of a state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Totals {
     /// Kinetic energy in J.
     pub kinetic: f64,

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::Evaluation;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Margin as a share of the smallest radius: what steps that locate events begin with.
 const MARGIN_SHARE: f64 = 0.7;
@@ -37,7 +38,7 @@ const WASTEFUL: f64 = 16.0;
 pub(crate) const MOST_ATOMS: usize = 191;
 
 /// Axis-aligned bounding boxes of all bodies, each grown by half the margin.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bounds {
     /// Counts how often the boxes were made anew: whoever made a list from them compares it.
     pub version: u64,

@@ -1,7 +1,8 @@
 //! Time: the clock of ticks, and the moment at which forces are evaluated.
 
+use serde::{Deserialize, Serialize};
 /// The clock of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
     /// Length of a tick in seconds.
     pub dt: f64,
@@ -29,7 +30,7 @@ impl Clock {
 }
 
 /// The moment at which forces are being evaluated. Force systems read it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Evaluation {
     /// Time of the state in seconds.
     pub time: f64,
@@ -38,6 +39,8 @@ pub struct Evaluation {
     /// How contacts and other models with a history are to be evaluated.
     pub style: Style,
     /// How often forces were evaluated so far: the cost of a method.
+    // It depends on how a run is cut into batches, and decides nothing.
+    #[serde(skip)]
     pub count: u64,
     /// Bodies have moved on since, or a force was switched: forces are those of an earlier state.
     pub stale: bool,
@@ -46,7 +49,7 @@ pub struct Evaluation {
 }
 
 /// How models with a history are evaluated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Style {
     /// The state follows the one before: history goes on, candidate lists are renewed where they have to be.
     #[default]
@@ -65,7 +68,7 @@ impl Style {
 }
 
 /// The stretch of time for which modes are being chosen. The systems of [`Modes`](super::Modes) read it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Span {
     /// Its beginning in seconds.
     pub begin: f64,

@@ -13,6 +13,7 @@
 //! nothing in it, to the order of the method, but bodies move.
 
 use super::State;
+use serde::{Deserialize, Serialize};
 
 const BEYOND: f64 = 1e3;
 const ENORMOUS: f64 = 1e9;
@@ -21,7 +22,7 @@ const EVERY: u64 = 256;
 const ROUNDING: f64 = 1e-9;
 
 /// When energy is looked at next, and what was put in.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct EnergyGuard {
     /// A model responds nearly as fast as the tick can bear: it looks at each tick.
     pub alert: bool,

@@ -1,5 +1,6 @@
 //! What a method of integration is to the tick.
 
+use super::snapshot::{Memory, Unfit};
 use super::{Style, Tick};
 
 /// A method that advances the state by one tick.
@@ -16,6 +17,19 @@ pub trait Integrator: Send + Sync + 'static {
     /// acts on it.
     fn flies(&self) -> bool {
         false
+    }
+
+    /// What it remembers from tick to tick. Default: it does not say, and snapshots refuse.
+    fn save(&self) -> Memory {
+        Memory::Untold
+    }
+
+    /// Remembers what [`Integrator::save`] gave. Called only if that gave bytes.
+    ///
+    /// # Errors
+    /// If the bytes are not its own.
+    fn load(&mut self, _: &[u8]) -> Result<(), Unfit> {
+        Ok(())
     }
 }
 

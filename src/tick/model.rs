@@ -5,8 +5,10 @@ use std::any::Any;
 
 use bevy_ecs::prelude::World;
 
+use super::snapshot::{Memory, Unfit};
 use super::touch::ContactPoint;
 use super::{Responses, State, SteadySpring, Style};
+use serde::{Deserialize, Serialize};
 
 /// What a force, or the power that it books, depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
 /// those who need them.
@@ -161,6 +163,19 @@ pub trait Model: Any + Send + Sync {
         None
     }
 
+    /// What it remembers beside its parameters. Default: it does not say, and snapshots refuse with its name.
+    fn save(&self) -> Memory {
+        Memory::Untold
+    }
+
+    /// Remembers what [`Model::save`] gave. Called only if that gave bytes.
+    ///
+    /// # Errors
+    /// If the bytes are not its own.
+    fn load(&mut self, _: &[u8]) -> Result<(), Unfit> {
+        Ok(())
+    }
+
     /// A part of it that [`State::model`] finds too. Default: none.
     fn inner(&self) -> Option<&dyn Any> {
         None
@@ -219,7 +234,7 @@ pub trait Events {
 }
 
 /// An indicator of an event: it is positive while a mode holds, and the event is where it vanishes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Indicator {
     /// Its value in the state just evaluated.
     pub value: f64,

@@ -3,12 +3,13 @@
 use glam::DVec2;
 
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Marks a pair that was not in the list before.
 pub const NEW: u32 = u32::MAX;
 
 /// A pair of atoms of different bodies that are nearer than the margin. `a` stands before `b` in canonical order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct AtomPair {
     /// Place of the first atom.
     pub a: u32,
@@ -33,7 +34,7 @@ impl AtomPair {
 }
 
 /// An atom that is nearer to a wall than the margin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct WallPair {
     /// Place of the wall.
     pub wall: u32,
@@ -42,7 +43,7 @@ pub struct WallPair {
 }
 
 /// Who may touch whom, in canonical order.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CandidatePairs {
     /// Counts how often the lists were made anew.
     pub version: u64,
@@ -61,7 +62,7 @@ pub struct CandidatePairs {
 }
 
 /// How pairs of atoms are searched.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Search {
     /// Boxes of bodies along an axis: for few atoms.
     #[default]

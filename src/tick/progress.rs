@@ -9,30 +9,40 @@ use super::batch::Running;
 use super::failure::Trouble;
 use super::guard::EnergyGuard;
 use super::travel::FarTravel;
+use serde::{Deserialize, Serialize};
 
 /// How a run goes.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 pub(super) struct Progress {
+    #[serde(skip)]
     pub method: Option<Method>,
     /// Counts changes of method and models.
+    #[serde(skip)]
     pub version: u64,
     /// The schedule of the tick, as long as the world is given to no one else.
+    #[serde(skip)]
     pub sim: Option<Box<Schedule>>,
     /// Something reads components after each batch.
+    #[serde(skip)]
     pub shown: bool,
     /// Components hold the state of an earlier tick.
+    #[serde(skip)]
     pub behind: bool,
     /// What runs during a batch, and stays as long as the schedule of the tick.
+    #[serde(skip)]
     pub running: Option<Box<Running>>,
     /// The totals before others changed the state, if they did since the last tick.
     pub before: Option<Totals>,
     /// No system but the engine's own takes part in the tick.
+    #[serde(skip)]
     pub alone: bool,
     /// Systems in the tick look at all bodies.
+    #[serde(skip)]
     pub looked_at: bool,
     /// Ticks at whose ends systems look at all bodies that look at no others, in order.
     pub looks: Vec<u64>,
     /// When the state had changed last as these saw it.
+    #[serde(skip)]
     pub shown_at: Option<Tick>,
     /// Forces are those of the present state.
     pub current: bool,
@@ -45,13 +55,14 @@ pub(super) struct Progress {
     /// The first body that travelled farther than the smallest radius in one tick.
     pub far: Option<FarTravel>,
     pub energy: EnergyGuard,
+    #[serde(skip)]
     pub trouble: Option<Trouble>,
     /// How many indicators each model with events told last, in order.
     pub told: Vec<usize>,
 }
 
 /// How many events were located, and how many ticks had too many.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LocatedEvents {
     /// Events.
     pub count: u64,
@@ -60,7 +71,7 @@ pub struct LocatedEvents {
 }
 
 /// How many steps were made, and how long they were.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepCount {
     /// Steps accepted.
     pub accepted: u64,

@@ -17,12 +17,13 @@
 use glam::DVec2;
 
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Products with the rows. The result is exact after as many as there are degrees of freedom.
 const STEPS: usize = 16;
 
 /// Two springs, of a contact or of the scene, between two bodies, or a body and a wall or the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
     /// Place of the body on side A and the arm from its centre of mass to the contact; `None`: a wall or the world.
     pub a: Option<(usize, DVec2)>,
@@ -46,7 +47,7 @@ struct Scaled {
 }
 
 /// Everything that holds bodies at one moment, and working memory.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Springs {
     list: Vec<Spring>,
     /// How many of them are contacts: they come first.

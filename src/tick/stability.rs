@@ -7,8 +7,9 @@ use std::fmt;
 
 use bevy_ecs::prelude::*;
 
+use serde::{Deserialize, Serialize};
 /// What the method bears, and what is known before the first tick of how fast the run responds.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Stability {
     /// Largest stable product of tick and angular frequency of the method.
     pub limit: f64,
@@ -20,7 +21,7 @@ pub struct Stability {
 }
 
 /// What holds a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Holder {
     /// Contacts, or contacts and springs together.
     Contacts,
@@ -38,7 +39,7 @@ impl fmt::Display for Holder {
 }
 
 /// How fast a model can respond, as far as that is known before the first tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Foreseen {
     /// The greatest angular frequency in rad/s: of a single contact, or of all springs together.
     pub angular_frequency: f64,
@@ -74,7 +75,7 @@ impl Default for Stability {
 }
 
 /// The fastest responses of a run so far, as far as they were measured.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Responses {
     /// Of everything that held bodies at once.
     pub fastest: Option<Fastest>,
@@ -83,7 +84,7 @@ pub struct Responses {
 }
 
 /// The largest angular frequency of all that holds bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fastest {
     /// In rad/s.
     pub angular_frequency: f64,
@@ -96,7 +97,7 @@ pub struct Fastest {
 }
 
 /// The contact that lasts the shortest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Briefest {
     /// In rad/s; the contact lasts half a period.
     pub angular_frequency: f64,

@@ -15,12 +15,13 @@ use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
 use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
 use crate::constraints::{Cancelled, Rows};
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// The state of a run.
 ///
 /// Systems of users take it as `Res<State>` or `ResMut<State>`, models as an argument. Bodies, atoms and walls stand in canonical
 /// order, the order in which the scene names them.
-#[derive(Resource, Default)]
+#[derive(Resource, Default, Serialize, Deserialize)]
 pub struct State {
     pub(crate) bodies: Bodies,
     pub(crate) balance: Balance,
@@ -43,8 +44,11 @@ pub struct State {
     /// How many systems of users make forces.
     pub(crate) force_systems: usize,
     pub(super) progress: Progress,
+    #[serde(skip)]
     pub(crate) stopwatch: Option<Stopwatch>,
+    #[serde(skip)]
     pub(super) models: Vec<Box<dyn Model>>,
+    #[serde(skip)]
     pub(super) roles: Roles,
 }
 

@@ -11,6 +11,7 @@
 use super::response::{Spring, Springs};
 use super::{Fastest, Foreseen, Holder, Responses, Stability, State};
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Ticks after which the springs are looked at again.
 const PATIENCE: u64 = 512;
@@ -20,7 +21,7 @@ const ROUNDS: usize = 40;
 const ALERT: f64 = 1.5;
 
 /// A spring in its present state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SteadySpring {
     /// Without what damping adds.
     pub spring: Spring,
@@ -31,7 +32,7 @@ pub struct SteadySpring {
 }
 
 /// The springs of all models, and how fast they respond.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct SteadySprings {
     list: Vec<SteadySpring>,
     springs: Springs,

@@ -4,9 +4,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// The deepest overlap so far, as a share of the smaller radius.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DeepestOverlap {
     /// Overlap in metres.
     pub overlap: f64,
@@ -29,7 +30,7 @@ impl DeepestOverlap {
 }
 
 /// Force that a wall or body receives through contacts; contact laws fill it when a sensor asks for it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct ContactForces {
     /// Force on each body in newtons, in canonical order.
     pub on_body: Vec<DVec2>,
@@ -55,7 +56,7 @@ impl ContactForces {
 }
 
 /// Who touches in the present state: contact laws fill it in each evaluation, if it is there.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Touches {
     /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
     pub(crate) pairs: Vec<(bool, u32, u32)>,

@@ -5,9 +5,10 @@ use glam::DVec2;
 
 use super::{State, Tick};
 use crate::world::motion::Travel;
+use serde::{Deserialize, Serialize};
 
 /// A body that travelled farther in one tick than the smallest radius: it may have passed through others unseen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FarTravel {
     /// The body.
     pub body: Entity,

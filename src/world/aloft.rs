@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::flight::BOUND;
 use super::packed::Bodies;
 use crate::simd::{self, BLOCK, Kernel, Lanes, Record};
+use serde::{Deserialize, Serialize};
 
 /// Where a flight begins: place, what rounding left of it, velocity, angle, what rounding left of that.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +26,7 @@ impl Start {
 }
 
 /// What all flights have in common.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Air {
     /// Acceleration in m/s2.
     pub field: DVec2,

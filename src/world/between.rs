@@ -2,11 +2,12 @@
 //! error is of order dt^4, below that of the integrators it serves.
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 use crate::world::Bodies;
 
 /// Pose and velocity of a body at a time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Moment {
     /// Time in seconds.
     pub time: f64,

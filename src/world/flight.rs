@@ -17,12 +17,13 @@ use super::motion::Travel;
 use super::packed::Bodies;
 use super::part::PerBody;
 use crate::simd::Record;
+use serde::{Deserialize, Serialize};
 
 /// For bodies that are bound, in place of the tick in which they took off.
 pub(super) const BOUND: u32 = u32::MAX;
 
 /// Who flies, and since when.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Flights {
     /// Whether the method and the models of the run know that bodies may fly.
     allowed: bool,

@@ -1,7 +1,8 @@
 //! Keys of the bodies, ascending.
 
+use serde::{Deserialize, Serialize};
 /// Keys in ascending order. Most follow the one before, so only those that do not are listed.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Keys {
     /// Place and key of the first of each run.
     runs: Vec<(usize, u64)>,

@@ -9,9 +9,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::body::mark_changed;
+use serde::{Deserialize, Serialize};
 
 /// A point of a path, or the motion at any time: counted from where the path begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PathPoint {
     /// Seconds since the path began.
     pub time: f64,
@@ -26,7 +27,7 @@ pub struct PathPoint {
 }
 
 /// A motion as a function of time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Path {
     points: Vec<PathPoint>,
     repeat: bool,
@@ -131,7 +132,7 @@ fn between(from: &PathPoint, to: &PathPoint, time: f64) -> PathPoint {
 
 /// Makes a body move as prescribed. Its position, angle, velocity and spin follow from time alone: whoever wants it to
 /// move otherwise inserts another one, changing those components does nothing.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Kinematic {
     /// When the path begins, in seconds.
@@ -191,7 +192,7 @@ impl Kinematic {
 }
 
 /// The prescribed bodies of the packed state.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Prescribed {
     /// Places of the bodies, ascending, and their motions.
     pub motions: Vec<(usize, Kinematic)>,

@@ -9,9 +9,10 @@ use glam::DVec2;
 use super::atom::Atom;
 use super::material::MaterialIndex;
 use super::packed::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// What contacts need to know of an atom beside its radius. Few atoms differ in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Surface {
     /// Stiffness in N/m.
     stiffness: f64,

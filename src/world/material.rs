@@ -9,8 +9,8 @@ use std::fmt;
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
+use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
@@ -71,7 +71,7 @@ impl Rebound {
 }
 
 /// Place of a material in [`Materials::by_index`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct MaterialIndex(u32);
 
 impl MaterialIndex {

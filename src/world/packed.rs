@@ -18,9 +18,10 @@ use super::motion::Travel;
 use super::wall::Wall;
 use crate::simd::{BLOCK, Lanes, Level, Record};
 use crate::threads::Threads;
+use serde::{Deserialize, Serialize};
 
 /// A wall as contacts see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PackedWall {
     /// The wall's entity.
     pub entity: Entity,
@@ -33,7 +34,7 @@ pub struct PackedWall {
 }
 
 /// How it is known how far bodies moved since the last accepted state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Moved {
     /// As is listed for each of them.
     #[default]
@@ -45,14 +46,16 @@ pub(crate) enum Moved {
 /// All bodies, atoms and walls, packed.
 ///
 /// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`].
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bodies {
     /// Set by a plugin that changed something forces depend on other than the components of bodies (a setting of its
     /// own force, say): forces are then evaluated anew before the next tick instead of at its end.
     pub touched: bool,
     /// Instructions for work on many bodies at once. Default: the best there are.
+    #[serde(skip)]
     pub level: Level,
     /// Threads for work on many bodies or contacts. Default: one.
+    #[serde(skip)]
     pub threads: Threads,
     /// Counts the rebuilds: whoever keeps indices compares it.
     pub generation: u64,

@@ -12,6 +12,7 @@ mod pinned;
 mod pinned_methods;
 mod plots;
 mod same_bits;
+mod snapshots;
 mod threads;
 
 use bevy_app::App;

@@ -13,7 +13,7 @@ use jostle::{Simulation, world::hash::state_hash};
 use super::pinned::{compare, in_repository};
 
 /// Ways in which each scene is run: a word, method and tolerance.
-const WAYS: [(&str, Option<&str>, Option<f64>); 4] = [
+pub(super) const WAYS: [(&str, Option<&str>, Option<f64>); 4] = [
     ("rk4", Some("RungeKutta4"), None),
     ("dop853", Some("Dop853"), None),
     ("midpoint", Some("ImplicitMidpoint"), None),
@@ -25,7 +25,7 @@ const TIMES: [(usize, f64); 3] = [(30, 1.0), (300, 0.1), (3000, 0.001)];
 /// A tolerance and an implicit method are for few bodies.
 const FEW: usize = 30;
 
-fn scenes() -> Vec<PathBuf> {
+pub(super) fn scenes() -> Vec<PathBuf> {
     let of = |folder: &str| std::fs::read_dir(in_repository(folder)).unwrap().map(|entry| entry.unwrap().path());
     let benchmarks = ["clumps", "dense_1k", "few_awake", "gas_1k", "pyramid"];
     let all = of("scenes").chain(of("scenes/tour"));
@@ -35,8 +35,8 @@ fn scenes() -> Vec<PathBuf> {
     all
 }
 
-/// The hash of a run, or why there is none.
-fn hash(path: &Path, method: Option<&str>, tolerance: Option<f64>) -> Option<String> {
+/// How a scene is run in one of the ways, for a short time; not at all if it has too many bodies for it.
+pub(super) fn overrides(path: &Path, method: Option<&str>, tolerance: Option<f64>) -> Option<Overrides> {
     let source = Source::read(path).unwrap();
     let plain = Simulation::load_with(&source, &Overrides { untried: true, ..Overrides::default() }, |_| {}).unwrap();
     let atoms = plain.bodies().atom_count();
@@ -45,7 +45,21 @@ fn hash(path: &Path, method: Option<&str>, tolerance: Option<f64>) -> Option<Str
     }
     let time = TIMES.iter().find(|(most, _)| atoms <= *most)?.1;
     let duration = Some(time.min(plain.ticks() as f64 * plain.clock().dt));
-    let overrides = Overrides { method: method.map(str::to_owned), tolerance, duration, ..Overrides::default() };
+    Some(Overrides { method: method.map(str::to_owned), tolerance, duration, ..Overrides::default() })
+}
+
+/// How a scene is run in its own way for so many seconds at most; less if it has many bodies.
+pub(super) fn short(path: &Path, most: f64) -> Overrides {
+    let source = Source::read(path).unwrap();
+    let plain = Simulation::load_with(&source, &Overrides { untried: true, ..Overrides::default() }, |_| {}).unwrap();
+    let time = if plain.bodies().atom_count() > 3000 { 0.05 } else { most };
+    let duration = Some(time.min(plain.ticks() as f64 * plain.clock().dt));
+    Overrides { duration, ..Overrides::default() }
+}
+
+/// The hash of a run, or why there is none.
+fn hash(path: &Path, method: Option<&str>, tolerance: Option<f64>) -> Option<String> {
+    let (source, overrides) = (Source::read(path).unwrap(), overrides(path, method, tolerance)?);
     let mut simulation = match Simulation::load_with(&source, &overrides, |_| {}) {
         Ok(simulation) => simulation,
         Err(_) => return Some("refused".to_owned()),

@@ -28,12 +28,15 @@ use crate::contacts::{ContactPoint, Other};
 use crate::simd::BLOCK;
 use crate::tick::{Balance, Evaluation, Ledger};
 use crate::world::{Bodies, Materials};
+use serde::{Deserialize, Serialize};
 
 /// History of all candidate pairs, beside the lists of [`CandidatePairs`].
-#[derive(Resource, Debug)]
+#[derive(Resource, Debug, Serialize, Deserialize)]
 pub struct PenaltyContacts {
     version: u64,
+    #[serde(skip)]
     pub(crate) settings: Penalty,
+    #[serde(skip)]
     pub(super) materials: Materials,
     pub(super) laws: LawTable,
     /// One for each pair of atoms.
@@ -82,6 +85,14 @@ impl Default for PenaltyContacts {
             before: Vec::new(),
             slid: 0.0,
         }
+    }
+}
+
+impl PenaltyContacts {
+    /// Goes on from saved contacts of the same scene.
+    pub(super) fn take_over(&mut self, saved: Self) {
+        let Self { settings, materials, .. } = std::mem::replace(self, saved);
+        (self.settings, self.materials) = (settings, materials);
     }
 }
 

@@ -10,6 +10,7 @@
 
 use super::switching::Base;
 use crate::constraints::rest_solver::{Drawn, Friction};
+use serde::{Deserialize, Serialize};
 
 /// A share of a force or of a velocity that counts as rounding.
 const ROUNDING: f64 = 1e-12;
@@ -19,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 const BEYOND: f64 = 1e-9;
 
 /// Phase of a spring with a Coulomb limit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Grip {
     /// The spring holds.
     #[default]
@@ -59,7 +60,7 @@ impl SliderLaw {
 }
 
 /// A spring with a Coulomb limit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Elongation in metres.
     pub elongation: f64,

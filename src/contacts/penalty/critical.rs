@@ -16,6 +16,7 @@ use crate::tick::response::{Spring, Springs};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Balance, Briefest, Clock, Fastest, Holder, Responses, Stability};
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Ticks after which an unchanged number of pairs is looked at again.
 const PATIENCE: u64 = 512;
@@ -34,7 +35,7 @@ const ENOUGH: f64 = 1e-4;
 const ALERT: f64 = 1.5;
 
 /// When the contacts were looked at, and working memory.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Watch {
     next: u64,
     earliest: u64,

@@ -18,12 +18,13 @@ use super::inelasticity::restitution_of;
 use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, lost_work};
 use crate::simd::Lanes;
+use serde::{Deserialize, Serialize};
 
 /// The least restitution that is converted; zero would need infinite damping.
 pub const LEAST_RESTITUTION: f64 = 0.01;
 
 /// Damping of a pair.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Damping<V = f64> {
     /// Share of the critical damping of the contact.
     Ratio(V),

@@ -8,9 +8,10 @@ use crate::constraints::islands::Link;
 use crate::constraints::{LostTo, Row, Rows, Share, Side};
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// What of a contact a row holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Kind {
     Normal,
     Tangent,
@@ -18,7 +19,7 @@ pub(super) enum Kind {
 }
 
 /// The contacts of the rows of an evaluation, in the same order.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 pub(super) struct Held {
     /// The index of the first row.
     first: usize,

@@ -10,9 +10,10 @@ use super::{Penalty, TangentialLaw};
 use crate::contacts::geometry::Shares;
 use crate::simd::{Lanes, Record};
 use crate::world::{MaterialIndex, Materials};
+use serde::{Deserialize, Serialize};
 
 /// Coefficients of one kind of pair, or of several side by side.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PairLaw<V = f64> {
     /// Stiffness of both sides in series, `1/(1/ka + 1/kb)`, in N/m.
     pub stiffness: V,
@@ -86,7 +87,7 @@ impl Side {
 type Key = ((u64, MaterialIndex), (u64, MaterialIndex));
 
 /// All kinds of pairs met so far.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct LawTable {
     laws: Vec<PairLaw>,
     /// The same as records.

@@ -10,9 +10,10 @@ use super::coulomb::{Grip, Slider};
 use super::normal::Mode;
 use crate::simd::{BLOCK, PairBlocks};
 use crate::tick::pairs::NEW;
+use serde::{Deserialize, Serialize};
 
 /// The modes of eight contacts: a bit each in every byte.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Phases {
     /// Set while loading, and while held.
     pub loading: u8,
@@ -59,7 +60,7 @@ impl Phases {
 }
 
 /// Numbers of eight contacts, each quantity side by side.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 #[repr(C, align(64))]
 pub(super) struct Histories {
     pub overlap: [f64; BLOCK],
@@ -68,7 +69,7 @@ pub(super) struct Histories {
 }
 
 /// Contacts of candidate pairs, in the order of the pairs. Lists are as long as whole blocks of eight.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct ContactList {
     len: usize,
     /// The pairs of atoms; none in a list of walls.

@@ -10,9 +10,10 @@ use super::records::record;
 use crate::contacts::AtomPair;
 use crate::simd::{BLOCK, Record};
 use crate::world::{Bodies, Passing};
+use serde::{Deserialize, Serialize};
 
 /// When a pair has to be looked at: as soon as one of both has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Meeting {
     /// Tick of the flights.
     tick: u32,
@@ -21,7 +22,7 @@ struct Meeting {
 }
 
 /// The meetings of all pairs, while bodies fly.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Meetings {
     pairs: Vec<Meeting>,
     /// The soonest of each block of pairs.

@@ -10,14 +10,16 @@ use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
 use super::{Penalty, RollingLaw, handover, limits, meetings, patience, staged, watched};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
     Dependence, Energies, Events, Foreseen, Holder, Model, Notes, Objection, Responses, State, SteadySpring, Style,
 };
 use crate::world::Materials;
+use serde::{Deserialize, Serialize};
 
 /// All contacts and rolling springs of a run.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct PenaltyState {
     /// Contacts.
     pub contacts: PenaltyContacts,
@@ -45,6 +47,17 @@ impl<N> Contacts<N> {
 }
 
 impl<N: NormalForce> Model for Contacts<N> {
+    fn save(&self) -> Memory {
+        Memory::of(&self.own)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        let PenaltyState { contacts, rolling } = recall(bytes)?;
+        self.own.rolling = rolling;
+        self.own.contacts.take_over(contacts);
+        Ok(())
+    }
+
     fn contact_law(&self) -> Option<&'static str> {
         Some("Penalty")
     }

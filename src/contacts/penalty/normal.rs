@@ -3,9 +3,10 @@
 use super::Penalty;
 use super::law::PairLaw;
 use crate::simd::Lanes;
+use serde::{Deserialize, Serialize};
 
 /// Phase of a contact; frozen during a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     /// Not touching.
     #[default]

@@ -6,6 +6,7 @@
 //! search that laid nothing to rest the time to the next doubles. Under `Inelasticity` it is made at each tick, whatever
 //! it costs: there the search alone knows the force of a contact that neither loads nor unloads.
 
+use serde::{Deserialize, Serialize};
 /// Contacts up to which rest is looked for at each tick; those of bodies at rest do not count.
 pub const MANY: usize = 1024;
 /// Ticks to the next search, at first and at most.
@@ -30,7 +31,7 @@ pub(super) fn is_thorough(contacts: usize, ticks: u64) -> bool {
 }
 
 /// When rest is looked for.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Patience {
     /// The tick of the next search.
     until: u64,

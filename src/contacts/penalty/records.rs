@@ -13,6 +13,7 @@ use crate::simd::{BLOCK, Record};
 use crate::world::Bodies;
 use crate::world::packed::Moved;
 use crate::world::part::parts_of;
+use serde::{Deserialize, Serialize};
 
 /// Evaluations for which all records are lent again before it is seen whether all are still needed: to see it costs a look at each
 /// block of pairs, a fiftieth of a tick; to fill them in for nothing a few of 64 times costs less.
@@ -20,7 +21,7 @@ const TRUSTED: u32 = 64;
 
 /// What contacts need to know of each atom: place, displacement since the last accepted state, turn since then, radius and
 /// velocity.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Records {
     pub list: Vec<Record>,
     /// The atoms that move and that some pair may need, in order; empty: all.

@@ -12,6 +12,7 @@ use crate::contacts::{CandidatePairs, ContactForces};
 use crate::simd::BLOCK;
 use crate::tick::Balance;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
 const IMBALANCE: f64 = 1e-9;
@@ -20,7 +21,7 @@ const IMBALANCE: f64 = 1e-9;
 const FEWEST: usize = 16;
 
 /// A body at rest.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Resting {
     body: usize,
     position: DVec2,
@@ -32,7 +33,7 @@ struct Resting {
 }
 
 /// Which bodies are at rest.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Rest {
     generation: u64,
     resting: Vec<Resting>,
@@ -151,7 +152,7 @@ impl Rest {
 }
 
 /// Whether bodies at rest need no work: forces are known not to change as long as nothing touches them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Sleep {
     Allowed,
     Never,

@@ -18,9 +18,10 @@ use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::Balance;
 use crate::tick::pairs::NEW;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Rolling springs of all candidate pairs, beside the lists of [`CandidatePairs`]. Present in scenes that ask for it.
-#[derive(Resource, Debug, Default)]
+#[derive(Resource, Debug, Default, Serialize, Deserialize)]
 pub struct RollingContacts {
     /// `mu_r`: torque over normal force and rolling radius, at which the spring gives way.
     pub friction: f64,

@@ -28,9 +28,10 @@ use crate::contacts::{CandidatePairs, DeepestOverlap};
 use crate::tick::Ledger;
 use crate::tick::balance::{angular_momentum, momentum};
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// What an indicator of a contact stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum What {
     Touch,
     Part,

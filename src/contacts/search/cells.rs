@@ -10,6 +10,7 @@ use super::AtomPair;
 use crate::threads::Threads;
 use crate::world::Bodies;
 use crate::world::part::parts_of;
+use serde::{Deserialize, Serialize};
 
 /// Atoms of the smallest part of a search.
 const FEWEST: usize = 4096;
@@ -25,7 +26,7 @@ const CELLS_PER_ATOM: f64 = 4.0;
 const WASTE: f64 = 16.0;
 
 /// An atom as the search sees it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Entry {
     center: DVec2,
     /// Radius and half the margin.
@@ -35,7 +36,7 @@ struct Entry {
 }
 
 /// Atoms that touch something, sorted into cells; those much larger than most aside.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Sorted {
     all: Vec<Entry>,
     large: Vec<Entry>,
@@ -199,7 +200,7 @@ fn are_near(a: &Entry, b: &Entry) -> bool {
 }
 
 /// Cells along one axis.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Axis {
     low: f64,
     /// Fine cells per metre.
@@ -256,7 +257,7 @@ impl Axis {
     }
 }
 
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Cells {
     columns: Axis,
     rows: Axis,

@@ -2,9 +2,10 @@
 
 use super::NEW;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Bodies whose keys follow one another, each with as many atoms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Run {
     key: u64,
     bodies: u32,
@@ -15,7 +16,7 @@ struct Run {
 }
 
 /// The atoms of all bodies in canonical order. Keys mostly follow one another, so that is a short list.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Identities(Vec<Run>);
 
 impl Identities {

@@ -22,11 +22,13 @@ use self::identity::Identities;
 use self::still::Still;
 use crate::tick::bounds::{self, Bounds};
 use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, WallPair};
+use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Makes the lists of candidate pairs anew when the bounding boxes were.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct PairSearch {
     bounds_version: u64,
     generation: u64,
@@ -52,6 +54,15 @@ pub fn plugin(app: &mut App) {
 
 /// Moves nothing by itself.
 impl Model for PairSearch {
+    fn save(&self) -> Memory {
+        Memory::of(self)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        *self = recall(bytes)?;
+        Ok(())
+    }
+
     fn dependence(&self) -> Dependence {
         Dependence::Nothing
     }

@@ -10,12 +10,13 @@ use super::{AtomPair, WallPair, each_wall_pair, group_of};
 use crate::simd::BLOCK;
 use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
 
 /// Bodies for each one that may move, at least: with fewer the search spares too little.
 const MOST: usize = 8;
 
 /// What was there when lists were made.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Still {
     generation: u64,
     rousings: u64,
@@ -30,7 +31,7 @@ pub(super) struct Still {
 }
 
 /// Pairs of bodies that may move.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Pairs {
     /// Sorted, each with its group.
     atoms: Vec<(AtomPair, usize)>,

@@ -22,6 +22,8 @@ mod symplectic4;
 mod trials;
 mod velocity_verlet;
 
+use crate::tick::snapshot::{Memory, Unfit};
+
 pub use crate::tick::Flow;
 
 pub use divided::Divided;
@@ -69,5 +71,19 @@ pub trait OneStep: Send + Sync {
     /// After [`OneStep::make_dense`]: the change of the state over the `share` (0 to 1) of the step.
     fn dense(&self, share: f64, change: &mut [f64]) {
         let _ = (share, change);
+    }
+
+    /// What it keeps of the step just made, for [`OneStep::dense`]. Default: nothing.
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
+    /// Remembers what [`OneStep::save`] gave. Called only if that gave bytes.
+    ///
+    /// # Errors
+    /// If the bytes are not its own.
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        let _ = bytes;
+        Ok(())
     }
 }

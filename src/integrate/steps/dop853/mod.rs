@@ -16,10 +16,12 @@ mod tests;
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use serde::{Deserialize, Serialize};
 use table::{ALL_STAGES, DENSE, ERROR_5, POLYNOMIALS, RESULT, RESULT_3, STAGES, STEP, Stage, Sum};
 
 /// DOP853.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 pub struct Dop853 {
     state: Vec<f64>,
     /// Rates of each stage, one stage after the other.
@@ -72,6 +74,15 @@ fn result(rates: &[f64], dimension: usize, place: usize) -> f64 {
 }
 
 impl OneStep for Dop853 {
+    fn save(&self) -> Memory {
+        Memory::of(self)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        *self = recall(bytes)?;
+        Ok(())
+    }
+
     fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
         let dimension = start.state.len();
         self.length = length;

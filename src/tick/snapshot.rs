@@ -1,0 +1,153 @@
+//! The state of a run as bytes: all that decides its future, and all that it has come to.
+//!
+//! Parameters are not among it: they are those of the scene, which is read anew. So bytes are taken up by a run of the same scene
+//! that has the same models in the same order. Numbers are kept to the last bit.
+
+use std::fmt;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::State;
+
+/// What a model or an integrator remembers beside its parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Memory {
+    /// It does not say. A snapshot refuses, with its name.
+    Untold,
+    /// Nothing: the parameters say it all.
+    Nothing,
+    /// These bytes, see [`Memory::of`].
+    Bytes(Vec<u8>),
+}
+
+impl Memory {
+    /// What a value holds.
+    pub fn of(value: &impl Serialize) -> Self {
+        // Only lists of unknown length and values that refuse cannot be written: derived types have neither.
+        postcard::to_stdvec(value).map_or(Self::Untold, Self::Bytes)
+    }
+
+    /// The bytes, if there are any.
+    ///
+    /// # Errors
+    /// If it does not say, with its name.
+    pub fn bytes(self, name: impl FnOnce() -> String) -> Result<Option<Vec<u8>>, Unsaved> {
+        match self {
+            Self::Untold => Err(Unsaved { name: name() }),
+            Self::Nothing => Ok(None),
+            Self::Bytes(bytes) => Ok(Some(bytes)),
+        }
+    }
+}
+
+/// Brings back what [`Memory::of`] wrote.
+///
+/// # Errors
+/// If the bytes are those of another type.
+pub fn recall<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Unfit> {
+    match postcard::take_from_bytes(bytes) {
+        Ok((value, [])) => Ok(value),
+        Ok(_) => Err(Unfit("there are more bytes than this version writes".to_owned())),
+        Err(_) => Err(Unfit("the bytes are not those that this version writes".to_owned())),
+    }
+}
+
+/// Why a state cannot be saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unsaved {
+    /// The name of the type that does not say what it remembers.
+    pub name: String,
+}
+
+impl fmt::Display for Unsaved {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "`{}` does not say what it remembers", self.name)
+    }
+}
+
+impl std::error::Error for Unsaved {}
+
+/// Why bytes do not fit a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unfit(pub String);
+
+impl fmt::Display for Unfit {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Unfit {}
+
+/// The parts of a saved state.
+#[derive(Serialize, Deserialize)]
+struct Saved {
+    state: Vec<u8>,
+    method: Option<Vec<u8>>,
+    models: Vec<Option<Vec<u8>>>,
+}
+
+impl State {
+    /// All of the run as bytes. The world must be open.
+    pub(crate) fn save(&self) -> Result<Vec<u8>, Unsaved> {
+        let method = self.progress.method.as_ref().map_or(Memory::Nothing, |method| method.0.save());
+        let bytes = |memory: Memory| memory.bytes(|| "State".to_owned()).map(Option::unwrap_or_default);
+        let saved = Saved {
+            state: bytes(Memory::of(self))?,
+            method: method.bytes(|| "the integrator".to_owned())?,
+            models: self
+                .models
+                .iter()
+                .map(|model| model.save().bytes(|| model.name().to_owned()))
+                .collect::<Result<_, _>>()?,
+        };
+        bytes(Memory::of(&saved))
+    }
+
+    /// Goes on from bytes of [`State::save`], in a run of the same scene. The world must be open; components follow.
+    pub(crate) fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        let Saved { state, method, models } = recall(bytes)?;
+        let state: Self = recall(&state)?;
+        self.demand_same_bodies(&state)?;
+        if models.len() != self.models.len() {
+            return Err(Unfit(format!("it has {} models, this run {}", models.len(), self.models.len())));
+        }
+        for (model, bytes) in self.models.iter_mut().zip(&models) {
+            if let Some(bytes) = bytes {
+                model.load(bytes).map_err(|Unfit(why)| Unfit(format!("{}: {why}", model.name())))?;
+            }
+        }
+        if let (Some(method), Some(bytes)) = (&mut self.progress.method, &method) {
+            method.0.load(bytes)?;
+        }
+        self.take_over(state);
+        Ok(())
+    }
+
+    fn demand_same_bodies(&self, other: &Self) -> Result<(), Unfit> {
+        let (own, others) = (&self.bodies, &other.bodies);
+        let same = own.entity == others.entity && own.key.iter().eq(others.key.iter()) && own.walls == others.walls;
+        let accounts = self.ledger.accounts.len() == other.ledger.accounts.len();
+        if same && accounts {
+            Ok(())
+        } else {
+            Err(Unfit("it has other bodies, walls or accounts than this run".to_owned()))
+        }
+    }
+
+    /// Becomes another state but for what belongs to this process.
+    fn take_over(&mut self, other: Self) {
+        let Self { bodies, progress, models, roles, stopwatch, ledger, .. } = std::mem::replace(self, other);
+        (self.bodies.level, self.bodies.threads) = (bodies.level, bodies.threads);
+        (self.models, self.roles, self.stopwatch) = (models, roles, stopwatch);
+        for (account, (name, _)) in self.ledger.accounts.iter_mut().zip(ledger.accounts) {
+            account.0 = name;
+        }
+        let own = &mut self.progress;
+        (own.method, own.version, own.shown, own.shown_at) =
+            (progress.method, progress.version + 1, progress.shown, progress.shown_at);
+        (own.alone, own.looked_at) = (progress.alone, progress.looked_at);
+        own.behind = true;
+    }
+}

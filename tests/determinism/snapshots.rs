@@ -1,0 +1,100 @@
+//! A run that was set down and taken up again goes on to the same bits: in another simulation, with other threads and vector
+//! instructions, from the bytes of a file. Under every kind of method, and with contacts, rest, sleep, flights and steps under way.
+//!
+//! Tolerance: none. Compared are the state's hash, all that decides the future, and the card but for its times. Not tested here:
+//! another process, which the tests of the command line do.
+
+use std::path::PathBuf;
+
+use jostle::Simulation;
+use jostle::scene::Source;
+use jostle::simd::Level;
+use jostle::simulation::{Overrides, Snapshot};
+use jostle::world::hash::state_hash;
+
+use super::pinned_methods::{WAYS, scenes, short};
+
+/// Moments at which a run is set down, as shares of it.
+const MOMENTS: [f64; 3] = [0.09, 0.47, 0.83];
+
+/// What is compared of a run at its end: hashes, and the card without times of computing.
+fn end(simulation: &mut Simulation) -> (u64, u64, serde_json::Value) {
+    let mut card = serde_json::to_value(simulation.card()).unwrap();
+    let fields = card.as_object_mut().unwrap();
+    fields.retain(|name, _| !name.contains("seconds") && !name.contains("real_time") && !name.contains("ns_per"));
+    (state_hash(simulation.bodies()), simulation.future_hash().unwrap(), card)
+}
+
+/// Why a run that is set down and taken up does not go on as it would have.
+fn difference(source: &Source, overrides: &Overrides) -> Option<String> {
+    let Ok(mut whole) = Simulation::load_with(source, overrides, |_| {}) else { return None };
+    if whole.run_to_end().is_err() {
+        return None;
+    }
+    let (expected, plan) = (end(&mut whole), whole.plan().cloned());
+    let others = Overrides { plan, threads: Some(2), level: Some(Level::Scalar), ..overrides.clone() };
+    let mut saved = Simulation::load_with(source, overrides, |_| {}).unwrap();
+    for moment in MOMENTS {
+        let tick = (moment * whole.ticks() as f64) as u64;
+        saved.run_to_tick(tick).unwrap();
+        let bytes = saved.snapshot().unwrap_or_else(|error| panic!("{}: {error}", source.name)).to_bytes();
+        let mut resumed = Simulation::load_with(source, &others, |_| {}).unwrap();
+        // What it has done before is forgotten.
+        resumed.run_to_tick(tick / 2 + 1).unwrap();
+        resumed.restore(&Snapshot::from_bytes(&bytes).unwrap()).unwrap();
+        if resumed.future_hash() != saved.future_hash() {
+            return Some(format!("after {tick} ticks: the future is another right away"));
+        }
+        resumed.run_to_end().unwrap();
+        let found = end(&mut resumed);
+        if found.0 != expected.0 {
+            return Some(format!("after {tick} ticks: another state at the end"));
+        }
+        if found.2 != expected.2 {
+            return Some(format!("after {tick} ticks: another card: {:#} instead of {:#}", found.2, expected.2));
+        }
+        if found.1 != expected.1 {
+            return Some(format!("after {tick} ticks: another future at the end"));
+        }
+    }
+    None
+}
+
+fn demand_none(runs: Vec<(String, PathBuf, Overrides)>) {
+    assert!(runs.len() > 20);
+    let half = runs.len().div_ceil(2);
+    let of = |(name, path, overrides): &(String, PathBuf, Overrides)| {
+        let found = difference(&Source::read(path).unwrap(), overrides)?;
+        Some(format!("{name}: {found}"))
+    };
+    let found: Vec<String> = std::thread::scope(|scope| {
+        let parts: Vec<_> =
+            runs.chunks(half).map(|part| scope.spawn(move || part.iter().filter_map(of).collect::<Vec<_>>())).collect();
+        parts.into_iter().flat_map(|part| part.join().unwrap()).collect()
+    });
+    assert_eq!(found, Vec::<String>::new());
+}
+
+#[test]
+fn shipped_scenes_go_on_from_snapshots_to_the_same_bits() {
+    let name = |path: &PathBuf| path.file_stem().unwrap().to_str().unwrap().to_owned();
+    let whole = |path: PathBuf| {
+        let own = short(&path, 2.0);
+        (name(&path), path, own)
+    };
+    demand_none(scenes().into_iter().map(whole).collect());
+}
+
+#[test]
+fn so_they_do_under_every_kind_of_method() {
+    let mut runs = Vec::new();
+    for path in scenes() {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        for (word, method, tolerance) in WAYS {
+            if let Some(overrides) = super::pinned_methods::overrides(&path, method, tolerance) {
+                runs.push((format!("{name}/{word}"), path.clone(), overrides));
+            }
+        }
+    }
+    demand_none(runs);
+}
