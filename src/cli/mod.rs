@@ -28,6 +28,7 @@ mod render;
 mod report;
 mod result;
 mod run;
+mod save;
 mod say;
 mod schema;
 mod side_by_side;

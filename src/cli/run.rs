@@ -13,6 +13,7 @@ use super::load::Request;
 use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail, Ran};
+use super::save::{Saves, SnapshotFlags, Trouble};
 use super::say::say;
 use super::side_by_side::all_cores;
 use super::target::{is_directory, takes_no_file};
@@ -23,7 +24,6 @@ use crate::output::csv::Table;
 use crate::report::reversal::Reversal;
 use crate::sensors::Channels;
 use crate::simulation::{Overrides, Plan, Simulation};
-use crate::tick::Failure;
 
 /// The command `run`.
 #[derive(Args, Debug)]
@@ -40,6 +40,8 @@ pub(super) struct Run {
     overrides: OverrideFlags,
     #[command(flatten)]
     estimates: EstimateFlags,
+    #[command(flatten)]
+    snapshots: SnapshotFlags,
     #[command(flatten)]
     strict: StrictFlag,
     /// Afterwards run there and back: to the end, all velocities turned round, and as long again. Says how closely the scene
@@ -73,20 +75,11 @@ Examples:
   jostle run my.ron --estimate --rounding --model
                                                 how wrong it is: by its tick, by finite digits, by soft contacts
   jostle run my.ron --reverse                   there and back: how closely it returns
+  jostle run my.ron --save at=2s:half.snapshot  set the run down after two seconds ...
+  jostle run my.ron --resume half.snapshot      ... and go on from there, to the same bits
   jostle run my.ron --pace                      at the speed of the clock on the wall
 
 The card and all messages go to standard error (`2> card.txt` keeps them), results for programs to standard output.";
-
-enum Trouble {
-    Run(Failure),
-    Output(OutputError),
-}
-
-impl From<OutputError> for Trouble {
-    fn from(error: OutputError) -> Self {
-        Self::Output(error)
-    }
-}
 
 impl Run {
     fn overrides(&self, plan: Option<Plan>) -> Overrides {
@@ -106,11 +99,17 @@ impl Run {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
-        let inputs = Inputs::of(request, &simulation);
+        let inputs = Inputs::of(request, &simulation).and(self.snapshots.input());
         if let Some(message) = self.output.as_deref().and_then(|path| inputs.objection(path)) {
             return request.usage(&message);
         }
-        self.estimates.watch(&mut simulation);
+        let mut saves = match self.snapshots.begin(&mut simulation, (request, &inputs), self.output.as_deref()) {
+            Ok(saves) => saves,
+            Err(message) => return request.usage(&message),
+        };
+        if !self.snapshots.resumes() {
+            self.estimates.watch(&mut simulation);
+        }
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
         if self.output.is_some() && !measures {
@@ -120,10 +119,10 @@ impl Run {
         }
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {
-            Some(path) => write_channels(&mut simulation, path, &mut runner),
+            Some(path) => write_channels(&mut simulation, path, (&mut runner, &mut saves)),
             None => {
                 let end = simulation.ticks();
-                runner.run_to(&mut simulation, end).map_err(Trouble::Run)
+                saves.run_to(&mut runner, &mut simulation, end)
             }
         };
         let Runner { progress, wall_clock } = runner;
@@ -139,8 +138,9 @@ impl Run {
                 return Exit::Good;
             }
             Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
+            Err(Trouble::Unsaved(message)) => return request.usage(&message),
         };
-        if failure.is_none() {
+        if failure.is_none() && !self.snapshots.resumes() {
             let scene = (&source, &self.overrides(None));
             if let Err(exit) = self.estimates.estimate(&mut simulation, request, scene) {
                 return exit;
@@ -182,7 +182,11 @@ fn objection(request: Request, path: &Path) -> Option<String> {
 }
 
 /// Runs, and writes a row now, after each frame of the film, and at the end.
-fn write_channels(simulation: &mut Simulation, path: &Path, runner: &mut Runner) -> Result<(), Trouble> {
+fn write_channels(
+    simulation: &mut Simulation,
+    path: &Path,
+    (runner, saves): (&mut Runner, &mut Saves),
+) -> Result<(), Trouble> {
     let none = Channels::default();
     let channels = simulation.get_resource::<Channels>().unwrap_or(&none);
     let columns = channels.0.iter().map(|channel| (channel.name.as_str(), channel.unit));
@@ -196,8 +200,9 @@ fn write_channels(simulation: &mut Simulation, path: &Path, runner: &mut Runner)
         if done == end {
             break Ok(());
         }
-        if let Err(failure) = runner.run_to(simulation, done.saturating_add(every).min(end)) {
-            break Err(Trouble::Run(failure));
+        let next = (done / every).saturating_add(1).saturating_mul(every).min(end);
+        if let Err(trouble) = saves.run_to(runner, simulation, next) {
+            break Err(trouble);
         }
     };
     // A run that goes wrong keeps the rows so far.

@@ -28,6 +28,7 @@ mod promises;
 mod report;
 mod scene_files;
 mod schema;
+mod snapshots;
 mod stills;
 mod streams;
 mod strict;
