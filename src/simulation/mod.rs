@@ -79,7 +79,7 @@ pub struct Overrides {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Simulation {
-    app: App,
+    world: World,
     header: SceneHeader,
     film: FilmSection,
     ticks: u64,
@@ -146,7 +146,7 @@ impl Simulation {
             give_back();
         }
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
-        Ok(Self { app, header, film, ticks, spent: Duration::ZERO, failure: None })
+        Ok(Self { world: std::mem::take(app.world_mut()), header, film, ticks, spent: Duration::ZERO, failure: None })
     }
 
     /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.
@@ -161,14 +161,14 @@ impl Simulation {
 
     /// The world, to change it between ticks. Components count: the state follows them.
     pub fn world_mut(&mut self) -> &mut World {
-        let world = self.app.world_mut();
+        let world = &mut self.world;
         open(world);
         world
     }
 
     /// The world whose components may hold the poses and velocities of an earlier tick.
     pub(crate) fn unpublished_world(&self) -> &World {
-        self.app.world()
+        &self.world
     }
 
     /// A resource of the world. Between ticks the schedules of the tick are there after [`Self::world`] only.
@@ -244,10 +244,10 @@ impl Simulation {
             return Ok(());
         }
         let start = Instant::now();
-        let result = advance(self.app.world_mut(), missing);
+        let result = advance(&mut self.world, missing);
         self.spent += start.elapsed();
         if self.clock().ticks == self.ticks {
-            observe_all(self.app.world_mut());
+            observe_all(&mut self.world);
         }
         self.failure = result.as_ref().err().cloned();
         result

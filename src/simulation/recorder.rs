@@ -67,7 +67,7 @@ impl Recorder {
             simulation.run_to_tick(next)?;
             // What has gone by unseen cannot be looked at.
             if simulation.clock().ticks == next {
-                Layers::look(simulation.app.world_mut(), next, dt);
+                Layers::look(&mut simulation.world, next, dt);
             }
         }
         Ok(())

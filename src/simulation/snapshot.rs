@@ -106,7 +106,7 @@ impl Simulation {
         if self.failure.is_some() {
             return Err(Unsaved { name: "a run that went wrong".to_owned() });
         }
-        let world = self.app.world_mut();
+        let world = &mut self.world;
         open(world);
         let kept = kept::save(world)?;
         let state = world.resource::<State>().save()?;
@@ -137,7 +137,7 @@ impl Simulation {
             return Err(Unfit(format!("the snapshot's run goes by {}, this one by {plan}", of.plan)));
         }
         let Body { state, kept, notes, expectations } = recall(&snapshot.body)?;
-        let world = self.app.world_mut();
+        let world = &mut self.world;
         open(world);
         let mut present = world.resource_mut::<State>();
         present.load(&state)?;

@@ -10,3 +10,4 @@ mod film_layer;
 mod integrator;
 mod replaced_system;
 mod rows;
+mod snapshot;

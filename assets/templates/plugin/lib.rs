@@ -12,15 +12,18 @@ use jostle::scene::units::{Position as At, Stiffness};
 use jostle::scene::values::Names;
 use jostle::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use jostle::sensors::{self, Channel, Channels, SensorAppExt};
+use jostle::tick::kept::SnapshotAppExt;
 use jostle::tick::{SimTick, Stage, TickAppExt};
 use jostle::world::{Body, Force, Name, Position};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Registers what scenes may name: `Simulation::load_with(&source, &Overrides::default(), home_spring::plugin)`.
 pub fn plugin(app: &mut App) {
     app.register_entry::<HomeSpring>().register_entry::<HomeSpringStretch>();
     app.add_quantities(&[STRETCH], find_stretch);
+    // Snapshots (`run --save`) keep what the springs remember.
+    app.keep_resource::<Springs>();
 }
 
 /// A spring from a point of the world to the centre of mass.
@@ -39,9 +42,10 @@ struct HomeSpring {
 }
 
 /// The springs of a scene: state of the plugin's own. A scene without the entry never has it.
-#[derive(Resource, Default)]
+#[derive(Resource, Default, Serialize, Deserialize)]
 struct Springs(Vec<Spring>);
 
+#[derive(Serialize, Deserialize)]
 struct Spring {
     body: Entity,
     home: DVec2,

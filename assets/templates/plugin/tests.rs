@@ -86,3 +86,17 @@ fn a_wrong_stiffness_is_told_with_its_place() {
     let errors = load("-2", 0.01).err().unwrap();
     assert_eq!(errors.errors()[0].path, "forces[0].stiffness");
 }
+
+/// A run that goes on from a snapshot remembers the greatest stretch of before.
+#[test]
+fn a_snapshot_keeps_the_stretch() {
+    let whole = run(1e-3);
+    let mut saved = load("\"2 N/m\"", 1e-3).unwrap();
+    saved.run_to_tick(900).unwrap();
+    let snapshot = saved.snapshot().unwrap();
+    let mut resumed = load("\"2 N/m\"", 1e-3).unwrap();
+    resumed.restore(&snapshot).unwrap();
+    resumed.run_to_end().unwrap();
+    let stretch = |simulation: &Simulation| simulation.value(simulation.resource::<Channels>().iter().next().unwrap());
+    assert_eq!(stretch(&whole), stretch(&resumed));
+}
