@@ -113,6 +113,10 @@ mod sums {
     }
 }
 
+/// Entries of the ledger and channels of energy that no account of a model may be called by.
+const OWN_ACCOUNTS: [&str; 9] =
+    ["kinetic", "potential", "elastic", "friction", "inelasticity", "drag", "work", "residual", "total"];
+
 impl Ledger {
     /// Books the rates of an evaluation over `dt` seconds.
     pub fn book(&mut self, balance: &Balance, dt: f64) {
@@ -129,7 +133,14 @@ impl Ledger {
     }
 
     /// The index of an account, which is opened if it is new.
+    ///
+    /// # Panics
+    /// If the name is empty or one of the engine's: cards and JSON would have two entries of one name.
     pub(super) fn account(&mut self, account: &'static str) -> usize {
+        assert!(
+            !account.is_empty() && !OWN_ACCOUNTS.contains(&account),
+            "`Model::loss`: an account cannot be called `{account}`, the ledger has its own entries: {OWN_ACCOUNTS:?}"
+        );
         let known = self.accounts.iter().position(|(name, _)| *name == account);
         known.unwrap_or_else(|| {
             self.accounts.push((account, Sum::default()));

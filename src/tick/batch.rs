@@ -93,9 +93,13 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let changed = state.last_changed();
     state.see_writers(changed);
     state.complete();
+    if world.resource::<Others>().in_tick {
+        take_up_last(world);
+    }
+    let state = world.resource::<State>();
     let Progress { trouble, shown, .. } = state.progress;
     let stays = trouble.is_none() && state.progress.running.as_ref().is_some_and(|running| running.stays());
-    state.progress.sim = Some(sim);
+    world.resource_mut::<State>().progress.sim = Some(sim);
     if !stays {
         open(world);
     } else if shown {
@@ -105,6 +109,13 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
         Some(trouble) => Err(trouble.named(world)),
         None => Ok(()),
     }
+}
+
+/// Takes up what systems of users wrote into components after the last tick: components are as new as the state.
+fn take_up_last(world: &mut World) {
+    world.resource_mut::<State>().progress.behind = false;
+    take_up(world);
+    world.resource_mut::<State>().progress.behind = true;
 }
 
 /// Takes up what was changed between batches, and takes what runs a batch out of the world.

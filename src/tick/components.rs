@@ -1,52 +1,83 @@
 //! Components and the packed state: what systems of users see, and what they changed.
 
+use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut, Tick};
 use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemChangeTick;
 use glam::DVec2;
 
 use super::State;
 use crate::world::{Body, Force, Position, Roster, Rotation, Spin, Torque, Velocity};
 
-type Pose = (Entity, &'static Position, &'static Rotation, &'static Velocity, &'static Spin);
+type Pose = (Entity, Ref<'static, Position>, Ref<'static, Rotation>, Ref<'static, Velocity>, Ref<'static, Spin>);
 type PoseMut = (Entity, &'static mut Position, &'static mut Rotation, &'static mut Velocity, &'static mut Spin);
 
-/// Whether some component holds another value than the packed state.
-pub(super) fn components_differ(state: Res<State>, poses: Query<Pose, With<Body>>) -> bool {
-    let bodies = &state.bodies;
+/// Which components were written since the state was last shown in them. Others may hold an older state than a system that takes
+/// [`State`] has made of it.
+#[derive(Clone, Copy)]
+struct Written {
+    shown: Option<Tick>,
+    now: Tick,
+}
+
+impl Written {
+    fn since(state: &State, ticks: &SystemChangeTick) -> Self {
+        Self { shown: state.progress.published_at, now: ticks.this_run() }
+    }
+
+    fn has<T>(self, component: &Ref<T>) -> bool {
+        self.shown.is_none_or(|shown| component.last_changed().is_newer_than(shown, self.now))
+    }
+}
+
+/// Whether some component was given another value than the packed state has.
+pub(super) fn components_differ(state: Res<State>, poses: Query<Pose, With<Body>>, ticks: SystemChangeTick) -> bool {
+    let (bodies, written) = (&state.bodies, Written::since(&state, &ticks));
     poses.iter().any(|(entity, position, rotation, velocity, spin)| {
         let Some(body) = bodies.place(entity) else { return false };
-        bodies.position[body] != position.0
-            || bodies.angle[body] != rotation.0
-            || bodies.velocity[body] != velocity.0
-            || bodies.spin[body] != spin.0
+        bodies.position[body] != position.0 && written.has(&position)
+            || bodies.angle[body] != rotation.0 && written.has(&rotation)
+            || bodies.velocity[body] != velocity.0 && written.has(&velocity)
+            || bodies.spin[body] != spin.0 && written.has(&spin)
     })
 }
 
 /// Components -> packed state. What rounding left over is kept where a component was not touched.
-pub(super) fn load_state(mut state: ResMut<State>, poses: Query<Pose, With<Body>>) {
+pub(super) fn load_state(mut state: ResMut<State>, poses: Query<Pose, With<Body>>, ticks: SystemChangeTick) {
+    let written = Written::since(&state, &ticks);
     let bodies = &mut state.bodies;
     for (entity, position, rotation, velocity, spin) in &poses {
         let Some(body) = bodies.place(entity) else { continue };
-        if bodies.position[body] != position.0 {
+        if bodies.position[body] != position.0 && written.has(&position) {
             bodies.position[body] = position.0;
             bodies.position_rest[body] = DVec2::ZERO;
         }
-        if bodies.angle[body] != rotation.0 {
+        if bodies.angle[body] != rotation.0 && written.has(&rotation) {
             bodies.angle[body] = rotation.0;
             bodies.angle_rest[body] = 0.0;
         }
-        if bodies.velocity[body] != velocity.0 || bodies.spin[body] != spin.0 {
+        let moved = bodies.velocity[body] != velocity.0 && written.has(&velocity);
+        let turned = bodies.spin[body] != spin.0 && written.has(&spin);
+        if moved {
             bodies.velocity[body] = velocity.0;
+        }
+        if turned {
             bodies.spin[body] = spin.0;
-            if !bodies.estimated_velocity.is_empty() {
-                bodies.estimated_velocity[body] = velocity.0;
-                bodies.estimated_spin[body] = spin.0;
-            }
+        }
+        if (moved || turned) && !bodies.estimated_velocity.is_empty() {
+            bodies.estimated_velocity[body] = bodies.velocity[body];
+            bodies.estimated_spin[body] = bodies.spin[body];
         }
     }
 }
 
 /// Packed state -> components.
-pub(super) fn publish_components(state: Res<State>, mut poses: Query<PoseMut, With<Body>>) {
+pub(super) fn publish_components(
+    mut state: ResMut<State>,
+    mut poses: Query<PoseMut, With<Body>>,
+    ticks: SystemChangeTick,
+) {
+    let state = state.bypass_change_detection();
+    state.progress.published_at = Some(ticks.this_run());
     let bodies = &state.bodies;
     for (entity, mut position, mut rotation, mut velocity, mut spin) in &mut poses {
         // Spawned since the last rebuild: its components are the truth.

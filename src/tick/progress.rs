@@ -44,6 +44,9 @@ pub(super) struct Progress {
     /// When the state had changed last as these saw it.
     #[serde(skip)]
     pub shown_at: Option<Tick>,
+    /// When components were last brought up to date.
+    #[serde(skip)]
+    pub published_at: Option<Tick>,
     /// Forces are those of the present state.
     pub current: bool,
     /// Greatest travel of any point of a body in one tick, in metres.

@@ -148,6 +148,6 @@ impl State {
         (own.method, own.version, own.shown, own.shown_at) =
             (progress.method, progress.version + 1, progress.shown, progress.shown_at);
         (own.alone, own.looked_at) = (progress.alone, progress.looked_at);
-        own.behind = true;
+        (own.published_at, own.behind) = (progress.published_at, true);
     }
 }

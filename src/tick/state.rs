@@ -227,6 +227,9 @@ pub(super) struct Stages {
 /// Models, and what they know together.
 impl State {
     /// Adds a model behind the others: contact laws stand behind all other models.
+    ///
+    /// # Panics
+    /// While models act: a model cannot add another one. A system in [`Stage::Begin`](super::Stage::Begin) can.
     pub fn add_model(&mut self, model: impl Model) {
         let place = if belongs_to_contacts(&model) { self.models.len() } else { self.roles.others };
         self.insert_model(place, model);
@@ -238,6 +241,10 @@ impl State {
     }
 
     fn insert_model(&mut self, place: usize, model: impl Model) {
+        assert!(
+            place <= self.models.len(),
+            "a model cannot add another one while it acts: a system in `Stage::Begin` can"
+        );
         self.note_change();
         self.roles.others += usize::from(!belongs_to_contacts(&model));
         self.models.insert(place, Box::new(model));
@@ -257,6 +264,7 @@ impl State {
     /// Forces are evaluated anew before the next tick, and the energy by which the coming change differs from now counts as work.
     fn note_change(&mut self) {
         self.bodies.touched = true;
+        self.springs.look_again();
         if self.ledger.start.is_some() && self.progress.before.is_none() {
             self.progress.before = Some(self.totals());
         }

@@ -63,6 +63,11 @@ impl SteadySprings {
         self.found
     }
 
+    /// Models have changed: the springs are looked at after the next tick.
+    pub(super) fn look_again(&mut self) {
+        self.next = 0;
+    }
+
     /// Whether energy is to be watched at each tick.
     pub(super) fn alert(&self) -> bool {
         self.alert

@@ -37,6 +37,8 @@ impl State {
     /// A tick. `world` is there if systems of users are part of it.
     fn integrate(&mut self, world: Option<&mut World>) {
         self.turn_to(Part::Integrate);
+        // A system of a user may have added models, or taken some out.
+        self.find_roles();
         let mut running = self.progress.running.take().expect("ticks run inside `step`");
         let Running { method, schedules, alone, looked_at: seen } = &mut *running;
         let (style, clock) = (method.0.style(), self.clock);

@@ -8,6 +8,7 @@ mod contact_events;
 mod contact_law;
 mod film_layer;
 mod integrator;
+mod mixed;
 mod replaced_system;
 mod rows;
 mod snapshot;
