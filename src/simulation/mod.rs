@@ -10,8 +10,9 @@ mod snapshot;
 pub use choice::{Goal, Plan};
 pub use recorder::Recorder;
 pub use sampler::{Missing, Sampler};
-pub use snapshot::Snapshot;
+pub use snapshot::{ForkError, Snapshot};
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use bevy_app::App;
@@ -85,7 +86,17 @@ pub struct Simulation {
     ticks: u64,
     spent: Duration,
     failure: Option<Failure>,
+    origin: Arc<Origin>,
 }
+
+/// All that a simulation is read from.
+struct Origin {
+    source: Source,
+    overrides: Overrides,
+    plugins: Plugins,
+}
+
+type Plugins = Box<dyn Fn(&mut App) + Send + Sync>;
 
 /// Bodies of a scene whose reading took memory worth giving back.
 const LARGE: usize = 10_000;
@@ -103,8 +114,12 @@ impl Simulation {
     ///
     /// # Errors
     /// All mistakes of the scene, with their places; overrides that cannot be.
-    pub fn load_with(source: &Source, overrides: &Overrides, plugins: impl Fn(&mut App)) -> Result<Self, SceneErrors> {
-        Self::load_only(source, overrides, |app| {
+    pub fn load_with(
+        source: &Source,
+        overrides: &Overrides,
+        plugins: impl Fn(&mut App) + Send + Sync + 'static,
+    ) -> Result<Self, SceneErrors> {
+        Self::load_only(source, overrides, move |app| {
             crate::plugins::standard(app);
             plugins(app);
         })
@@ -114,8 +129,19 @@ impl Simulation {
     ///
     /// # Errors
     /// All mistakes of the scene, with their places; overrides that cannot be.
-    pub fn load_only(source: &Source, overrides: &Overrides, plugins: impl Fn(&mut App)) -> Result<Self, SceneErrors> {
-        let first = Self::read(source, overrides, &plugins)?;
+    pub fn load_only(
+        source: &Source,
+        overrides: &Overrides,
+        plugins: impl Fn(&mut App) + Send + Sync + 'static,
+    ) -> Result<Self, SceneErrors> {
+        let origin = Origin { source: source.clone(), overrides: overrides.clone(), plugins: Box::new(plugins) };
+        Self::of_origin(origin)
+    }
+
+    fn of_origin(origin: Origin) -> Result<Self, SceneErrors> {
+        let overrides = origin.overrides.clone();
+        let origin = Arc::new(origin);
+        let first = Self::read(&origin, &overrides)?;
         let world = first.unpublished_world();
         let (Some(goal), Some(plan)) = (world.get_resource::<Goal>(), world.get_resource::<Plan>()) else {
             return Ok(first);
@@ -124,14 +150,14 @@ impl Simulation {
             return Ok(first);
         }
         let begin = (plan.clone(), choice::order(world, plan), choice::steps_per_tick(world, plan));
-        let mut again =
-            |plan: &Plan| Self::read(source, &Overrides { plan: Some(plan.clone()), ..overrides.clone() }, &plugins);
+        let mut again = |plan: &Plan| Self::read(&origin, &Overrides { plan: Some(plan.clone()), ..overrides.clone() });
         let found = accuracy::find(*goal, begin, &mut again, overrides.tell)?;
         again(&found)
     }
 
     /// Reads a scene once, ready to run.
-    fn read(source: &Source, overrides: &Overrides, plugins: &dyn Fn(&mut App)) -> Result<Self, SceneErrors> {
+    fn read(origin: &Arc<Origin>, overrides: &Overrides) -> Result<Self, SceneErrors> {
+        let Origin { source, plugins, .. } = &**origin;
         let mut app = App::empty();
         app.insert_resource(WantedLayers(overrides.layers.clone()));
         let header = read(&mut app, source, plugins)?;
@@ -146,7 +172,8 @@ impl Simulation {
             give_back();
         }
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
-        Ok(Self { world: std::mem::take(app.world_mut()), header, film, ticks, spent: Duration::ZERO, failure: None })
+        let world = std::mem::take(app.world_mut());
+        Ok(Self { world, header, film, ticks, spent: Duration::ZERO, failure: None, origin: origin.clone() })
     }
 
     /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.

@@ -8,17 +8,18 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::Simulation;
+use super::{Overrides, Simulation};
 use crate::digest;
 use crate::expect::Expectations;
+use crate::scene::SceneErrors;
 use crate::tick::snapshot::{Unfit, Unsaved, recall};
-use crate::tick::{Notes, State, kept, open};
+use crate::tick::{Notes, State, kept, open, systems_of_users};
 
 /// The first bytes of a snapshot.
 const MAGIC: &[u8; 16] = b"jostle snapshot\n";
 
 /// Counts changes of what snapshots hold.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// A run between two ticks. See [`Simulation::snapshot`].
 #[derive(Clone, PartialEq, Eq)]
@@ -35,6 +36,8 @@ struct Header {
     scene: u64,
     /// How the scene is run: method, tick, steps.
     plan: String,
+    /// Systems of users in the tick.
+    systems: Vec<String>,
     ticks: u64,
     /// How often forces were evaluated so far.
     evaluations: u64,
@@ -95,7 +98,66 @@ impl Snapshot {
     }
 }
 
+/// Why a run cannot be forked.
+#[derive(Debug)]
+pub enum ForkError {
+    /// It cannot be set down.
+    Unsaved(Unsaved),
+    /// Its scene can no longer be read: a file that it includes has changed.
+    Scene(SceneErrors),
+    /// A run of its scene cannot go on from it: bodies were spawned or removed, systems were added, or an included file has
+    /// changed.
+    Unfit(Unfit),
+}
+
+impl fmt::Display for ForkError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Unsaved(why) => why.fmt(f),
+            Self::Scene(why) => why.fmt(f),
+            Self::Unfit(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ForkError {}
+
 impl Simulation {
+    /// A second run that goes on from here to the same bits, on its own: what is done to one does not touch the other.
+    ///
+    /// The scene is read once more, which takes longer than the rest. For many rollouts from one state fork a few times, one
+    /// for each thread, and [`restore`](Self::restore) a snapshot in them as often as needed.
+    ///
+    /// # Errors
+    /// As [`Simulation::snapshot`]; if bodies were spawned or removed, or systems added, since the scene was read.
+    ///
+    /// ```
+    /// use jostle::{Simulation, scene::Source};
+    ///
+    /// let scene = r#"Scene(
+    ///     format: 1,
+    ///     clock: (duration: 2),
+    ///     gravity: (0, -10),
+    ///     bodies: [(name: "ball", at: (0, 5), atoms: Disc(radius: 0.1))],
+    /// )"#;
+    /// let mut simulation = Simulation::load(&Source::new("fall.ron", scene))?;
+    /// simulation.run_to_tick(100)?;
+    /// let mut fork = simulation.fork()?;
+    /// simulation.run_to_end()?;
+    /// fork.run_to_end()?;
+    /// assert_eq!(fork.bodies().position, simulation.bodies().position);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn fork(&mut self) -> Result<Self, ForkError> {
+        let snapshot = self.snapshot().map_err(ForkError::Unsaved)?;
+        let bodies = self.bodies();
+        let (level, threads) = (Some(bodies.level), Some(bodies.threads.count()));
+        let overrides = Overrides { plan: self.plan().cloned(), level, threads, ..self.origin.overrides.clone() };
+        let mut fork = Self::read(&self.origin, &overrides).map_err(ForkError::Scene)?;
+        fork.restore(&snapshot).map_err(ForkError::Unfit)?;
+        Ok(fork)
+    }
+
     /// Sets the run down as it is now, between two ticks.
     ///
     /// Systems of plugins that remember something of their own (`Local`) are not seen.
@@ -122,7 +184,8 @@ impl Simulation {
     /// # Errors
     /// If the snapshot is of another scene, version, method or tick, or the plugins are others.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Unfit> {
-        let Header { version, scene, plan, .. } = self.identity();
+        open(&mut self.world);
+        let Header { version, scene, plan, systems, .. } = self.identity();
         let of = &snapshot.header;
         if of.version != version {
             return Err(Unfit(format!(
@@ -135,6 +198,12 @@ impl Simulation {
         }
         if of.plan != plan {
             return Err(Unfit(format!("the snapshot's run goes by {}, this one by {plan}", of.plan)));
+        }
+        if of.systems != systems {
+            let (theirs, own) = (of.systems.join(", "), systems.join(", "));
+            return Err(Unfit(format!(
+                "the snapshot's run has other systems in the tick: [{theirs}] instead of [{own}]"
+            )));
         }
         let Body { state, kept, notes, expectations } = recall(&snapshot.body)?;
         let world = &mut self.world;
@@ -170,6 +239,7 @@ impl Simulation {
             version,
             scene: self.header.digest,
             plan,
+            systems: systems_of_users(&self.world),
             ticks: self.clock().ticks,
             evaluations: self.state().evaluation.count,
         }

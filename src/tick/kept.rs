@@ -107,7 +107,7 @@ pub(crate) fn load(world: &mut World, saved: &[Option<Vec<u8>>]) -> Result<(), U
     Ok(())
 }
 
-/// Refuses a type from outside the engine that nobody registered.
+/// Refuses a type from outside the engine that was not registered.
 fn demand_all_known(world: &mut World) -> Result<(), Unsaved> {
     let known = world.get_resource_or_init::<Kept>().types.clone();
     let is_resource = world.components().component_id::<IsResource>();

@@ -78,6 +78,7 @@ pub use model::{Departure, Dependence, Energies, Events, Indicator, Loss, Model,
 pub use notes::Notes;
 pub use ode::Flow;
 pub use progress::{LocatedEvents, StepCount};
+pub(crate) use registered::systems_of_users;
 use registered::{Kind, register};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use state::State;

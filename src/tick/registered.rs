@@ -6,6 +6,8 @@ use bevy_ecs::intern::Interned;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{NodeId, ScheduleLabel, SystemKey};
 
+use super::{Evaluate, Modes, SimTick};
+
 /// What is known of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -35,6 +37,21 @@ fn keys(schedule: &Schedule) -> impl Iterator<Item = SystemKey> + '_ {
         NodeId::System(key) => Some(key),
         NodeId::Set(_) => None,
     })
+}
+
+/// The names of the systems from outside the engine that are part of the tick, in alphabetical order. The world must be open.
+pub(crate) fn systems_of_users(world: &World) -> Vec<String> {
+    let Some(schedules) = world.get_resource::<Schedules>() else { return Vec::new() };
+    let mut names = Vec::new();
+    for label in [SimTick.intern(), Modes.intern(), Evaluate.intern()] {
+        let Some(schedule) = schedules.get(label) else { continue };
+        // Systems wait in the graph until the schedule is made ready.
+        names.extend(schedule.graph().systems.iter().map(|(_, system, _)| system.name().to_string()));
+        names.extend(schedule.systems().into_iter().flatten().map(|(_, system)| system.name().to_string()));
+    }
+    names.retain(|name| !name.starts_with("jostle::") && !name.starts_with("bevy_ecs::"));
+    names.sort_unstable();
+    names
 }
 
 /// Adds systems to a schedule, with `add`, that work on the packed state only.

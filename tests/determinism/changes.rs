@@ -55,7 +55,7 @@ fn nobody_notices_that_a_far_away_body_goes() {
         run(&mut stays, TICKS);
         assert_eq!(stays.bodies().len(), 13);
         for tick in [0, 1000, 2000, TICKS - 1] {
-            let mut goes = load(&text, |app| {
+            let mut goes = load(&text, move |app| {
                 app.insert_resource(Farewell(tick)).add_systems(SimTick, despawn_high.in_set(Stage::Begin));
             });
             run(&mut goes, TICKS);
@@ -87,7 +87,7 @@ fn nobody_notices_that_a_far_away_body_comes() {
     });
     run(&mut alone, TICKS);
     for tick in [0, 1000, TICKS - 1] {
-        let mut joined = load(&text, |app| {
+        let mut joined = load(&text, move |app| {
             app.insert_resource(Arrival(tick)).add_systems(SimTick, spawn_far_away.in_set(Stage::Begin));
         });
         run(&mut joined, TICKS);
@@ -108,7 +108,7 @@ fn who_comes_in_mid_run_falls_and_collides() {
             body.spawn(world);
         }
     };
-    let mut simulation = load(&text, |app| {
+    let mut simulation = load(&text, move |app| {
         app.add_systems(SimTick, spawn_above.in_set(Stage::Begin));
     });
     let mut alone = load(&text, |_| {});

@@ -92,7 +92,7 @@ fn new_clump(world: &World, number: usize) -> NewBody {
     }
 }
 
-fn load(text: &str, plugins: impl Fn(&mut App)) -> Simulation {
+fn load(text: &str, plugins: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     let source = Source::new("same.ron", text);
     Simulation::load_with(&source, &Overrides::default(), plugins).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
 }

@@ -114,7 +114,7 @@ fn push_with_nothing(mut forces: Query<&mut Force>) {
 fn assert_that_looking_does_not_matter(method: &str, text: &str) {
     let plain = hash_of(text);
     for stage in [Stage::Begin, Stage::Observe] {
-        let mut simulation = load(text, |app| {
+        let mut simulation = load(text, move |app| {
             app.add_systems(SimTick, look.in_set(stage));
         });
         run(&mut simulation, TICKS);

@@ -10,6 +10,7 @@ use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simd::Level;
 use jostle::simulation::{Overrides, Snapshot};
+use jostle::world::Velocity;
 use jostle::world::hash::state_hash;
 
 use super::pinned_methods::{WAYS, scenes, short};
@@ -38,6 +39,9 @@ fn difference(source: &Source, overrides: &Overrides) -> Option<String> {
         let tick = (moment * whole.ticks() as f64) as u64;
         saved.run_to_tick(tick).unwrap();
         let bytes = saved.snapshot().unwrap_or_else(|error| panic!("{}: {error}", source.name)).to_bytes();
+        if saved.fork().unwrap().future_hash() != saved.future_hash() {
+            return Some(format!("after {tick} ticks: the future of a fork is another"));
+        }
         let mut resumed = Simulation::load_with(source, &others, |_| {}).unwrap();
         // What it has done before is forgotten.
         resumed.run_to_tick(tick / 2 + 1).unwrap();
@@ -97,4 +101,32 @@ fn so_they_do_under_every_kind_of_method() {
         }
     }
     demand_none(runs);
+}
+
+#[test]
+fn forks_go_on_alike_and_do_not_touch_each_other() {
+    let source = Source::read(&PathBuf::from("scenes/tetris.ron")).unwrap();
+    let mut simulation = Simulation::load(&source).unwrap();
+    simulation.run_to_tick(simulation.ticks() / 6).unwrap();
+    let mut kicked = simulation.fork().unwrap();
+    let mut plain = simulation.fork().unwrap();
+    let before = simulation.future_hash();
+    let world = kicked.world_mut();
+    world.query::<&mut Velocity>().iter_mut(world).for_each(|mut velocity| velocity.0.x += 0.5);
+    kicked.run_to_end().unwrap();
+    assert_eq!(simulation.future_hash(), before);
+    simulation.run_to_end().unwrap();
+    plain.run_to_end().unwrap();
+    assert_eq!(end(&mut plain), end(&mut simulation));
+    assert_ne!(end(&mut kicked).0, end(&mut simulation).0);
+}
+
+#[test]
+fn a_run_with_a_body_of_later_is_not_forked() {
+    let mut simulation = Simulation::load(&Source::read(&PathBuf::from("scenes/tetris.ron")).unwrap()).unwrap();
+    let body = simulation.bodies().entity[0];
+    simulation.world_mut().despawn(body);
+    simulation.run_to_tick(1).unwrap();
+    let why = simulation.fork().err().expect("a refusal").to_string();
+    assert_eq!(why, "it has other bodies, walls or accounts than this run");
 }

@@ -39,7 +39,7 @@ fn listener(app: &mut App) {
     app.add_systems(SimTick, keep_diary.in_set(Stage::Observe).after(FindContactEvents));
 }
 
-fn load(text: &str, plugins: impl Fn(&mut App)) -> Simulation {
+fn load(text: &str, plugins: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     let source = Source::new("events.ron", text);
     Simulation::load_with(&source, &Overrides::default(), plugins).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
 }

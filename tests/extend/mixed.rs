@@ -13,7 +13,7 @@ use jostle::tick::response::Spring;
 use jostle::tick::{Energies, Loss, Model, SimTick, Stage, State, SteadySpring, TickAppExt};
 use jostle::world::{Position, Velocity, hash::state_hash};
 
-fn load(method: &str, plugins: impl Fn(&mut App)) -> Simulation {
+fn load(method: &str, plugins: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     let scene = format!(
         "Scene(format: 1, clock: (duration: 0.1, tick: 0.001, method: {method}),
           bodies: [(name: \"ball\", at: (0, 0), velocity: (2, 0), atoms: Disc(radius: 0.1, mass: 2))])"

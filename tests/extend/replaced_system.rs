@@ -21,9 +21,9 @@ const SCENE: &str = "Scene(format: 1, clock: (duration: 1, tick: 0.001, method: 
 struct Runs(u64);
 
 /// A world without drag, once `change` has made it another one.
-fn without_drag(change: impl Fn(&mut App)) -> Simulation {
+fn without_drag(change: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     let source = Source::new("replaced.ron", SCENE);
-    let mut simulation = Simulation::load_with(&source, &Overrides::default(), |app| {
+    let mut simulation = Simulation::load_with(&source, &Overrides::default(), move |app| {
         app.init_resource::<Runs>();
         change(app);
     })

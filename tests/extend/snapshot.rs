@@ -78,22 +78,25 @@ fn mark(mut commands: Commands, bodies: Query<Entity, (With<Velocity>, Without<K
     bodies.iter().for_each(|body| _ = commands.entity(body).insert(Kicked::default()));
 }
 
-fn load(plugins: impl Fn(&mut App)) -> Simulation {
+fn load(plugins: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     Simulation::load_with(&Source::new("kicks.ron", SCENE), &Overrides::default(), plugins).expect("a correct scene")
 }
 
 /// Runs whole, and in two simulations one after the other; returns both hashes.
-fn whole_and_resumed(plugins: impl Fn(&mut App) + Copy) -> (u64, u64) {
+fn whole_and_resumed(plugins: impl Fn(&mut App) + Send + Sync + 'static + Copy) -> (u64, u64) {
     let mut whole = load(plugins);
     whole.run_to_end().unwrap();
     let mut first = load(plugins);
     first.run_to_tick(437).unwrap();
     let snapshot = first.snapshot().unwrap();
+    let mut fork = first.fork().unwrap();
     let mut second = load(plugins);
     // It has been elsewhere meanwhile.
     second.run_to_tick(700).unwrap();
     second.restore(&snapshot).unwrap();
     second.run_to_end().unwrap();
+    fork.run_to_end().unwrap();
+    assert_eq!(state_hash(fork.bodies()), state_hash(second.bodies()));
     (state_hash(whole.bodies()), state_hash(second.bodies()))
 }
 
@@ -173,4 +176,27 @@ fn simulations_can_be_sent_to_threads() {
     let mut here = load(|_| {});
     here.run_to_end().unwrap();
     assert_eq!(hash.join().unwrap(), state_hash(here.bodies()));
+}
+
+#[test]
+fn a_run_with_a_system_of_later_goes_on_with_the_same_one_only() {
+    fn lift(mut bodies: Query<&mut Velocity>) {
+        bodies.iter_mut().for_each(|mut velocity| velocity.0.y += 1e-3);
+    }
+    let add = |simulation: &mut Simulation| {
+        simulation.world_mut().schedule_scope(SimTick, |_, schedule| {
+            schedule.add_systems(lift.in_set(Stage::Begin));
+        });
+    };
+    let mut simulation = load(|_| {});
+    simulation.run_to_tick(10).unwrap();
+    add(&mut simulation);
+    simulation.run_to_tick(20).unwrap();
+    let why = simulation.fork().err().expect("a refusal").to_string();
+    assert!(why.contains("other systems in the tick") && why.contains("lift"), "{why}");
+    let snapshot = simulation.snapshot().unwrap();
+    let mut second = load(|_| {});
+    add(&mut second);
+    second.restore(&snapshot).unwrap();
+    assert_eq!(simulation.future_hash(), second.future_hash());
 }

@@ -46,7 +46,7 @@ fn cloud(columns: usize, rows: usize, speed: f64, rest: &str) -> String {
 
 const CLOCK: &str = "clock: (duration: 1, tick: 0.001, method: VelocityVerlet),";
 
-fn load_with(text: &str, plugins: impl Fn(&mut App)) -> Simulation {
+fn load_with(text: &str, plugins: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     let simulation = Simulation::load_with(&Source::new("cloud.ron", text), &Overrides::default(), plugins);
     simulation.unwrap_or_else(|errors| panic!("{errors}"))
 }
@@ -234,7 +234,7 @@ fn who_looks_changes_no_bit() {
     fn look(_: Query<&jostle::world::Position>) {}
     let text = cloud(20, 10, 2.0, CLOCK);
     let run = |pieces: u64, looks: bool| {
-        let mut simulation = load_with(&text, |app| {
+        let mut simulation = load_with(&text, move |app| {
             if looks {
                 app.add_systems(SimTick, look.in_set(Stage::Observe));
             }

@@ -94,7 +94,7 @@ fn a_contact_that_slips_obeys_the_dynamic_coefficient() {
     for method in METHODS {
         for looked_at in [false, true] {
             let text = sliding(method, 0.25, "(static: 0.6, dynamic: 0.2)", NEVER_ROLLS);
-            let plugins = |app: &mut bevy_app::App| {
+            let plugins = move |app: &mut bevy_app::App| {
                 if looked_at {
                     app.add_systems(SimTick, look.in_set(Stage::Begin));
                 }

@@ -178,7 +178,7 @@ fn pulled(method: &str, force: f64, angle: f64) -> Simulation {
     let (radius, mass) = SPOOL;
     let spool = format!("inertia: 0.012, atoms: Disc(radius: {radius:?}, mass: {mass:?})");
     let text = round(method, 0.0, 0.4, (radius, mass * GRAVITY - force * sin), &spool);
-    let plugins = |app: &mut bevy_app::App| {
+    let plugins = move |app: &mut bevy_app::App| {
         app.add_model(Pull { force: DVec2::new(cos, sin) * force, inner: 0.05 });
     };
     Simulation::load_with(&Source::new("spool.ron", text), &Overrides::default(), plugins).expect("a correct scene")
