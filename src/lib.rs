@@ -33,8 +33,9 @@
 
 pub(crate) mod digest;
 pub(crate) mod numbers;
-pub mod simd;
 pub mod threads;
+#[doc(inline)]
+pub use jostle_simd as simd;
 
 pub mod scene;
 

@@ -12,14 +12,16 @@ const LINE: usize = 64;
 /// A program that runs large scenes with the library makes it its own:
 ///
 /// ```
+/// # use jostle_simd as simd;
+/// // In a program: `use jostle::simd`.
 /// #[global_allocator]
-/// static LINES: jostle::simd::Lines = jostle::simd::Lines;
+/// static LINES: simd::Lines = simd::Lines;
 /// ```
 pub struct Lines;
 
 /// Gives memory that is not used back to the system, where the C library can. It keeps what a large scene took while it was read,
 /// for whoever asks next: up to twice the largest list.
-pub(crate) fn give_back() {
+pub fn give_back() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
         unsafe extern "C" {

@@ -28,6 +28,9 @@ impl PairBlock {
 /// Numbers of a record.
 const SCALE: u32 = BLOCK as u32;
 
+/// Places of pairs are below that.
+pub const MOST_PLACES: usize = (u32::MAX / SCALE) as usize;
+
 /// Pairs of places in blocks; the last is filled up with pairs of the place 0 with itself.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(into = "Listed", try_from = "Listed")]
@@ -72,10 +75,7 @@ impl TryFrom<Listed> for PairBlocks {
         };
         let (places, of_records) = (bound(&blocks).ok_or(NOT_A_PLACE)?, bound(&sides).ok_or(NOT_A_PLACE)?);
         let fits = sides.is_empty() || (sides.len() == blocks.len() && of_records <= records);
-        if !fits
-            || records > (u32::MAX / SCALE) as usize
-            || (sides.is_empty() && records < places && !blocks.is_empty())
-        {
+        if !fits || records > MOST_PLACES || (sides.is_empty() && records < places && !blocks.is_empty()) {
             return Err(NOT_A_PLACE);
         }
         let [blocks, sides] = [blocks, sides].map(|list| {
@@ -89,32 +89,41 @@ const NOT_A_PLACE: &str = "places of pairs are not among those there are";
 
 impl PairBlocks {
     /// Lists pairs anew.
+    ///
+    /// # Panics
+    /// If a place is [`MOST_PLACES`] or more, or the iterator gives more pairs than it said; then the list is empty.
     pub fn list(&mut self, pairs: impl ExactSizeIterator<Item = (u32, u32)>) {
-        self.blocks.clear();
-        self.blocks.resize(pairs.len().div_ceil(BLOCK), PairBlock::default());
-        self.bound = 0;
+        // What kernels trust is put back when all places have been looked at.
+        let Self { mut blocks, .. } = std::mem::take(self);
+        blocks.clear();
+        blocks.resize(pairs.len().div_ceil(BLOCK), PairBlock::default());
+        let mut bound = 0;
         for (number, (first, second)) in pairs.enumerate() {
-            let block = &mut self.blocks[number / BLOCK];
-            (block.first[number % BLOCK], block.second[number % BLOCK]) = (SCALE * first, SCALE * second);
-            self.bound = self.bound.max(first as usize + 1).max(second as usize + 1);
+            let block = &mut blocks[number / BLOCK];
+            (block.first[number % BLOCK], block.second[number % BLOCK]) =
+                (SCALE.wrapping_mul(first), SCALE.wrapping_mul(second));
+            bound = bound.max(first as usize + 1).max(second as usize + 1);
         }
-        assert!(self.bound <= (u32::MAX / SCALE) as usize, "more places than can be written");
-        (self.sides, self.records) = (Vec::new(), self.bound);
+        assert!(bound <= MOST_PLACES, "more places than can be written");
+        *self = Self { blocks, bound, sides: Vec::new(), records: bound };
     }
 
     /// The records of both sides stand elsewhere: for each place where that is, and how many records there are.
     ///
     /// # Panics
-    /// If one is not there.
+    /// If one is not there; then all is as before.
     pub fn find_records(&mut self, of: &[u32], count: usize) {
-        let elsewhere = |places: [u32; BLOCK]| places.map(|place| SCALE * of[(place / SCALE) as usize]);
-        let side = |block: &PairBlock| PairBlock { first: elsewhere(block.first), second: elsewhere(block.second) };
-        self.sides = self.blocks.iter().map(side).collect();
-        let there = |block: &PairBlock| {
-            block.first.iter().chain(&block.second).all(|&place| ((place / SCALE) as usize) < count)
+        let count = count.min(MOST_PLACES);
+        let elsewhere = |places: [u32; BLOCK]| {
+            places.map(|place| {
+                let found = of[(place / SCALE) as usize];
+                assert!((found as usize) < count, "a pair of what is not there");
+                SCALE * found
+            })
         };
-        assert!(self.sides.iter().all(there), "a pair of what is not there");
-        self.records = count;
+        let side = |block: &PairBlock| PairBlock { first: elsewhere(block.first), second: elsewhere(block.second) };
+        let sides = self.blocks.iter().map(side).collect();
+        (self.sides, self.records) = (sides, count);
     }
 
     fn sides(&self) -> &[PairBlock] {
@@ -176,9 +185,13 @@ impl PairedRecords<'_> {
         if first == 0 && self.pairs.bound.max(1) <= len {
             return true;
         }
+        if first >= MOST_PLACES {
+            return false;
+        }
+        // A place before the first, less the first, is not below that.
+        let len = len.min(MOST_PLACES - first);
         let mut farthest = 0;
         for lane in 0..BLOCK {
-            // Whoever stands before the first is far behind it.
             let first = SCALE * first as u32;
             let (a, b) = (pairs.first[lane].wrapping_sub(first), pairs.second[lane].wrapping_sub(first));
             farthest = farthest.max(a).max(b);

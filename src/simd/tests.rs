@@ -129,3 +129,52 @@ fn a_level_is_named_by_its_word() {
     }
     assert!("sse9".parse::<Level>().unwrap_err().contains("`avx2`"));
 }
+
+/// The pushes of a block of pairs on bodies in a row, and whether they were given.
+fn given(places: [(u32, u32); BLOCK], first: usize, len: usize) -> (bool, Vec<DVec2>) {
+    let mut pairs = PairBlocks::default();
+    pairs.list(places.into_iter());
+    let records = vec![Record::default(); places.iter().flat_map(|&(a, b)| [a, b]).max().unwrap() as usize + 1];
+    let (mut force, mut torque) = (vec![DVec2::ZERO; len], vec![0.0; len]);
+    let pushes = Pushes { force: [DVec2::X; BLOCK], ..Pushes::NONE };
+    let done = pushes.give(&pairs.records(&records), 0, u8::MAX, (first, &mut force, &mut torque));
+    (done, force)
+}
+
+#[test]
+fn pushes_reach_no_body_outside_the_row() {
+    let places = std::array::from_fn(|lane| (3 + lane as u32 % 2, 5));
+    assert!(given(places, 3, 3).0);
+    assert!(given(places, 0, 6).0);
+    for (first, len) in [(3, 2), (4, 3), (0, 5), (1 << 29, 9), ((1 << 29) - 2, 9), (usize::MAX, 9), (0, 0)] {
+        let (done, force) = given(places, first, len);
+        assert!(!done, "{first} {len}");
+        assert!(force.iter().all(|force| *force == DVec2::ZERO));
+    }
+    assert_eq!(given(places, 3, 3).1, [DVec2::new(-4.0, 0.0), DVec2::new(-4.0, 0.0), DVec2::new(8.0, 0.0)]);
+}
+
+/// What a call does that panics, as its message.
+fn panics(call: impl FnOnce()) -> bool {
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).is_err()
+}
+
+#[test]
+fn lists_that_cannot_be_leave_nothing_behind_that_kernels_trust() {
+    let mut pairs = PairBlocks::default();
+    pairs.list([(0, 1), (1, 2)].into_iter());
+    assert!(panics(|| pairs.list([(0, 1 << 29)].into_iter())));
+    assert!(panics(|| pairs.list([(0, u32::MAX)].into_iter())));
+    let _ = pairs.records(&[]);
+    pairs.list([(0, 1), (1, 2)].into_iter());
+    let listed = [pairs.side(0).get(0), pairs.side(0).get(1)];
+    for (of, count) in [(&[0, 1, 3][..], 3), (&[0, 1], 3), (&[0, 1, 1 << 29], 9), (&[0, 1, u32::MAX], usize::MAX)] {
+        assert!(panics(|| pairs.find_records(of, count)));
+        assert_eq!([pairs.side(0).get(0), pairs.side(0).get(1)], listed);
+    }
+    pairs.find_records(&[2, 1, 0], 3);
+    assert!(panics(|| _ = pairs.records(&[Record::default(); 2])));
+    let records: [Record; 3] = std::array::from_fn(|place| Record([place as f64; BLOCK]));
+    let (apart, _) = pairs.records(&records).load::<f64>(0, 0);
+    assert_eq!(apart[0], -1.0);
+}

@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::{F64x4, last_two_of, operators, record_at};
-use crate::simd::{BLOCK, Lanes, Record, Vectors};
+use crate::{BLOCK, Lanes, Record, Vectors};
 
 /// Eight numbers.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::{bit_operators, operators};
-use crate::simd::{BLOCK, Lanes, Record, Vectors};
+use crate::{BLOCK, Lanes, Record, Vectors};
 
 /// Two numbers.
 #[derive(Clone, Copy)]

@@ -15,7 +15,6 @@ mod allocator;
 mod level;
 mod pairs;
 mod scalar;
-use serde::{Deserialize, Serialize};
 #[cfg(test)]
 mod tests;
 mod vectors;
@@ -25,9 +24,10 @@ mod x86;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 pub use allocator::Lines;
-pub(crate) use allocator::give_back;
+pub use allocator::give_back;
 pub use level::{Kernel, Level, run};
 pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
 pub use vectors::Vectors;
@@ -39,7 +39,7 @@ pub struct Record(pub [f64; BLOCK]);
 
 /// Has a line of the cache brought near that will be read soon. It may be any place: nothing is read from what is not there.
 #[inline(always)]
-pub(crate) fn fetch<T>(place: *const T) {
+pub fn fetch<T>(place: *const T) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: each x86-64 processor has the instruction, which does nothing but a hint.
     unsafe {
