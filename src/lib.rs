@@ -47,6 +47,9 @@ pub mod tick;
 
 pub mod contacts;
 pub mod forces;
+pub mod joints;
+
+pub mod controllers;
 
 pub mod integrate;
 

@@ -9,10 +9,10 @@ use crate::raster::{COLOR_NAMES, Theme};
 use crate::record::sections::look::THEMES;
 use crate::scene::SceneAppExt;
 use crate::world::material::COLORS;
-use crate::{contacts, expect, forces, integrate, record, sensors, world};
+use crate::{contacts, controllers, expect, forces, integrate, joints, record, sensors, world};
 
 /// Names of the language that are kept for later.
-const RESERVED: [&str; 4] = ["joints", "randomise", "controllers", "scene"];
+const RESERVED: [&str; 2] = ["randomise", "scene"];
 
 /// Registers the sections that describe the run and the film, their words, and the names that are kept for later.
 pub fn run_and_film(app: &mut App) {
@@ -36,6 +36,8 @@ pub fn standard(app: &mut App) {
     integrate::plugin(app);
     world::plugin(app);
     forces::plugin(app);
+    joints::plugin(app);
+    controllers::plugin(app);
     contacts::plugin(app);
     sensors::plugin(app);
     expect::plugin(app);

@@ -7,6 +7,8 @@ use super::film::Order;
 use super::progress::Progress;
 use super::say::say;
 use crate::cli::author;
+use crate::forces::spring::SpringForce;
+use crate::joints::Joint;
 use crate::raster::{Bounds, Camera, Panel};
 use crate::record::Schedule;
 use crate::record::follow::Follower;
@@ -110,6 +112,7 @@ impl Order<'_> {
                 break;
             };
             if let Some(now) = Bounds::of_frame(&frame) {
+                let now = anchors(ahead).fold(now, |seen, at| seen.union(Bounds { low: at, high: at }));
                 all = Some(all.map_or(now, |before: Bounds| before.union(now)));
                 if tame.is_none() {
                     room = WILDEST_GROWTH * extent(now);
@@ -139,4 +142,13 @@ impl Order<'_> {
 
 fn extent(bounds: Bounds) -> f64 {
     (bounds.high - bounds.low).max_element()
+}
+
+/// The anchors of joints and springs in the present state: films show them.
+fn anchors(simulation: &Simulation) -> impl Iterator<Item = glam::DVec2> + '_ {
+    let (state, bodies) = (simulation.state(), simulation.bodies());
+    let joints = state.models_of::<Joint>().filter_map(|joint| joint.pair(bodies));
+    let joints = joints.flat_map(|pair| [pair.a.position, pair.b.position]);
+    let springs = state.models_of::<SpringForce>().filter_map(|spring| spring.link.ends(bodies));
+    joints.chain(springs.flat_map(|(a, b)| [a.position, b.position])).filter(|at| at.is_finite())
 }

@@ -4,18 +4,24 @@
 //! |---|---|
 //! | `rows.rs` | held relative accelerations and velocities, exactly, for methods with stages |
 //! | `redundant.rs` | which forces are taken where rows depend on each other |
+//! | `solver.rs` | the same for joints, by sparse factors (`block_cholesky.rs`) |
+//! | `projection.rs` | places and velocities brought back onto what joints hold |
 //! | `rest_solver/` | which bounded forces bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | which links act on each other |
 //!
 //! Models give rows in stage Forces ([`Rows::add`]), the engine solves all of them together in stage Constraints, and each model
 //! takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).
 
+mod block_cholesky;
 pub mod islands;
+mod projection;
 mod redundant;
 pub mod rest_solver;
 mod row;
 mod rows;
+mod solver;
 
+pub use projection::{Gap, Projection};
 pub use redundant::Share;
-pub use row::{LostTo, Row, Side};
+pub use row::{Kind, LostTo, Row, Side};
 pub use rows::{Booking, Cancelled, Rows};

@@ -15,6 +15,18 @@ pub enum LostTo {
     Friction,
 }
 
+/// What of the relative motion along a row is held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    /// Its place: a joint. Places, velocities and accelerations are held, and brought back to what they should be after each step.
+    Position,
+    /// Its velocity: a motor. Velocities are brought back, places are not.
+    Velocity,
+    /// Its acceleration: a contact that is held for the time being.
+    #[default]
+    Acceleration,
+}
+
 /// One side of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Side {
@@ -43,6 +55,34 @@ pub struct Row {
     pub share: Share,
     /// The account of what it takes.
     pub lost_to: LostTo,
+    /// What of it is held.
+    pub kind: Kind,
+    /// How far its place is from where it should be, in m or rad. Zero for rows that hold no place.
+    pub gap: f64,
+    /// The numbers from which the gap was found, in m or rad: rounding of the gap is a share of that.
+    pub size: f64,
+    /// The relative velocity that is held, in m/s or rad/s.
+    pub rate: f64,
+    /// Whether its force is bounded: no impulse comes from it.
+    pub gives_way: bool,
+}
+
+impl Default for Row {
+    /// A contact row between nothing.
+    fn default() -> Self {
+        Self {
+            sides: [None, None],
+            inertial: 0.0,
+            surface: DVec2::ZERO,
+            share: Share { natural: 0.0, measure: 1.0 },
+            lost_to: LostTo::Friction,
+            kind: Kind::Acceleration,
+            gap: 0.0,
+            size: 0.0,
+            rate: 0.0,
+            gives_way: false,
+        }
+    }
 }
 
 impl Row {

@@ -8,12 +8,15 @@
 use glam::DVec2;
 
 use super::redundant::{self, Share};
-use super::row::{LostTo, Row};
+use super::row::{Kind, LostTo, Row};
+use super::solver::Solver;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
 /// A share of a force that counts as rounding.
 const ROUNDING: f64 = 1e-12;
+/// Rows of joints round by less: their part of that share.
+const OF_JOINTS: f64 = 0.01;
 
 /// A body with the sum of the forces that hold it, in newtons.
 #[derive(Debug, Serialize, Deserialize)]
@@ -47,11 +50,22 @@ pub struct Cancelled {
 pub struct Rows {
     rows: Vec<Row>,
     loads: Vec<Loaded>,
+    /// For each body where its load may stand.
+    #[serde(skip)]
+    places: Vec<usize>,
     #[serde(skip)]
     matrix: Vec<f64>,
     answer: Vec<f64>,
     #[serde(skip)]
     work: Vec<f64>,
+    /// How many rows are not those of contacts.
+    joints: usize,
+    /// In a box, as rows are taken out and put back in each tick. None before rows of joints are first solved.
+    #[serde(skip)]
+    solver: Option<Box<Solver>>,
+    /// Whether the solver knows the present rows.
+    #[serde(skip)]
+    prepared: bool,
 }
 
 impl Rows {
@@ -59,6 +73,43 @@ impl Rows {
     pub fn clear(&mut self) {
         self.rows.clear();
         self.answer.clear();
+        (self.joints, self.prepared) = (0, false);
+    }
+
+    /// All rows in order.
+    pub fn all(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Whether some hold more than accelerations: places or velocities.
+    pub fn has_joints(&self) -> bool {
+        self.joints > 0
+    }
+
+    /// Whether all hold places.
+    pub fn all_in_place(&self) -> bool {
+        self.rows.iter().all(|row| row.kind == Kind::Position)
+    }
+
+    /// Forgets the rows for which `keep` says no.
+    pub fn retain(&mut self, keep: impl FnMut(&Row) -> bool) {
+        self.rows.retain(keep);
+        self.joints = self.rows.iter().filter(|row| row.kind != Kind::Acceleration).count();
+        self.prepared = false;
+    }
+
+    /// The rows, and what solves for them.
+    pub fn prepared(&mut self, bodies: &Bodies) -> (&[Row], &mut Solver) {
+        let solver = self.solver.get_or_insert_default();
+        if !std::mem::replace(&mut self.prepared, true) {
+            solver.prepare(&self.rows, bodies);
+        }
+        (&self.rows, solver)
+    }
+
+    /// Whether the forces of some rows of joints are not determined, because rows depend on each other.
+    pub fn is_dependent(&self) -> bool {
+        self.prepared && self.solver.as_ref().is_some_and(|solver| solver.is_dependent())
     }
 
     /// Whether there are none.
@@ -73,6 +124,7 @@ impl Rows {
 
     /// Adds a row.
     pub fn add(&mut self, row: Row) {
+        self.joints += usize::from(row.kind != Kind::Acceleration);
         self.rows.push(row);
     }
 
@@ -88,10 +140,23 @@ impl Rows {
 
     /// Finds the forces of all rows, given all others.
     pub fn solve(&mut self, bodies: &Bodies) {
+        if self.has_joints() {
+            self.answer.clear();
+            self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies)));
+            return self.solve_joined(bodies, |row| row.share);
+        }
         self.fill_matrix(bodies);
         self.answer.clear();
         self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies)));
         redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share), &mut self.work);
+    }
+
+    /// Joints and held contacts: each island with held contacts at once, all others sparsely.
+    fn solve_joined(&mut self, bodies: &Bodies, shares: impl Fn(&Row) -> Share) {
+        let mut answer = std::mem::take(&mut self.answer);
+        let (rows, solver) = self.prepared(bodies);
+        solver.solve(rows, bodies, shares, &mut answer);
+        self.answer = answer;
     }
 
     fn fill_matrix(&mut self, bodies: &Bodies) {
@@ -103,11 +168,15 @@ impl Rows {
     /// Impulses that make the relative velocities of all rows zero: what rounding and the error of a step of `dt` seconds have
     /// left there. Says whether anything changed.
     pub fn stop(&mut self, bodies: &mut Bodies, dt: f64, mut book: impl FnMut(Booking)) -> bool {
-        self.fill_matrix(bodies);
         self.answer.clear();
-        self.answer.extend(self.rows.iter().map(|row| -row.velocity(bodies)));
-        let shares = self.rows.iter().map(|row| Share { natural: 0.0, ..row.share });
-        redundant::solve(&self.matrix, &mut self.answer, shares, &mut self.work);
+        self.answer.extend(self.rows.iter().map(|row| row.rate - row.velocity(bodies)));
+        let unloaded = |row: &Row| Share { natural: 0.0, ..row.share };
+        if self.has_joints() {
+            self.solve_joined(bodies, unloaded);
+        } else {
+            self.fill_matrix(bodies);
+            redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(unloaded), &mut self.work);
+        }
         self.book_powers(bodies, &mut book);
         for (row, &impulse) in self.rows.iter().zip(&self.answer) {
             for side in row.sides.iter().flatten() {
@@ -117,14 +186,23 @@ impl Rows {
             }
         }
         self.book_powers(bodies, &mut book);
+        self.halt(bodies, dt, |energy| book(Booking::Lost(LostTo::Inelasticity, energy)));
+        self.answer.iter().any(|impulse| *impulse != 0.0)
+    }
+
+    /// Bodies that are as slow as rounding of the forces on them makes them in `dt` seconds stand.
+    pub fn still(&self, bodies: &mut Bodies, dt: f64) {
+        self.halt(bodies, dt, |_| ());
+    }
+
+    fn halt(&self, bodies: &mut Bodies, dt: f64, mut lost: impl FnMut(f64)) {
         for Loaded { body, load } in &self.loads {
             let limit = ROUNDING * load * dt * mobility(bodies, *body);
             if bodies.velocity[*body].length() + bodies.spin[*body].abs() * bodies.extent(*body) <= limit {
-                book(Booking::Lost(LostTo::Inelasticity, bodies.kinetic_energy(*body)));
+                lost(bodies.kinetic_energy(*body));
                 (bodies.velocity[*body], bodies.spin[*body]) = (DVec2::ZERO, 0.0);
             }
         }
-        self.answer.iter().any(|impulse| *impulse != 0.0)
     }
 
     /// Books the energy of the impulses of all rows, in two halves: with the velocities before them and after. What is not along
@@ -141,12 +219,21 @@ impl Rows {
     /// Bodies that stand and whose forces cancel but for rounding get none. `told` hears of each.
     pub fn cancel(&mut self, bodies: &mut Bodies, mut told: impl FnMut(&Bodies, Cancelled)) {
         self.loads.clear();
+        self.places.resize(bodies.len(), 0);
         for (row, &force) in self.rows.iter().zip(&self.answer) {
+            let share = if row.kind == Kind::Acceleration { 1.0 } else { OF_JOINTS };
             for side in row.sides.iter().flatten() {
-                let load = force.abs() * side.force.length();
-                match self.loads.iter_mut().find(|loaded| loaded.body == side.body) {
+                let extent = bodies.extent(side.body);
+                let turns = side.force == DVec2::ZERO && row.kind != Kind::Acceleration && extent > 0.0;
+                let of_one = if turns { side.torque.abs() / extent } else { side.force.length() };
+                let load = share * force.abs() * of_one;
+                let place = self.places[side.body];
+                match self.loads.get_mut(place).filter(|loaded| loaded.body == side.body) {
                     Some(loaded) => loaded.load += load,
-                    None => self.loads.push(Loaded { body: side.body, load }),
+                    None => {
+                        self.places[side.body] = self.loads.len();
+                        self.loads.push(Loaded { body: side.body, load });
+                    }
                 }
             }
         }

@@ -108,7 +108,7 @@ impl Entry for Drive {
 }
 
 impl Course {
-    fn check(&self, report: &mut Report) {
+    pub(crate) fn check(&self, report: &mut Report) {
         match self {
             Self::Sine { frequency, angular_frequency, .. } => {
                 if let Some(frequency) = frequency {
@@ -159,6 +159,22 @@ impl Course {
                     (None, true) => point(next).1,
                     (None, false) => 0.0,
                 }
+            }
+            // A check refuses it.
+            Self::Csv(_) => 0.0,
+        }
+    }
+
+    /// Its rate per second at `time` seconds; at a point of a table that of the piece behind it.
+    pub fn rate(&self, time: f64) -> f64 {
+        match self {
+            Self::Sine { amplitude, phase, .. } => {
+                amplitude.si() * self.rhythm() * libm::cos(self.rhythm() * time + phase.si())
+            }
+            Self::Piecewise(points) => {
+                let next = points.partition_point(|point| point.0.si() <= time);
+                let pair = next.checked_sub(1).and_then(|before| points.get(before..=next));
+                pair.map_or(0.0, |pair| (pair[1].1.si() - pair[0].1.si()) / (pair[1].0.si() - pair[0].0.si()))
             }
             // A check refuses it.
             Self::Csv(_) => 0.0,

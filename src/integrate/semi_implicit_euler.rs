@@ -30,5 +30,6 @@ impl Integrator for SemiImplicitEuler {
         let dt = tick.dt;
         tick.advance(dt, dt, None);
         tick.evaluate(dt);
+        tick.hold_velocities();
     }
 }

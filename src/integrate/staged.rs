@@ -292,7 +292,12 @@ impl Staged {
             add(start.state, rest, change, trial);
             flow.write(trial);
             // The end of a tick is the beginning of the next to the last bit.
-            flow.tick.evaluate_stage(if share == 1.0 { until } else { from + share * length });
+            let time = if share == 1.0 { until } else { from + share * length };
+            if flow.hold(time, change, trial) {
+                add(start.state, rest, change, trial);
+                flow.write(trial);
+            }
+            flow.tick.evaluate_stage(time);
             told.clear();
             if locate {
                 flow.tick.tell(told);
@@ -391,6 +396,7 @@ impl Staged {
         let mut state = Vec::new();
         add(&self.state, &self.rest, &change, &mut state);
         flow.write(&state);
+        flow.hold(end, &mut change, &mut state);
         flow.tick.show(end);
         let mut booked = change.clone();
         if let Some(before) = &made.shown {

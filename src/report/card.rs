@@ -12,6 +12,7 @@ use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
 use crate::integrate::ChosenMethod;
 use crate::integrate::StepCount;
+use crate::joints::Joint;
 use crate::numbers::{number, percent};
 use crate::simulation::Simulation;
 use crate::simulation::error::{ErrorEstimate, KnownError};
@@ -45,6 +46,9 @@ pub struct LargestDrift {
     pub time: f64,
 }
 
+/// A residual of less than this share of the potential energy is rounding of sums.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// The error card.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Card {
@@ -65,7 +69,7 @@ pub struct Card {
     pub angular_momentum_residual: f64,
     /// The deepest overlap.
     pub largest_overlap: LargestOverlap,
-    /// The largest drift of a joint; nothing, as long as a scene has none.
+    /// The largest drift of a joint; nothing without joints.
     pub largest_joint_drift: Option<LargestDrift>,
     /// Greatest travel of any point in one tick over the smallest radius.
     pub largest_travel_share: f64,
@@ -146,7 +150,7 @@ impl Card {
             momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
             angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
             largest_overlap: largest_overlap(world),
-            largest_joint_drift: None,
+            largest_joint_drift: largest_joint_drift(state),
             largest_travel_share: share(largest_travel(state)),
             real_time_factor: if seconds_spent > 0.0 { clock.time() / seconds_spent } else { 0.0 },
             ns_per_atom_tick: seconds_spent * 1e9 / atoms,
@@ -186,8 +190,11 @@ impl Card {
         self.verdict.starts_with(DISTRUST)
     }
 
-    /// Energy residual over the energy that went round.
+    /// Energy residual over the energy that went round; zero where the residual is rounding of the energies it is found from.
     pub fn energy_error(&self) -> f64 {
+        if self.energy.residual.abs() <= ROUNDING * self.energy.potential.abs() {
+            return 0.0;
+        }
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
     }
 
@@ -224,6 +231,13 @@ impl Card {
 /// What a body or wall is called.
 pub(super) fn name(world: &World, entity: Entity) -> String {
     world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), Name::to_string)
+}
+
+fn largest_joint_drift(state: &State) -> Option<LargestDrift> {
+    let (drift, model) = state.joint_drift()?;
+    let any: &dyn std::any::Any = model;
+    let joint = any.downcast_ref::<Joint>().map_or_else(|| model.name().to_owned(), |joint| joint.name.clone());
+    Some(LargestDrift { meters: drift.meters, joint, time: drift.time })
 }
 
 fn largest_overlap(world: &World) -> LargestOverlap {
@@ -295,6 +309,10 @@ impl fmt::Display for Card {
                     number(overlap.time)
                 ),
             )?;
+        }
+        if let Some(LargestDrift { meters, joint, time }) = &self.largest_joint_drift {
+            let when = if *meters > 0.0 { format!(", `{joint}` at t = {} s", number(*time)) } else { String::new() };
+            row("joint drift", format!("{meters:.1e} m at most{when}"))?;
         }
         row("largest travel", format!("{:.1} % of the smallest radius per tick", self.largest_travel_share * 100.0))?;
         if let Some(error) = &self.error {

@@ -3,9 +3,12 @@
 //! A sensor entry of the scene makes *channels*, one column each, named `owner.quantity[.component]`. Any channel can
 //! also be asked for by its name alone ([`find`]): expectations do that.
 
+mod acceleration;
 mod contact_force;
 mod contacts;
 pub(crate) mod energy;
+mod joint;
+mod motor;
 mod overlap;
 mod pose;
 mod velocity;
@@ -15,6 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
+use crate::controllers::output::CONTROLLER;
 use crate::scene::values::Word;
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
 use crate::tick::energy::CHANNELS;
@@ -140,7 +144,9 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Rep
     if ["energy", "overlap"].contains(&owner) {
         Word(name.to_owned()).check(outline, CHANNELS, path, report);
     } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report) {
-        outline.require_any(&[Kind::WALL, Kind::BODY], owner, path, report);
+        let named = |kind: &Kind| [Kind::WALL, Kind::BODY].contains(kind) || outline.count(*kind) > 0;
+        let owners: Vec<Kind> = [Kind::WALL, Kind::BODY, Kind::JOINT, CONTROLLER].into_iter().filter(named).collect();
+        outline.require_any(&owners, owner, path, report);
     }
 }
 
@@ -277,8 +283,11 @@ pub fn plugin(app: &mut App) {
     );
     pose::plugin(app);
     velocity::plugin(app);
+    acceleration::plugin(app);
     energy::plugin(app);
     contact_force::plugin(app);
     overlap::plugin(app);
     contacts::plugin(app);
+    joint::plugin(app);
+    motor::plugin(app);
 }

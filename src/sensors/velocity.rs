@@ -9,9 +9,13 @@ use super::{Channel, SensorAppExt, add_found, of_body};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 
-const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin"];
+/// The columns of the sensor.
+const COLUMNS: &[&str] = &["velocity.x", "velocity.y", "spin"];
+/// What can be asked for by name.
+const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin", "speed"];
 
-/// How fast bodies move and turn: `T.velocity.x`, `T.velocity.y` in m/s, `T.spin` in rad/s.
+/// How fast bodies move and turn: `T.velocity.x`, `T.velocity.y` in m/s, `T.spin` in rad/s. Plots and expectations may also name
+/// `T.speed`, in m/s.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocity {
@@ -35,7 +39,7 @@ impl Entry for Velocity {
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
             let names = entry.value.of.matching(Kind::BODY, outline).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
-            let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
+            let channels = names.flat_map(|name| COLUMNS.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }
     }
@@ -46,6 +50,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         "velocity.x" => of_body(world, owner, quantity, "m/s", |bodies, body| bodies.velocity[body].x),
         "velocity.y" => of_body(world, owner, quantity, "m/s", |bodies, body| bodies.velocity[body].y),
         "spin" => of_body(world, owner, quantity, "rad/s", |bodies, body| bodies.spin[body]),
+        "speed" => of_body(world, owner, quantity, "m/s", |bodies, body| bodies.velocity[body].length()),
         _ => None,
     }
 }

@@ -19,7 +19,7 @@ use crate::tick::{Notes, State, kept, open, systems_of_users};
 const MAGIC: &[u8; 16] = b"jostle snapshot\n";
 
 /// Counts changes of what snapshots hold.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// A run between two ticks. See [`Simulation::snapshot`].
 #[derive(Clone, PartialEq, Eq)]

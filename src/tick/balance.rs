@@ -21,8 +21,8 @@ pub struct Balance {
     pub drag: f64,
     /// Power that drives (thrust, torque, forces of plugins) bring, in watts.
     pub work: f64,
-    /// Power that friction takes, in watts; only where contacts are evaluated as stages of a step, else their losses are
-    /// booked at once.
+    /// Power that friction takes, in watts; that of contacts only where they are evaluated as stages of a step, else their losses
+    /// are booked at once.
     pub friction: f64,
     /// Power that the inelasticity of contacts takes, in watts, likewise.
     pub inelasticity: f64,
@@ -124,6 +124,9 @@ impl Ledger {
         self.impulse[1].add(balance.force.y * dt);
         self.angular_impulse.add(balance.torque * dt);
         self.drag.add(balance.drag * dt);
+        if balance.friction != 0.0 {
+            self.friction.add(balance.friction * dt);
+        }
         self.book_work(balance.work * dt);
     }
 

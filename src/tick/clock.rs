@@ -44,6 +44,8 @@ pub struct Evaluation {
     pub count: u64,
     /// Bodies have moved on since, or a force was switched: forces are those of an earlier state.
     pub stale: bool,
+    /// Whether joints hold something else than in this evaluation: the state is evaluated again before the next step.
+    pub other_rows: bool,
     /// The state that was evaluated last is evaluated once more, with those awake that were left out.
     pub(crate) again: bool,
 }

@@ -113,6 +113,10 @@ impl Tick<'_> {
             bodies.accept();
         }
         let driven = (!bodies.prescribed.motions.is_empty()).then(|| bodies.prescribe(begin, time));
+        if elapsed != 0.0 && !bodies.jointed.is_empty() {
+            self.state.hold_after_drift(elapsed, time);
+        }
+        let bodies = self.packed();
         bodies.swap_estimate();
         bodies.pose();
         if let Some(driven) = driven {
@@ -176,10 +180,15 @@ impl Tick<'_> {
                 Some(users) => users.run(self.state, |users| users.modes.run(users.world)),
                 None => self.state.begin_step(),
             }
+            self.state.take_blows(begin);
             // What is held by contacts depends on all other forces.
-            if self.style.is_staged() && self.state.evaluation.stale {
+            if self.state.evaluation.stale && self.style.is_staged() {
                 self.evaluate_stage(begin);
                 self.settle();
+            } else if self.state.evaluation.other_rows {
+                // No time has passed since: histories stay as they are.
+                self.packed().pose();
+                self.run_evaluation(Evaluation { time: begin, again: true, ..Evaluation::default() });
             }
         }
     }
@@ -322,6 +331,10 @@ impl Tick<'_> {
     /// The same at the end of the tick: where nobody looks it is done with the next step.
     pub fn kick_at_end(&mut self, dt: f64) {
         self.book(dt);
+        if self.has_joints() {
+            self.bodies().kick(dt);
+            return self.state.hold_at_end();
+        }
         if self.may_wait && !self.style.is_staged() { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
     }
 

@@ -42,6 +42,11 @@ pub enum Wrong {
     Energy(Created),
     /// Steps of so many seconds, as short as their error asks for, would not come to an end.
     Steps(f64),
+    /// A joint could not be closed: so many metres are left.
+    Joint {
+        /// The largest gap.
+        meters: f64,
+    },
 }
 
 impl std::fmt::Display for Failure {
@@ -53,6 +58,13 @@ impl std::fmt::Display for Failure {
                 let short =
                     if *step > 0.0 { format!("as short as {step:.1e} s") } else { "too short to pass time".to_owned() };
                 write!(f, "steps have become {short}, for the acceleration of `{body}` grows beyond all bounds,")?;
+            }
+            Wrong::Joint { meters } => {
+                let gap = number(*meters);
+                write!(
+                    f,
+                    "a joint of `{body}` cannot be closed, {gap} m are left: its bodies turn too far in a step,"
+                )?;
             }
             Wrong::Energy(Created { energy, put_in }) => {
                 write!(

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::model::Events;
-use super::{Balance, State, Tick};
+use super::{Balance, FromOutside, State, Tick};
 use crate::tick::Flow;
 
 /// Accounts at the end of a state, behind those of models: drag, work, friction, inelasticity, impulse (2), angular impulse.
@@ -180,6 +180,30 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         sizes.extend(self.dynamic.iter().flat_map(|&body| [speed, speed, turns(speed, body)]));
         sizes.resize(self.places_of_accounts().start, distance);
         sizes.resize(self.dimension, f64::INFINITY);
+    }
+
+    /// Brings the state just written back onto the joints; `change` and `state` follow, with the impulse from outside.
+    pub fn hold(&mut self, time: f64, change: &mut [f64], state: &mut [f64]) -> bool {
+        if !self.tick.has_joints() {
+            return false;
+        }
+        let FromOutside { impulse, angular, .. } = self.tick.project(time);
+        let bodies = &self.tick.state.bodies;
+        let coordinates = 3 * self.dynamic.len();
+        let mut set = |place: usize, held: f64| {
+            change[place] += held - state[place];
+            state[place] = held;
+        };
+        for (place, &body) in self.dynamic.iter().enumerate() {
+            let (position, velocity) = (bodies.position[body], bodies.velocity[body]);
+            let numbers = [position.x, position.y, bodies.angle[body], velocity.x, velocity.y, bodies.spin[body]];
+            for (number, held) in numbers.into_iter().enumerate() {
+                set(3 * place + number % 3 + if number < 3 { 0 } else { coordinates }, held);
+            }
+        }
+        let impulses = self.dimension - IMPULSES;
+        change[impulses..].iter_mut().zip([impulse.x, impulse.y, angular]).for_each(|(sum, more)| *sum += more);
+        true
     }
 
     /// Books what a step has added to the accounts.

@@ -8,6 +8,8 @@ use bevy_ecs::prelude::World;
 use super::snapshot::{Memory, Unfit};
 use super::touch::ContactPoint;
 use super::{Responses, State, SteadySpring, Style};
+use crate::constraints::Rows;
+use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
 /// What a force, or the power that it books, depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
@@ -80,6 +82,11 @@ pub trait Model: Any + Send + Sync {
     /// Stage Forces of an evaluation: adds to the forces and torques of bodies, and to the rates of the ledger.
     fn apply_forces(&mut self, _: &mut State) {}
 
+    /// Adds the rows of what it holds in place or in velocity, for these bodies at a time in seconds: their gaps, rates and
+    /// directions. The engine asks in each evaluation, and where it brings states back onto joints: the rows are always as many, in
+    /// the same order. See [`Model::has_rows`].
+    fn add_rows(&mut self, _: &Bodies, _: f64, _: &mut Rows) {}
+
     /// Stage Constraints of an evaluation: its rows, added to [`State::rows_mut`] in [`Model::apply_forces`], have been solved.
     /// It gives their forces to the bodies, for example by [`State::apply_rows`]. See [`Model::has_rows`].
     fn take_rows(&mut self, _: &mut State) {}
@@ -96,6 +103,9 @@ pub trait Model: Any + Send + Sync {
     fn settles(&self) -> bool {
         false
     }
+
+    /// Velocities have jumped before the step ([`State::strike`]): what holds only as long as a bounded force suffices may give way.
+    fn after_blow(&mut self, _: &mut State) {}
 
     /// Before a step over [`State::span`]: chooses the modes that stay as they are in it. See [`Model::has_modes`].
     fn begin_step(&mut self, _: &mut State) {}

@@ -7,13 +7,14 @@ use glam::DVec2;
 
 use super::balance::Totals;
 use super::bounds::Bounds;
+use super::hold::{Blow, JointDrift};
 use super::model::{Dependence, Energies, Model};
 use super::pairs::CandidatePairs;
 use super::progress::{LocatedEvents, Progress, StepCount};
 use super::stopwatch::{Part, Stopwatch};
 use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
 use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
-use crate::constraints::{Cancelled, Rows};
+use crate::constraints::{Cancelled, Projection, Rows};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,15 @@ pub struct State {
     pub(crate) ledger: Ledger,
     /// What models hold exactly in the present evaluation.
     pub(crate) rows: Rows,
+    /// Working memory for bringing states back onto joints: the rows of a state that a step has reached, and of places tried.
+    #[serde(skip)]
+    pub(super) projected: Rows,
+    #[serde(skip)]
+    pub(super) projection: Projection,
+    /// Blows that come before the next step.
+    #[serde(skip)]
+    pub(super) blows: Vec<Blow>,
+    pub(super) joint_drift: JointDrift,
     pub(crate) evaluation: Evaluation,
     pub(crate) span: Span,
     pub(crate) clock: Clock,
@@ -57,7 +67,7 @@ pub struct State {
 pub(super) struct Roles {
     /// Places of those that take part in a stage.
     find_pairs: Vec<usize>,
-    rows: Vec<usize>,
+    pub(super) rows: Vec<usize>,
     settle: Vec<usize>,
     begin_step: Vec<usize>,
     end_tick: Vec<usize>,
@@ -153,6 +163,9 @@ impl State {
     /// Stage Constraints: the rows of all models are solved together, and each model takes its answers.
     #[inline]
     pub(super) fn solve_constraints(&mut self) {
+        if !self.roles.rows.is_empty() {
+            self.add_joint_rows();
+        }
         if self.rows.is_empty() {
             return;
         }
@@ -169,6 +182,11 @@ impl State {
     pub(super) fn settle(&mut self) {
         self.turn_to(Part::Settle);
         each!(self, settle, model => model.settle(self));
+    }
+
+    /// Models with rows hear that velocities have jumped.
+    pub(super) fn tell_of_blow(&mut self) {
+        each!(self, rows, model => model.after_blow(self));
     }
 
     /// Models choose the modes that stay frozen during the step.

@@ -1,6 +1,7 @@
 //! What a scene consists of: bodies, atoms, walls, materials; as entities, and packed for speed.
 
 mod aloft;
+mod apart;
 pub mod atom;
 pub mod between;
 pub mod body;
@@ -21,6 +22,7 @@ pub mod sections;
 pub mod spawn;
 pub mod wall;
 
+pub use apart::{Apart, Origin};
 pub use atom::{Atom, AtomOf, Atoms, atoms_of};
 pub use body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 pub(crate) use flight::Passing;

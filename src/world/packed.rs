@@ -7,6 +7,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::apart::Apart;
 use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Mass, Motion, Position, Rotation, Spin, Velocity};
 use super::flight::Flights;
@@ -111,6 +112,10 @@ pub struct Bodies {
     pub(crate) moved: Moved,
     /// The estimate of velocities has taken the place of them.
     pub(crate) estimating: bool,
+    /// Which bodies joints hold in the present state; empty if there are none.
+    pub(crate) jointed: Vec<bool>,
+    /// Keys of bodies that do not touch each other, the lower one first, in order.
+    pub(crate) apart: Vec<(u64, u64)>,
     /// Force of the present evaluation in newtons.
     pub force: Vec<DVec2>,
     /// Torque of the present evaluation in N m.
@@ -425,6 +430,7 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         threads: previous.threads,
         field: previous.field,
         flights: previous.flights.ended(),
+        apart: world.get_resource::<Apart>().map(|apart| apart.pairs().to_vec()).unwrap_or_default(),
         lone_discs: found.iter().all(|&(_, entity)| is_lone_disc(world, entity)),
         ..Default::default()
     };

@@ -9,10 +9,48 @@
 use bevy_app::App;
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::constraints::{LostTo, Row, Share, Side};
+use jostle::constraints::{Kind, LostTo, Row, Rows, Share, Side};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{Energies, Model, State, SteadySpring, TickAppExt};
+use jostle::world::Bodies;
+
+/// A rod that holds its place: see [`a_rod_that_holds_its_place_does_not_drift`].
+struct Placed {
+    length: f64,
+    row: usize,
+}
+
+impl Model for Placed {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn has_rows(&self) -> bool {
+        true
+    }
+
+    fn add_rows(&mut self, bodies: &Bodies, _: f64, rows: &mut Rows) {
+        let (place, velocity) = (bodies.position[0], bodies.velocity[0]);
+        let direction = place.normalize();
+        let side = Side { body: 0, direction, force: direction, ..Side::default() };
+        self.row = rows.len();
+        rows.add(Row {
+            sides: [None, Some(side)],
+            inertial: velocity.perp_dot(direction).powi(2) / place.length(),
+            kind: Kind::Position,
+            gap: place.length() - self.length,
+            size: self.length,
+            ..Row::default()
+        });
+    }
+
+    fn take_rows(&mut self, state: &mut State) {
+        state.apply_rows(self.row..self.row + 1);
+    }
+}
 
 /// Keeps two centres, or a centre and the origin, at their distance.
 struct Rod {
@@ -52,6 +90,7 @@ impl Model for Rod {
             surface: DVec2::ZERO,
             share: Share { natural: 0.0, measure: 1.0 },
             lost_to: LostTo::Friction,
+            ..Row::default()
         };
         self.row = state.rows().len();
         state.rows_mut().add(row);
@@ -152,4 +191,26 @@ fn rows_of_two_models_are_solved_together() {
     let (u, w) = (bodies.velocity[0], bodies.velocity[1]);
     assert!(of(DVec2::ZERO, first, a, u).abs() < 1e-11);
     assert!(of(first, second, b - a, w - u).abs() < 1e-11);
+}
+
+/// Law: a row of kind `Position` is brought back in each step, by every kind of method; the card names the model. Tolerance: rounding of a
+/// length of 1 m.
+#[test]
+fn a_rod_that_holds_its_place_does_not_drift() {
+    for method in ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853", "ImplicitMidpoint"] {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 20, tick: 0.01, method: {method}), gravity: (0, -9.81),
+              bodies: [(name: \"bob\", at: (1, 0), atoms: Disc(radius: 0.01))])"
+        );
+        let rod = |app: &mut App| {
+            app.add_model(Placed { length: 1.0, row: 0 });
+        };
+        let mut simulation =
+            Simulation::load_with(&Source::new("rod.ron", scene), &Overrides::default(), rod).expect("a correct scene");
+        simulation.run_to_end().expect("numbers stay finite");
+        let off = (simulation.bodies().position[0].length() - 1.0).abs();
+        assert!(off < 8.0 * f64::EPSILON, "{method}: {off:e}");
+        let drift = simulation.card().largest_joint_drift.expect("the model holds a place");
+        assert!(drift.meters < 8.0 * f64::EPSILON && drift.joint.contains("Placed"), "{method}: {drift:?}");
+    }
 }

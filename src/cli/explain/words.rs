@@ -104,6 +104,11 @@ pub(super) const WORDS: &[Word] = &[
          a shorter tick.",
     ),
     word(
+        "joint drift",
+        "how far a joint was at most from what it holds, in m, angles at the farthest point of a body. Each step ends on what joints \
+         hold, so it is rounding and nothing else. It says nothing of the error of the motion.",
+    ),
+    word(
         "largest travel",
         "how far any point of a body moved in one tick at most, as a share of the smallest radius. Beyond a radius a body \
          may pass through another unseen.",

@@ -107,7 +107,7 @@ impl Held {
         let sides = [geometry.pair.other_body().map(|body| side(body, -1.0)), Some(side(geometry.pair.b.body, 1.0))];
         let turning = |side: &Side| side.lever * bodies.prescribed.acceleration(side.body).1;
         let inertial = sides.iter().flatten().map(turning).fold(0.0, |sum, term| sum + term);
-        rows.add(Row { sides, inertial, surface: DVec2::ZERO, share, lost_to: LostTo::Friction });
+        rows.add(Row { sides, inertial, share, ..Row::default() });
         self.contacts.push((*geometry, Kind::Rolling));
     }
 }
@@ -132,5 +132,5 @@ fn row(
     let other = geometry.pair.other_body().map(|body| side(body, arm_a, -1.0));
     let sides = [other, Some(side(geometry.pair.b.body, arm_b, 1.0))];
     let surface = geometry.pair.surface(bodies).unwrap_or_default();
-    Row { sides, inertial, surface, share, lost_to }
+    Row { sides, inertial, surface, share, lost_to, ..Row::default() }
 }

@@ -165,7 +165,10 @@ impl Choice<'_> {
     fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         let (seen, law) = self.known(&case);
-        if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
+        // The search for rest does not know what joints bear.
+        let jointed = |body: usize| self.sink.bodies.jointed.get(body).is_some_and(|jointed| *jointed);
+        let jointed = jointed(case.b.body) || case.other_body().is_some_and(jointed);
+        if !jointed && case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }

@@ -108,6 +108,11 @@ impl PairSearch {
         pairs.search = suiting(bodies);
         let sorted = (pairs.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
         pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies));
+        if !bodies.apart.is_empty() {
+            let apart = places_apart(bodies);
+            let body = |atom: u32| bodies.atom_body(atom as usize);
+            pairs.atoms.retain(|pair| apart.binary_search(&ordered(body(pair.a), body(pair.b))).is_err());
+        }
         pairs.walls.clear();
         each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| pairs.walls.push(pair));
         bounds.candidates = pairs.atoms.len() + pairs.walls.len();
@@ -135,6 +140,18 @@ impl PairSearch {
             self.identities = Identities::of(bodies);
         }
     }
+}
+
+/// The places of bodies that do not touch each other, the lower one first, in order.
+fn places_apart(bodies: &Bodies) -> Vec<(usize, usize)> {
+    let place = |(a, b): &(u64, u64)| Some(ordered(bodies.key.find(*a)?, bodies.key.find(*b)?));
+    let mut apart: Vec<_> = bodies.apart.iter().filter_map(place).collect();
+    apart.sort_unstable();
+    apart
+}
+
+fn ordered(a: usize, b: usize) -> (usize, usize) {
+    (a.min(b), a.max(b))
 }
 
 /// Share of the margin that pairs are apart at the most that nearly touch.

@@ -8,11 +8,13 @@
 mod boxes;
 mod contact_forces;
 mod contact_points;
+mod joints;
 mod mark;
 mod names;
 mod of_bodies;
 mod scale;
 mod scale_bar;
+mod springs;
 mod time;
 mod trails;
 mod velocities;
@@ -29,9 +31,11 @@ use crate::tick::State;
 use crate::world::Bodies;
 
 /// The built-in layers by the words of the command line, with their names in the scene, from back to front.
-pub const WORDS: [(&str, &str); 8] = [
+pub const WORDS: [(&str, &str); 10] = [
     ("trails", "Trails"),
     ("boxes", "Boxes"),
+    ("springs", "Springs"),
+    ("joints", "Joints"),
     ("velocities", "Velocities"),
     ("contacts", "ContactPoints"),
     ("forces", "ContactForces"),
@@ -40,8 +44,15 @@ pub const WORDS: [(&str, &str); 8] = [
     ("time", "Time"),
 ];
 
-/// The layers of a film whose scene names none.
-const DEFAULT: [&str; 2] = ["ScaleBar", "Time"];
+/// Whether a layer is shown in a film whose scene names none.
+fn is_default(layer: &str, outline: &Outline) -> bool {
+    match layer {
+        "ScaleBar" | "Time" => true,
+        "Joints" => outline.has_section("joints"),
+        "Springs" => outline.entries("forces").iter().any(|force| force.name.ends_with("Spring")),
+        _ => false,
+    }
+}
 
 /// Something that is drawn in each frame. Every function from the world to marks is one.
 pub trait Layer: Send + Sync + 'static {
@@ -161,7 +172,7 @@ pub(crate) fn install_wanted(outline: &Outline, app: &mut App) {
     let wanted = wanted.unwrap_or_default();
     for (word, name) in WORDS {
         let named = outline.entries(LAYERS).iter().any(|mention| mention.name == name);
-        let missing = by_default && DEFAULT.contains(&name) || wanted.iter().any(|wish| wish == word);
+        let missing = by_default && is_default(name, outline) || wanted.iter().any(|wish| wish == word);
         if missing && !named {
             install_word(app, outline, LAYERS, name);
         }
@@ -177,6 +188,8 @@ pub fn plugin(app: &mut App) {
     );
     trails::plugin(app);
     boxes::plugin(app);
+    springs::plugin(app);
+    joints::plugin(app);
     velocities::plugin(app);
     contact_points::plugin(app);
     contact_forces::plugin(app);

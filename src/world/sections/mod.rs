@@ -20,7 +20,7 @@ use glam::DVec2;
 
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::{NextKey, Series, after_others, spawn_series};
-use super::{Atom, Motion, Name, NewBody, Wall};
+use super::{Atom, Motion, Name, NewBody, Origin, Wall};
 use crate::scene::names::of_series;
 use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::{self, MassProperties};
@@ -62,6 +62,7 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
         let made_of = MadeOf::named(world, entry.material.as_deref());
         let properties = entry.mass_properties(made_of.density);
         let kinematic = entry.prescribed(&properties);
+        let origin = (entry.datum == Datum::Origin).then_some(Origin(-properties.center));
         let start = kinematic.as_ref().map(|motion| motion.state(0.0));
         let body = NewBody {
             position: entry.start(&properties),
@@ -75,7 +76,10 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
             ..made_of.body(&properties)
         };
         let (key, body) = keyed(body, outline);
-        body.spawn_keyed(world, key);
+        let entity = body.spawn_keyed(world, key);
+        if let Some(origin) = origin {
+            world.entity_mut(entity).insert(origin);
+        }
     }
 }
 

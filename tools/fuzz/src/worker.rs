@@ -8,12 +8,15 @@ use clap::Parser;
 use jostle::Simulation;
 use jostle::cli::{CommandLine, Exit};
 use jostle::scene::Source;
+use jostle::simulation::{Goal, Overrides};
 
 use crate::corpus::Corpus;
 use crate::mutate::mutant;
 
 /// Ticks of a short run.
 const TICKS: u64 = 12;
+/// Seconds of physics for which the trial runs of a tolerance are made.
+const LONGEST_TRIED: f64 = 0.1;
 /// One good scene in so many is drawn through the command line too.
 const DRAWN: u64 = 4;
 
@@ -38,7 +41,8 @@ pub fn batch(corpus: &Corpus, seed: u64, from: u64, count: u64, scratch: &Path) 
 /// Reads one scene, and runs and draws it if it is good.
 pub fn one(text: &str, number: u64, scratch: &Path) {
     mark(number, "reading");
-    let mut simulation = match Simulation::load(&Source::new("mutant.ron", text)) {
+    let (source, untried) = (Source::new("mutant.ron", text), Overrides { untried: true, ..Overrides::default() });
+    let mut simulation = match Simulation::load_with(&source, &untried, |_| {}) {
         Ok(simulation) => simulation,
         Err(errors) => {
             let shown = errors.render(true);
@@ -58,6 +62,10 @@ pub fn one(text: &str, number: u64, scratch: &Path) {
         }
     };
     mark(number, "running");
+    // A tolerance tries whole runs, which take as long as the scene asks for: only short ones are tried here.
+    if simulation.contains_resource::<Goal>() && simulation.duration() <= LONGEST_TRIED {
+        let _ = Simulation::load(&source);
+    }
     let ticks = simulation.ticks().min(TICKS);
     let end = ticks as f64 * simulation.clock().dt;
     let failed = simulation.run_to_tick(ticks).is_err();

@@ -121,7 +121,7 @@ fn the_schema_refuses_what_does_not_belong() {
     assert!(!wrong("bodies: [(name: \"a\", at: (0, \"3 cm\"), atoms: Disc(radius: 0.1), inertia: Points)]"));
     for sections in [
         "physics: 3",
-        "joints: []",
+        "randomise: []",
         "gravity: 9.81",
         "gravity: (0, -9.81, 0)",
         "film: (fps: 30, sound: true)",

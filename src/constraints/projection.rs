@@ -1,0 +1,146 @@
+//! Brings positions and velocities back onto what joints hold, along the directions in which joints push.
+//!
+//! Positions: `g(q + M^-1 F mu) = 0`, by iteration with the factor of one state (Hairer, Lubich, Wanner, Geometric Numerical Integration,
+//! 2nd ed. 2006, section VII.1.4). Velocities: `J(q) (v + M^-1 F mu) = rate`, one solution and a refinement. Both change the state by
+//! as little as can be, measured by mass.
+
+use glam::DVec2;
+
+use super::row::Row;
+use super::solver::Solver;
+use super::{Rows, Share};
+use crate::world::Bodies;
+
+/// Iterations of which each has to gain something.
+const MOST_ITERATIONS: usize = 60;
+/// A gap of less than this share of its size is rounding.
+const ROUNDING: f64 = 1e-15;
+/// An iteration that leaves more than this share of the greatest gap does not converge, unless the gap is within
+/// [`GOOD`] of the size.
+const SLOW: f64 = 0.9;
+/// A gap within this share of its size is good enough where iterations gain no more.
+const GOOD: f64 = 1e-13;
+
+/// How far positions were from what joints hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gap {
+    /// The greatest gap that is left, in metres or radians.
+    pub left: f64,
+    /// The index of its row.
+    pub row: usize,
+    /// Whether the iteration found no state that the joints allow.
+    pub failed: bool,
+}
+
+/// Working memory of projections: rows of another state than that of the last evaluation.
+#[derive(Debug, Default)]
+pub struct Projection {
+    /// The rows of the present positions.
+    pub rows: Rows,
+    values: Vec<f64>,
+    /// For the caller: a number for each row.
+    pub noted: Vec<f64>,
+    /// Impulses or displacements so far, one for each row of the directions.
+    sums: Vec<f64>,
+}
+
+impl Projection {
+    /// Moves bodies along the directions of `along` until the rows that `find` adds to [`Projection::rows`] have no gaps. Both have the
+    /// same rows in the same order. Returns what is left.
+    pub fn place(
+        &mut self,
+        along: &[Row],
+        solver: &mut Solver,
+        bodies: &mut Bodies,
+        mut find: impl FnMut(&mut Rows, &Bodies),
+    ) -> Gap {
+        self.sums.clear();
+        self.sums.resize(along.len(), 0.0);
+        let mut before = f64::INFINITY;
+        let mut slow = 0;
+        for _ in 0..MOST_ITERATIONS {
+            self.rows.clear();
+            find(&mut self.rows, bodies);
+            let gap = self.greatest_gap();
+            let settled = self.rows.all().iter().all(|row| row.gap.abs() <= ROUNDING * row.size);
+            if settled || self.rows.len() != along.len() {
+                return gap;
+            }
+            slow = if gap.left > SLOW * before { slow + 1 } else { 0 };
+            let diverges = gap.left.is_nan() || gap.left > 1e3 * before;
+            if slow > 1 || diverges {
+                return Gap { failed: diverges || !self.is_good(), ..gap };
+            }
+            before = gap.left;
+            self.values.clear();
+            self.values.extend(self.rows.all().iter().map(|row| -row.gap));
+            solver.solve(along, bodies, unmeasured, &mut self.values);
+            for ((row, &amount), sum) in along.iter().zip(&self.values).zip(&mut self.sums) {
+                *sum += amount;
+                for side in row.sides.iter().flatten() {
+                    let (by, turned) = (bodies.inverse_mass(side.body), bodies.inverse_inertia(side.body));
+                    bodies.displace(side.body, side.force * (amount * by), side.torque * (amount * turned));
+                }
+            }
+        }
+        self.rows.clear();
+        find(&mut self.rows, bodies);
+        Gap { failed: !self.is_good(), ..self.greatest_gap() }
+    }
+
+    /// For each row of the directions how far it has moved its bodies: times the inverse mass a displacement.
+    pub fn sums(&self) -> &[f64] {
+        &self.sums
+    }
+
+    fn is_good(&self) -> bool {
+        self.rows.all().iter().all(|row| row.gap.abs() <= GOOD * row.size)
+    }
+
+    fn greatest_gap(&self) -> Gap {
+        let gaps = self.rows.all().iter().map(|row| row.gap.abs()).enumerate();
+        let worst = gaps.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        worst.map_or(Gap::default(), |(row, left)| Gap { left, row, failed: false })
+    }
+
+    /// Changes velocities until the rates of `rows` are what they should be. `told` hears of the impulse of each row.
+    pub fn speed(
+        &mut self,
+        rows: &[Row],
+        solver: &mut Solver,
+        bodies: &mut Bodies,
+        mut told: impl FnMut(&Bodies, &Row, f64),
+    ) {
+        for _ in 0..2 {
+            self.values.clear();
+            self.values.extend(rows.iter().map(|row| row.rate - row.velocity(bodies)));
+            solver.solve(rows, bodies, unmeasured, &mut self.values);
+            for (row, &impulse) in rows.iter().zip(&self.values) {
+                told(bodies, row, impulse);
+                for side in row.sides.iter().flatten() {
+                    let (by, turned) = (bodies.inverse_mass(side.body), bodies.inverse_inertia(side.body));
+                    bodies.velocity[side.body] += side.force * (impulse * by);
+                    bodies.spin[side.body] += side.torque * (impulse * turned);
+                }
+            }
+        }
+    }
+}
+
+/// Corrections have no natural amount.
+fn unmeasured(_: &Row) -> Share {
+    Share { natural: 0.0, measure: 1.0 }
+}
+
+impl Bodies {
+    /// Moves a body beside its velocity. The displacement since the last accepted state follows.
+    fn displace(&mut self, body: usize, by: DVec2, turn: f64) {
+        self.position[body] += by;
+        self.angle[body] += turn;
+        if let Some(drift) = self.drift.get_mut(body) {
+            *drift += by;
+            self.turn[body] += turn;
+        }
+        (self.posed, self.recorded) = (false, false);
+    }
+}

@@ -1,0 +1,254 @@
+//! Solves `J M^-1 F x = right` for all rows of a list: islands of joints by sparse factors, islands with held contacts densely.
+//!
+//! Rows of joints have `F = J^T`, so that their matrix is symmetric and never negative. Where it is singular, because rows depend on each
+//! other, it is factored with a share of its diagonal added, and the answer is refined until the rows are satisfied: it tends to the
+//! solution of least norm, each unknown measured by its diagonal (proximal iteration, Rockafellar 1976).
+
+use super::block_cholesky::BlockCholesky;
+use super::islands::{Islands, Link};
+use super::redundant::{self, Share};
+use super::row::{Kind, Row};
+use crate::world::Bodies;
+use glam::DVec2;
+
+/// What is added to the diagonal of a singular matrix, as a share.
+const SHARE: f64 = 1e-10;
+/// Refinements of an answer.
+const MOST_REFINEMENTS: usize = 40;
+/// An answer is good when no row is off by more than this share of the greatest number of the right side.
+const ROUNDING: f64 = 1e-15;
+
+/// Marks the side of a row that no force moves.
+const NONE: u32 = u32::MAX;
+
+/// A row as far as the structure of the equations depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Ends {
+    bodies: [u32; 2],
+    held: bool,
+}
+
+/// A row among the links of which islands consist.
+#[derive(Clone, Copy)]
+struct Linked {
+    row: usize,
+    own: usize,
+    other: Option<usize>,
+}
+
+impl Link for Linked {
+    fn other_body(&self) -> Option<usize> {
+        self.other
+    }
+
+    fn own_body(&self) -> usize {
+        self.own
+    }
+}
+
+/// The equations of some rows.
+#[derive(Debug, Default)]
+pub struct Solver {
+    /// The topology for which the structure was found.
+    ends: Vec<Ends>,
+    /// Rows of islands without held contacts, in the order of the unknowns of the factor.
+    sparse: Vec<usize>,
+    factor: BlockCholesky,
+    /// Two rows and where their entry stands.
+    entries: Vec<(u32, u32, u32)>,
+    /// Rows of each island with held contacts, and the matrices of those, one behind the other.
+    dense: Vec<Vec<usize>>,
+    matrix: Vec<f64>,
+    /// Whether sparse rows depend on each other.
+    dependent: bool,
+    /// Bodies of sparse rows, and what a list of forces makes of their velocities.
+    moved: Vec<usize>,
+    velocity: Vec<DVec2>,
+    spin: Vec<f64>,
+    right: Vec<f64>,
+    answer: Vec<f64>,
+    work: Vec<f64>,
+}
+
+impl Solver {
+    /// Finds the structure, if it is another one than last time, and the factors.
+    pub fn prepare(&mut self, rows: &[Row], bodies: &Bodies) {
+        let same = rows.len() == self.ends.len() && rows.iter().zip(&self.ends).all(|(row, e)| ends(row, bodies) == *e);
+        if !same {
+            self.find_structure(rows, bodies);
+        }
+        // More rows than the bodies have freedoms depend on each other, whatever their directions.
+        self.dependent = self.sparse.len() > 3 * self.moved.len();
+        if !self.dependent {
+            self.fill(rows, bodies);
+            self.dependent = !self.factor.factor(0.0);
+        }
+        if self.dependent {
+            self.fill(rows, bodies);
+            self.factor.factor(SHARE);
+        }
+        self.matrix.clear();
+        for island in &self.dense {
+            for &row in island {
+                self.matrix.extend(island.iter().map(|other| rows[row].response(&rows[*other], bodies)));
+            }
+        }
+    }
+
+    /// Whether some rows of joints depend on each other, so that only their sum is determined.
+    pub fn is_dependent(&self) -> bool {
+        self.dependent
+    }
+
+    fn fill(&mut self, rows: &[Row], bodies: &Bodies) {
+        let numbers = self.factor.numbers();
+        numbers.fill(0.0);
+        for &(a, b, place) in &self.entries {
+            numbers[place as usize] = rows[a as usize].response(&rows[b as usize], bodies);
+        }
+    }
+
+    fn find_structure(&mut self, rows: &[Row], bodies: &Bodies) {
+        self.ends.clear();
+        self.ends.extend(rows.iter().map(|row| ends(row, bodies)));
+        let mut links: Vec<Linked> = rows
+            .iter()
+            .enumerate()
+            .filter_map(|(row, of)| {
+                let [a, b] = of.sides.map(|side| side.map(|side| side.body));
+                Some(Linked { row, own: b.or(a)?, other: b.and(a) })
+            })
+            .collect();
+        let mut islands = Islands::default();
+        let ranges = islands.sort(&mut links, bodies);
+        (self.dense, self.sparse) = (Vec::new(), Vec::new());
+        for range in ranges {
+            let mut island: Vec<usize> = links[range.clone()].iter().map(|link| link.row).collect();
+            island.sort_unstable();
+            if island.iter().any(|&row| self.ends[row].held) {
+                self.dense.push(island);
+            } else {
+                self.sparse.extend(island);
+            }
+        }
+        self.sparse.sort_unstable();
+        self.find_nodes(bodies);
+    }
+
+    /// Rows between the same bodies, one behind the other, are a node; nodes with a body in common have an edge.
+    fn find_nodes(&mut self, bodies: &Bodies) {
+        let Self { ends, sparse, .. } = self;
+        let (mut size, mut owner): (Vec<u32>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
+        let mut nodes_of: Vec<Vec<u32>> = vec![Vec::new(); bodies.len()];
+        for (place, &row) in sparse.iter().enumerate() {
+            let joins = place > 0 && sparse[place - 1] + 1 == row && ends[sparse[place - 1]] == ends[row];
+            if !joins {
+                size.push(0);
+                let moved = ends[row].bodies.into_iter().filter(|body| *body != NONE);
+                moved.for_each(|body| nodes_of[body as usize].push(size.len() as u32 - 1));
+            }
+            let node = size.len() - 1;
+            owner.push((node as u32, size[node]));
+            size[node] += 1;
+        }
+        let mut edges: Vec<(u32, u32)> = nodes_of
+            .iter()
+            .flat_map(|nodes| {
+                nodes.iter().enumerate().flat_map(|(place, a)| nodes[place + 1..].iter().map(|b| (*a, *b)))
+            })
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let mut first = vec![0; size.len()];
+        for (place, (node, own)) in owner.iter().enumerate() {
+            if *own == 0 {
+                first[*node as usize] = place;
+            }
+        }
+        self.factor = BlockCholesky::new(size.clone(), edges.iter().copied());
+        self.entries.clear();
+        let within = |node: u32| first[node as usize]..first[node as usize] + size[node as usize] as usize;
+        let pairs = (0..size.len() as u32).map(|node| (node, node)).chain(edges);
+        for (a, b) in pairs {
+            for row in within(a) {
+                for column in within(b) {
+                    let place = self.factor.entry(owner[row], owner[column]);
+                    let place = place.or_else(|| self.factor.entry(owner[column], owner[row]));
+                    let place = place.expect("these nodes have an edge");
+                    self.entries.push((sparse[row] as u32, sparse[column] as u32, place as u32));
+                }
+            }
+        }
+        self.moved = (0..bodies.len()).filter(|body| !nodes_of[*body].is_empty()).collect();
+    }
+
+    /// Solves for `values`, a number for each row, in their place. Dense islands with dependent rows take the answer nearest to their
+    /// shares.
+    pub fn solve(&mut self, rows: &[Row], bodies: &Bodies, shares: impl Fn(&Row) -> Share, values: &mut [f64]) {
+        let mut matrix = self.matrix.as_slice();
+        for island in &self.dense {
+            let (own, others) = matrix.split_at(island.len() * island.len());
+            self.answer.clear();
+            self.answer.extend(island.iter().map(|row| values[*row]));
+            redundant::solve(own, &mut self.answer, island.iter().map(|row| shares(&rows[*row])), &mut self.work);
+            island.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
+            matrix = others;
+        }
+        if self.sparse.is_empty() {
+            return;
+        }
+        self.right.clear();
+        self.right.extend(self.sparse.iter().map(|row| values[*row]));
+        self.answer.clone_from(&self.right);
+        self.factor.solve(&mut self.answer);
+        if self.dependent {
+            self.refine(rows, bodies);
+        }
+        self.sparse.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
+    }
+
+    fn refine(&mut self, rows: &[Row], bodies: &Bodies) {
+        let scale = self.right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST_REFINEMENTS {
+            self.spread(rows, bodies);
+            self.work.clear();
+            for (place, &row) in self.sparse.iter().enumerate() {
+                self.work.push(self.right[place] - self.gathered(&rows[row]));
+            }
+            let worst = self.work.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            if worst <= ROUNDING * scale || worst >= 0.5 * before {
+                break;
+            }
+            before = worst;
+            self.factor.solve(&mut self.work);
+            self.answer.iter_mut().zip(&self.work).for_each(|(answer, more)| *answer += more);
+        }
+    }
+
+    /// The changes of velocities that the answer makes.
+    fn spread(&mut self, rows: &[Row], bodies: &Bodies) {
+        self.velocity.resize(bodies.len(), DVec2::ZERO);
+        self.spin.resize(bodies.len(), 0.0);
+        for &body in &self.moved {
+            (self.velocity[body], self.spin[body]) = (DVec2::ZERO, 0.0);
+        }
+        for (&row, &amount) in self.sparse.iter().zip(&self.answer) {
+            for side in rows[row].sides.iter().flatten() {
+                self.velocity[side.body] += side.force * (amount * bodies.inverse_mass(side.body));
+                self.spin[side.body] += side.torque * (amount * bodies.inverse_inertia(side.body));
+            }
+        }
+    }
+
+    fn gathered(&self, row: &Row) -> f64 {
+        let of = |side: &super::Side| side.direction.dot(self.velocity[side.body]) + side.lever * self.spin[side.body];
+        row.sides.iter().flatten().map(of).fold(0.0, |sum, term| sum + term)
+    }
+}
+
+fn ends(row: &Row, bodies: &Bodies) -> Ends {
+    let body =
+        |side: Option<super::Side>| side.filter(|side| bodies.dynamic[side.body]).map_or(NONE, |side| side.body as u32);
+    Ends { bodies: row.sides.map(body), held: row.kind == Kind::Acceleration }
+}

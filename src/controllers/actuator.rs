@@ -1,0 +1,103 @@
+//! A torque or force in a joint that follows a course in time, whatever the joint does.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::driven::{self, Driven};
+use super::output::{self, Output};
+use super::target::Target;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
+
+/// Turns a hinge by a torque, or pushes a slide by a force, that follows a course in time.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Actuator {
+    /// Its name, for channels. Default: none.
+    name: Option<String>,
+    /// The joint.
+    of: String,
+    /// Torque in N m on `b`, counter-clockwise; of a slide the force in N along its axis.
+    force: Target,
+}
+
+impl Entry for Actuator {
+    const SECTION: &'static str = "controllers";
+    const NAME: &'static str = "Actuator";
+    const EXAMPLE: &'static str = "Actuator(of: \"piston\", force: Sine(amplitude: 3, frequency: 2))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        output::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        driven::check(&self.of, outline, report);
+        self.force.check("force", report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
+            let output = Output::named(value.name, path);
+            app.add_model(ActuatorForce { output, driven: Driven::named(value.of), force: value.force });
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Actuator>();
+}
+
+struct ActuatorForce {
+    output: Output,
+    driven: Driven,
+    force: Target,
+}
+
+impl Model for ActuatorForce {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn start(&mut self, world: &mut World) {
+        let path = self.output.path.clone();
+        self.driven.start(&path, world);
+    }
+
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn next_edge(&self, time: f64) -> f64 {
+        self.force.next_point(time)
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        self.driven.refresh(&state.bodies);
+        let Some(motion) = self.driven.motion(&state.bodies) else { return };
+        let force = self.force.at(state.evaluation().time).0;
+        self.output.note(force, force * motion.rate);
+        Driven::push(&motion, force, state);
+    }
+
+    fn inner(&self) -> Option<&dyn std::any::Any> {
+        Some(&self.output)
+    }
+
+    fn save(&self) -> Memory {
+        Memory::of(&self.output.values)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.output.values = recall(bytes)?;
+        Ok(())
+    }
+}

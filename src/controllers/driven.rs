@@ -1,0 +1,84 @@
+//! The joint that a controller drives.
+
+use std::sync::Arc;
+
+use bevy_ecs::prelude::*;
+
+use crate::joints::KnownJoints;
+use crate::joints::ends::{Along, Ends, Pair};
+use crate::joints::law::Law;
+use crate::scene::{Kind, Outline, Report};
+use crate::tick::{LoadErrors, State};
+use crate::world::Bodies;
+
+/// The joint of a controller: what it leaves free is driven.
+pub(super) struct Driven {
+    name: String,
+    found: Option<(Ends, Arc<dyn Law>)>,
+}
+
+/// The motion that is driven, in the present state.
+pub(super) struct Motion {
+    pub pair: Pair,
+    pub along: Along,
+    /// In rad or m.
+    pub value: f64,
+    /// In rad/s or m/s.
+    pub rate: f64,
+}
+
+/// Reports a joint that is not there.
+pub(super) fn check(of: &str, outline: &Outline, report: &mut Report) {
+    outline.require(Kind::JOINT, of, "of", report);
+}
+
+impl Driven {
+    pub fn named(name: String) -> Self {
+        Self { name, found: None }
+    }
+
+    /// Finds the joint, when all joints of the scene have begun. `path` is where the controller stands in the scene.
+    pub fn start(&mut self, path: &str, world: &mut World) {
+        let known = world.get_resource::<KnownJoints>().and_then(|known| known.named(&self.name));
+        self.found = known.map(|known| (known.ends.clone(), known.law.clone()));
+        let bodies = &world.resource::<State>().bodies;
+        if self.found.is_some() && self.motion(bodies).is_none() {
+            let message = format!("the joint `{}` leaves no motion free that could be driven", self.name);
+            let error = crate::scene::SceneError::new(format!("{path}.of"), message)
+                .with_help("drive a hinge (`Revolute`) or a slide (`Prismatic`)");
+            world.get_resource_or_init::<LoadErrors>().0.push(error);
+        }
+    }
+
+    /// Reports a joint with limits.
+    pub fn refuse_limits(&self, path: &str, world: &mut World) {
+        let known = world.get_resource::<KnownJoints>().and_then(|known| known.named(&self.name));
+        if known.is_some_and(|known| known.limited) {
+            let message = format!("the motor of `{}` may give any torque, and the joint has limits", self.name);
+            let error = crate::scene::SceneError::new(path.to_owned(), message)
+                .with_help("give the motor its greatest torque: `limit: 10`");
+            world.get_resource_or_init::<LoadErrors>().0.push(error);
+        }
+    }
+
+    /// The motion in the present state; `None` if a body is gone.
+    pub fn motion(&self, bodies: &Bodies) -> Option<Motion> {
+        let (ends, law) = self.found.as_ref()?;
+        let pair = ends.pair(bodies)?;
+        let freedom = law.freedom(&pair)?;
+        Some(Motion { rate: pair.rate(&freedom.along), value: freedom.value, along: freedom.along, pair })
+    }
+
+    /// Bodies that came or went are looked up again.
+    pub fn refresh(&mut self, bodies: &Bodies) {
+        if let Some((ends, _)) = &mut self.found {
+            ends.refresh(bodies);
+        }
+    }
+
+    /// Adds a torque in N m, or a force in N, along the motion. Its power is work.
+    pub fn push(motion: &Motion, amount: f64, state: &mut State) {
+        let power = motion.pair.push(&motion.along, amount, state);
+        state.bodies_and_rates().1.work += power;
+    }
+}

@@ -1,0 +1,200 @@
+//! A motor: it holds the rate of a joint exactly, as a row of the equations, with as much torque as that takes. Bounded, it gives its
+//! greatest torque until the rate is reached.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::driven::{self, Driven};
+use super::output::{self, Output};
+use crate::constraints::Rows;
+use crate::joints::bounded::Bounded;
+use crate::scene::units::{Scalar, Spin};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::{Energies, Events, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::world::Bodies;
+
+/// Turns a hinge at a constant rate, or moves a slide at a constant speed, with as much torque or force as that takes.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Motor {
+    /// Its name, for channels. Default: none.
+    name: Option<String>,
+    /// The joint.
+    of: String,
+    /// In rad/s or with a unit such as "30 rpm"; of a slide in m/s, without unit. Without `limit` the scene begins at this rate.
+    speed: Spin,
+    /// The greatest torque in N m, of a slide force in N. Above zero. Default: none.
+    limit: Option<Scalar>,
+}
+
+impl Entry for Motor {
+    const SECTION: &'static str = "controllers";
+    const NAME: &'static str = "Motor";
+    const EXAMPLE: &'static str = "Motor(name: \"drive\", of: \"hip\", speed: \"30 rpm\", limit: 10)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        output::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        driven::check(&self.of, outline, report);
+        report.finite("speed", self.speed);
+        report.positive_if_given("limit", self.limit);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
+            app.add_model(MotorRow {
+                output: Output::named(value.name, path),
+                driven: Driven::named(value.of),
+                held: Bounded::new(value.speed.si(), value.limit.map_or(f64::INFINITY, Scalar::si)),
+                row: None,
+            });
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Motor>();
+}
+
+struct MotorRow {
+    output: Output,
+    driven: Driven,
+    held: Bounded,
+    /// The index of its row in the present evaluation.
+    row: Option<usize>,
+}
+
+impl Model for MotorRow {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn has_rows(&self) -> bool {
+        true
+    }
+
+    fn start(&mut self, world: &mut World) {
+        let path = self.output.path.clone();
+        self.driven.start(&path, world);
+        if !self.held.is_bounded() {
+            self.driven.refuse_limits(&path, world);
+        }
+        if let Some(motion) = self.driven.motion(&world.resource::<State>().bodies) {
+            self.held.choose(&motion.pair, &motion.along);
+        }
+    }
+
+    fn has_modes(&self) -> bool {
+        self.held.is_bounded()
+    }
+
+    /// Between ticks the torque of the last evaluation decides, and the rate that is reached.
+    fn begin_step(&mut self, state: &mut State) {
+        let Some(motion) = self.driven.motion(&state.bodies) else { return };
+        if !state.evaluation().style.is_staged() && self.held.follow(&motion.pair, &motion.along) {
+            state.change_rows();
+        }
+    }
+
+    fn after_blow(&mut self, state: &mut State) {
+        if let Some(motion) = self.driven.motion(&state.bodies) {
+            self.held.choose(&motion.pair, &motion.along);
+        }
+    }
+
+    fn add_rows(&mut self, bodies: &Bodies, _: f64, rows: &mut Rows) {
+        self.driven.refresh(bodies);
+        let row = self.driven.motion(bodies).and_then(|motion| self.held.row(&motion.pair, &motion.along));
+        self.row = row.map(|row| {
+            rows.add(row);
+            rows.len() - 1
+        });
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let Some(torque) = self.held.given() else { return };
+        self.driven.refresh(&state.bodies);
+        let Some(motion) = self.driven.motion(&state.bodies) else { return };
+        self.output.note(torque, torque * motion.rate);
+        Driven::push(&motion, torque, state);
+    }
+
+    fn take_rows(&mut self, state: &mut State) {
+        let Some(row) = self.row else { return };
+        let Some(motion) = self.driven.motion(&state.bodies) else { return };
+        let torque = state.rows().force(row);
+        state.apply_rows(row..row + 1);
+        let power = torque * motion.rate;
+        state.bodies_and_rates().1.work += power;
+        self.held.note(torque);
+        self.output.note(torque, power);
+    }
+
+    fn events(&mut self) -> Option<&mut dyn Events> {
+        self.held.is_bounded().then_some(self)
+    }
+
+    fn inner(&self) -> Option<&dyn std::any::Any> {
+        Some(&self.output)
+    }
+
+    fn save(&self) -> Memory {
+        Memory::of(&(self.held, &self.output.values))
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        (self.held, self.output.values) = recall(bytes)?;
+        Ok(())
+    }
+}
+
+/// Its torque reaches its bounds, or the joint its rate.
+impl Events for MotorRow {
+    fn length(&self) -> usize {
+        0
+    }
+
+    fn read(&self, _: &mut [f64]) {}
+
+    fn write(&mut self, _: &[f64]) {}
+
+    fn rates(&self, _: &State, _: &mut [f64]) {}
+
+    fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
+        if let Some(motion) = self.driven.motion(state.bodies()) {
+            self.held.tell(&motion.pair, &motion.along, state.bodies(), told);
+        }
+    }
+
+    fn switch(&mut self, _: &mut State, fired: &[usize]) {
+        fired.iter().take(1).for_each(|place| self.held.switch(*place));
+    }
+
+    fn settle(&mut self, state: &State) -> bool {
+        let Some(motion) = self.driven.motion(state.bodies()) else { return false };
+        self.held.choose(&motion.pair, &motion.along)
+    }
+
+    fn take_stock(&mut self, _: &State) {}
+
+    fn tidy(&mut self, _: &mut State) -> bool {
+        false
+    }
+
+    fn hand_over(&mut self, _: &State, _: Style) {}
+
+    fn is_crowded(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,136 @@
+//! A rate that is held by a bounded torque: friction in a joint, and motors with a greatest torque. While the torque suffices the rate is
+//! held exactly, by a row; else the torque is the greatest there is (Coulomb: stick and slip).
+
+use serde::{Deserialize, Serialize};
+
+use super::ends::{Along, Pair};
+use crate::constraints::{Kind, Row};
+use crate::tick::Indicator;
+use crate::world::Bodies;
+
+/// A rate that differs by less than this share of the spins and speeds that it is found from is held.
+const SAME: f64 = 1e-9;
+/// A share of torques and rates that is rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// What it does in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+enum Mode {
+    /// It holds the rate.
+    #[default]
+    Holds,
+    /// It gives its greatest torque: the sign of it.
+    Gives(f64),
+}
+
+/// A rate that is held as long as a torque suffices.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bounded {
+    /// In rad/s, of a slide in m/s.
+    speed: f64,
+    /// The greatest torque in N m, of a slide force in N.
+    limit: f64,
+    mode: Mode,
+    /// The torque of the last evaluation in which it held.
+    torque: f64,
+    /// By how much the rate has differed at most from the one to be held.
+    farthest: f64,
+}
+
+impl Bounded {
+    /// Holds a speed in rad/s or m/s with at most a torque in N m or a force in N.
+    pub fn new(speed: f64, limit: f64) -> Self {
+        Self { speed, limit, mode: Mode::Holds, torque: 0.0, farthest: 0.0 }
+    }
+
+    /// Whether its torque has a bound.
+    pub fn is_bounded(&self) -> bool {
+        self.limit.is_finite()
+    }
+
+    /// The torque in N m, or force in N, that is given whatever the motion is.
+    pub fn given(&self) -> Option<f64> {
+        match self.mode {
+            Mode::Holds => None,
+            Mode::Gives(sign) => Some(sign * self.limit),
+        }
+    }
+
+    /// The row that holds the rate, while it is held.
+    pub fn row(&self, pair: &Pair, along: &Along) -> Option<Row> {
+        let row = Row { rate: self.speed, gives_way: self.is_bounded(), ..pair.row(along, Kind::Velocity) };
+        (self.mode == Mode::Holds).then_some(row)
+    }
+
+    /// Takes the torque of its row.
+    pub fn note(&mut self, torque: f64) {
+        self.torque = torque;
+    }
+
+    /// Chooses the mode of a state. Says whether that is another one.
+    pub fn choose(&mut self, pair: &Pair, along: &Along) -> bool {
+        let missing = self.speed - pair.rate(along);
+        let share = if self.farthest == 0.0 { ROUNDING } else { SAME };
+        let same = share * (self.farthest + self.speed.abs() + pair.speeds(along));
+        self.farthest = self.farthest.max(missing.abs());
+        let mode = match self.mode {
+            _ if !self.is_bounded() => Mode::Holds,
+            Mode::Holds if missing.abs() > same => Mode::Gives(missing.signum()),
+            Mode::Holds if self.torque.abs() > self.limit * (1.0 + SAME) => Mode::Gives(self.torque.signum()),
+            Mode::Gives(sign) if sign * missing < -same => Mode::Holds,
+            mode => mode,
+        };
+        self.set(mode)
+    }
+
+    /// Between ticks: a rate that has passed the one to be held is held from now on.
+    pub fn follow(&mut self, pair: &Pair, along: &Along) -> bool {
+        match self.mode {
+            Mode::Holds if self.torque.abs() > self.limit => self.set(Mode::Gives(self.torque.signum())),
+            Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) < 0.0 => self.set(Mode::Holds),
+            _ => false,
+        }
+    }
+
+    fn set(&mut self, mode: Mode) -> bool {
+        let other = mode != self.mode;
+        if other {
+            (self.mode, self.torque) = (mode, 0.0);
+        }
+        other
+    }
+
+    /// Adds the indicators of the mode: how far the torque is from its bounds, or the rate from the one to be held.
+    pub fn tell(&mut self, pair: &Pair, along: &Along, bodies: &Bodies, told: &mut Vec<Indicator>) {
+        let rounding = ROUNDING * self.limit;
+        let missing = self.speed - pair.rate(along);
+        self.farthest = self.farthest.max(missing.abs());
+        match self.mode {
+            _ if !self.is_bounded() => {}
+            Mode::Holds => told.extend([1.0, -1.0].map(|sign| Indicator {
+                value: self.limit - sign * self.torque,
+                slope: f64::NAN,
+                rounding,
+                ..Indicator::default()
+            })),
+            Mode::Gives(sign) => {
+                let row = pair.row(along, Kind::Velocity);
+                told.push(Indicator {
+                    value: sign * missing,
+                    slope: -sign * row.acceleration(bodies),
+                    rounding: ROUNDING * self.farthest,
+                    ..Indicator::default()
+                });
+            }
+        }
+    }
+
+    /// The indicator at a place has vanished.
+    pub fn switch(&mut self, place: usize) {
+        let mode = match self.mode {
+            Mode::Holds => Mode::Gives(if place == 0 { 1.0 } else { -1.0 }),
+            Mode::Gives(_) => Mode::Holds,
+        };
+        self.set(mode);
+    }
+}

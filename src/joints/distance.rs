@@ -1,0 +1,118 @@
+//! A rod without mass: both anchors stay at their distance. One row, along the line through both.
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::ends::Pair;
+use super::law::{Freedom, Held, Law};
+use super::model::{self, Absent, Setup};
+use super::parts::Asked;
+use super::soft::Softness;
+use crate::forces::link::Partner;
+use crate::scene::units::{Force, Length, Position};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+
+/// A rod without mass: `anchor_a` of `a` and `anchor_b` of `b` stay at one distance.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Distance {
+    /// Its name, for channels and controllers. Default: none.
+    name: Option<String>,
+    /// One body, or `World`.
+    a: Partner,
+    /// The other body, or `World`.
+    b: Partner,
+    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
+    /// place in the world. Default: the centre of mass, and with `World` where the other anchor is at the start.
+    anchor_a: Option<Position>,
+    /// Where it holds `b`, likewise. Default: as that of `anchor_a`.
+    anchor_b: Option<Position>,
+    /// The distance in metres. Above zero. Default: that at the start.
+    length: Option<Length>,
+    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    break_force: Option<Force>,
+    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    softness: Option<Softness>,
+    /// Whether both bodies touch each other. Default: false.
+    #[serde(default)]
+    collide: bool,
+    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
+    /// error.
+    #[serde(default)]
+    assemble: bool,
+}
+
+impl Entry for Distance {
+    const SECTION: &'static str = "joints";
+    const NAME: &'static str = "Distance";
+    const EXAMPLE: &'static str = "Distance(a: \"bar\", anchor_a: (0.5, 0), b: \"bob\", length: 0.5)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        model::check_ends(&self.a, &self.b, outline, report);
+        report.positive_if_given("break_force", self.break_force);
+        Softness::check(self.softness, report);
+        report.positive_if_given("length", self.length);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        model::install::<Self>(
+            app,
+            outline,
+            entries.into_iter().map(|Written { value, .. }| Setup {
+                name: value.name,
+                partners: [value.a, value.b],
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                collide: value.collide,
+                assemble: value.assemble,
+                absent: Absent::Center,
+                asked: Asked {
+                    break_force: value.break_force.map(Force::si),
+                    softness: value.softness.map(Softness::si),
+                    ..Asked::default()
+                },
+                law: Arc::new(Rod { length: value.length.map(Length::si) }),
+            }),
+        );
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Distance>();
+}
+
+/// The law of a rod.
+#[derive(Clone, Copy, Debug)]
+pub struct Rod {
+    /// Distance in metres; `None`: that at the start.
+    pub length: Option<f64>,
+}
+
+impl Law for Rod {
+    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+        Arc::new(Self { length: Some(self.length.unwrap_or(pair.between().length())) })
+    }
+
+    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+        let length = self.length.unwrap_or_default();
+        held(Held { along: pair.stretch(), gap: pair.between().length() - length, size: pair.size() + length });
+    }
+
+    fn needs_distance(&self) -> bool {
+        true
+    }
+
+    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+        Some(Freedom { along: pair.turn(), value: pair.b.angle - pair.a.angle })
+    }
+}

@@ -1,0 +1,210 @@
+//! The limits of a joint: what is free in it stays between two values. A joint that reaches a limit loses its speed there at once, or
+//! rebounds with a share of it (Newton's law of impact); at the limit a row holds it until that would have to pull.
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use super::ends::Pair;
+use super::law::Freedom;
+use crate::constraints::{Kind, Row};
+use crate::tick::Indicator;
+use crate::world::Bodies;
+
+/// A share of its size within which a value is at the limit.
+const AT: f64 = 1e-14;
+/// A share of the greatest force at the limit below which a pull is rounding.
+const PULL: f64 = 1e-12;
+/// Rebounds slower than this share of the fastest arrival end: the joint stays at its limit.
+const STAYS: f64 = 1e-6;
+
+/// The limit at which a joint is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Side {
+    Low,
+    High,
+}
+
+impl Side {
+    /// The sign of the direction away from the limit.
+    fn sign(self) -> f64 {
+        match self {
+            Side::Low => 1.0,
+            Side::High => -1.0,
+        }
+    }
+}
+
+/// The limits of a joint, and whether it is at one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limit {
+    /// Least and greatest value in rad or m.
+    bounds: (f64, f64),
+    restitution: f64,
+    /// The limit at which the joint is held.
+    at: Option<Side>,
+    /// The limit whose indicator has vanished, and the one that was left since the last step.
+    reached: Option<Side>,
+    left: Option<Side>,
+    /// The force of the last evaluation, and the greatest since the joint is held.
+    force: f64,
+    greatest: f64,
+    /// The fastest arrival so far, in rad/s or m/s.
+    fastest: f64,
+}
+
+/// What a joint does that reaches its limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arrival {
+    /// It stays there.
+    Stays,
+    /// It goes back, with the velocity of this row.
+    Rebounds(Row),
+}
+
+impl Limit {
+    /// Limits in rad or m, either of them infinite where there is none.
+    pub fn new(bounds: [f64; 2], restitution: f64) -> Self {
+        Self {
+            bounds: (bounds[0], bounds[1]),
+            restitution,
+            at: None,
+            reached: None,
+            left: None,
+            force: 0.0,
+            greatest: 0.0,
+            fastest: 0.0,
+        }
+    }
+
+    fn bound(&self, side: Side) -> f64 {
+        match side {
+            Side::Low => self.bounds.0,
+            Side::High => self.bounds.1,
+        }
+    }
+
+    fn sides(&self) -> impl Iterator<Item = Side> + use<> {
+        let bounds = self.bounds;
+        let there = move |side: &Side| match side {
+            Side::Low => bounds.0.is_finite(),
+            Side::High => bounds.1.is_finite(),
+        };
+        [Side::Low, Side::High].into_iter().filter(there)
+    }
+
+    /// How far the value is from a limit, positive inside, and the numbers from which that was found.
+    fn room(&self, side: Side, pair: &Pair, freedom: &Freedom) -> (f64, f64) {
+        let (bound, value) = (self.bound(side), freedom.value);
+        let turns = freedom.along.sides.iter().all(|side| side.0 == DVec2::ZERO);
+        let size = if turns { 1.0 } else { pair.size() };
+        (side.sign() * (value - bound), value.abs() + bound.abs() + size)
+    }
+
+    /// How far the joint is beyond the limits, in rad or m.
+    pub fn beyond(&self, pair: &Pair, freedom: &Freedom) -> f64 {
+        let beyond = |side| {
+            let (room, size) = self.room(side, pair, freedom);
+            if room < -1e-9 * size { -room } else { 0.0 }
+        };
+        self.sides().map(beyond).fold(0.0, f64::max)
+    }
+
+    /// The row that keeps the joint at its limit.
+    pub fn row(&self, pair: &Pair, freedom: &Freedom) -> Option<Row> {
+        let side = self.at?;
+        let (room, size) = self.room(side, pair, freedom);
+        Some(Row { gap: side.sign() * room, size, ..pair.row(&freedom.along, Kind::Position) })
+    }
+
+    /// Takes the force of its row.
+    pub fn note(&mut self, force: f64) {
+        self.force = self.at.map_or(0.0, |side| side.sign() * force);
+        self.greatest = self.greatest.max(self.force.abs());
+    }
+
+    fn leave(&mut self) {
+        self.left = self.at;
+        (self.at, self.force, self.greatest) = (None, 0.0, 0.0);
+    }
+
+    /// Before a step: whether the joint has come to a limit, and leaves it.
+    pub fn begin_step(&mut self, pair: &Pair, freedom: &Freedom) -> Option<Arrival> {
+        let reached = self.reached.take();
+        self.left = None;
+        let rate = pair.rate(&freedom.along);
+        let arrives = |side: &Side| {
+            let (room, size) = self.room(*side, pair, freedom);
+            let there = reached == Some(*side) || room <= AT * size;
+            there && side.sign() * rate < 0.0 && self.at.is_none()
+        };
+        let side = self.sides().find(arrives)?;
+        self.fastest = self.fastest.max(rate.abs());
+        let back = self.restitution * rate.abs();
+        if back > STAYS * self.fastest {
+            let row = Row { rate: side.sign() * back, ..pair.row(&freedom.along, Kind::Position) };
+            return Some(Arrival::Rebounds(row));
+        }
+        (self.at, self.force, self.greatest) = (Some(side), 0.0, 0.0);
+        Some(Arrival::Stays)
+    }
+
+    /// Between ticks: leaves a limit that would have to pull. Says whether it did.
+    pub fn follow(&mut self) -> bool {
+        let pulls = self.pulls();
+        if pulls {
+            self.leave();
+        }
+        pulls
+    }
+
+    fn pulls(&self) -> bool {
+        self.at.is_some() && self.force < -PULL * self.greatest
+    }
+
+    /// Adds the indicators of its mode: the way to each limit, or the force of the one that holds.
+    pub fn tell(&self, pair: &Pair, freedom: &Freedom, bodies: &Bodies, told: &mut Vec<Indicator>) {
+        if self.at.is_some() {
+            let rounding = PULL * self.greatest;
+            return told.push(Indicator { value: self.force, slope: f64::NAN, rounding, ..Indicator::default() });
+        }
+        let bend = pair.row(&freedom.along, Kind::Position).acceleration(bodies).abs();
+        let rate = pair.rate(&freedom.along);
+        told.extend(self.sides().map(|side| {
+            let (value, size) = self.room(side, pair, freedom);
+            Indicator { value, slope: side.sign() * rate, bend, rounding: AT * size, swings: 0.0 }
+        }));
+    }
+
+    /// How many indicators there are.
+    pub fn count(&self) -> usize {
+        if self.at.is_some() { 1 } else { self.sides().count() }
+    }
+
+    /// The indicator at a place has vanished.
+    pub fn switch(&mut self, place: usize) {
+        match self.at {
+            Some(_) => self.leave(),
+            None => self.reached = self.sides().nth(place),
+        }
+    }
+
+    /// Corrects the mode after an evaluation.
+    pub fn settle(&mut self, pair: &Pair, freedom: &Freedom, bodies: &Bodies) -> bool {
+        if self.at.is_some() {
+            return self.follow();
+        }
+        let rate = pair.rate(&freedom.along);
+        let acceleration = pair.row(&freedom.along, Kind::Position).acceleration(bodies);
+        // What was left just now pushes away by no more than rounding.
+        let rests = |side: &Side| {
+            let (room, size) = self.room(*side, pair, freedom);
+            let still = rate.abs() <= PULL * pair.speeds(&freedom.along);
+            self.left != Some(*side) && room.abs() <= AT * size && still && side.sign() * acceleration < 0.0
+        };
+        let side = self.sides().find(rests);
+        if side.is_some() {
+            (self.at, self.force, self.greatest) = (side, 0.0, 0.0);
+        }
+        side.is_some()
+    }
+}

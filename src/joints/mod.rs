@@ -1,0 +1,93 @@
+//! Joints: each file one. A joint emits rows and solves nothing: [`crate::constraints`] solves those of all joints and held contacts
+//! together.
+
+mod assembly;
+pub mod bounded;
+mod coupling;
+mod distance;
+pub mod ends;
+mod gear_pair;
+pub mod law;
+pub mod limit;
+mod model;
+mod modes;
+pub mod parts;
+mod prismatic;
+mod rack;
+mod revolute;
+mod rope;
+pub mod soft;
+mod weld;
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+pub use coupling::Coupling;
+pub use distance::Rod;
+use ends::Ends;
+use law::Law;
+pub use model::Joint;
+pub use prismatic::Slide;
+pub use revolute::Hinge;
+pub use rope::Cord;
+pub use weld::Fixed;
+
+use crate::scene::{Arity, SceneAppExt};
+use crate::tick::AfterLoad;
+use crate::world::Apart;
+
+/// Joints are closed when the whole scene stands.
+fn close_at_start(app: &mut App) {
+    if !app.world().contains_resource::<Closing>() {
+        app.insert_resource(Closing);
+        app.world_mut().get_resource_or_init::<AfterLoad>().0.push(assembly::assemble);
+    }
+}
+
+/// Set when joints are to be closed at the start.
+#[derive(Resource)]
+struct Closing;
+
+/// The joints of a scene by their names, once they have begun: controllers find theirs here.
+#[derive(Resource, Default)]
+pub struct KnownJoints(Vec<Known>);
+
+/// A joint as controllers see it.
+#[derive(Clone)]
+pub struct Known {
+    /// Its name.
+    pub name: String,
+    /// Its ends.
+    pub ends: Ends,
+    /// What it holds.
+    pub law: Arc<dyn Law>,
+    /// Whether it has limits.
+    pub limited: bool,
+}
+
+impl KnownJoints {
+    /// The joint of this name.
+    pub fn named(&self, name: &str) -> Option<&Known> {
+        self.0.iter().find(|known| known.name == name)
+    }
+}
+
+/// Two bodies do not touch each other.
+fn keep_apart(app: &mut App, a: u64, b: u64) {
+    app.world_mut().get_resource_or_init::<Apart>().insert(a, b);
+}
+
+/// Registers the joints of this folder. The order here is the order of the rows.
+pub fn plugin(app: &mut App) {
+    app.register_entry_section("joints", Arity::List, "joints: [Revolute(a: World, b: \"bar\", anchor_b: (-0.5, 0))]");
+    app.describe_section("joints", "What holds bodies to each other exactly, without stretching.");
+    app.add_plugins(revolute::plugin)
+        .add_plugins(prismatic::plugin)
+        .add_plugins(weld::plugin)
+        .add_plugins(distance::plugin)
+        .add_plugins(rope::plugin)
+        .add_plugins(gear_pair::plugin)
+        .add_plugins(rack::plugin);
+}

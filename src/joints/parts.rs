@@ -1,0 +1,199 @@
+//! What a scene may ask of a joint beside that which it holds: limits, friction, a force at which it breaks.
+
+use serde::{Deserialize, Serialize};
+
+use super::bounded::Bounded;
+use super::ends::Pair;
+use super::law::Law;
+use super::limit::{Arrival, Limit};
+use crate::constraints::Rows;
+use crate::scene::Report;
+use crate::scene::units::{Dimension, Quantity};
+use crate::tick::{Blow, Indicator, State};
+use crate::world::Bodies;
+
+/// What the scene asks for, in SI units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Asked {
+    /// Least and greatest value of what is free, in rad or m.
+    pub limits: Option<[f64; 2]>,
+    /// What a limit gives back of the speed of arrival.
+    pub restitution: f64,
+    /// The greatest friction in N m or N.
+    pub friction: Option<f64>,
+    /// The force in N at which the joint breaks.
+    pub break_force: Option<f64>,
+    /// Frequency in Hz and damping ratio of a soft joint.
+    pub softness: Option<[f64; 2]>,
+}
+
+/// Reports limits that are no two finite numbers in order.
+pub(super) fn check_limits<D: Dimension>(limits: Option<&(Quantity<D>, Quantity<D>)>, report: &mut Report) {
+    let Some(limits) = limits else { return };
+    let (low, high) = (limits.0.si(), limits.1.si());
+    if report.finite("limits[0]", low) && report.finite("limits[1]", high) && low >= high {
+        let message = format!("the lower limit, {low}, is not below the upper one, {high}");
+        report.error("limits", message).help("give the lower limit first, such as `limits: (-0.5, 0.5)`");
+    }
+}
+
+/// Limits, friction and breaking of a joint: their modes.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Parts {
+    limit: Option<Limit>,
+    friction: Option<Bounded>,
+    break_force: Option<f64>,
+    /// When it broke, in seconds.
+    pub broken: Option<f64>,
+    /// How many rows there are, of the limit and of friction.
+    rows: [usize; 2],
+}
+
+impl Parts {
+    pub(super) fn new(asked: &Asked) -> Self {
+        Self {
+            limit: asked.limits.map(|limits| Limit::new(limits, asked.restitution)),
+            friction: asked.friction.map(|friction| Bounded::new(0.0, friction)),
+            break_force: asked.break_force,
+            ..Self::default()
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.limit.is_none() && self.friction.is_none() && self.break_force.is_none()
+    }
+
+    /// Whether there are limits.
+    pub fn has_limits(&self) -> bool {
+        self.limit.is_some()
+    }
+
+    /// Before the first tick: friction against a motion.
+    pub fn start(&mut self, law: &dyn Law, pair: &Pair) {
+        if let (Some(friction), Some(freedom)) = (&mut self.friction, law.freedom(pair)) {
+            friction.choose(pair, &freedom.along);
+        }
+    }
+
+    /// How far the joint is beyond its limits, in rad or m.
+    pub fn beyond(&self, law: &dyn Law, pair: &Pair) -> f64 {
+        let freedom = law.freedom(pair);
+        self.limit.as_ref().zip(freedom).map_or(0.0, |(limit, freedom)| limit.beyond(pair, &freedom))
+    }
+
+    /// Adds the rows of the limit and of friction, in this order.
+    pub fn add_rows(&mut self, law: &dyn Law, pair: &Pair, rows: &mut Rows) {
+        self.rows = [0, 0];
+        let Some(freedom) = law.freedom(pair) else { return };
+        let limit = self.limit.as_ref().and_then(|limit| limit.row(pair, &freedom));
+        let friction = self.friction.as_ref().and_then(|friction| friction.row(pair, &freedom.along));
+        self.rows = [limit, friction].map(|row| {
+            row.map_or(0, |row| {
+                rows.add(row);
+                1
+            })
+        });
+    }
+
+    /// Takes the answers of its rows, which begin at an index.
+    pub fn take_rows(&mut self, first: usize, rows: &Rows) {
+        let [limit, friction] = self.rows;
+        if let (Some(part), 1) = (&mut self.limit, limit) {
+            part.note(rows.force(first));
+        }
+        if let (Some(part), 1) = (&mut self.friction, friction) {
+            part.note(rows.force(first + limit));
+        }
+    }
+
+    /// Adds the friction of a joint that slips. Returns its torque in N m, or force in N.
+    pub fn apply_forces(&mut self, law: &dyn Law, pair: &Pair, state: &mut State) -> Option<(super::ends::Along, f64)> {
+        let amount = self.friction.as_ref()?.given()?;
+        let along = law.freedom(pair)?.along;
+        let into = pair.push(&along, amount, state);
+        let lost = -amount * pair.rate(&along);
+        let rates = state.bodies_and_rates().1;
+        rates.friction += lost;
+        rates.work += into + lost;
+        Some((along, amount))
+    }
+
+    /// Before a step. Says whether a mode is another one; the joint has broken if [`Parts::broken`] says so.
+    pub fn begin_step(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &mut State) -> bool {
+        let now = state.span().begin;
+        let staged = state.evaluation().style.is_staged();
+        if !staged && self.breaks(force, now) {
+            return true;
+        }
+        let Some(freedom) = law.freedom(pair) else { return false };
+        let mut changed = false;
+        if let Some(limit) = &mut self.limit {
+            changed |= !staged && limit.follow();
+            match limit.begin_step(pair, &freedom) {
+                Some(Arrival::Stays) => state.strike(Blow::Stops),
+                Some(Arrival::Rebounds(row)) => state.strike(Blow::Rebounds(row)),
+                None => {}
+            }
+        }
+        if let Some(friction) = &mut self.friction {
+            if !staged && friction.follow(pair, &freedom.along) {
+                changed = true;
+                if friction.given().is_none() {
+                    state.strike(Blow::Sticks);
+                }
+            }
+        }
+        changed
+    }
+
+    /// Velocities have jumped: friction may not suffice to hold them.
+    pub fn after_blow(&mut self, law: &dyn Law, pair: &Pair) {
+        self.start(law, pair);
+    }
+
+    fn breaks(&mut self, force: f64, now: f64) -> bool {
+        let breaks = self.broken.is_none() && self.break_force.is_some_and(|most| force > most);
+        if breaks {
+            self.broken = Some(now);
+        }
+        breaks
+    }
+
+    /// Adds the indicators of all modes, where the joint bears this force in N.
+    pub fn tell(&mut self, law: &dyn Law, pair: &Pair, force: f64, bodies: &Bodies, told: &mut Vec<Indicator>) {
+        if let Some(most) = self.break_force {
+            told.push(Indicator { value: most - force, slope: f64::NAN, rounding: 1e-13 * most, ..Default::default() });
+        }
+        let Some(freedom) = law.freedom(pair) else { return };
+        if let Some(limit) = &self.limit {
+            limit.tell(pair, &freedom, bodies, told);
+        }
+        if let Some(friction) = &mut self.friction {
+            friction.tell(pair, &freedom.along, bodies, told);
+        }
+    }
+
+    /// The indicator at a place has vanished.
+    pub fn switch(&mut self, place: usize, now: f64) {
+        let breaking = usize::from(self.break_force.is_some());
+        let limits = breaking + self.limit.as_ref().map_or(0, Limit::count);
+        match (&mut self.limit, &mut self.friction) {
+            _ if place < breaking => self.broken = Some(now),
+            (Some(limit), _) if place < limits => limit.switch(place - breaking),
+            (_, Some(friction)) => friction.switch(place - limits),
+            _ => {}
+        }
+    }
+
+    /// Corrects modes after an evaluation.
+    pub fn settle(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &State) -> bool {
+        if self.breaks(force, state.evaluation().time) {
+            return true;
+        }
+        let Some(freedom) = law.freedom(pair) else { return false };
+        let limit = self.limit.as_mut().is_some_and(|limit| limit.settle(pair, &freedom, state.bodies()));
+        let friction = |friction: &mut Bounded| friction.choose(pair, &freedom.along);
+        limit | self.friction.as_mut().is_some_and(friction)
+    }
+}

@@ -1,0 +1,142 @@
+//! A slide: anchor B stays on a line through anchor A that turns with body A, and B does not turn against A. Two rows: across the line,
+//! and the angle.
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::ends::Pair;
+use super::law::{Freedom, Held, Law};
+use super::model::{self, Absent, Setup};
+use super::parts::{self, Asked};
+use super::soft::Softness;
+use super::weld::hold_angle;
+use crate::forces::link::Partner;
+use crate::scene::units::{Force, Length, Position, Scalar};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+
+/// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`, and `b` does not turn against `a`. Its travel is
+/// measured from `anchor_a` along the line.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Prismatic {
+    /// Its name, for channels and controllers. Default: none.
+    name: Option<String>,
+    /// One body, or `World`.
+    a: Partner,
+    /// The other body, or `World`.
+    b: Partner,
+    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
+    /// place in the world. Default: where the other anchor is at the start.
+    anchor_a: Option<Position>,
+    /// Where it holds `b`, likewise. Default: where the other anchor is at the start; the centre of mass of `b` if both are left out.
+    anchor_b: Option<Position>,
+    /// Direction of the line in the frame of `a`; of any length but zero.
+    axis: Position,
+    /// Least and greatest travel of `b` along the line, in metres or with a unit. Default: none.
+    limits: Option<(Length, Length)>,
+    /// The share of its speed with which it comes back from a limit, 0 to 1. Default: 0, it stays there.
+    #[serde(default)]
+    restitution: Scalar,
+    /// The greatest friction, in N: below it the joint sticks. Above zero. Default: none.
+    friction: Option<Scalar>,
+    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    break_force: Option<Force>,
+    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    softness: Option<Softness>,
+    /// Whether both bodies touch each other. Default: false.
+    #[serde(default)]
+    collide: bool,
+    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
+    /// error.
+    #[serde(default)]
+    assemble: bool,
+}
+
+impl Entry for Prismatic {
+    const SECTION: &'static str = "joints";
+    const NAME: &'static str = "Prismatic";
+    const EXAMPLE: &'static str = "Prismatic(name: \"piston\", a: World, b: \"box\", axis: (1, 0))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        model::check_ends(&self.a, &self.b, outline, report);
+        parts::check_limits(self.limits.as_ref(), report);
+        report.between("restitution", self.restitution, 0.0, 1.0);
+        report.positive_if_given("friction", self.friction);
+        report.positive_if_given("break_force", self.break_force);
+        Softness::check(self.softness, report);
+        if report.finite_pair("axis", self.axis.si()) && self.axis.si() == DVec2::ZERO {
+            report
+                .error("axis", "the line has no direction")
+                .help("give `axis` two numbers that are not both zero, such as `(1, 0)`");
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        model::install::<Self>(
+            app,
+            outline,
+            entries.into_iter().map(|Written { value, .. }| Setup {
+                name: value.name,
+                partners: [value.a, value.b],
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                collide: value.collide,
+                assemble: value.assemble,
+                absent: Absent::Stands,
+                asked: Asked {
+                    limits: value.limits.map(|(low, high)| [low.si(), high.si()]),
+                    restitution: value.restitution.si(),
+                    friction: value.friction.map(Scalar::si),
+                    break_force: value.break_force.map(Force::si),
+                    softness: value.softness.map(Softness::si),
+                },
+                law: Arc::new(Slide { axis: value.axis.si().normalize_or(DVec2::X), angle: None }),
+            }),
+        );
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Prismatic>();
+}
+
+/// The law of a slide.
+#[derive(Clone, Copy, Debug)]
+pub struct Slide {
+    /// Direction of the line in the frame of body A, of length one.
+    pub axis: DVec2,
+    /// Angle of B relative to A in rad; `None`: that at the start.
+    pub angle: Option<f64>,
+}
+
+impl Law for Slide {
+    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+        Arc::new(Self { angle: Some(self.angle.unwrap_or(pair.b.angle - pair.a.angle)), ..*self })
+    }
+
+    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+        let across = pair.a.axis.rotate(self.axis).perp();
+        held(Held { along: pair.across(across), gap: pair.between().dot(across), size: pair.size() });
+        hold_angle(pair, self.angle.unwrap_or_default(), held);
+    }
+
+    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+        let axis = pair.a.axis.rotate(self.axis);
+        Some(Freedom { along: pair.across(axis), value: pair.between().dot(axis) })
+    }
+
+    fn freedom_name(&self) -> (&'static str, &'static str) {
+        ("travel", "m")
+    }
+}

@@ -1,0 +1,45 @@
+//! A rack: the travel of a slide is `radius` times the angle of a hinge.
+
+use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::coupling;
+use crate::scene::units::Length;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+
+/// A pinion and a rack: the travel of the second joint, a slide, is `radius` times the angle of the first, a hinge, without play.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Rack {
+    /// The hinge and the slide, by name.
+    of: (String, String),
+    /// Radius of the pinion in metres; negative for the other side. Not zero.
+    radius: Length,
+}
+
+impl Entry for Rack {
+    const SECTION: &'static str = "joints";
+    const NAME: &'static str = "Rack";
+    const EXAMPLE: &'static str = "Rack(of: (\"pinion\", \"slide\"), radius: 0.1)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        coupling::check(&self.of, outline, report);
+        if report.finite("radius", self.radius) && self.radius.si() == 0.0 {
+            report.error("radius", "nothing would be coupled").help("give `radius` a value that is not zero");
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let couplings = entries.into_iter().map(|Written { value, .. }| (value.of, value.radius.si()));
+        coupling::install::<Self>(app, outline, couplings);
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Rack>();
+}

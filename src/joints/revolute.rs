@@ -1,0 +1,130 @@
+//! A hinge: both anchors stay in one place, the bodies turn. Two rows: the anchors along both axes of the world.
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::ends::Pair;
+use super::law::{Freedom, Held, Law};
+use super::model::{self, Absent, Setup};
+use super::parts::{self, Asked};
+use super::soft::Softness;
+use crate::forces::link::Partner;
+use crate::scene::units::{Angle, Force, Position, Scalar};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+
+/// A hinge: `anchor_a` of `a` and `anchor_b` of `b` stay in one place, and the bodies turn about it. Its angle is that of `b` minus that
+/// of `a`, counter-clockwise, over full turns.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Revolute {
+    /// Its name, for channels and controllers. Default: none.
+    name: Option<String>,
+    /// One body, or `World`.
+    a: Partner,
+    /// The other body, or `World`.
+    b: Partner,
+    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
+    /// place in the world. Default: the centre of mass, and with `World` where the other anchor is at the start.
+    anchor_a: Option<Position>,
+    /// Where it holds `b`, likewise. Default: as that of `anchor_a`.
+    anchor_b: Option<Position>,
+    /// Least and greatest angle of `b` relative to `a`, in radians or with a unit such as "90 deg". Default: none.
+    limits: Option<(Angle, Angle)>,
+    /// The share of its speed with which it comes back from a limit, 0 to 1. Default: 0, it stays there.
+    #[serde(default)]
+    restitution: Scalar,
+    /// The greatest friction, in N m: below it the joint sticks. Above zero. Default: none.
+    friction: Option<Scalar>,
+    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    break_force: Option<Force>,
+    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    softness: Option<Softness>,
+    /// Whether both bodies touch each other. Default: false.
+    #[serde(default)]
+    collide: bool,
+    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
+    /// error.
+    #[serde(default)]
+    assemble: bool,
+}
+
+impl Entry for Revolute {
+    const SECTION: &'static str = "joints";
+    const NAME: &'static str = "Revolute";
+    const EXAMPLE: &'static str =
+        "Revolute(name: \"hip\", a: World, anchor_a: (0, 2), b: \"bar\", anchor_b: (-0.5, 0))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        model::check_ends(&self.a, &self.b, outline, report);
+        parts::check_limits(self.limits.as_ref(), report);
+        report.between("restitution", self.restitution, 0.0, 1.0);
+        report.positive_if_given("friction", self.friction);
+        report.positive_if_given("break_force", self.break_force);
+        Softness::check(self.softness, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        model::install::<Self>(
+            app,
+            outline,
+            entries.into_iter().map(|Written { value, .. }| Setup {
+                name: value.name,
+                partners: [value.a, value.b],
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                collide: value.collide,
+                assemble: value.assemble,
+                absent: Absent::Center,
+                asked: Asked {
+                    limits: value.limits.map(|(low, high)| [low.si(), high.si()]),
+                    restitution: value.restitution.si(),
+                    friction: value.friction.map(Scalar::si),
+                    break_force: value.break_force.map(Force::si),
+                    softness: value.softness.map(Softness::si),
+                },
+                law: Arc::new(Hinge),
+            }),
+        );
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Revolute>();
+}
+
+/// The law of a hinge.
+#[derive(Clone, Copy, Debug)]
+pub struct Hinge;
+
+/// Holds both anchors in one place.
+pub(super) fn hold_point(pair: &Pair, held: &mut dyn FnMut(Held)) {
+    let (between, size) = (pair.between(), pair.size());
+    for direction in [DVec2::X, DVec2::Y] {
+        held(Held { along: pair.point(direction), gap: between.dot(direction), size });
+    }
+}
+
+impl Law for Hinge {
+    fn begun(&self, _: &Pair) -> Arc<dyn Law> {
+        Arc::new(*self)
+    }
+
+    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+        hold_point(pair, held);
+    }
+
+    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+        Some(Freedom { along: pair.turn(), value: pair.b.angle - pair.a.angle })
+    }
+}

@@ -1,0 +1,117 @@
+//! A rope without mass: both anchors are at most its length apart. It pulls while it is taut and does nothing while it is slack.
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::ends::Pair;
+use super::law::{Freedom, Held, Law};
+use super::model::{self, Absent, Setup};
+use super::parts::Asked;
+use crate::forces::link::Partner;
+use crate::scene::units::{Force, Length, Position, Scalar};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+
+/// A rope without mass: `anchor_a` of `a` and `anchor_b` of `b` are at most its length apart.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Rope {
+    /// Its name, for channels and controllers. Default: none.
+    name: Option<String>,
+    /// One body, or `World`.
+    a: Partner,
+    /// The other body, or `World`.
+    b: Partner,
+    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
+    /// place in the world. Default: the centre of mass, and with `World` where the other anchor is at the start.
+    anchor_a: Option<Position>,
+    /// Where it holds `b`, likewise. Default: as that of `anchor_a`.
+    anchor_b: Option<Position>,
+    /// Its length in metres. Above zero. Default: the distance at the start.
+    length: Option<Length>,
+    /// The share of the speed with which its ends come back when it becomes taut, 0 to 1. Default: 0, it stays taut.
+    #[serde(default)]
+    restitution: Scalar,
+    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    break_force: Option<Force>,
+    /// Whether both bodies touch each other. Default: false.
+    #[serde(default)]
+    collide: bool,
+}
+
+impl Entry for Rope {
+    const SECTION: &'static str = "joints";
+    const NAME: &'static str = "Rope";
+    const EXAMPLE: &'static str = "Rope(a: \"bar\", b: \"bob\", length: 2)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        model::check_ends(&self.a, &self.b, outline, report);
+        report.between("restitution", self.restitution, 0.0, 1.0);
+        report.positive_if_given("break_force", self.break_force);
+        report.positive_if_given("length", self.length);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        model::install::<Self>(
+            app,
+            outline,
+            entries.into_iter().map(|Written { value, .. }| Setup {
+                name: value.name,
+                partners: [value.a, value.b],
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                collide: value.collide,
+                assemble: false,
+                absent: Absent::Center,
+                asked: Asked {
+                    restitution: value.restitution.si(),
+                    break_force: value.break_force.map(Force::si),
+                    ..Asked::default()
+                },
+                law: Arc::new(Cord { length: value.length.map(Length::si) }),
+            }),
+        );
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Rope>();
+}
+
+/// The law of a rope.
+#[derive(Clone, Copy, Debug)]
+pub struct Cord {
+    /// Its length in metres; `None`: the distance at the start.
+    pub length: Option<f64>,
+}
+
+impl Law for Cord {
+    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+        Arc::new(Self { length: Some(self.length.unwrap_or(pair.between().length())) })
+    }
+
+    fn hold(&self, _: &Pair, _: &mut dyn FnMut(Held)) {}
+
+    fn limits(&self) -> Option<[f64; 2]> {
+        self.length.map(|length| [f64::NEG_INFINITY, length])
+    }
+
+    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+        let value = pair.between().length();
+        Some(Freedom { along: if value > 0.0 { pair.stretch() } else { pair.point(DVec2::X) }, value })
+    }
+
+    fn freedom_name(&self) -> (&'static str, &'static str) {
+        ("distance", "m")
+    }
+}

@@ -1,0 +1,120 @@
+//! A joint that the scene asks to be soft: each direction that it holds becomes a damped spring. Stiffness and damping follow from a
+//! frequency `f` and a damping ratio `D`, with the effective mass `m` of the direction at the start: `k = m (2 pi f)^2` and
+//! `c = 2 D m 2 pi f`.
+
+use glam::DVec2;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::ends::Pair;
+use super::law::{Held, Law};
+use crate::constraints::Kind;
+use crate::scene::Report;
+use crate::scene::units::{Rate, Scalar};
+use crate::tick::{State, SteadySpring, response};
+use crate::world::Bodies;
+
+/// A frequency and a damping ratio, as a scene gives them.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+pub(super) struct Softness(Rate, Scalar);
+
+impl Softness {
+    /// In Hz and as a share of critical damping.
+    pub fn si(self) -> [f64; 2] {
+        [self.0.si(), self.1.si()]
+    }
+
+    /// Reports a frequency that is not positive, or a damping ratio below zero.
+    pub fn check(softness: Option<Self>, report: &mut Report) {
+        let Some(Self(frequency, ratio)) = softness else { return };
+        report.positive("softness[0]", frequency);
+        report.not_negative("softness[1]", ratio);
+    }
+}
+
+/// The springs of a soft joint.
+#[derive(Clone, Debug, Default)]
+pub struct Soft {
+    /// Stiffness and damping of each direction that is held.
+    springs: Vec<(f64, f64)>,
+    /// What the dashpots took in the last evaluation, in W.
+    pub power: f64,
+}
+
+impl Soft {
+    /// Springs that swing at a frequency in Hz with a damping ratio, for the bodies as they stand.
+    pub fn new([frequency, ratio]: [f64; 2], law: &dyn Law, pair: &Pair, bodies: &Bodies) -> Self {
+        let angular = std::f64::consts::TAU * frequency;
+        let mut springs = Vec::new();
+        law.hold(pair, &mut |held: Held| {
+            let row = pair.row(&held.along, Kind::Position);
+            let mass = 1.0 / row.response(&row, bodies);
+            springs.push((mass * angular * angular, 2.0 * ratio * mass * angular));
+        });
+        Self { springs, power: 0.0 }
+    }
+
+    /// Shows each direction that is held with its stiffness and its damping.
+    fn each(&self, law: &dyn Law, pair: &Pair, mut see: impl FnMut(Held, f64, f64)) {
+        let mut springs = self.springs.iter();
+        law.hold(pair, &mut |held| {
+            if let Some(&(stiffness, damping)) = springs.next() {
+                see(held, stiffness, damping);
+            }
+        });
+    }
+
+    /// Energy in J of its springs.
+    pub fn energy(&self, law: &dyn Law, pair: &Pair) -> f64 {
+        let mut sum = 0.0;
+        self.each(law, pair, |held, stiffness, _| sum += 0.5 * stiffness * held.gap * held.gap);
+        sum
+    }
+
+    /// Whether its springs are damped.
+    pub fn is_damped(&self) -> bool {
+        self.springs.iter().any(|(_, damping)| *damping > 0.0)
+    }
+
+    /// Adds its springs to a list.
+    pub fn stiffness(&self, law: &dyn Law, pair: &Pair, bodies: &Bodies, list: &mut Vec<SteadySpring>) {
+        let side = |end: &super::ends::End| end.body.filter(|body| bodies.dynamic[*body]).map(|body| (body, end.arm));
+        let (a, b) = match (side(&pair.a), side(&pair.b)) {
+            (a, Some(b)) => (a, b),
+            (Some(a), None) => (None, a),
+            (None, None) => return,
+        };
+        self.each(law, pair, |held, stiffness, damping| {
+            let normal = held.along.sides[1].0;
+            let turns = normal == DVec2::ZERO;
+            let of = |applies: bool, amount: f64| if applies { amount } else { 0.0 };
+            let spring = response::Spring {
+                a,
+                b,
+                normal: if turns { DVec2::X } else { normal.normalize() },
+                stiffness: (of(!turns, stiffness), 0.0),
+                damped: 0.0,
+                turning: of(turns, stiffness),
+            };
+            list.push(SteadySpring { spring, damping: of(!turns, damping), turning_damping: of(turns, damping) });
+        });
+    }
+
+    /// Adds its forces. Returns force in N and torque about the anchor in N m on body B.
+    pub fn push(&mut self, law: &dyn Law, pair: &Pair, state: &mut State) -> (DVec2, f64) {
+        let (mut power, mut reaction) = (0.0, (DVec2::ZERO, 0.0));
+        self.each(law, pair, |held, stiffness, damping| {
+            let rate = pair.rate(&held.along);
+            let amount = -stiffness * held.gap - damping * rate;
+            power += damping * rate * rate;
+            // What bodies get beyond the power of the spring comes from those that move as prescribed.
+            let got = pair.push(&held.along, amount, state);
+            state.bodies_and_rates().1.work += got - amount * rate;
+            let (direction, lever) = held.along.sides[1];
+            reaction.0 += direction * amount;
+            reaction.1 += (lever - pair.b.arm.perp_dot(direction)) * amount;
+        });
+        self.power = power;
+        reaction
+    }
+}

@@ -1,0 +1,114 @@
+//! Two bodies that stay as they stand to each other: the anchors in one place, the angle between the bodies as at the start. Three rows.
+
+use std::sync::Arc;
+
+use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::ends::Pair;
+use super::law::{Held, Law};
+use super::model::{self, Absent, Setup};
+use super::parts::Asked;
+use super::revolute::hold_point;
+use super::soft::Softness;
+use crate::forces::link::Partner;
+use crate::scene::units::{Force, Position};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+
+/// Holds two bodies as they stand to each other at the start.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Weld {
+    /// Its name, for channels and controllers. Default: none.
+    name: Option<String>,
+    /// One body, or `World`.
+    a: Partner,
+    /// The other body, or `World`.
+    b: Partner,
+    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
+    /// place in the world. Default: where the other anchor is at the start.
+    anchor_a: Option<Position>,
+    /// Where it holds `b`, likewise. Default: where the other anchor is at the start; the centre of mass of `b` if both are left out.
+    anchor_b: Option<Position>,
+    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    break_force: Option<Force>,
+    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    softness: Option<Softness>,
+    /// Whether both bodies touch each other. Default: false.
+    #[serde(default)]
+    collide: bool,
+    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
+    /// error.
+    #[serde(default)]
+    assemble: bool,
+}
+
+impl Entry for Weld {
+    const SECTION: &'static str = "joints";
+    const NAME: &'static str = "Weld";
+    const EXAMPLE: &'static str = "Weld(a: \"box\", b: \"bar\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        model::check_ends(&self.a, &self.b, outline, report);
+        report.positive_if_given("break_force", self.break_force);
+        Softness::check(self.softness, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        model::install::<Self>(
+            app,
+            outline,
+            entries.into_iter().map(|Written { value, .. }| Setup {
+                name: value.name,
+                partners: [value.a, value.b],
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                collide: value.collide,
+                assemble: value.assemble,
+                absent: Absent::Stands,
+                asked: Asked {
+                    break_force: value.break_force.map(Force::si),
+                    softness: value.softness.map(Softness::si),
+                    ..Asked::default()
+                },
+                law: Arc::new(Fixed { angle: None }),
+            }),
+        );
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Weld>();
+}
+
+/// The law of a weld.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed {
+    /// Angle of B relative to A in rad; `None`: that at the start.
+    pub angle: Option<f64>,
+}
+
+/// Holds the angle of B relative to A.
+pub(super) fn hold_angle(pair: &Pair, angle: f64, held: &mut dyn FnMut(Held)) {
+    let size = pair.a.angle.abs() + pair.b.angle.abs() + 1.0;
+    held(Held { along: pair.turn(), gap: pair.b.angle - pair.a.angle - angle, size });
+}
+
+impl Law for Fixed {
+    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+        Arc::new(Self { angle: Some(self.angle.unwrap_or(pair.b.angle - pair.a.angle)) })
+    }
+
+    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+        hold_point(pair, held);
+        hold_angle(pair, self.angle.unwrap_or_default(), held);
+    }
+}

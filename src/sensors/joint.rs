@@ -1,0 +1,81 @@
+//! `Joint(of: "hip")`: what a joint leaves free and what it bears. `hip.angle` in rad (`hip.travel` in m for a slide), `hip.rate`,
+//! `hip.force.x`, `hip.force.y` in N and `hip.torque` in N m on body B at its anchor, `hip.drift` in m.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::{Channel, SensorAppExt, add_found};
+use crate::joints;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::State;
+
+const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "drift"];
+
+/// What joints leave free and what they bear: `hip.angle` in rad (`piston.travel` in m for a slide) and `hip.rate`; `hip.force.x`,
+/// `hip.force.y` in N and `hip.torque` in N m on `b` at its anchor; `hip.drift` in m, how far it is from what it holds.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Joint {
+    /// The joints, `*` matches.
+    of: Names,
+}
+
+impl Entry for Joint {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Joint";
+    const EXAMPLE: &'static str = "Joint(of: \"hip\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.of.require(Kind::JOINT, outline, "of", report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let joints = entry.value.of.matching(Kind::JOINT, outline).into_iter();
+            let names = joints.map(|joint| &outline.names(Kind::JOINT)[joint]);
+            let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
+            add_found(app.world_mut(), channels);
+        }
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let state = world.get_resource::<State>()?;
+    let place = state.models_of::<joints::Joint>().position(|joint| joint.name == owner)?;
+    let joint = state.models_of::<joints::Joint>().nth(place)?;
+    let (freedom, free_unit) = joint.law.freedom_name();
+    let (unit, read): (_, fn(&joints::Joint, &State) -> f64) = match quantity {
+        "rate" => (if free_unit == "m" { "m/s" } else { "rad/s" }, |joint, state| of_freedom(joint, state).1),
+        "force.x" => ("N", |joint, _| joint.reaction.0.x),
+        "force.y" => ("N", |joint, _| joint.reaction.0.y),
+        "torque" => ("N m", |joint, _| joint.reaction.1),
+        "drift" => ("m", |joint, state| joint.drift(state.bodies())),
+        _ if quantity == freedom => (free_unit, |joint, state| of_freedom(joint, state).0),
+        _ => return None,
+    };
+    let name = owner.to_owned();
+    let read = move |state: &State| {
+        let mut joints = state.models_of::<joints::Joint>();
+        // It stands where it stood, unless models came or went.
+        let found = joints.nth(place).filter(|joint| joint.name == name);
+        let found = found.or_else(|| state.models_of::<joints::Joint>().find(|joint| joint.name == name));
+        found.map_or(f64::NAN, |joint| read(joint, state))
+    };
+    Some(Channel::of_state(format!("{owner}.{quantity}"), unit, read))
+}
+
+fn of_freedom(joint: &joints::Joint, state: &State) -> (f64, f64) {
+    joint.freedom(state.bodies()).unwrap_or((f64::NAN, f64::NAN))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_quantities(QUANTITIES, find);
+    app.register_entry::<Joint>();
+}

@@ -1,0 +1,64 @@
+//! `Motor(of: "drive")`: what a motor or controller gives, `drive.torque` in N m (of a slide a force in N), and its power `drive.power`
+//! in W.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::{Channel, SensorAppExt, add_found};
+use crate::controllers::Output;
+use crate::controllers::output::CONTROLLER;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::State;
+
+const QUANTITIES: &[&str] = &["torque", "power"];
+
+/// What motors and controllers give: `drive.torque` in N m, of a slide a force in N, and the power `drive.power` in W.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Motor {
+    /// The controllers, `*` matches.
+    of: Names,
+}
+
+impl Entry for Motor {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Motor";
+    const EXAMPLE: &'static str = "Motor(of: \"drive\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.of.require(CONTROLLER, outline, "of", report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for entry in entries {
+            let found = entry.value.of.matching(CONTROLLER, outline).into_iter();
+            let names = found.map(|place| &outline.names(CONTROLLER)[place]);
+            let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
+            add_found(app.world_mut(), channels);
+        }
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let state = world.get_resource::<State>()?;
+    let place = state.models_of::<Output>().position(|output| output.name == owner)?;
+    let (unit, read): (_, fn(&Output) -> f64) = match quantity {
+        "torque" => ("N m", |output| output.values.0),
+        "power" => ("W", |output| output.values.1),
+        _ => return None,
+    };
+    let value = move |state: &State| state.models_of::<Output>().nth(place).map_or(f64::NAN, read);
+    Some(Channel::of_state(format!("{owner}.{quantity}"), unit, value))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_quantities(QUANTITIES, find);
+    app.register_entry::<Motor>();
+}

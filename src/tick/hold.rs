@@ -1,0 +1,323 @@
+//! Joints in a step: rows of the present state, and places and velocities that are brought back onto them.
+
+use glam::DVec2;
+
+use super::context::Tick;
+use super::failure::{Trouble, Wrong};
+use super::stopwatch::Part;
+use super::{Ledger, Model, State};
+use crate::constraints::{Gap, Kind, Row, Rows, Side};
+use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
+
+/// The largest joint drift so far: how far a joint was from what it holds, after it was brought back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct JointDrift {
+    /// In metres; of an angle at the farthest point of its bodies.
+    pub meters: f64,
+    /// The index of the model that holds it.
+    pub model: usize,
+    /// When, in seconds.
+    pub time: f64,
+}
+
+/// An impulse in N s and an angular impulse about the origin in N m s that came from outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FromOutside {
+    /// Impulse.
+    pub impulse: DVec2,
+    /// Angular impulse.
+    pub angular: f64,
+    /// Work in J of drives and prescribed motions.
+    pub work: f64,
+}
+
+impl FromOutside {
+    /// Adds `amount` of a row's unit force on the bodies as they stand, if one of its sides is not moved by forces.
+    fn add(&mut self, row: &Row, amount: f64, bodies: &Bodies) {
+        let driven = if row.kind == Kind::Velocity { row.rate } else { 0.0 };
+        self.work += amount * (row.powers(bodies)[2] + driven);
+        if is_inside(row, bodies) {
+            return;
+        }
+        for side in row.sides.iter().flatten().filter(|side| bodies.dynamic[side.body]) {
+            self.impulse += side.force * amount;
+            self.angular += (bodies.position[side.body].perp_dot(side.force) + side.torque) * amount;
+        }
+    }
+
+    fn book(&self, ledger: &mut Ledger) {
+        ledger.impulse[0].add(self.impulse.x);
+        ledger.impulse[1].add(self.impulse.y);
+        ledger.angular_impulse.add(self.angular);
+    }
+}
+
+/// A jump of velocities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blow {
+    /// They become those that all joints allow, but for rows that give way. The energy counts as inelasticity.
+    Stops,
+    /// The same with a row whose rate is part of that, without force from then on.
+    Rebounds(Row),
+    /// They become those that all rows allow. The energy counts as friction.
+    Sticks,
+}
+
+/// Rows that hold places only.
+fn keep_places(rows: &mut Rows) {
+    rows.retain(|row| row.kind == Kind::Position);
+}
+
+/// Adds the rows of joints in the present places and velocities of bodies.
+fn find_rows(models: &mut [Box<dyn Model>], places: &[usize], (bodies, time): (&Bodies, f64), rows: &mut Rows) {
+    places.iter().for_each(|place| models[*place].add_rows(bodies, time, rows));
+}
+
+impl State {
+    /// The rows of joints in the present state are added to those there are.
+    pub(super) fn add_joint_rows(&mut self) {
+        let Self { models, roles, bodies, rows, evaluation, .. } = self;
+        find_rows(models, &roles.rows, (bodies, evaluation.time), rows);
+        let Bodies { jointed, entity, .. } = bodies;
+        jointed.clear();
+        if rows.has_joints() {
+            jointed.resize(entity.len(), false);
+            let sides = rows.all().iter().filter(|row| row.kind != Kind::Acceleration).flat_map(|row| row.sides);
+            sides.flatten().for_each(|side| jointed[side.body] = true);
+        }
+    }
+
+    /// The largest joint drift so far, with the model of the joint; `None` without joints.
+    pub fn joint_drift(&self) -> Option<(JointDrift, &dyn Model)> {
+        let model = self.models.get(self.joint_drift.model).filter(|_| self.has_joints())?;
+        Some((self.joint_drift, &**model))
+    }
+
+    /// Whether joints hold something in the present state.
+    pub fn has_joints(&self) -> bool {
+        !self.bodies.jointed.is_empty()
+    }
+
+    /// Moves bodies along the directions of `along`, rows that hold places, until no joint has a gap.
+    fn hold_places(&mut self, along: &mut Rows, time: f64) {
+        let Self { models, roles, bodies, projection, .. } = self;
+        let (rows, solver) = along.prepared(bodies);
+        let gap = projection.place(rows, solver, bodies, |found, bodies| {
+            find_rows(models, &roles.rows, (bodies, time), found);
+            keep_places(found);
+        });
+        if let Some(row) = along.all().get(gap.row) {
+            self.note_gap(gap, *row, time);
+        }
+    }
+
+    fn note_gap(&mut self, gap: Gap, row: Row, time: f64) {
+        let sides = || row.sides.iter().flatten();
+        let reach = match sides().all(|side| side.direction == DVec2::ZERO) {
+            true => sides().map(|side| self.bodies.extent(side.body)).fold(0.0, f64::max),
+            false => 1.0,
+        };
+        let meters = gap.left * reach;
+        if meters > self.joint_drift.meters || gap.failed {
+            self.joint_drift = JointDrift { meters, model: self.model_of(gap.row, time), time };
+        }
+        if gap.failed {
+            let body = sides().map(|side| side.body).next_back();
+            let wrong = Wrong::Joint { meters };
+            let tick = self.clock.ticks + 1;
+            self.progress.trouble.get_or_insert(Trouble { body, wrong, tick, time });
+        }
+    }
+
+    /// The index of the model that adds this one of the rows that hold places.
+    fn model_of(&mut self, row: usize, time: f64) -> usize {
+        let Self { models, roles, bodies, .. } = self;
+        let mut rows = Rows::default();
+        let mut adds = |place: &usize| {
+            find_rows(models, &[*place], (bodies, time), &mut rows);
+            keep_places(&mut rows);
+            rows.len() > row
+        };
+        roles.rows.iter().copied().find(|place| adds(place)).unwrap_or_default()
+    }
+
+    /// Changes velocities until those that `rows` hold are what they should be. Returns the impulse from outside.
+    fn hold_velocities(&mut self, rows: &mut Rows) -> FromOutside {
+        let Self { bodies, projection, .. } = self;
+        let (rows, solver) = rows.prepared(bodies);
+        let mut outside = FromOutside::default();
+        projection.speed(rows, solver, bodies, |bodies, row, impulse| outside.add(row, impulse, bodies));
+        outside
+    }
+
+    /// Brings the present state back onto the joints: places along the directions in which these push, then velocities. Returns the
+    /// impulse from outside.
+    pub(super) fn project(&mut self, time: f64) -> FromOutside {
+        self.project_with(time, None)
+    }
+
+    /// The same; in a blow with rows that are part of it, and without those that give way.
+    fn project_with(&mut self, time: f64, blown: Option<&[Row]>) -> FromOutside {
+        self.turn_to(Part::Constraints);
+        let mut rows = std::mem::take(&mut self.projected);
+        for hold_places in [true, false] {
+            rows.clear();
+            find_rows(&mut self.models, &self.roles.rows, (&self.bodies, time), &mut rows);
+            if hold_places {
+                keep_places(&mut rows);
+                self.hold_places(&mut rows, time);
+            }
+        }
+        if let Some(blown) = blown {
+            rows.retain(|row| !row.gives_way);
+            blown.iter().for_each(|row| rows.add(*row));
+        }
+        let outside = self.hold_velocities(&mut rows);
+        self.projected = rows;
+        self.turn_to(Part::Integrate);
+        outside
+    }
+
+    /// From [`Model::begin_step`](super::Model::begin_step): before the step begins, velocities jump, and places with them.
+    pub fn strike(&mut self, blow: Blow) {
+        self.blows.push(blow);
+    }
+
+    /// From [`Model::begin_step`](super::Model::begin_step): a model holds something else from now on.
+    pub fn change_rows(&mut self) {
+        (self.evaluation.stale, self.evaluation.other_rows) = (true, true);
+    }
+
+    /// Velocities jump where models ask for it.
+    pub(super) fn take_blows(&mut self, time: f64) {
+        if self.blows.is_empty() {
+            return;
+        }
+        self.bodies.catch_up();
+        let blows = std::mem::take(&mut self.blows);
+        let sticks = blows.contains(&Blow::Sticks);
+        let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(*row) } else { None };
+        let back: Vec<Row> = blows.iter().filter_map(back).collect();
+        if blows.iter().any(|blow| *blow != Blow::Sticks) {
+            let lost = self.jump(time, Some(&back));
+            self.ledger.inelasticity.add(lost);
+            self.tell_of_blow();
+        }
+        if sticks {
+            let lost = self.jump(time, None);
+            self.ledger.friction.add(lost);
+        }
+        self.change_rows();
+    }
+
+    /// Velocities jump to those that rows allow. Returns the energy in J that this takes.
+    fn jump(&mut self, time: f64, back: Option<&[Row]>) -> f64 {
+        let kinetic = |bodies: &Bodies| (0..bodies.len()).map(|body| bodies.kinetic_energy(body)).sum::<f64>();
+        let before = kinetic(&self.bodies);
+        let outside = self.project_with(time, back);
+        outside.book(&mut self.ledger);
+        self.ledger.book_work(outside.work);
+        before + outside.work - kinetic(&self.bodies)
+    }
+
+    /// Before the first tick: brings the bodies of a scene onto its joints. Says whether that was possible.
+    pub(crate) fn assemble(&mut self) -> bool {
+        self.find_roles();
+        self.project_with(0.0, Some(&[]));
+        let trouble = self.progress.trouble.take();
+        self.joint_drift = JointDrift::default();
+        trouble.is_none()
+    }
+
+    /// In the midst of a tick of `elapsed` seconds so far: places are brought back along the directions of the beginning, and velocities
+    /// follow, which is the constrained step of RATTLE (Andersen 1983; Hairer, Lubich, Wanner, section VII.1.4).
+    pub(super) fn hold_after_drift(&mut self, elapsed: f64, time: f64) {
+        self.turn_to(Part::Constraints);
+        let mut rows = std::mem::take(&mut self.rows);
+        if !rows.all_in_place() {
+            keep_places(&mut rows);
+        }
+        // Where the directions were found: bodies have moved since.
+        let Self { bodies, projection, .. } = self;
+        projection.noted.clear();
+        projection.noted.extend(rows.all().iter().map(|row| about_origin(row, bodies, elapsed)));
+        self.hold_places(&mut rows, time);
+        let Self { bodies, projection, ledger, .. } = self;
+        for ((row, &sum), about_origin) in rows.all().iter().zip(projection.sums()).zip(&projection.noted) {
+            let impulse = sum / elapsed;
+            for side in row.sides.iter().flatten() {
+                let (by, turned) =
+                    (bodies.inverse_mass(side.body) * impulse, bodies.inverse_inertia(side.body) * impulse);
+                bodies.velocity[side.body] += side.force * by;
+                bodies.spin[side.body] += side.torque * turned;
+                if let Some(velocity) = bodies.estimated_velocity.get_mut(side.body) {
+                    *velocity += side.force * by;
+                    bodies.estimated_spin[side.body] += side.torque * turned;
+                }
+            }
+            if !is_inside(row, bodies) {
+                let force = |side: &Side| if bodies.dynamic[side.body] { side.force } else { DVec2::ZERO };
+                let force = row.sides.iter().flatten().map(force).fold(DVec2::ZERO, |sum, force| sum + force);
+                FromOutside { impulse: force * impulse, angular: about_origin * impulse, work: 0.0 }.book(ledger);
+            }
+        }
+        self.rows = rows;
+        self.turn_to(Part::Integrate);
+    }
+
+    /// At the end of a tick: velocities are brought back onto the joints.
+    pub(super) fn hold_at_end(&mut self) {
+        self.turn_to(Part::Constraints);
+        let mut rows = std::mem::take(&mut self.rows);
+        let outside = self.hold_velocities(&mut rows);
+        outside.book(&mut self.ledger);
+        rows.still(&mut self.bodies, self.clock.dt);
+        self.rows = rows;
+        self.turn_to(Part::Integrate);
+    }
+}
+
+/// Whether both sides of a row move by forces.
+fn is_inside(row: &Row, bodies: &Bodies) -> bool {
+    row.sides.iter().all(|side| side.is_some_and(|side| bodies.dynamic[side.body]))
+}
+
+/// The torque about the origin of one unit of a row on the bodies that move by forces, where these were `elapsed` seconds before; zero for
+/// rows that hold such bodies to each other.
+fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
+    if is_inside(row, bodies) {
+        return 0.0;
+    }
+    let of = |side: &Side| {
+        let was = bodies.position[side.body] - bodies.velocity[side.body] * elapsed;
+        was.perp_dot(side.force) + side.torque
+    };
+    row.sides.iter().flatten().filter(|side| bodies.dynamic[side.body]).map(of).fold(0.0, |sum, term| sum + term)
+}
+
+impl Tick<'_> {
+    /// Whether joints hold something.
+    pub fn has_joints(&self) -> bool {
+        self.state.has_joints()
+    }
+
+    /// Velocities are brought back onto the joints. An integrator that goes from tick to tick calls it last, unless it ends with
+    /// [`Tick::kick_at_end`].
+    pub fn hold_velocities(&mut self) {
+        if self.has_joints() {
+            self.bodies();
+            self.state.hold_at_end();
+        }
+    }
+
+    /// Brings the state that a step has reached at `time` seconds back onto the joints. Returns the impulse from outside.
+    pub(super) fn project(&mut self, time: f64) -> FromOutside {
+        let begin = self.begin;
+        let bodies = self.bodies();
+        if !bodies.prescribed.motions.is_empty() {
+            bodies.prescribe(begin, time);
+        }
+        self.state.project(time)
+    }
+}
