@@ -24,6 +24,8 @@ const TRIES: usize = 20_000;
 const SPARSE: f64 = 0.3;
 /// How much work the tries of one entry may be: about as many looks at a place among four corners. That takes seconds.
 const MOST_WORK: usize = 100_000_000;
+/// After so many entries without room the others are not tried: each costs all its tries.
+const MOST_FULL: usize = 10;
 /// So many corners take about as long as the other work of a try.
 const CORNERS: usize = 16;
 /// Cells of the search grid along one side, at most.
@@ -78,14 +80,19 @@ pub struct FillSection(pub Vec<FillEntry>);
 
 impl FillSection {
     /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the region
-    /// is full or too narrow to be met by chance, which `check` reports. The outline tells which places are taken.
+    /// is full or too narrow to be met by chance, which `check` reports. Lists end after ten that are too short. The
+    /// outline tells which places are taken.
     pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
         let mut taken = outline.obstacles().to_vec();
-        let mut all = Vec::new();
+        let (mut all, mut full) = (Vec::new(), 0);
         for entry in &self.0 {
+            if full == MOST_FULL {
+                break;
+            }
             let radius = entry.radius();
             let placed = entry.place(radius, &taken);
             taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
+            full += usize::from((placed.len() as u64) < entry.count.0);
             all.push(placed);
         }
         all
