@@ -136,12 +136,13 @@ impl Parts {
                 None => {}
             }
         }
-        if let Some(friction) = &mut self.friction {
-            if !staged && friction.follow(pair, &freedom.along) {
-                changed = true;
-                if friction.given().is_none() {
-                    state.strike(Blow::Sticks);
-                }
+        if let Some(friction) = &mut self.friction
+            && !staged
+            && friction.follow(pair, &freedom.along)
+        {
+            changed = true;
+            if friction.given().is_none() {
+                state.strike(Blow::Sticks);
             }
         }
         changed
