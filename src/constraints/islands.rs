@@ -1,7 +1,5 @@
 //! Islands: what acts on each other within a tick, because it shares a body that moves by forces. Found by union-find.
 
-use std::ops::Range;
-
 use crate::world::Bodies;
 
 /// The bodies of a link between two sides: a contact or a joint. Side A may be none: the world, or a wall.
@@ -23,48 +21,41 @@ fn ends<L: Link>(links: &[L]) -> impl Iterator<Item = usize> + '_ {
 pub struct Islands {
     /// For each body of a link the first of its island.
     root: Vec<u32>,
-    ranges: Vec<Range<usize>>,
 }
 
 impl Islands {
-    /// Sorts links so that those that share a body that moves by forces stand together, in canonical order. Returns where each
-    /// island stands.
-    pub fn sort<L: Link>(&mut self, links: &mut [L], bodies: &Bodies) -> &[Range<usize>] {
-        self.ranges.clear();
-        if links.is_empty() {
-            return &self.ranges;
+    /// Sorts both lists of links so that links of one island stand together, in canonical order. An island is what shares bodies that
+    /// move by forces, by links of either list.
+    pub fn sort<L: Link, M: Link>(&mut self, links: &mut [L], others: &mut [M], bodies: &Bodies) {
+        self.root.resize(bodies.len(), 0);
+        for body in ends(links).chain(ends(others)) {
+            self.root[body] = body as u32;
         }
         self.join(links, bodies);
-        let root = |link: &L| {
-            let own = link.own_body();
-            let body = if bodies.dynamic[own] { Some(own) } else { link.other_body() };
-            self.root[body.unwrap_or(own)]
-        };
-        links.sort_by_key(root);
-        let mut first = 0;
-        for island in links.chunk_by(|a, b| root(a) == root(b)) {
-            self.ranges.push(first..first + island.len());
-            first += island.len();
+        self.join(others, bodies);
+        for body in ends(links).chain(ends(others)) {
+            self.root[body] = find(&mut self.root, body as u32);
         }
-        &self.ranges
+        links.sort_by_key(|link| self.of(link, bodies));
+        others.sort_by_key(|link| self.of(link, bodies));
     }
 
-    /// Lets the root of each body of a link be the first body of its island.
+    /// The first body of the island of a link that was sorted.
+    pub fn of<L: Link>(&self, link: &L, bodies: &Bodies) -> u32 {
+        let own = link.own_body();
+        let body = if bodies.dynamic[own] { Some(own) } else { link.other_body() };
+        self.root[body.unwrap_or(own)]
+    }
+
+    /// Joins the islands of both bodies of each link.
     fn join<L: Link>(&mut self, links: &[L], bodies: &Bodies) {
         let root = &mut self.root;
-        root.resize(bodies.len(), 0);
-        for body in ends(links) {
-            root[body] = body as u32;
-        }
         for link in links {
             let own = link.own_body();
             if let Some(other) = link.other_body().filter(|&other| bodies.dynamic[other] && bodies.dynamic[own]) {
                 let (a, b) = (find(root, other as u32), find(root, own as u32));
                 root[a.max(b) as usize] = a.min(b);
             }
-        }
-        for body in ends(links) {
-            root[body] = find(root, body as u32);
         }
     }
 }
@@ -119,14 +110,14 @@ pub struct Members {
 }
 
 impl Members {
-    /// Becomes those of the island of these links, among so many bodies.
-    pub fn collect<L: Link>(&mut self, links: &[L], bodies: usize) {
+    /// Becomes those of the island of these links of two kinds, among so many bodies.
+    pub fn collect<L: Link, M: Link>(&mut self, links: &[L], others: &[M], bodies: usize) {
         for &body in &self.list {
             self.index[body] = 0;
         }
         self.list.clear();
         self.index.resize(bodies, 0);
-        for body in ends(links) {
+        for body in ends(links).chain(ends(others)) {
             if self.index[body] == 0 {
                 self.index[body] = 1;
                 self.list.push(body);

@@ -21,7 +21,7 @@ mod row;
 mod rows;
 mod solver;
 
-pub use projection::{Gap, Projection};
+pub use projection::{Gap, Projection, Standing};
 pub use redundant::Share;
 pub use row::{Kind, LostTo, Row, Side};
 pub use rows::{Booking, Cancelled, Rows};

@@ -21,6 +21,15 @@ const SLOW: f64 = 0.9;
 /// A gap within this share of its size is good enough where iterations gain no more.
 const GOOD: f64 = 1e-13;
 
+/// What becomes of bodies without velocity whose gaps are good enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// They are not moved.
+    Stays,
+    /// They are moved as all others.
+    Moves,
+}
+
 /// How far positions were from what joints hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gap {
@@ -46,12 +55,13 @@ pub struct Projection {
 
 impl Projection {
     /// Moves bodies along the directions of `along` until the rows that `find` adds to [`Projection::rows`] have no gaps. Both have the
-    /// same rows in the same order. Returns what is left.
+    /// same rows in the same order. What stands may be left where it is as long as its gap is good enough: otherwise rounding would move
+    /// bodies at rest. Returns what is left.
     pub fn place(
         &mut self,
         along: &[Row],
         solver: &mut Solver,
-        bodies: &mut Bodies,
+        (bodies, stay): (&mut Bodies, Standing),
         mut find: impl FnMut(&mut Rows, &Bodies),
     ) -> Gap {
         self.sums.clear();
@@ -62,18 +72,20 @@ impl Projection {
             self.rows.clear();
             find(&mut self.rows, bodies);
             let gap = self.greatest_gap();
-            let settled = self.rows.all().iter().all(|row| row.gap.abs() <= ROUNDING * row.size);
+            let settled = |row: &Row| row.gap.abs() <= ROUNDING * size(row, bodies) || is_left(row, bodies, stay);
+            let settled = self.rows.all().iter().all(settled);
             if settled || self.rows.len() != along.len() {
                 return gap;
             }
             slow = if gap.left > SLOW * before { slow + 1 } else { 0 };
             let diverges = gap.left.is_nan() || gap.left > 1e3 * before;
             if slow > 1 || diverges {
-                return Gap { failed: diverges || !self.is_good(), ..gap };
+                return Gap { failed: !self.is_good(), ..gap };
             }
             before = gap.left;
             self.values.clear();
-            self.values.extend(self.rows.all().iter().map(|row| -row.gap));
+            let wanted = |row: &Row| if is_left(row, bodies, stay) { 0.0 } else { -row.gap };
+            self.values.extend(self.rows.all().iter().map(wanted));
             solver.solve(along, bodies, unmeasured, &mut self.values);
             for ((row, &amount), sum) in along.iter().zip(&self.values).zip(&mut self.sums) {
                 *sum += amount;
@@ -93,8 +105,11 @@ impl Projection {
         &self.sums
     }
 
+    /// Whether gaps are as small as rounding of the greatest numbers allows, from which one was found.
     fn is_good(&self) -> bool {
-        self.rows.all().iter().all(|row| row.gap.abs() <= GOOD * row.size)
+        let rows = self.rows.all();
+        let size = rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
+        rows.iter().all(|row| row.gap.abs() <= GOOD * size)
     }
 
     fn greatest_gap(&self) -> Gap {
@@ -127,12 +142,28 @@ impl Projection {
     }
 }
 
+/// Whether a row is left as it is, because its bodies stand and its gap is good enough.
+fn is_left(row: &Row, bodies: &Bodies, stay: Standing) -> bool {
+    let stands = || row.sides.iter().flatten().all(|side| bodies.stands(side.body));
+    stay == Standing::Stays && row.gap.abs() <= GOOD * size(row, bodies) && stands()
+}
+
+/// The numbers from which a gap was found: where a wheel turns about the origin these are zero, but its extent is not.
+fn size(row: &Row, bodies: &Bodies) -> f64 {
+    row.sides.iter().flatten().fold(row.size, |most, side| most.max(bodies.extent(side.body)))
+}
+
 /// Corrections have no natural amount.
 fn unmeasured(_: &Row) -> Share {
     Share { natural: 0.0, measure: 1.0 }
 }
 
 impl Bodies {
+    /// Whether a body has no velocity.
+    fn stands(&self, body: usize) -> bool {
+        self.velocity[body] == DVec2::ZERO && self.spin[body] == 0.0
+    }
+
     /// Moves a body beside its velocity. The displacement since the last accepted state follows.
     fn displace(&mut self, body: usize, by: DVec2, turn: f64) {
         self.position[body] += by;

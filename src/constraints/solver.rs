@@ -120,10 +120,10 @@ impl Solver {
             })
             .collect();
         let mut islands = Islands::default();
-        let ranges = islands.sort(&mut links, bodies);
+        islands.sort::<_, Linked>(&mut links, &mut [], bodies);
         (self.dense, self.sparse) = (Vec::new(), Vec::new());
-        for range in ranges {
-            let mut island: Vec<usize> = links[range.clone()].iter().map(|link| link.row).collect();
+        for island in links.chunk_by(|a, b| islands.of(a, bodies) == islands.of(b, bodies)) {
+            let mut island: Vec<usize> = island.iter().map(|link| link.row).collect();
             island.sort_unstable();
             if island.iter().any(|&row| self.ends[row].held) {
                 self.dense.push(island);

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 
 use crate::joints::KnownJoints;
-use crate::joints::ends::{Along, Ends, Pair};
+use crate::joints::ends::{Along, End, Ends, Pair};
 use crate::joints::law::Law;
 use crate::scene::{Kind, Outline, Report};
-use crate::tick::{LoadErrors, State};
+use crate::tick::{ForcePart, LoadErrors, State};
 use crate::world::Bodies;
 
 /// The joint of a controller: what it leaves free is driven.
@@ -74,6 +75,13 @@ impl Driven {
         if let Some((ends, _)) = &mut self.found {
             ends.refresh(bodies);
         }
+    }
+
+    /// For sensors: what `amount` N m or N along the motion is as a force on a body.
+    pub fn force_on(&self, state: &State, body: usize, amount: f64) -> Option<(ForcePart, DVec2)> {
+        let Motion { pair, along, .. } = self.motion(state.bodies())?;
+        let of = |end: &End, side: (DVec2, f64)| if end.body == Some(body) { side.0 * amount } else { DVec2::ZERO };
+        Some((ForcePart::Joint, of(&pair.a, along.sides[0]) + of(&pair.b, along.sides[1])))
     }
 
     /// Adds a torque in N m, or a force in N, along the motion. Its power is work.

@@ -3,6 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -13,7 +14,7 @@ use crate::joints::bounded::Bounded;
 use crate::scene::units::{Scalar, Spin};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Energies, Events, ForcePart, Indicator, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// Turns a hinge at a constant rate, or moves a slide at a constant speed, with as much torque or force as that takes.
@@ -79,6 +80,10 @@ impl Model for MotorRow {
     }
 
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+        self.driven.force_on(state, body, self.output.values.0)
+    }
 
     fn has_rows(&self) -> bool {
         true

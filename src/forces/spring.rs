@@ -17,7 +17,7 @@ use crate::scene::units::{Damping, Length, Position, Stiffness};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
 use crate::tick::response;
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Dependence, Energies, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Dependence, Energies, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
 /// `stiffness (distance - length) + damping d(distance)/dt`, and pushes where that is negative.
@@ -70,6 +70,7 @@ impl Entry for Spring {
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
                 power: 0.0,
+                force: DVec2::ZERO,
                 length: value.length.map(Length::si),
                 path: mention.path.clone(),
             });
@@ -88,6 +89,8 @@ pub struct SpringForce {
     pub damping: f64,
     /// Power that the damper took in the last evaluation, in watts.
     power: f64,
+    /// Its force on end A in the last evaluation, in newtons.
+    force: DVec2,
     /// Length without force in metres; `None`: the distance of the ends at the start, which takes its place then.
     pub length: Option<f64>,
     /// Where it stands in the scene, such as `forces[0]`.
@@ -136,11 +139,11 @@ impl Model for SpringForce {
     }
 
     fn save(&self) -> Memory {
-        Memory::of(&(self.power, self.length))
+        Memory::of(&(self.power, self.force, self.length))
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
-        (self.power, self.length) = recall(bytes)?;
+        (self.power, self.force, self.length) = recall(bytes)?;
         Ok(())
     }
 
@@ -162,15 +165,22 @@ impl Model for SpringForce {
         list.push(SteadySpring { spring, damping: self.damping, turning_damping: 0.0 });
     }
 
+    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+        let (a, b) = self.link.ends(&state.bodies)?;
+        let of = |end: &End, sign: f64| if end.body == Some(body) { sign } else { 0.0 };
+        Some((ForcePart::Spring, self.force * (of(&a, 1.0) + of(&b, -1.0))))
+    }
+
     fn apply_forces(&mut self, state: &mut State) {
         let (bodies, rates) = state.bodies_and_rates();
-        self.power = 0.0;
+        (self.power, self.force) = (0.0, DVec2::ZERO);
         self.link.refresh(bodies);
         let Some((a, b)) = self.link.ends(bodies) else { return };
         let (direction, distance, speed) = stretch(&a, &b);
         let elastic = if distance > 0.0 { self.stiffness * self.lengthening(distance) } else { 0.0 };
         self.power = self.damping * speed * speed;
-        link::pull(&a, &b, direction * (elastic + self.damping * speed), bodies, rates);
+        self.force = direction * (elastic + self.damping * speed);
+        link::pull(&a, &b, self.force, bodies, rates);
     }
 }
 

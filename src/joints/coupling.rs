@@ -12,8 +12,8 @@ use super::ends::Ends;
 use super::law::{Freedom, Law};
 use crate::constraints::{Kind as Holds, Row, Rows, Side};
 use crate::scene::{Entry, Kind, Outline, Report, SceneError};
-use crate::tick::snapshot::Memory;
-use crate::tick::{Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::{Energies, ForcePart, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 use std::sync::Arc;
 
@@ -103,6 +103,13 @@ impl Model for Coupling {
 
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
+    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+        let index = self.row.filter(|row| *row < state.rows().len())?;
+        let (row, amount) = (state.rows().row(index), state.rows().force(index));
+        let side = row.sides.iter().flatten().find(|side| side.body == body);
+        Some((ForcePart::Joint, side.map_or(DVec2::ZERO, |side| side.force * amount)))
+    }
+
     fn has_rows(&self) -> bool {
         true
     }
@@ -149,6 +156,11 @@ impl Model for Coupling {
     }
 
     fn save(&self) -> Memory {
-        Memory::Nothing
+        Memory::of(&self.row)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.row = recall(bytes)?;
+        Ok(())
     }
 }

@@ -16,7 +16,7 @@ use crate::forces::link::{DAMPING, Partner};
 use crate::numbers::number;
 use crate::scene::{Entry, Kind, Outline, Report, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Energies, Events, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Origin};
 
 /// Anchors that are no farther apart than this share of the numbers they are found from meet.
@@ -247,6 +247,12 @@ impl Model for Joint {
     fn loss(&self) -> Option<Loss> {
         let soft = self.soft.as_ref().filter(|soft| soft.is_damped())?;
         Some(Loss { account: DAMPING, power: soft.power })
+    }
+
+    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+        let pair = self.pair(&state.bodies)?;
+        let of = |end: &super::ends::End, sign: f64| if end.body == Some(body) { sign } else { 0.0 };
+        Some((ForcePart::Joint, self.reaction.0 * (of(&pair.b, 1.0) + of(&pair.a, -1.0))))
     }
 
     fn has_rows(&self) -> bool {

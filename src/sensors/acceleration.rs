@@ -7,7 +7,7 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found, body_named};
+use super::{Channel, SensorAppExt, add_found, body_named, known};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::{State, place_of};
@@ -56,9 +56,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let entity = body_named(world, owner)?;
     let value = move |world: &World| {
         let state = world.resource::<State>();
-        // Before the first tick no force is known.
-        let place = place_of(world, entity).filter(|_| state.clock().ticks > 0);
-        place.map_or(f64::NAN, |place| read(state.bodies(), place))
+        place_of(world, entity).map_or(f64::NAN, |place| known(state, read(state.bodies(), place)))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, value))
 }

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found};
+use super::{Channel, SensorAppExt, add_found, known};
 use crate::joints;
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
@@ -15,7 +15,8 @@ use crate::tick::State;
 const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "drift"];
 
 /// What joints leave free and what they bear: `hip.angle` in rad (`piston.travel` in m for a slide) and `hip.rate`; `hip.force.x`,
-/// `hip.force.y` in N and `hip.torque` in N m on `b` at its anchor; `hip.drift` in m, how far it is from what it holds.
+/// `hip.force.y` in N and `hip.torque` in N m on `b` at its anchor, not known and NaN before the first tick; `hip.drift` in m, how
+/// far it is from what it holds.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Joint {
@@ -53,9 +54,9 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let (freedom, free_unit) = joint.law.freedom_name();
     let (unit, read): (_, fn(&joints::Joint, &State) -> f64) = match quantity {
         "rate" => (if free_unit == "m" { "m/s" } else { "rad/s" }, |joint, state| of_freedom(joint, state).1),
-        "force.x" => ("N", |joint, _| joint.reaction.0.x),
-        "force.y" => ("N", |joint, _| joint.reaction.0.y),
-        "torque" => ("N m", |joint, _| joint.reaction.1),
+        "force.x" => ("N", |joint, state| known(state, joint.reaction.0.x)),
+        "force.y" => ("N", |joint, state| known(state, joint.reaction.0.y)),
+        "torque" => ("N m", |joint, state| known(state, joint.reaction.1)),
         "drift" => ("m", |joint, state| joint.drift(state.bodies())),
         _ if quantity == freedom => (free_unit, |joint, state| of_freedom(joint, state).0),
         _ => return None,

@@ -7,6 +7,7 @@ mod acceleration;
 mod contact_force;
 mod contacts;
 pub(crate) mod energy;
+mod force;
 mod joint;
 mod motor;
 mod overlap;
@@ -92,6 +93,11 @@ fn see_components(world: &mut World, channel: &Channel) {
     if channel.components {
         world.get_resource_or_init::<State>().show_components();
     }
+}
+
+/// A force of the last evaluation, or what follows from it: before the first tick there is none, and it is NaN.
+fn known(state: &State, value: f64) -> f64 {
+    if state.clock().ticks > 0 { value } else { f64::NAN }
 }
 
 /// Turns a channel's name into the channel, if it is one of its own.
@@ -285,6 +291,7 @@ pub fn plugin(app: &mut App) {
     velocity::plugin(app);
     acceleration::plugin(app);
     energy::plugin(app);
+    force::plugin(app);
     contact_force::plugin(app);
     overlap::plugin(app);
     contacts::plugin(app);

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found};
+use super::{Channel, SensorAppExt, add_found, known};
 use crate::controllers::Output;
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::Names;
@@ -15,7 +15,8 @@ use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["torque", "power"];
 
-/// What motors and controllers give: `drive.torque` in N m, of a slide a force in N, and the power `drive.power` in W.
+/// What motors and controllers give: `drive.torque` in N m, of a slide a force in N, and the power `drive.power` in W. Before the
+/// first tick both are not known and NaN.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Motor {
@@ -54,7 +55,10 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         "power" => ("W", |output| output.values.1),
         _ => return None,
     };
-    let value = move |state: &State| state.models_of::<Output>().nth(place).map_or(f64::NAN, read);
+    let value = move |state: &State| {
+        let output = state.models_of::<Output>().nth(place);
+        output.map_or(f64::NAN, |output| known(state, read(output)))
+    };
     Some(Channel::of_state(format!("{owner}.{quantity}"), unit, value))
 }
 

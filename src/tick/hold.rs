@@ -6,7 +6,7 @@ use super::context::Tick;
 use super::failure::{Trouble, Wrong};
 use super::stopwatch::Part;
 use super::{Ledger, Model, State};
-use crate::constraints::{Gap, Kind, Row, Rows, Side};
+use crate::constraints::{Gap, Kind, Row, Rows, Side, Standing};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -100,10 +100,10 @@ impl State {
     }
 
     /// Moves bodies along the directions of `along`, rows that hold places, until no joint has a gap.
-    fn hold_places(&mut self, along: &mut Rows, time: f64) {
+    fn hold_places(&mut self, along: &mut Rows, time: f64, stay: Standing) {
         let Self { models, roles, bodies, projection, .. } = self;
         let (rows, solver) = along.prepared(bodies);
-        let gap = projection.place(rows, solver, bodies, |found, bodies| {
+        let gap = projection.place(rows, solver, (bodies, stay), |found, bodies| {
             find_rows(models, &roles.rows, (bodies, time), found);
             keep_places(found);
         });
@@ -166,7 +166,7 @@ impl State {
             find_rows(&mut self.models, &self.roles.rows, (&self.bodies, time), &mut rows);
             if hold_places {
                 keep_places(&mut rows);
-                self.hold_places(&mut rows, time);
+                self.hold_places(&mut rows, time, Standing::Moves);
             }
         }
         if let Some(blown) = blown {
@@ -242,7 +242,7 @@ impl State {
         let Self { bodies, projection, .. } = self;
         projection.noted.clear();
         projection.noted.extend(rows.all().iter().map(|row| about_origin(row, bodies, elapsed)));
-        self.hold_places(&mut rows, time);
+        self.hold_places(&mut rows, time, Standing::Stays);
         let Self { bodies, projection, ledger, .. } = self;
         for ((row, &sum), about_origin) in rows.all().iter().zip(projection.sums()).zip(&projection.noted) {
             let impulse = sum / elapsed;

@@ -4,6 +4,7 @@
 use std::any::Any;
 
 use bevy_ecs::prelude::World;
+use glam::DVec2;
 
 use super::snapshot::{Memory, Unfit};
 use super::touch::ContactPoint;
@@ -34,6 +35,15 @@ pub struct Energies {
     pub elastic: f64,
 }
 
+/// A part of all forces on a body, as sensors tell them apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForcePart {
+    /// Forces of springs and dampers.
+    Spring,
+    /// Forces of joints, and of what drives them.
+    Joint,
+}
+
 /// A physical model: what it does in each stage of a step, and what it owes the card.
 ///
 /// Models act in the order in which they were added. Required is what must not be left out in silence: energies and stiffness. A
@@ -46,6 +56,12 @@ pub trait Model: Any + Send + Sync {
 
     /// The energies in J that it holds in the present state.
     fn energies(&self, state: &State) -> Energies;
+
+    /// For sensors: its force in newtons on the body of this index in the present state, and the part to which that counts. Default:
+    /// sensors hear of no force.
+    fn force_on(&self, _: &State, _: usize) -> Option<(ForcePart, DVec2)> {
+        None
+    }
 
     /// The power that it took in the evaluation just made, if that goes to an account of its own; drag, friction and inelasticity
     /// have theirs in [`Balance`](super::Balance). Default: it has no such account.

@@ -468,3 +468,32 @@ fn a_grid_with_more_pins_than_freedoms_hangs_still() {
         demand_small_drift(&simulation, method);
     }
 }
+
+/// Two wheels that turn about their centres, one of them at the origin, and a pendulum on the second: gears divide the torque as they
+/// divide the rates. Where nothing has a size but the wheels, gaps of rounding are no failure. The energy is that of the start, and the
+/// angles keep their ratio.
+#[test]
+fn gears_about_the_origin_keep_their_ratio_and_the_energy() {
+    for (method, tolerance) in
+        [("Dop853", 1e-11), ("RungeKutta4", 1e-7), ("VelocityVerlet", 1e-3), ("Symplectic4", 1e-6)]
+    {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 3, tick: \"1 ms\", method: {method}), gravity: (0, -9.81), contacts: None,
+             bodies: [(name: \"first\", at: (0, 0), spin: 3, mass: 2, inertia: 0.3, atoms: Disc(radius: 0.05)),
+                (name: \"second\", at: (1, 0), spin: -6, mass: 1, inertia: 0.1, atoms: Disc(radius: 0.05)),
+                (name: \"bob\", at: (1, -0.7), velocity: (-1.8, 0), mass: 0.5, inertia: 0.02, atoms: Disc(radius: 0.05))],
+             joints: [Revolute(name: \"p\", a: World, anchor_a: (0, 0), b: \"first\"),
+                Revolute(name: \"q\", a: World, anchor_a: (1, 0), b: \"second\"), GearPair(of: (\"p\", \"q\"), ratio: -2),
+                Revolute(a: \"second\", anchor_a: (0, -0.3), b: \"bob\", anchor_b: (0, 0.4))],
+             sensors: [Energy()])"
+        );
+        let mut simulation =
+            Simulation::load(&Source::new("gears.ron", scene)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_tick(3000).unwrap_or_else(|failure| panic!("{method}: {failure}"));
+        let bodies = simulation.bodies();
+        assert!((bodies.angle[1] + 2.0 * bodies.angle[0]).abs() < 1e-13, "{method}");
+        assert!(bodies.position[0].length() < 1e-14, "{method}");
+        let residual = simulation.card().energy.residual;
+        assert!(residual.abs() < tolerance, "{method}: {residual}");
+    }
+}

@@ -25,6 +25,7 @@ mod hard;
 mod impacts;
 mod joint_limits;
 mod joints;
+mod joints_at_rest;
 mod kinematic;
 mod ledger;
 mod located;

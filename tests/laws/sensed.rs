@@ -50,3 +50,56 @@ fn a_prescribed_body_has_the_acceleration_of_its_way() {
         assert_eq!(read("VelocityVerlet", 10, cart, &format!("cart.{quantity}")), 0.0);
     }
 }
+
+/// A block on a floor, held by a spring and by a rod, pulls on what it is held by: the parts of the force add up to its mass times its
+/// acceleration (Newton 1687), as nothing else acts on it. A sled on a slide is pushed by an actuator: that counts to joints.
+#[test]
+fn the_parts_of_a_force_add_up_to_all_of_it() {
+    let scene = |method: &str| {
+        format!(
+            "Scene(format: 1, clock: (duration: 10, tick: \"0.5 ms\", method: {method}), gravity: (1, -9.81),
+             materials: {{\"default\": (stiffness: 3000, restitution: 0.5, friction: 0.3)}},
+             walls: [(name: \"floor\", left: (5, 0), right: (-5, 0))],
+             bodies: [(name: \"block\", at: (0.3, 0.11), velocity: (0.5, -1), mass: 2, atoms: Disc(radius: 0.1)),
+                (name: \"bob\", at: (0.3, 0.6), mass: 1, atoms: Disc(radius: 0.1)),
+                (name: \"sled\", at: (-3, 2), mass: 4, atoms: Disc(radius: 0.1))],
+             forces: [Spring(a: \"block\", b: World, anchor_b: (-0.3, 0.5), stiffness: 200, length: 0.3, damping: 2)],
+             joints: [Distance(a: \"block\", b: \"bob\", length: 0.49),
+                Prismatic(name: \"slide\", a: World, b: \"sled\", axis: (1, 0))],
+             controllers: [Actuator(of: \"slide\", force: 12)],
+             sensors: [Force(of: \"*\"), Force(of: \"block\", part: Weight), Force(of: \"block\", part: Contact),
+                Force(of: \"block\", part: Spring), Force(of: \"block\", part: Joint)])"
+        )
+    };
+    for method in ["VelocityVerlet", "RungeKutta4"] {
+        let mut simulation =
+            Simulation::load(&Source::new("parts.ron", scene(method))).unwrap_or_else(|e| panic!("{e}"));
+        let mut touched = 0;
+        for tick in (5..=400).step_by(5) {
+            simulation.run_to_tick(tick).unwrap();
+            let mut read = |name: &str| {
+                let channel = jostle::sensors::find(simulation.world_mut(), name).expect("the channel is there");
+                simulation.value(&channel)
+            };
+            for axis in ["x", "y"] {
+                let parts = ["weight", "contact_force", "spring_force", "joint_force"];
+                let parts = parts.map(|part| read(&format!("block.{part}.{axis}")));
+                let (sum, total) = (parts.iter().sum::<f64>(), read(&format!("block.total_force.{axis}")));
+                assert!(
+                    (sum - total).abs() < 1e-11 * 100.0,
+                    "{method}, tick {tick}: {parts:?} make {sum}, not {total}"
+                );
+                assert!(parts[2] != 0.0 && parts[3] != 0.0, "{method}: spring and rod pull");
+                touched += usize::from(parts[1] != 0.0);
+            }
+            assert_eq!([read("block.weight.x"), read("block.weight.y")], [2.0, -2.0 * 9.81]);
+            // The slide bears the weight, and the actuator pushes.
+            assert!(
+                (read("sled.joint_force.x") - 12.0).abs() < 1e-12
+                    && (read("sled.joint_force.y") - 4.0 * 9.81).abs() < 1e-11
+            );
+            assert!((read("sled.total_force.x") - 16.0).abs() < 1e-12 && read("sled.total_force.y").abs() < 1e-11);
+        }
+        assert!(touched > 4, "{method}: the block touches the floor now and then");
+    }
+}

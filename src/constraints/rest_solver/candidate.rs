@@ -5,17 +5,6 @@ use glam::DVec2;
 use super::ROUNDING;
 use super::row::{Mover, Row, Sides};
 
-/// Sums over the contacts of each of `movers` movers of the force against which its rounding is to be judged, in newtons.
-pub fn loads(candidates: &[Candidate], movers: usize) -> Vec<f64> {
-    let mut loads = vec![0.0; movers];
-    for candidate in candidates {
-        for place in [candidate.ends.0, candidate.ends.1] {
-            loads[place] += candidate.normal_force + candidate.rounding / ROUNDING;
-        }
-    }
-    loads
-}
-
 /// A force or torque whose limit is a share of the normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounded {
@@ -187,6 +176,13 @@ impl Candidate {
                 bounded(0, along(-seen.normal.perp()), seen.tangential, seen.slides.0),
                 bounded(1, turn, seen.rolling, seen.slides.1),
             ],
+        }
+    }
+
+    /// Adds the force against which rounding of its movers is to be judged, in newtons.
+    pub(super) fn load(&self, loads: &mut [f64]) {
+        for place in [self.ends.0, self.ends.1] {
+            loads[place] += self.normal_force + self.rounding / ROUNDING;
         }
     }
 

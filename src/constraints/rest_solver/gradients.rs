@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::candidate::{Bounded, Candidate};
 use super::row::{Mover, Row, Sides};
+use super::tie::Tie;
 
 /// Share to which conjugate gradients bring down the velocities of an island in one tick. A few ticks reach rounding.
 const GAIN: f64 = 1e-4;
@@ -28,26 +29,33 @@ pub(super) struct Gradients {
 }
 
 impl Gradients {
-    pub fn finish(&mut self, candidates: &mut [Candidate], movers: &mut [Mover], dt: f64) {
+    pub fn finish(&mut self, (candidates, ties): (&mut [Candidate], &mut [Tie]), movers: &mut [Mover], dt: f64) {
         let Self { rows, still, moved, impulses, residual, scaled, search, response } = self;
         rows.clear();
         rows.extend(candidates.iter().flat_map(|c| c.free_rows().map(move |row| (row, c.ends))));
         still.clear();
         still.extend(movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }));
-        for list in [&mut *impulses, &mut *response] {
+        let count = rows.len() + ties.len();
+        for list in [&mut *impulses, &mut *response, &mut *scaled] {
             list.clear();
-            list.resize(rows.len(), 0.0);
+            list.resize(count, 0.0);
         }
         residual.clear();
         residual.extend(rows.iter().map(|(row, ends)| -row.velocity(&Sides::of(movers, *ends))));
-        scaled.clear();
-        scaled.extend(rows.iter().zip(&*residual).map(|((row, _), r)| r / row.mobility));
+        residual.extend(ties.iter().map(|tie| tie.missing(movers)));
+        let mobilities = || rows.iter().map(|(row, _)| row.mobility).chain(ties.iter().map(|tie| tie.mobility));
+        let scale = |scaled: &mut [f64], residual: &[f64]| {
+            for ((scaled, residual), mobility) in scaled.iter_mut().zip(residual).zip(mobilities()) {
+                *scaled = residual / mobility;
+            }
+        };
+        scale(scaled, residual);
         search.clone_from(scaled);
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
         let mut size = dot(residual, search);
         let goal = size * GAIN * GAIN;
-        let affordable = (WORK / rows.len().max(1)).max(FEWEST_STEPS);
-        for _ in 0..affordable.min(4 * rows.len() + 10) {
+        let affordable = (WORK / count.max(1)).max(FEWEST_STEPS);
+        for _ in 0..affordable.min(4 * count + 10) {
             if size <= goal || size == 0.0 {
                 break;
             }
@@ -57,25 +65,36 @@ impl Gradients {
                 row.push(&mut sides, impulse);
                 sides.put_back(moved, *ends);
             }
-            for (response, (row, ends)) in response.iter_mut().zip(&*rows) {
+            for (tie, &impulse) in ties.iter().zip(&search[rows.len()..]) {
+                tie.push(moved, impulse);
+            }
+            let (of_rows, of_ties) = response.split_at_mut(rows.len());
+            for (response, (row, ends)) in of_rows.iter_mut().zip(&*rows) {
                 *response = row.velocity(&Sides::of(moved, *ends));
+            }
+            for (response, tie) in of_ties.iter_mut().zip(&*ties) {
+                *response = tie.velocity(moved);
             }
             let curvature = dot(search, response);
             if curvature <= 0.0 {
                 break;
             }
             let step = size / curvature;
-            for i in 0..rows.len() {
+            for i in 0..count {
                 impulses[i] += step * search[i];
                 residual[i] -= step * response[i];
-                scaled[i] = residual[i] / rows[i].0.mobility;
             }
+            scale(scaled, residual);
             let before = std::mem::replace(&mut size, dot(residual, scaled));
-            for i in 0..rows.len() {
+            for i in 0..count {
                 search[i] = scaled[i] + size / before * search[i];
             }
         }
-        take_over(candidates, movers, impulses, dt);
+        let (of_rows, of_ties) = impulses.split_at(rows.len());
+        take_over(candidates, movers, of_rows, dt);
+        for (tie, &impulse) in ties.iter_mut().zip(of_ties) {
+            tie.take_over(movers, impulse, dt);
+        }
     }
 }
 

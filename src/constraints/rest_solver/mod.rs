@@ -8,18 +8,20 @@
 //!
 //! Solved by projected Gauss-Seidel from the present forces. Where no bound is active the equations are linear: in an
 //! island that may come to rest conjugate gradients bring the velocities down by a factor each tick, whatever the ratio
-//! of masses, and after a few ticks to rounding.
+//! of masses, and after a few ticks to rounding. Rows of joints are among them: their forces have no bounds.
 
 mod candidate;
 mod frame;
 mod gradients;
 mod row;
+mod tie;
 
 use gradients::Gradients;
 
-pub use candidate::{Candidate, Drawn, Friction, Seen, Verdict, loads};
+pub use candidate::{Candidate, Drawn, Friction, Seen, Verdict};
 pub use frame::Frame;
 pub use row::Mover;
+pub use tie::{Tie, TieSide};
 
 /// Sweeps of Gauss-Seidel per tick. What is left over is taken up in the next tick, from where this one ended.
 const SWEEPS: usize = 10;
@@ -41,6 +43,8 @@ pub struct Island {
     pub seen: Vec<Seen>,
     /// Contacts under search, in the same order.
     pub candidates: Vec<Candidate>,
+    /// Rows of joints.
+    pub ties: Vec<Tie>,
     /// For each mover the greatest tangential force and the greatest rolling torque of all its contacts.
     grips: Vec<[f64; 2]>,
     gradients: Gradients,
@@ -52,11 +56,12 @@ impl Island {
         self.begin.clear();
         self.movers.clear();
         self.seen.clear();
+        self.ties.clear();
     }
 
     /// Sets up what was seen for the `dt` seconds to come.
     pub fn set_up(&mut self, dt: f64) {
-        let Self { begin, movers, seen, candidates, grips, .. } = self;
+        let Self { begin, movers, seen, candidates, ties, grips, .. } = self;
         grips.clear();
         grips.resize(movers.len(), [0.0; 2]);
         for Seen { ends, band, tangential, rolling, .. } in &*seen {
@@ -67,6 +72,8 @@ impl Island {
         }
         candidates.clear();
         candidates.extend(seen.iter().map(|seen| Candidate::new(begin, movers, grips, seen, dt)));
+        let greatest = seen.iter().fold(0.0_f64, |most, seen| most.max(seen.band.1));
+        ties.iter_mut().for_each(|tie| tie.scale(greatest));
     }
 
     /// Finds the forces for the `dt` seconds to come. `thorough`: sweeps take turns with conjugate gradients, which is worth it
@@ -78,17 +85,28 @@ impl Island {
                 for candidate in &mut self.candidates {
                     greatest = greatest.max(candidate.relax(&mut self.movers, dt));
                 }
+                for tie in &mut self.ties {
+                    greatest = greatest.max(tie.relax(&mut self.movers, dt));
+                }
                 if greatest <= 1e-2 {
                     return;
                 }
             }
             if thorough {
-                self.gradients.finish(&mut self.candidates, &mut self.movers, dt);
+                self.gradients.finish((&mut self.candidates, &mut self.ties), &mut self.movers, dt);
             }
         }
         // Forces that stand at a limit without need come off it.
         for candidate in &mut self.candidates {
             candidate.relax(&mut self.movers, dt);
         }
+    }
+
+    /// Sums over the contacts and joints of each mover of the force against which its rounding is to be judged, in newtons.
+    pub fn loads(&self) -> Vec<f64> {
+        let mut loads = vec![0.0; self.movers.len()];
+        self.candidates.iter().for_each(|candidate| candidate.load(&mut loads));
+        self.ties.iter().for_each(|tie| tie.load(&mut loads));
+        loads
     }
 }

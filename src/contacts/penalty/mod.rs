@@ -11,6 +11,7 @@ mod handover;
 mod held;
 mod indicators;
 pub mod inelasticity;
+mod joined;
 mod kernel;
 pub mod law;
 mod limits;

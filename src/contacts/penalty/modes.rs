@@ -5,25 +5,32 @@ use glam::DVec2;
 use super::apply::{Own, PenaltyContacts, Shared, Sink, approach};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
+use super::joined::{Joined, find_joined, tie};
 use super::law::PairLaw;
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
 use super::patience::{Found, MANY, is_thorough};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
+use crate::constraints::Rows;
 use crate::constraints::islands::{Islands, Link, Marked, Members};
-use crate::constraints::rest_solver::{Frame, Friction, Island, Mover, Seen, Verdict, loads};
+use crate::constraints::rest_solver::{Frame, Friction, Island, Mover, Seen, Verdict};
 use crate::contacts::geometry::{End, Pair, SideA};
 use crate::contacts::{AtomPair, CandidatePairs, WallPair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
 use crate::world::Bodies;
 
+/// How many contacts a row of a joint counts for where an island is judged too large for conjugate gradients in each tick: these take
+/// many steps along a chain, and a bridge that swings rests no earlier for them.
+const DEARER: usize = 16;
+
 /// Working memory of the search for rest.
 #[derive(Default)]
 pub(super) struct Scratch {
     touching: Vec<u32>,
     cases: Vec<Pair>,
+    joined: Vec<Joined>,
     /// Bodies with a contact that does not stop.
     moved: Marked,
     islands: Islands,
@@ -34,7 +41,7 @@ pub(super) struct Scratch {
 /// Touching pairs choose loading, unloading or hold for the coming step; where that changes a force, the sums are corrected by the
 /// difference.
 pub(super) fn choose<N: NormalForce>(
-    Shared { bodies, balance, ledger, evaluation, .. }: Shared,
+    Shared { bodies, balance, ledger, evaluation, rows }: Shared,
     (clock, span): (&Clock, &Span),
     Own { pairs, contacts, rolling, forces }: Own,
     (stability, steady): (&Stability, &SteadySprings),
@@ -45,9 +52,9 @@ pub(super) fn choose<N: NormalForce>(
         return;
     }
     let sink = Sink { bodies, balance, forces };
-    let Scratch { touching, cases, moved, islands, members, island } = scratch;
+    let Scratch { touching, cases, joined, moved, islands, members, island } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
-    let mut choice = Choice { sink, contacts, rolling, dt: span.length, losses };
+    let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, losses };
     choice.wake_touched(pairs);
     // A law whose normal force may have several values at rest needs the search to know which: without it contacts load and
     // unload in turns.
@@ -81,12 +88,20 @@ pub(super) fn choose<N: NormalForce>(
         }
     }
     let mut found = Found::default();
-    for place in islands.sort(cases, choice.sink.bodies) {
-        let cases = &cases[place.clone()];
-        members.collect(cases, choice.sink.bodies.len());
+    find_joined(rows, choice.sink.bodies, joined);
+    islands.sort(cases, joined, choice.sink.bodies);
+    let mut rest = &**cases;
+    while let Some(first) = rest.first() {
+        let root = islands.of(first, choice.sink.bodies);
+        let (cases, others) = rest.split_at(rest.partition_point(|case| islands.of(case, choice.sink.bodies) == root));
+        rest = others;
+        let begin = joined.partition_point(|link| islands.of(link, choice.sink.bodies) < root);
+        let end = joined.partition_point(|link| islands.of(link, choice.sink.bodies) <= root);
+        let joined = &joined[begin..end];
+        members.collect(cases, joined, choice.sink.bodies.len());
         let may_rest = members.list.iter().all(|&body| !moved.has(body));
-        let thorough = may_rest && (!N::SET_VALUED || is_thorough(cases.len(), ticks));
-        choice.stop::<N>((cases, members), island, (may_rest, thorough), ledger, &mut found);
+        let thorough = may_rest && (!N::SET_VALUED || is_thorough(cases.len() + DEARER * joined.len(), ticks));
+        choice.stop::<N>((cases, joined, members), island, (may_rest, thorough), ledger, &mut found);
     }
     choice.contacts.patience.note(found, restless, ticks);
     choice.book(ledger);
@@ -97,6 +112,7 @@ struct Choice<'a> {
     sink: Sink<'a>,
     contacts: &'a mut PenaltyContacts,
     rolling: Option<&'a mut RollingContacts>,
+    rows: &'a Rows,
     dt: f64,
     losses: Losses,
 }
@@ -165,10 +181,7 @@ impl Choice<'_> {
     fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         let (seen, law) = self.known(&case);
-        // The search for rest does not know what joints bear.
-        let jointed = |body: usize| self.sink.bodies.jointed.get(body).is_some_and(|jointed| *jointed);
-        let jointed = jointed(case.b.body) || case.other_body().is_some_and(jointed);
-        if !jointed && case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
+        if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
@@ -279,7 +292,7 @@ impl Choice<'_> {
     /// its contacts could stop within the tick; `thorough`: the search is.
     fn stop<N: NormalForce>(
         &mut self,
-        (cases, members): (&[Pair], &Members),
+        (cases, joined, members): (&[Pair], &[Joined], &Members),
         island: &mut Island,
         (may_rest, thorough): (bool, bool),
         ledger: &mut Ledger,
@@ -303,8 +316,11 @@ impl Choice<'_> {
             let seen = self.seen::<N>(case, (other, members.index(case.b.body)));
             island.seen.push(seen);
         }
+        let ties = joined.iter().filter_map(|link| tie(link.row, self.rows, self.sink.bodies, members, &island.movers));
+        island.ties.extend(ties);
         island.set_up(self.dt);
-        let frame = self.frame(cases, &members.list, &island.movers[1..]);
+        // The world, to which joints hold, moves with no frame.
+        let frame = if joined.is_empty() { self.frame(cases, &members.list, &island.movers[1..]) } else { None };
         let place_of = |mover: usize, bodies: &Bodies| {
             mover
                 .checked_sub(1)
@@ -347,13 +363,13 @@ impl Choice<'_> {
             let each = movers.iter_mut().enumerate();
             each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
         }
-        let loads = loads(candidates, movers.len());
+        let loads = island.loads();
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
             let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };
             [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent(body), self.dt))
         };
-        if members.list.iter().zip(movers.iter().zip(&loads).skip(1)).all(stands) {
+        if members.list.iter().zip(island.movers.iter().zip(&loads).skip(1)).all(stands) {
             self.lay_to_rest(&members.list, &loads[1..], ledger);
             found.rest = true;
         } else {

@@ -251,7 +251,10 @@ impl PenaltyContacts {
         let new = self.rest.changed || woken_by_others;
         self.rest.settle(bodies, balance);
         if !bodies.disturbed && (new || self.rest.changed) {
-            let carried = !bodies.prescribed.motions.is_empty() || !bodies.belts.is_empty();
+            // Joints find their forces from all forces on their bodies, so these have to be there.
+            let jointed = |resting: &Resting| bodies.jointed.get(resting.body).is_some_and(|jointed| *jointed);
+            let jointed = self.rest.resting.iter().any(jointed);
+            let carried = jointed || !bodies.prescribed.motions.is_empty() || !bodies.belts.is_empty();
             let sleeps = !(changing || carried);
             self.sleep = if sleeps && self.may_sleep { Sleep::Allowed } else { Sleep::Never };
             self.lay_asleep(bodies, pairs, forces);

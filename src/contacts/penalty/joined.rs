@@ -1,0 +1,55 @@
+//! Joints of bodies that touch something, as the search for rest sees them.
+
+use crate::constraints::islands::{Link, Members};
+use crate::constraints::rest_solver::{Mover, Tie, TieSide};
+use crate::constraints::{Kind, Rows};
+use crate::world::Bodies;
+use glam::DVec2;
+
+/// A row of a joint between the bodies whose islands it joins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Joined {
+    /// The index of the row.
+    pub row: usize,
+    own: usize,
+    other: Option<usize>,
+}
+
+impl Link for Joined {
+    fn other_body(&self) -> Option<usize> {
+        self.other
+    }
+
+    fn own_body(&self) -> usize {
+        self.own
+    }
+}
+
+/// Finds the rows of joints that hold a body which moves by forces.
+pub(super) fn find_joined(rows: &Rows, bodies: &Bodies, joined: &mut Vec<Joined>) {
+    joined.clear();
+    if !rows.has_joints() {
+        return;
+    }
+    for (index, row) in rows.all().iter().enumerate().filter(|(_, row)| row.kind != Kind::Acceleration) {
+        let [a, b] = row.sides.map(|side| side.map(|side| side.body));
+        let moves = [a, b].into_iter().flatten().any(|body| bodies.dynamic[body]);
+        if let (Some(own), true) = (b.or(a), moves) {
+            joined.push(Joined { row: index, own, other: b.and(a) });
+        }
+    }
+}
+
+/// A row as the search for rest solves it, with its present force.
+pub(super) fn tie(index: usize, rows: &Rows, bodies: &Bodies, members: &Members, movers: &[Mover]) -> Option<Tie> {
+    let row = rows.row(index);
+    let sides = row.sides.map(|side| {
+        side.map_or(TieSide::default(), |side| {
+            let extent = bodies.extent(side.body);
+            let turns = side.direction == DVec2::ZERO && extent > 0.0;
+            let load = if turns { side.lever.abs() / extent } else { side.direction.length() };
+            TieSide { mover: members.index(side.body), direction: side.direction, lever: side.lever, load }
+        })
+    });
+    Tie::new(sides, movers, (row.rate, rows.force(index)))
+}
