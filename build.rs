@@ -1,13 +1,11 @@
-//! Tells the library its compiler, and the program the files in which Git keeps the commit that is checked out.
+//! Tells the program the files in which Git keeps the commit that is checked out.
 //!
-//! The program reads these files itself. A change that starts this script anew would build the library anew too.
+//! The program reads these files itself. A change that starts this script anew would build the package anew too.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rustc-env=JOSTLE_RUSTC={}", compiler().unwrap_or_else(|| "unknown".to_owned()));
     let root = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let made = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets it"));
     let folder = git_folder(&root.join(".git"));
@@ -20,12 +18,6 @@ fn main() {
         let path = found.unwrap_or_else(|| empty(&made.join("nothing")));
         println!("cargo:rustc-env={variable}={}", path.display());
     }
-}
-
-/// The version of the compiler.
-fn compiler() -> Option<String> {
-    let told = Command::new(std::env::var_os("RUSTC")?).arg("--version").output().ok()?;
-    Some(String::from_utf8(told.stdout).ok()?.trim().trim_start_matches("rustc ").to_owned())
 }
 
 /// The folder itself, or the one that a file names.

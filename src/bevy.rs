@@ -151,7 +151,7 @@ impl Plugin for PhysicsPlugin {
 
 /// The physics clock's tick as the app's fixed timestep should be, to the nanosecond.
 pub fn timestep(world: &World) -> Duration {
-    Duration::from_secs_f64(world.get_resource::<State>().map_or(0.0, |state| state.clock.dt))
+    Duration::from_secs_f64(world.get_resource::<State>().map_or(0.0, |state| state.clock().dt))
 }
 
 fn tick(world: &mut World, pace: Pace) {
@@ -163,11 +163,11 @@ fn tick(world: &mut World, pace: Pace) {
     let next = match pace {
         // Timesteps are whole nanoseconds.
         Pace::Checked(fixed) if fixed(world).abs_diff(timestep(world)) > Duration::from_nanos(1) => {
-            Run::OutOfStep { fixed: fixed(world), tick: world.resource::<State>().clock.dt }
+            Run::OutOfStep { fixed: fixed(world), tick: world.resource::<State>().clock().dt }
         }
         _ => match step(world, 1) {
             Err(failure) => Run::Failed(failure),
-            Ok(()) if world.resource::<State>().clock.ticks >= world.resource::<End>().0 => {
+            Ok(()) if world.resource::<State>().clock().ticks >= world.resource::<End>().0 => {
                 observe_all(world);
                 Run::Ended
             }

@@ -12,11 +12,12 @@
 //!    +------------------------------ next tick <----------------------------+
 //! ```
 //!
-//! The modules stand in this order. Nothing points back: a module uses those above it in the list below and none under it, and
-//! a test holds it. [`raster`] and [`output`] know no ECS type, and a physical model knows nothing of pictures.
+//! Each room of the engine is a crate in `src/`, and this crate hands on what they offer: [`simd`], the language in [`scene`], the
+//! physics, [`raster`] and [`output`], [`problems`] and [`report`]. Nothing points back: [`raster`] and [`output`] know no ECS
+//! type, and a physical model knows nothing of pictures.
 //!
 //! ```
-//! use jostle::{Simulation, scene::Source};
+//! use jostle::prelude::*;
 //!
 //! let scene = r#"Scene(
 //!     format: 1,
@@ -31,48 +32,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub(crate) mod digest;
-pub(crate) mod numbers;
-pub mod threads;
 #[doc(inline)]
 pub use jostle_simd as simd;
 
-pub mod scene;
-
-pub mod shapes;
-pub mod world;
-
-pub mod constraints;
-pub mod tick;
-
-pub mod contacts;
-pub mod forces;
-pub mod joints;
-
-pub mod controllers;
-
-pub mod integrate;
-
-pub mod sensors;
-
-pub mod expect;
-
-pub mod record;
-
-pub mod raster;
-
-pub mod output;
-
-pub mod plugins;
-pub mod simulation;
-
-pub mod problems;
-pub mod report;
+#[doc(inline)]
+pub use jostle_engine::{
+    constraints, contacts, controllers, expect, forces, integrate, joints, plugins, record, scene, sensors, shapes,
+    simulation, threads, tick, world,
+};
+#[doc(inline)]
+pub use jostle_film::{output, raster};
+#[doc(inline)]
+pub use jostle_report as report;
+#[doc(inline)]
+pub use jostle_report::problems;
 
 pub mod bevy;
 pub mod cli;
+pub mod prelude;
 
-pub use simulation::Simulation;
+pub use jostle_engine::Simulation;
+pub use jostle_report::SimulationExt;
 
 /// The examples of the README are run by the tests.
 #[cfg(doctest)]

@@ -6,7 +6,7 @@
     tools/font_outlines.py package/web assets/fonts
 
 Reads Inter-Regular.woff2 and Inter-SemiBold.woff2 of the first folder, writes Inter-Regular.txt and Inter-SemiBold.txt
-into the second: a line for each character. src/raster/outline.rs reads them and says what a line holds.
+into the second: a line for each character. src/film/raster/outline.rs reads them and says what a line holds.
 """
 
 import sys

@@ -12,7 +12,8 @@ use crate::joints::Joint;
 use crate::raster::{Bounds, Camera, Panel};
 use crate::record::Schedule;
 use crate::record::follow::Follower;
-use crate::record::plot::{Board, Legend, Plot};
+use crate::record::legend;
+use crate::record::plot::{Board, Plot};
 use crate::record::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};
 use crate::simulation::Recorder;
 use crate::simulation::{Missing, Sampler};
@@ -48,7 +49,7 @@ impl Order<'_> {
         let (mut bounds, mut panel) = (None, None);
         if fits || plots.is_some() {
             let mut ahead = self.again(simulation)?;
-            let legend = plots.map(|_| Legend::of(ahead.unpublished_world()));
+            let legend = plots.map(|_| legend(ahead.unpublished_world()));
             let sampler = plots.map(|plots| self.sampler(&mut ahead, &plots.0)).transpose()?;
             let none = Schedule::default();
             let (seen, plots) = self.look_ahead(&mut ahead, if fits { schedule } else { &none }, sampler);

@@ -6,6 +6,7 @@ use clap::Args;
 use super::say::{count, print_line, say};
 use super::{Exit, examples};
 use crate::cli::author;
+use crate::cli::paths::handed_on;
 use crate::integrate::ClockSection;
 use crate::integrate::Methods;
 use crate::scene::schema::Language;
@@ -54,20 +55,21 @@ struct Item {
     /// More to be said, on a line of its own.
     more: String,
     /// The module that brings it.
-    from: &'static str,
+    from: String,
 }
 
 impl Item {
     fn word(name: &str, text: String) -> Self {
-        Self { name: name.to_owned(), text, more: String::new(), from: "" }
+        Self { name: name.to_owned(), text, more: String::new(), from: String::new() }
     }
 
     fn of(known: Known) -> Self {
-        Self { name: known.name.to_owned(), text: known.example.to_owned(), more: String::new(), from: known.origin }
+        let (name, text) = (known.name.to_owned(), known.example.to_owned());
+        Self { name, text, more: String::new(), from: handed_on(known.origin) }
     }
 
     fn holds(&self, text: &str) -> bool {
-        [self.name.as_str(), &self.text, &self.more, self.from].iter().any(|part| part.to_lowercase().contains(text))
+        [self.name.as_str(), &self.text, &self.more, &self.from].iter().any(|part| part.to_lowercase().contains(text))
     }
 }
 
@@ -115,7 +117,7 @@ impl List {
                     name: name.to_owned(),
                     text: example.split_whitespace().collect::<Vec<_>>().join(" "),
                     more: String::new(),
-                    from: READER,
+                    from: READER.to_owned(),
                 });
                 return Some(own.chain(registry.sections().into_iter().map(Item::of)).collect());
             }
@@ -155,12 +157,12 @@ fn scene(name: &str, text: &str) -> Item {
     // The first sentence fits into a line.
     let more = notes.find(". ").map_or(notes.as_str(), |end| &notes[..=end]).to_owned();
     let title = header.and_then(|header| header.title.clone()).unwrap_or_default();
-    Item { name: name.to_owned(), text: title, more, from: "" }
+    Item { name: name.to_owned(), text: title, more, from: String::new() }
 }
 
 fn print(items: &[Item]) -> Exit {
     let width = |part: fn(&Item) -> &str| items.iter().map(|item| part(item).chars().count()).max().unwrap_or(0);
-    let (names, homes) = (width(|item| &item.name), width(|item| item.from));
+    let (names, homes) = (width(|item| &item.name), width(|item| &item.from));
     let line = |item: &Item| {
         let Item { name, text, more, from } = item;
         let home = if homes > 0 { format!("{from:<homes$}  ") } else { String::new() };
@@ -173,7 +175,7 @@ fn print(items: &[Item]) -> Exit {
 fn print_json(items: &[Item]) -> Exit {
     let line = |item: &Item| {
         let mut json = serde_json::json!({ "name": item.name, "text": item.text });
-        for (key, part) in [("notes", item.more.as_str()), ("from", item.from)] {
+        for (key, part) in [("notes", item.more.as_str()), ("from", &item.from)] {
             if !part.is_empty() {
                 json[key] = part.into();
             }

@@ -21,6 +21,7 @@ mod measure;
 mod moments;
 mod new;
 mod pace;
+mod paths;
 mod plot;
 mod progress;
 mod projector;

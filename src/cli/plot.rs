@@ -142,8 +142,8 @@ impl PlotCommand {
         };
         if entries.is_empty() {
             let help = match simulation.get_resource::<Channels>() {
-                Some(channels) if !channels.0.is_empty() => {
-                    let names: Vec<&str> = channels.0.iter().map(|channel| channel.name.as_str()).take(24).collect();
+                Some(channels) if !channels.is_empty() => {
+                    let names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).take(24).collect();
                     format!("its sensors measure {}", names.join(", "))
                 }
                 _ => "such as --channels energy.kinetic,energy.total".to_owned(),

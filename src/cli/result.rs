@@ -1,5 +1,6 @@
 //! How a run went: the error card and the expectations, for people or as JSON.
 
+use crate::SimulationExt;
 use serde::Serialize;
 
 use super::Exit;

@@ -111,7 +111,7 @@ impl Run {
             self.estimates.watch(&mut simulation);
         }
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
-        let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.0.is_empty());
+        let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.is_empty());
         if self.output.is_some() && !measures {
             say(
                 "note: the scene has no sensors, so there are only times to write: add `sensors: [Energy()]` or others",
@@ -189,12 +189,12 @@ fn write_channels(
 ) -> Result<(), Trouble> {
     let none = Channels::default();
     let channels = simulation.get_resource::<Channels>().unwrap_or(&none);
-    let columns = channels.0.iter().map(|channel| (channel.name.as_str(), channel.unit));
+    let columns = channels.iter().map(|channel| (channel.name.as_str(), channel.unit));
     let mut table = Table::create(path, columns)?;
     let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     let run = loop {
         let rows = simulation.get_resource::<Channels>().unwrap_or(&none);
-        let values = rows.0.iter().map(|channel| simulation.value(channel));
+        let values = rows.iter().map(|channel| simulation.value(channel));
         table.row(simulation.clock().time(), values)?;
         let (done, end) = (simulation.clock().ticks, simulation.ticks());
         if done == end {

@@ -1,5 +1,6 @@
 //! How a run ended when many are made at once: in a word, with the reason.
 
+use crate::SimulationExt;
 use std::path::PathBuf;
 
 use super::Exit;

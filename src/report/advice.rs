@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::numbers::number;
+use jostle_language::numbers::number;
 
 /// What to try next.
 #[derive(Clone, Copy, Debug, PartialEq)]

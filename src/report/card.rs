@@ -10,17 +10,17 @@ use super::advice::{Known, Remedy, rounded_down};
 use super::estimate::EstimatedError;
 use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
-use crate::integrate::ChosenMethod;
-use crate::integrate::StepCount;
-use crate::joints::Joint;
-use crate::numbers::{number, percent};
-use crate::simulation::Simulation;
-use crate::simulation::error::{ErrorEstimate, KnownError};
-use crate::tick::Notes;
-use crate::tick::energy::EnergyLedger;
-use crate::tick::{Failure, State, largest_travel};
-use crate::world::Name;
-use crate::world::hash::state_hash;
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::integrate::StepCount;
+use jostle_engine::joints::Joint;
+use jostle_engine::simulation::Simulation;
+use jostle_engine::simulation::error::{ErrorEstimate, KnownError};
+use jostle_engine::tick::Notes;
+use jostle_engine::tick::energy::EnergyLedger;
+use jostle_engine::tick::{Failure, State, largest_travel};
+use jostle_engine::world::Name;
+use jostle_engine::world::hash::state_hash;
+use jostle_language::numbers::{number, percent};
 
 /// The deepest overlap of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -112,9 +112,14 @@ pub struct Card {
     asked: Option<Option<f64>>,
 }
 
-impl Simulation {
+/// The error card of a simulation, as a method.
+pub trait SimulationExt {
     /// The error card of the present state.
-    pub fn card(&self) -> Card {
+    fn card(&self) -> Card;
+}
+
+impl SimulationExt for Simulation {
+    fn card(&self) -> Card {
         Card::of(self.unpublished_world(), self.seconds_spent(), self.failure())
     }
 }
@@ -123,7 +128,7 @@ impl Card {
     /// The card of the present state, after `seconds_spent` seconds of computing, and how the run went wrong, if it did.
     pub fn of(world: &World, seconds_spent: f64, failure: Option<&Failure>) -> Self {
         let state = world.resource::<State>();
-        let State { bodies, clock, stability, ledger, .. } = state;
+        let (bodies, clock, stability, ledger) = (state.bodies(), state.clock(), state.stability(), state.ledger());
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.name);
         let responses = state.responses();
         let foreseen = stability.fastest_foreseen();
@@ -145,7 +150,7 @@ impl Card {
             method: method.to_owned(),
             tick: clock.dt,
             critical_tick,
-            events_located: state.located.count,
+            events_located: state.located().count,
             energy,
             momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
             angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
@@ -163,7 +168,7 @@ impl Card {
             why: None,
             missed: known.and_then(|known| known.warning.clone()),
             located: ChosenMethod::locates(world),
-            steps: state.steps,
+            steps: state.steps(),
             ticks: clock.ticks,
             time: clock.time(),
             seconds_spent,

@@ -2,11 +2,12 @@
 //! to where it began. Methods that are symmetric in time come back but for rounding, others err by about twice the error of
 //! the run (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed. 2006, V.1).
 
+use crate::SimulationExt;
 use serde::Serialize;
 
-use crate::Simulation;
-use crate::tick::Failure;
-use crate::world::{Spin, Velocity};
+use jostle_engine::Simulation;
+use jostle_engine::tick::Failure;
+use jostle_engine::world::{Spin, Velocity};
 
 /// How closely a scene comes back to its beginning.
 #[derive(Clone, Debug, PartialEq, Serialize)]

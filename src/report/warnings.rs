@@ -5,10 +5,10 @@ use bevy_ecs::prelude::*;
 use super::advice::Remedy;
 use super::card::name;
 use super::estimate::EstimatedError;
-use crate::integrate::ChosenMethod;
-use crate::numbers::number;
-use crate::simulation::error::KnownError;
-use crate::tick::{Responses, State, Style, far_travel};
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::simulation::error::KnownError;
+use jostle_engine::tick::{Responses, State, Style, far_travel};
+use jostle_language::numbers::number;
 
 /// Contacts that last fewer ticks are not resolved.
 pub(super) const FEWEST_TICKS: f64 = 10.0;
@@ -19,7 +19,7 @@ pub(super) const FEWEST_TICKS: f64 = 10.0;
 pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let name = |entity| name(world, entity);
     let state = world.resource::<State>();
-    let State { clock, stability, .. } = state;
+    let (clock, stability) = (state.clock(), state.stability());
     let responses = state.responses();
     let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
     let mut warnings = Vec::new();
@@ -42,7 +42,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         };
         warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
     }
-    let steps = state.steps;
+    let steps = state.steps();
     let known = state.responses().fastest.map(|fastest| fastest.angular_frequency);
     let critical = known.or(stability.stiffest_contact()).map(|fastest| stability.limit / fastest);
     if let Some(critical) = critical.filter(|critical| beyond.is_none() && steps.shortened > 0 && *critical < clock.dt)
@@ -71,7 +71,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let unseen = state.contact_law().is_some() && !ChosenMethod::locates(world);
     let far = far_travel(state).filter(|_| unseen);
     if let Some(far) = far {
-        let radii = far.travel / state.bodies.smallest_radius;
+        let radii = far.travel / state.bodies().smallest_radius;
         warnings.push(format!(
             "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s and may have passed through \
              others unseen{advice}",
@@ -82,7 +82,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let style = world.get_resource::<ChosenMethod>().map_or_else(Style::default, |method| method.style);
     let departures = state.models().flat_map(|model| model.departures(state, style));
     warnings.extend(departures.map(|departure| format!("{}; use {}", departure.what, departure.remedy)));
-    let located = state.located;
+    let located = state.located();
     if located.given_up > 0 {
         warnings.push(format!(
             "in {} of {} ticks contacts were too many to locate their events one by one: those went on under velocity Verlet, \

@@ -1,9 +1,9 @@
 //! Scenes on which the engine was found wrong, each with what is right.
 
-use jostle::Simulation;
 use jostle::problems::hard::kinetic;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
 
 use super::ran::{Ran, run};
 

@@ -1,10 +1,10 @@
 //! Runs as users make them: with an estimate of the error and a verdict.
 
-use jostle::Simulation;
 use jostle::report::card::Card;
 use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
 
 /// A body at a moment: place in m, angle in rad, velocity in m/s.
 #[derive(Clone, Copy, Debug)]

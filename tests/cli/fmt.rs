@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use jostle::Simulation;
 use jostle::scene::Source;
+use jostle::{Simulation, SimulationExt};
 
 use super::harness::{FALL, Folder};
 

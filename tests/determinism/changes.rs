@@ -3,6 +3,7 @@
 //! slipping) when places in the packed state change.
 
 use bevy_ecs::prelude::*;
+use jostle::SimulationExt;
 use jostle::tick::{SimTick, Stage, State};
 use jostle::world::{Body, Position};
 

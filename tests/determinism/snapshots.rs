@@ -6,12 +6,12 @@
 
 use std::path::PathBuf;
 
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simd::Level;
 use jostle::simulation::{Overrides, Snapshot};
 use jostle::world::Velocity;
 use jostle::world::hash::state_hash;
+use jostle::{Simulation, SimulationExt};
 
 use super::pinned_methods::{WAYS, scenes, short};
 

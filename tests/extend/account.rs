@@ -7,11 +7,11 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::sensors;
 use jostle::simulation::Overrides;
 use jostle::tick::{Energies, Loss, Model, State, SteadySpring, TickAppExt};
+use jostle::{Simulation, SimulationExt};
 
 struct Brake {
     damping: f64,

@@ -14,6 +14,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use jostle::SimulationExt;
 use jostle::contacts::{AtomPair, CandidatePairs, Law, LawSide, LawTouch, WallPair, add_law};
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::{Overrides, Simulation};

@@ -8,13 +8,13 @@ use std::time::Duration;
 use bevy_app::{App, FixedUpdate, Update};
 use bevy_ecs::prelude::*;
 use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
-use jostle::Simulation;
 use jostle::bevy::{Pace, Physics, PhysicsPlugin, Run, timestep};
 use jostle::report::Card;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{State, TickAppExt};
 use jostle::world::{Force, Position, hash::state_hash};
+use jostle::{Simulation, SimulationExt};
 
 const CHECKED: Pace = Pace::Checked(|world| world.resource::<Time<Fixed>>().timestep());
 

@@ -6,13 +6,13 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::contacts::{CandidatePairs, Law, LawTouch, add_law};
 use jostle::report::Card;
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::Overrides;
 use jostle::tick::{Dependence, Energies, Model, State, SteadySpring};
 use jostle::world::Bodies;
+use jostle::{Simulation, SimulationExt};
 use serde::Deserialize;
 
 /// `contacts: Floor(stiffness: 500)`: a spring between atoms and walls, and nothing between atoms.

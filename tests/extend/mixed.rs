@@ -6,12 +6,12 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::response::Spring;
 use jostle::tick::{Energies, Loss, Model, SimTick, Stage, State, SteadySpring, TickAppExt};
 use jostle::world::{Position, Velocity, hash::state_hash};
+use jostle::{Simulation, SimulationExt};
 
 fn load(method: &str, plugins: impl Fn(&mut App) + Send + Sync + 'static) -> Simulation {
     let scene = format!(

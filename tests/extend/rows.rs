@@ -8,12 +8,12 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::constraints::{Kind, LostTo, Row, Rows, Share, Side};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 use jostle::world::Bodies;
+use jostle::{Simulation, SimulationExt};
 
 /// A rod that holds its place: see [`a_rod_that_holds_its_place_does_not_drift`].
 struct Placed {

@@ -10,11 +10,11 @@
 use std::f64::consts::PI;
 
 use bevy_ecs::prelude::*;
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::TickAppExt;
 use jostle::world::{Force, Position};
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, assert_near, fitted_order, load, phases, run, table};
 

@@ -7,6 +7,7 @@
 //!
 //! Not tested: friction, inelasticity (see `restitution`).
 
+use jostle::SimulationExt;
 use std::f64::consts::PI;
 
 use jostle::problems::{Setting, Truth, elastic_bounce, inelastic_impact, oblique_collision};

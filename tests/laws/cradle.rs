@@ -7,6 +7,7 @@
 //!
 //! Not tested: hard discs, whose outcome is that of one collision after the other.
 
+use jostle::SimulationExt;
 use jostle::problems::{Setting, cradle};
 
 use super::support::{METHODS, assert_near, load, momenta, phases, run_to};

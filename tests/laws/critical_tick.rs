@@ -10,6 +10,7 @@
 //!
 //! Not tested: what becomes of a run above the limit (see `hard`); slipping contacts.
 
+use jostle::SimulationExt;
 use jostle::problems::hard::tick_limit::{CRITICAL, NAIVE, clamped};
 
 use super::support::{METHODS, assert_near, load};

@@ -9,6 +9,7 @@
 //! Not tested: that a single trajectory is right, as crowds are chaotic; scenes of a thousand bodies under costly methods for
 //! longer than until they ran away when redundant contacts and damped ones had no force.
 
+use jostle::SimulationExt;
 use std::fmt::Write;
 use std::path::Path;
 

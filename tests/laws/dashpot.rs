@@ -15,6 +15,7 @@
 //!
 //! Not tested: friction under this law (the laws are independent; see `oblique`).
 
+use jostle::SimulationExt;
 use std::f64::consts::PI;
 
 use jostle::contacts::penalty::dashpot::{LEAST_RESTITUTION, ratio_of, restitution};

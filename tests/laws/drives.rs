@@ -6,10 +6,10 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::problems::Truth;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
 
 fn truth(name: &str) -> Truth {
     Truth::read(&std::fs::read_to_string(format!("assets/truths/{name}.json")).unwrap())

@@ -17,7 +17,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use jostle::Simulation;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{kinetic, load, phases};
 

@@ -6,13 +6,13 @@
 //!
 //! The truth is the reference run of the same scene, whose error is far below.
 
-use jostle::Simulation;
 use jostle::problems;
 use jostle::report::Card;
 use jostle::report::estimate::check::{Checked, METHODS, check};
 use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_truth() {

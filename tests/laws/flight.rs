@@ -9,12 +9,12 @@
 //! Not tested: bodies of several discs, which do not fly.
 
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{SimTick, Stage, State, TickAppExt, largest_travel};
 use jostle::world::hash::state_hash;
 use jostle::world::{Atom, Bodies, MaterialIndex, NewBody};
+use jostle::{Simulation, SimulationExt};
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -9,11 +9,11 @@
 //! Not tested: bodies at rest on slopes, collisions with friction.
 
 use bevy_ecs::prelude::*;
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{SimTick, Stage};
 use jostle::world::Position;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, assert_near, run};
 

@@ -9,6 +9,7 @@
 //!
 //! Not tested: impacts off centre (see `oblique`).
 
+use jostle::SimulationExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use jostle::problems::{Truth, elastic_bounce};

@@ -7,9 +7,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
 
 const METHODS: [(&str, f64); 2] = [("Dop853", 1e-11), ("RungeKutta4", 1e-9)];
 

@@ -7,11 +7,11 @@
 use std::fmt::Write as _;
 
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::joints::Joint;
 use jostle::problems::Truth;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
 
 const METHODS: [(&str, i32); 7] = [
     ("ExplicitEuler", 1),

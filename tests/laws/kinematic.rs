@@ -7,6 +7,7 @@
 //!
 //! Not tested: two prescribed bodies that squeeze a third.
 
+use jostle::SimulationExt;
 use jostle::problems;
 
 use super::support::{METHODS, assert_near, fitted_order, fitted_order_above, load, phases, run, table};

@@ -8,6 +8,7 @@
 //!
 //! Not tested: the order with contacts, whose kinks and jumps limit it; their losses are exact (see `restitution`).
 
+use jostle::SimulationExt;
 use std::f64::consts::PI;
 
 use jostle::problems;

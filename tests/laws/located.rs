@@ -7,6 +7,7 @@
 //!
 //! Not tested: several contacts that come to rest together.
 
+use jostle::SimulationExt;
 use jostle::problems::{EventTiming, Setting, Truth, coulomb_oscillator, settling_bounce};
 
 use super::support::{assert_near, assert_rest, load, run_to};

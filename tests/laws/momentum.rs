@@ -7,7 +7,7 @@
 //!
 //! Not tested: whether forces are right, only that they come in pairs and are booked.
 
-use jostle::Simulation;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, load, momenta};
 

@@ -16,7 +16,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
 use glam::DVec2;
-use jostle::Simulation;
+use jostle::{Simulation, SimulationExt};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

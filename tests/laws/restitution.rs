@@ -17,6 +17,7 @@
 //!
 //! Not tested: impacts with friction (see `oblique`), both materials different (see `impacts`).
 
+use jostle::SimulationExt;
 use jostle::problems::{Setting, Truth, inelastic_impact as impact};
 
 use super::support::{METHODS, assert_near, fitted_order, load, phases, run, table};

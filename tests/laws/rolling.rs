@@ -11,11 +11,11 @@
 //! Not tested: rolling resistance (see `rolling_resistance`).
 
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::problems::Truth;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{Dependence, Energies, Model, State, SteadySpring, TickAppExt};
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, assert_near, load, run_to};
 

@@ -12,8 +12,8 @@
 //! Not tested: rolling with slip, clumps (each contact has the law of its atoms).
 
 use glam::DVec2;
-use jostle::Simulation;
 use jostle::contacts::penalty::PenaltyState;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, assert_near, assert_rest, load, run, run_to};
 

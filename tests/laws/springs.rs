@@ -10,6 +10,7 @@
 //!
 //! Not tested: how errors fall (see `convergence`), damping (see `problems`).
 
+use jostle::SimulationExt;
 use std::fmt::Write;
 
 use jostle::problems::Truth;

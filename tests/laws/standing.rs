@@ -11,7 +11,7 @@
 //!
 //! Not tested: bodies with several contacts, piles, rolling.
 
-use jostle::Simulation;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, assert_near, load};
 

@@ -10,7 +10,7 @@
 //! Not tested: slip (see `friction`), inelastic impacts (see `restitution`).
 
 use glam::DVec2;
-use jostle::Simulation;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{METHODS, fitted_order, load, phases, table};
 

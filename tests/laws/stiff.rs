@@ -2,6 +2,7 @@
 //!
 //! Not tested: what shorter ticks give (see `hard`).
 
+use jostle::SimulationExt;
 use jostle::problems::hard::stiffness;
 
 use super::support::load;

@@ -8,10 +8,10 @@
 //! ticks, of four methods and of numbers of ticks that double up to four thousand: those that the tolerance allows. Moments at
 //! which the run is looked at are left out, and so are trials, which come on top; the card says how many.
 
-use jostle::Simulation;
 use jostle::problems::{ALL, EventTiming, Problem, Setting, rotating_ring, settling_bounce};
 use jostle::scene::Source;
 use jostle::simulation::{Overrides, Plan};
+use jostle::{Simulation, SimulationExt};
 
 /// Evaluations that are too few to count: a dozen steps. They are made to look at the beginning.
 const FEW: u64 = 150;

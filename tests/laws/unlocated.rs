@@ -21,12 +21,12 @@
 //!
 //! Not tested: a single phase (errors scatter by a factor of a hundred).
 
-use jostle::Simulation;
 use jostle::integrate::Description;
 use jostle::problems::{
     self, EventTiming, Problem, Setting, coulomb_oscillator, elastic_bounce, inelastic_impact, spring_mass,
 };
 use jostle::scene::Source;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{fitted_order, load, phases, run_to, table};
 

@@ -7,6 +7,7 @@
 //! an estimate of their error do not resolve it, and the card says so.
 
 use super::support::{load, run_to};
+use jostle::SimulationExt;
 
 fn scene(method: &str, events: &str, (speed, target): (f64, f64)) -> String {
     format!(

@@ -9,6 +9,7 @@ mod manual;
 mod overlaps;
 mod packings;
 mod pictures;
+mod schema;
 mod shipped;
 mod silhouettes;
 mod tour;

@@ -3,8 +3,8 @@
 //! Tolerance: none; the numbers of the notes are short ones. The number of pairs of strewn discs is that of a comparison of each
 //! with each. Not tested: how long it takes.
 
-use jostle::Simulation;
 use jostle::scene::Source;
+use jostle::{Simulation, SimulationExt};
 
 fn loaded(sections: &str) -> Simulation {
     let text = format!("Scene(format: 1, clock: (duration: 0.01, tick: 0.001, method: VelocityVerlet), {sections})");

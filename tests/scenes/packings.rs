@@ -6,8 +6,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use jostle::Simulation;
 use jostle::scene::Source;
+use jostle::{Simulation, SimulationExt};
 
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("packings").join(name);

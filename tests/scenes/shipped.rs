@@ -1,5 +1,6 @@
 //! Every scene in `scenes/` loads, runs, stays finite and holds what it expects.
 
+use jostle::SimulationExt;
 use std::path::{Path, PathBuf};
 
 use jostle::{Simulation, scene::Source};

@@ -6,6 +6,7 @@ use super::flag;
 use super::words::{WORDS, Word};
 use crate::cli::Exit;
 use crate::cli::list::READER;
+use crate::cli::paths::handed_on;
 use crate::cli::say::{print_line, say};
 use crate::integrate::Methods;
 use crate::raster::Theme;
@@ -138,12 +139,14 @@ fn of_section(known: Known, registry: &SceneRegistry) -> String {
     } else {
         "is a section of the scene".to_owned()
     };
-    format!("`{}` {kind}. It comes from {}.\nFor example: {}", known.name, known.origin, known.example)
+    format!("`{}` {kind}. It comes from {}.\nFor example: {}", known.name, handed_on(known.origin), known.example)
 }
 
 fn of_entry(section: &str, known: Known) -> String {
     format!(
         "`{}` is an entry of `{section}`. It comes from {}.\nFor example: {}",
-        known.name, known.origin, known.example
+        known.name,
+        handed_on(known.origin),
+        known.example
     )
 }

@@ -1,5 +1,7 @@
 //! A scene taken apart: what it names, what runs in a tick, where the time goes.
 
+use crate::SimulationExt;
+use crate::cli::paths::handed_on;
 use bevy_ecs::prelude::World;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -42,7 +44,7 @@ pub(super) struct Anatomy {
 /// A section of the scene, or an entry of one, and the module that reads it.
 struct Named {
     name: String,
-    from: &'static str,
+    from: String,
 }
 
 /// A part of the tick.
@@ -83,7 +85,7 @@ impl Anatomy {
             atoms: plain.bodies().atom_count(),
             pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.walls.len())),
             search: pairs.map(|pairs| {
-                let evaluations = plain.resource::<State>().evaluation.count;
+                let evaluations = plain.resource::<State>().evaluation().count;
                 (pairs.search.told(), evaluations as f64 / pairs.version.max(1) as f64)
             }),
             per_tick: plain.seconds_spent() / ticks.max(1) as f64,
@@ -227,7 +229,10 @@ fn named(simulation: &Simulation) -> Vec<Named> {
         let known = sections.iter().find(|known| known.name == section);
         let entries = outline.entries(section);
         if entries.is_empty() {
-            named.push(Named { name: section.to_owned(), from: known.map_or("", |known| known.origin) });
+            named.push(Named {
+                name: section.to_owned(),
+                from: known.map_or_else(String::new, |known| handed_on(known.origin)),
+            });
         }
         let readers = registry.entries(section);
         let mut before: Vec<&str> = Vec::new();
@@ -238,7 +243,10 @@ fn named(simulation: &Simulation) -> Vec<Named> {
             before.push(mention);
             let many = entries.iter().filter(|other| other.name == mention).count();
             let times = if many > 1 { format!(" (x {many})") } else { String::new() };
-            let from = readers.iter().find(|known| known.name == mention).map_or("", |known| known.origin);
+            let from = readers
+                .iter()
+                .find(|known| known.name == mention)
+                .map_or_else(String::new, |known| handed_on(known.origin));
             named.push(Named { name: format!("{section}: {mention}{times}"), from });
         }
     }
@@ -267,7 +275,7 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
 }
 
 fn stages(world: &World, known: &[(String, Known)]) -> Vec<Stage> {
-    let Some(watch) = &world.resource::<State>().stopwatch else { return Vec::new() };
+    let Some(watch) = world.resource::<State>().stopwatch() else { return Vec::new() };
     let spent = |part: Part| watch.spent(part).as_secs_f64();
     // Between two ticks, but for the loop, is the time in which nothing runs.
     let in_ticks = |part: &Part| *part != Part::Between;
@@ -285,7 +293,8 @@ fn stages(world: &World, known: &[(String, Known)]) -> Vec<Stage> {
 impl System {
     /// A system by its full name, such as `jostle::forces::gravity::apply_gravity`.
     fn named(full: &str, known: &[(String, Known)]) -> Self {
-        let (path, types) = full.split_once('<').map_or((full, ""), |(path, types)| (path, types));
+        let full = handed_on(full);
+        let (path, types) = full.split_once('<').unwrap_or((&full, ""));
         let (module, name) = path.rsplit_once("::").unwrap_or(("", path));
         let types: Vec<&str> = types
             .trim_end_matches('>')
@@ -295,7 +304,7 @@ impl System {
             .collect();
         let types = if types.is_empty() { String::new() } else { format!("<{}>", types.join(", ")) };
         let within = |(_, known): &&(String, Known)| {
-            module.strip_prefix(known.origin).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+            module.strip_prefix(&*handed_on(known.origin)).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
         };
         let nearest = known.iter().filter(within).max_by_key(|(_, known)| known.origin.len());
         Self {

@@ -1,5 +1,6 @@
 //! One run of a sweep.
 
+use crate::SimulationExt;
 use std::sync::Arc;
 
 use crate::cli::author;
@@ -81,7 +82,7 @@ fn tracks_of(simulation: &Simulation) -> Vec<Track> {
         least: f64::INFINITY,
         most: f64::NEG_INFINITY,
     };
-    channels.map_or_else(Vec::new, |channels| channels.0.iter().map(track).collect())
+    channels.map_or_else(Vec::new, |channels| channels.iter().map(track).collect())
 }
 
 /// Runs to the end, with a look at the channels at the ticks that `jostle run -o` writes.
@@ -89,7 +90,7 @@ fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure>
     let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     loop {
         if let Some(channels) = simulation.get_resource::<Channels>() {
-            for (track, channel) in tracks.iter_mut().zip(&channels.0) {
+            for (track, channel) in tracks.iter_mut().zip(channels.iter()) {
                 track.see(simulation.value(channel));
             }
         }

@@ -28,10 +28,10 @@ use super::side_by_side::{all_cores, in_order};
 use super::target::Place;
 use super::trial::Verdict;
 use crate::cli::author;
-use crate::digest::of_bytes;
 use crate::output::{Target, may_be_written, write_whole};
 use crate::scene::{SceneRegistry, Source, suggest};
 use crate::simulation::Simulation;
+use jostle_language::digest::of_bytes;
 
 /// The command `sweep`.
 #[derive(Args, Debug)]

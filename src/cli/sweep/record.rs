@@ -6,7 +6,7 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::table::Row;
-use crate::digest::of_bytes;
+use jostle_language::digest::of_bytes;
 
 /// What a record begins with; behind it stands of which sweep it is.
 const HEAD: &str = "jostle sweep ";

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::attempt::{Attempt, Track};
 use crate::cli::trial::Verdict;
-use crate::digest::of_bytes;
 use crate::output::csv;
+use jostle_language::digest::of_bytes;
 
 /// The columns that every table has after those of what varies.
 const FIXED: [&str; 8] = [

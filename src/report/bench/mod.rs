@@ -8,6 +8,7 @@ mod memory;
 mod plain;
 mod spread;
 
+use crate::SimulationExt;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -16,10 +17,10 @@ pub use memory::resident;
 pub use plain::Plain;
 pub use spread::Spread;
 
-use crate::scene::SceneErrors;
-use crate::simulation::{Plan, Simulation};
-use crate::tick::stopwatch::{self, Part, Stopwatch};
-use crate::tick::{Failure, State};
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::{Plan, Simulation};
+use jostle_engine::tick::stopwatch::{self, Part, Stopwatch};
+use jostle_engine::tick::{Failure, State};
 
 /// Ticks times atoms of a round: a fifth of a second, about.
 const WORK: u64 = 2_000_000;
@@ -192,10 +193,10 @@ pub fn measure(
     let mut watched = load(plan)?;
     stopwatch::watch(watched.world_mut());
     watched.run_to_tick(first + ticks)?;
-    let before = watched.resource::<State>().stopwatch.clone();
+    let before = watched.resource::<State>().stopwatch().cloned();
     watched.run_to_tick(first + 2 * ticks)?;
     step();
-    Ok(Measured { stages: stages(before.as_ref(), watched.resource::<State>().stopwatch.as_ref()), ..measured })
+    Ok(Measured { stages: stages(before.as_ref(), watched.resource::<State>().stopwatch()), ..measured })
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {

@@ -9,12 +9,12 @@
 use glam::DVec2;
 
 use super::cells::Cells;
-use crate::contacts::penalty::{NormalLaw, Penalty, PenaltyState, RollingLaw};
-use crate::contacts::penalty::{inelasticity_of, restitution_of};
-use crate::integrate::ChosenMethod;
-use crate::simulation::Simulation;
-use crate::tick::State;
-use crate::world::{Bodies, Materials, PackedWall};
+use jostle_engine::contacts::penalty::{NormalLaw, Penalty, PenaltyState, RollingLaw};
+use jostle_engine::contacts::penalty::{inelasticity_of, restitution_of};
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::simulation::Simulation;
+use jostle_engine::tick::State;
+use jostle_engine::world::{Bodies, Materials, PackedWall};
 
 /// The skin, as a share of the smallest radius: pairs are listed that are as near as that, and listed anew when an atom has moved
 /// by half of it.
@@ -96,7 +96,7 @@ impl Plain {
             return Err("its method is not velocity Verlet in whole ticks");
         }
         let penalty = world.resource::<State>().model::<PenaltyState>().ok_or("its contacts are not `Penalty`")?;
-        let penalty = &penalty.contacts.settings;
+        let penalty = penalty.settings();
         if penalty.rolling != RollingLaw::None {
             return Err("it has resistance against rolling");
         }
@@ -115,7 +115,9 @@ impl Plain {
             (of_bodies, None)
         } else {
             let atoms = Movers::with_length(bodies.atom_count());
-            let (first_atom, offset) = (bodies.first_atom.clone(), bodies.atom_offset.clone());
+            let first = |body| bodies.atoms_of(body).start as u32;
+            let first_atom = (0..bodies.len()).map(first).chain([bodies.atom_count() as u32]).collect();
+            let offset = (0..bodies.atom_count()).map(|atom| bodies.atom_offset(atom)).collect();
             (atoms, Some(Clumps { bodies: of_bodies, first_atom, offset }))
         };
         let count = bodies.atom_count();
@@ -425,8 +427,9 @@ fn laws(bodies: &Bodies, penalty: &Penalty, materials: &Materials) -> (Law, Law)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Source;
-    use crate::simulation::Simulation;
+    use crate::SimulationExt;
+    use jostle_engine::scene::Source;
+    use jostle_engine::simulation::Simulation;
 
     fn loaded(scene: &str) -> (Simulation, Plain) {
         let text = format!("Scene(format: 1, clock: (duration: 1, tick: \"0.1 ms\", method: VelocityVerlet), {scene})");

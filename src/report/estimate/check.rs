@@ -1,14 +1,15 @@
 //! Estimates against the truth: problems are run, their errors estimated, and compared with a run whose error is far smaller.
 
+use crate::SimulationExt;
 use std::error::Error;
 
 use super::{Effort, Repeated, Wanted, estimate, watch};
-use crate::Simulation;
-use crate::integrate::ClockSection;
 use crate::problems::{EventTiming, Problem, Setting};
-use crate::scene::Source;
-use crate::simulation::Overrides;
-use crate::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::Simulation;
+use jostle_engine::integrate::ClockSection;
+use jostle_engine::scene::Source;
+use jostle_engine::simulation::Overrides;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 
 /// Methods whose estimates are compared.
 pub const METHODS: [&str; 3] = ["VelocityVerlet", "RungeKutta4", "Dop853"];

@@ -1,6 +1,6 @@
 //! How the difference of two runs grows.
 
-use crate::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 
 /// Runs that differ by more than this share of the motion tell no places.
 const USELESS: f64 = 0.1;

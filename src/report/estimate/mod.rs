@@ -14,16 +14,16 @@ use std::time::Duration;
 
 use bevy_ecs::prelude::*;
 
-use crate::Simulation;
-use crate::integrate::ChosenMethod;
-use crate::integrate::Methods;
-use crate::numbers::number;
-use crate::scene::SceneErrors;
-use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
-use crate::simulation::{Overrides, Plan};
-use crate::tick::State;
 use growth::{Growth, Seen};
+use jostle_engine::Simulation;
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::integrate::Methods;
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
+use jostle_engine::simulation::{Overrides, Plan};
+use jostle_engine::tick::State;
+use jostle_language::numbers::number;
 use twins::{Finer, Told};
 
 /// Work that an estimate may take where nothing more is asked for: this share of that of the run.
@@ -189,7 +189,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -
 
 /// The work of a run so far, in evaluations of the forces of a world of one atom.
 fn work(simulation: &Simulation) -> f64 {
-    let evaluations = simulation.resource::<State>().evaluation.count as f64;
+    let evaluations = simulation.resource::<State>().evaluation().count as f64;
     evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
 }
 

@@ -8,11 +8,11 @@
 use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};
 use super::{EstimatedError, Repeated, touches};
-use crate::Simulation;
-use crate::scene::SceneErrors;
-use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::simulation::error::ErrorEstimate;
-use crate::tick::State;
+use jostle_engine::Simulation;
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::simulation::error::ErrorEstimate;
+use jostle_engine::tick::State;
 
 /// How many times as stiff.
 const STIFFER: f64 = 4.0;

@@ -12,11 +12,11 @@ use rand_chacha::ChaCha8Rng;
 use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};
 use super::{EstimatedError, Repeated};
-use crate::Simulation;
-use crate::scene::SceneErrors;
-use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::simulation::error::ErrorEstimate;
-use crate::tick::{State, add_packed_observer};
+use jostle_engine::Simulation;
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::simulation::error::ErrorEstimate;
+use jostle_engine::tick::{State, add_packed_observer};
 
 /// Runs with wrong last bits.
 const SAMPLES: u64 = 3;
@@ -27,7 +27,7 @@ struct LastBits(ChaCha8Rng);
 
 /// Moves all numbers of bodies in motion by a unit in the last place.
 fn disturb(mut state: ResMut<State>, mut bits: ResMut<LastBits>) {
-    let bodies = &mut state.bodies;
+    let bodies = state.bodies_mut();
     for body in 0..bodies.len() {
         // Whoever is at rest stands still to the last bit.
         let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
@@ -85,7 +85,7 @@ pub(super) fn estimate(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Source;
+    use jostle_engine::scene::Source;
 
     /// Promise: last bits are those of bodies in motion. A ball that rests is left alone, whoever else is there.
     #[test]

@@ -9,14 +9,14 @@ use std::time::{Duration, Instant};
 
 use super::growth::{Growth, Seen};
 use super::{CHUNKS, Repeated, moments, touches};
-use crate::Simulation;
-use crate::integrate::ChosenMethod;
-use crate::integrate::{Detail, Pace};
-use crate::numbers::number;
-use crate::scene::SceneErrors;
-use crate::simulation::Plan;
-use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::tick::State;
+use jostle_engine::Simulation;
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::integrate::{Detail, Pace};
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::Plan;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::tick::State;
+use jostle_language::numbers::number;
 
 /// Ticks of the first run between two that end with ticks of its twins, at most, and how many such there are at least.
 const LONGEST_CYCLE: u64 = 10;
@@ -95,7 +95,7 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.unpublished_world();
     let located = ChosenMethod::locates(world);
-    let jumped = if located { world.resource::<State>().located.count > 0 } else { touches(simulation) };
+    let jumped = if located { world.resource::<State>().located().count > 0 } else { touches(simulation) };
     match (jumped, located) {
         (false, _) => vec![Finer::HALF],
         // The same ticks, and so the same steps from event to event, in halves; and others.

@@ -6,7 +6,7 @@ use super::{Setting, Settings};
 pub const TARGETS: [(&str, f64); 3] = [("bronze", 1e-2), ("silver", 1e-4), ("gold", 1e-8)];
 
 /// Errors beyond this share of the motion are of no use.
-pub(in crate::report) const USELESS: f64 = 1.0;
+pub(crate) const USELESS: f64 = 1.0;
 /// ... and nobody is advised to take a larger one than this.
 const ADVISED: f64 = 0.1;
 

@@ -2,7 +2,7 @@
 //! or time is up.
 
 use super::{Budget, Course, Outcome, Setting, USELESS};
-use crate::numbers::number;
+use jostle_language::numbers::number;
 
 /// Courses that fail so many times one after the other are left.
 const MOST_FAILURES: u32 = 12;
@@ -17,7 +17,7 @@ const TELLS: f64 = 0.1;
 const STEEP: f64 = 8.0;
 
 /// The ticks of a course in seconds.
-pub(in crate::report) struct Rungs<I: Iterator<Item = f64>> {
+pub(crate) struct Rungs<I: Iterator<Item = f64>> {
     /// From coarse to fine.
     pub ticks: I,
     /// Longer ones, from fine to coarse: they are tried, after the first of the others, as long as each is of use and takes no more
@@ -32,7 +32,7 @@ impl<I: Iterator<Item = f64>> From<I> for Rungs<I> {
 }
 
 /// What is run on the ladder.
-pub(in crate::report) trait Subject {
+pub(crate) trait Subject {
     /// Why it cannot go on.
     type Wrong;
 
@@ -44,7 +44,7 @@ pub(in crate::report) trait Subject {
 }
 
 /// When to go no further.
-pub(in crate::report) struct Rules {
+pub(crate) struct Rules {
     /// Ticks that each course tries at the most, trials apart.
     pub rungs: usize,
     /// Whether courses that others leave far behind go on.
@@ -68,7 +68,7 @@ struct Climber<I: Iterator<Item = f64>> {
 
 /// Climbs; returns what came out, and why courses went no further. Each comes with its rungs.
 #[expect(clippy::type_complexity, reason = "two lists")]
-pub(in crate::report) fn climb<S: Subject, I: Iterator<Item = f64>>(
+pub(crate) fn climb<S: Subject, I: Iterator<Item = f64>>(
     subject: &S,
     courses: impl Iterator<Item = (Course, Rungs<I>)>,
     rules: &Rules,

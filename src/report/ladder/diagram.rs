@@ -1,8 +1,8 @@
 //! Settings as a work-precision diagram: error to the right, cost upwards, both by powers of ten, a curve for each course.
 
 use super::{Cost, Course, Outcome, Setting, Settings};
-use crate::raster::{Diagram, Look, Sign, Spot};
-use crate::record::plot::{Axis, Content, Curve, Plot, Sample};
+use jostle_engine::record::plot::{Axis, Content, Curve, Plot, Sample};
+use jostle_film::raster::{Diagram, Look, Sign, Spot};
 
 /// The axis begins no farther than this from the smallest error, so that a floor far below does not push curves aside.
 const MARGIN: f64 = 1e-2;

@@ -17,8 +17,8 @@ pub(super) use climb::{Rules, Rungs, Subject, climb};
 pub use diagram::{Legend, Peer, diagram};
 pub(super) use timing::least;
 
-use crate::integrate::clock::EventTiming;
-use crate::tick::Failure;
+use jostle_engine::integrate::clock::EventTiming;
+use jostle_engine::tick::Failure;
 
 /// A method, and how it goes through events.
 #[derive(Clone, Copy, Debug, PartialEq)]

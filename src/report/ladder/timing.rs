@@ -1,7 +1,7 @@
 //! What a run costs: the least of several that do nothing else.
 
 use super::timed;
-use crate::Simulation;
+use jostle_engine::Simulation;
 
 /// Runs of which the fastest counts: what else the computer does only makes them slower. Short ones are repeated more often.
 const RUNS: u32 = 3;
@@ -11,11 +11,7 @@ const PATIENCE: f64 = 0.05;
 
 /// Seconds of the fastest run to the end; nothing where `left` seconds leave no time for one, which takes about `expected` seconds, or
 /// where none reaches its end.
-pub(in crate::report) fn least<E>(
-    load: impl Fn() -> Result<Simulation, E>,
-    left: f64,
-    expected: f64,
-) -> Result<Option<f64>, E> {
+pub(crate) fn least<E>(load: impl Fn() -> Result<Simulation, E>, left: f64, expected: f64) -> Result<Option<f64>, E> {
     let mut least: Option<f64> = None;
     let (mut spent, mut runs) = (0.0, 0);
     while (runs < RUNS || runs < MOST_RUNS && spent < PATIENCE) && left - spent >= expected {

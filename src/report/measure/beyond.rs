@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use crate::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 
 /// Means of a run over time and bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +58,7 @@ fn means(run: &Trajectory, from: f64) -> Option<Means> {
         place += position;
         many += 1.0;
     }
-    (many > 0.0).then(|| Means { speed: (squares / many).sqrt(), place: place / many })
+    (many > 0.0).then(|| Means { speed: f64::sqrt(squares / many), place: place / many })
 }
 
 impl Beyond {

@@ -14,11 +14,11 @@ pub use beyond::Apart;
 pub use reference::{NoReference, Reference};
 
 use super::ladder::{Budget, Cost, Course, Legend, Outcome, Rules, Setting, Settings, USELESS, climb, timed};
-use crate::integrate::clock::EventTiming;
-use crate::integrate::{Detail, Pace};
-use crate::raster::Diagram;
-use crate::scene::SceneErrors;
-use crate::simulation::{Plan, Simulation};
+use jostle_engine::integrate::clock::EventTiming;
+use jostle_engine::integrate::{Detail, Pace};
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::{Plan, Simulation};
+use jostle_film::raster::Diagram;
 use scene::{Compared, Scene};
 
 /// How errors are measured, in words.
@@ -89,7 +89,7 @@ impl Measured {
 /// A plan with equal ticks, or steps as long as their error allows.
 fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
     // What is known of its error, nothing, keeps others from looking for it.
-    let error = Some(crate::simulation::error::ErrorEstimate::default());
+    let error = Some(jostle_engine::simulation::error::ErrorEstimate::default());
     Plan {
         method: method.to_owned(),
         tick,

@@ -8,15 +8,15 @@
 use super::beyond::{Apart, Beyond};
 use super::scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
-use crate::Simulation;
-use crate::integrate::clock::EventTiming;
-use crate::integrate::{Allowance, MOST_STEPS, Pace};
-use crate::numbers::number;
-use crate::scene::SceneErrors;
-use crate::simulation::Plan;
-use crate::simulation::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
-use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::tick::Failure;
+use jostle_engine::Simulation;
+use jostle_engine::integrate::clock::EventTiming;
+use jostle_engine::integrate::{Allowance, MOST_STEPS, Pace};
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::Plan;
+use jostle_engine::simulation::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::tick::Failure;
+use jostle_language::numbers::number;
 
 /// Shares of the budget by which the located runs have to be done, and those by ticks that may take their place.
 const LOCATED_BY: f64 = 0.4;

@@ -1,8 +1,8 @@
 //! Between two ticks of a ladder that goes by twos: the cheapest setting that is exact enough may be nearly twice as fine as it need be.
 
 use super::scene::Compared;
-use crate::report::ladder::{Course, Setting, Settings, Subject, TARGETS};
-use crate::scene::SceneErrors;
+use crate::ladder::{Course, Setting, Settings, Subject, TARGETS};
+use jostle_engine::scene::SceneErrors;
 
 /// So often a tick between two is tried for each error.
 const TIMES: usize = 2;

@@ -1,16 +1,17 @@
 //! A scene on the ladder: what is known of it before anything runs, its ticks, and how a run of it is compared with the reference.
 
+use crate::SimulationExt;
 use std::f64::consts::PI;
 
 use super::reference::{self, Truth};
 use super::{Load, Way};
-use crate::integrate::ChosenMethod;
-use crate::integrate::{Description, Methods};
-use crate::numbers::number;
-use crate::report::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
-use crate::scene::SceneErrors;
-use crate::simulation::accuracy::trajectory::Trajectory;
-use crate::tick::State;
+use crate::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::integrate::{Description, Methods};
+use jostle_engine::scene::SceneErrors;
+use jostle_engine::simulation::accuracy::trajectory::Trajectory;
+use jostle_engine::tick::State;
+use jostle_language::numbers::number;
 
 /// The ladder begins at so many times the critical tick, where there is one: what lies beyond is seen to fail. Where it does not, as
 /// contacts are brief or their forces hardly change, longer ones are tried.
@@ -53,7 +54,7 @@ impl Scene {
         let simulation = probe(1e-3).or_else(|wrong| probe(1e-9).or_else(|_| probe(1e3)).map_err(|_| wrong))?;
         let world = simulation.unpublished_world();
         let (duration, bodies) = (simulation.duration(), simulation.bodies().len());
-        let fastest = world.resource::<State>().stability.fastest_foreseen().map(|fastest| fastest.angular_frequency);
+        let fastest = world.resource::<State>().stability().fastest_foreseen().map(|fastest| fastest.angular_frequency);
         let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
         let rhythms = rhythms.map(|rhythm| rhythm.angular_frequency);
         let swings = rhythms.chain(fastest).fold(0.0, f64::max) * duration / PI;
@@ -145,7 +146,7 @@ impl Subject for Compared<'_> {
                 "never stable without losses".to_owned()
             });
         }
-        let given_up = simulation.resource::<State>().located.given_up;
+        let given_up = simulation.resource::<State>().located().given_up;
         if given_up > 0 {
             setting.notes.push(format!("{given_up} of {count} ticks with too many events to locate them"));
         }

@@ -18,7 +18,7 @@ impl Made {
             ("commit", commit.unwrap_or("unknown").to_owned()),
             ("rustc", env!("JOSTLE_RUSTC").to_owned()),
             ("system", system),
-            ("processor", format!("{processor}, {cores} cores, {}", crate::simd::Level::best())),
+            ("processor", format!("{processor}, {cores} cores, {}", jostle_simd::Level::best())),
         ];
         Self { lines }
     }

@@ -11,6 +11,7 @@ mod page;
 mod peers;
 mod subject;
 
+use crate::SimulationExt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -22,10 +23,10 @@ pub use peers::Peers;
 
 use super::estimate::check::{Checked, check};
 use super::ladder::{Budget, Course, Legend, Outcome, Peer, Rules, Setting, Settings, TARGETS, climb, least};
-use crate::integrate::ClockSection;
 use crate::problems::hard::{Case, Extent, Reading, Verdict, rounded};
 use crate::problems::{self, Problem, methods};
-use crate::raster::Diagram;
+use jostle_engine::integrate::ClockSection;
+use jostle_film::raster::Diagram;
 use subject::Asked;
 
 /// Ticks of the ladder over that of the problem.
@@ -311,7 +312,7 @@ mod tests {
             (1e-9, Some("gold")),
             (rounding, Some("reference")),
         ] {
-            let outcome = Outcome::Measured(crate::report::ladder::Deviation { error, apart: None });
+            let outcome = Outcome::Measured(crate::ladder::Deviation { error, apart: None });
             let setting = Setting { outcome, ..Setting::new(Course::of("A"), tick) };
             assert_eq!(sheet.grade(&setting), grade);
             // Each is better than all before.

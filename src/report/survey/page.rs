@@ -1,12 +1,12 @@
 //! The report as a list of blocks, which [`super::markdown`] and [`super::html`] write down.
 
 use super::{Judged, Made, Peers, Sheet, failure, rounded, word};
-use crate::integrate::ClockSection;
-use crate::numbers::number;
+use crate::estimate::check::Checked;
+use crate::ladder::{Setting, TARGETS};
 use crate::problems::hard::Verdict;
 use crate::problems::methods;
-use crate::report::estimate::check::Checked;
-use crate::report::ladder::{Setting, TARGETS};
+use jostle_engine::integrate::ClockSection;
+use jostle_language::numbers::number;
 
 /// A part of a page, from top to bottom.
 #[derive(Clone, Debug, PartialEq)]

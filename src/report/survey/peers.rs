@@ -1,6 +1,6 @@
 //! Curves of other engines, from the table that `tools/peers/peers` writes.
 
-use crate::report::ladder::Peer;
+use crate::ladder::Peer;
 
 /// What stands in its first line; engine, error and so on are found by these names.
 const COLUMNS: [&str; 9] = ["problem", "unit", "engine", "version", "settings", "step", "error", "cpu", "failed"];

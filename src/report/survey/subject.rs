@@ -2,11 +2,11 @@
 
 use std::convert::Infallible;
 
-use crate::integrate::ChosenMethod;
-use crate::numbers::number;
+use crate::ladder::{Course, Deviation, Outcome, Setting, Subject, timed};
 use crate::problems::{Problem, Setting as Run};
-use crate::report::ladder::{Course, Deviation, Outcome, Setting, Subject, timed};
-use crate::tick::State;
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::tick::State;
+use jostle_language::numbers::number;
 
 /// Where in a tick events fall, as shares of it.
 const PHASES: [f64; 3] = [0.0, 0.37, 0.71];
@@ -41,7 +41,7 @@ impl Subject for Asked<'_> {
             let (time, found) = timed(|| problem.run(&mut simulation, &run));
             let time = time.as_secs_f64();
             spent += time;
-            let evaluations = simulation.resource::<State>().evaluation.count as f64;
+            let evaluations = simulation.resource::<State>().evaluation().count as f64;
             match found {
                 Ok(found) => error = if found.is_finite() { error.max(found) } else { f64::INFINITY },
                 Err(failure) => {

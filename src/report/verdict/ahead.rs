@@ -2,10 +2,10 @@
 
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust};
-use crate::contacts::search::OverlapAtStart;
-use crate::numbers::{number, percent};
-use crate::report::Remedy;
-use crate::tick::State;
+use crate::Remedy;
+use jostle_engine::contacts::search::OverlapAtStart;
+use jostle_engine::tick::State;
+use jostle_language::numbers::{number, percent};
 
 /// Share of the energy that went round which springs may hold at the start without a word: what lies on the ground holds some.
 const COMPRESSED: f64 = 0.1;
@@ -16,7 +16,7 @@ const TAKEN: f64 = 0.3;
 pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = world.get_resource::<OverlapAtStart>()?;
-    let begin = world.resource::<State>().ledger.start?;
+    let begin = world.resource::<State>().ledger().start?;
     let share = begin.elastic / card.energy_scale.max(begin.elastic);
     let (a, b) = (evidence.name(overlap.between.0), evidence.name(overlap.between.1));
     let what = format!(

@@ -1,8 +1,8 @@
 //! What acts otherwise than the scene asks.
 
 use super::{Cause, Evidence, Trust};
-use crate::integrate::ChosenMethod;
-use crate::tick::{Departure, State, Style};
+use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::tick::{Departure, State, Style};
 
 /// A share of what was asked that changes where bodies go.
 const MUCH: f64 = 0.01;

@@ -1,11 +1,11 @@
 //! Energy that is missing, or came out of nowhere.
 
 use super::{Cause, Evidence, Trust, near, ticks};
-use crate::numbers::percent;
-use crate::report::Remedy;
+use crate::Remedy;
+use jostle_language::numbers::percent;
 
 /// Share of the energy that went round which may be missing.
-pub(in crate::report) const UNACCOUNTED: f64 = 0.05;
+pub(crate) const UNACCOUNTED: f64 = 0.05;
 
 /// Numbers that are none.
 pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {

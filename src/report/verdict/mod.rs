@@ -16,9 +16,9 @@ mod ticks;
 use bevy_ecs::prelude::*;
 
 use super::card::{Card, name};
-use crate::numbers::{number, percent, rough};
-use crate::simulation::error::ErrorEstimate;
-use crate::tick::{Failure, State, Wrong};
+use jostle_engine::simulation::error::ErrorEstimate;
+use jostle_engine::tick::{Failure, State, Wrong};
+use jostle_language::numbers::{number, percent, rough};
 
 /// What a verdict is found from.
 pub(super) struct Evidence<'a> {
@@ -94,7 +94,7 @@ impl Evidence<'_> {
 
     /// A tolerance to be advised beside a tick, where few bodies go by ticks.
     pub fn or_tolerance(&self) -> &'static str {
-        let few = self.world.resource::<State>().bodies.len() <= FEW;
+        let few = self.world.resource::<State>().bodies().len() <= FEW;
         if few && self.card.by_ticks() { ", or `--tolerance 0.001`" } else { "" }
     }
 

@@ -2,10 +2,10 @@
 //! motion itself. And what is said where nothing is wrong.
 
 use super::{Card, Cause, Evidence, Trust, at, energy, of_the_way, places, places_of};
-use crate::numbers::{number, percent};
-use crate::report::estimate::EstimatedError;
-use crate::simulation::error::ErrorEstimate;
-use crate::tick::State;
+use crate::estimate::EstimatedError;
+use jostle_engine::simulation::error::ErrorEstimate;
+use jostle_engine::tick::State;
+use jostle_language::numbers::{number, percent};
 
 /// Share of how far bodies go by which places may be wrong without a cause.
 const INEXACT: f64 = 1e-2;

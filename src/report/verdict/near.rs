@@ -2,9 +2,9 @@
 
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust};
-use crate::forces::attraction::nearest;
-use crate::numbers::number;
-use crate::tick::State;
+use jostle_engine::forces::attraction::nearest;
+use jostle_engine::tick::State;
+use jostle_language::numbers::number;
 
 /// An angle in radians over which an orbit goes in a tick that no method follows.
 const LOST: f64 = 1.0;
@@ -34,7 +34,7 @@ pub(super) fn of_endless_steps(evidence: &Evidence) -> String {
 /// Who fell upon each other, in words, and the rate in 1/s at which.
 fn attracted(evidence: &Evidence) -> Option<(String, f64)> {
     let nearest = nearest(evidence.world.resource())?;
-    let bodies = &evidence.world.resource::<State>().bodies;
+    let bodies = evidence.world.resource::<State>().bodies();
     let name = |body: usize| evidence.name(bodies.entity[body]);
     let (a, b) = (name(nearest.between.0), name(nearest.between.1));
     Some((

@@ -1,15 +1,15 @@
 //! Digits: places far from the origin have few of them left.
 
 use super::{Cause, Evidence, Trust};
-use crate::numbers::{number, percent, rough};
-use crate::tick::State;
+use jostle_engine::tick::State;
+use jostle_language::numbers::{number, percent, rough};
 
 /// A last digit of a place that is so large a share of what contacts do makes them rattle.
 const COARSE: f64 = 1e-3;
 
 /// The last digit of a place is no longer small beside the overlaps that make forces, or beside the bodies themselves.
 pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
-    let (bodies, card) = (&evidence.world.resource::<State>().bodies, evidence.card);
+    let (bodies, card) = (evidence.world.resource::<State>().bodies(), evidence.card);
     let (far, body) = (0..bodies.len())
         .map(|body| (bodies.position[body].abs().max_element(), body))
         .filter(|(far, _)| far.is_finite())
@@ -33,7 +33,7 @@ pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
 /// How far a body at least presses in what it touches, in m: by its weight, or without gravity by its speed. A contact that merely
 /// grazes it does not count.
 fn load(state: &State, body: usize) -> f64 {
-    let (bodies, gravity) = (&state.bodies, state.gravity().length());
+    let (bodies, gravity) = (state.bodies(), state.gravity().length());
     let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness(atom)).fold(0.0, f64::max);
     if stiffness == 0.0 || !bodies.dynamic[body] {
         return 0.0;

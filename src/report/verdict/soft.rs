@@ -3,8 +3,8 @@
 use bevy_ecs::prelude::*;
 
 use super::{Cause, Evidence, Trust};
-use crate::numbers::{number, percent};
-use crate::tick::{State, place_of};
+use jostle_engine::tick::{State, place_of};
+use jostle_language::numbers::{number, percent};
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
 const HEAVY: f64 = 100.0;
@@ -24,8 +24,8 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
         return None;
     }
     let by = overlap.share_of_radius * 100.0;
-    let deepest = world.resource::<State>().deepest.between?;
-    let bodies = &world.resource::<State>().bodies;
+    let deepest = world.resource::<State>().deepest_overlap().between?;
+    let bodies = world.resource::<State>().bodies();
     let mass = |entity| {
         let slot = place_of(world, entity)?;
         bodies.dynamic.get(slot).is_some_and(|dynamic| *dynamic).then(|| 1.0 / bodies.inverse_mass(slot))
@@ -70,7 +70,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
 
 /// Stiffness in N/m of the softest atom of two sides; infinite where neither has one.
 fn stiffness(world: &World, (a, b): (Entity, Entity)) -> f64 {
-    let bodies = &world.resource::<State>().bodies;
+    let bodies = world.resource::<State>().bodies();
     let atoms = [a, b].into_iter().filter_map(|entity| place_of(world, entity)).flat_map(|slot| bodies.atoms_of(slot));
     atoms.map(|atom| bodies.atom_stiffness(atom)).fold(f64::INFINITY, f64::min)
 }

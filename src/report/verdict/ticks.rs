@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::{Cause, Evidence, Trust, at};
-use crate::numbers::number;
-use crate::report::Remedy;
-use crate::report::advice::rounded_down;
-use crate::report::estimate::EstimatedError;
-use crate::report::warnings::FEWEST_TICKS;
-use crate::tick::{Holder, State, far_travel};
+use crate::Remedy;
+use crate::advice::rounded_down;
+use crate::estimate::EstimatedError;
+use crate::warnings::FEWEST_TICKS;
+use jostle_engine::tick::{Holder, State, far_travel};
+use jostle_language::numbers::number;
 
 /// The tick is above the critical one: springs gain energy at each.
 pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {

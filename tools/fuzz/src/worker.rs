@@ -5,10 +5,10 @@ use std::io::Write;
 use std::path::Path;
 
 use clap::Parser;
-use jostle::Simulation;
 use jostle::cli::{CommandLine, Exit};
 use jostle::scene::Source;
 use jostle::simulation::{Goal, Overrides};
+use jostle::{Simulation, SimulationExt};
 
 use crate::corpus::Corpus;
 use crate::mutate::mutant;

@@ -1,0 +1,438 @@
+//! Penalty contacts applied: every candidate pair is followed, forces go to the bodies, losses to the ledger.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::Penalty;
+use super::contact::Losses;
+use super::coulomb::Slider;
+use super::critical::Watch;
+use super::follow::Touch;
+use super::held::Held;
+use super::kernel::{self, Moment};
+use super::law::{LawTable, Side};
+use super::list::{ContactList, lanes};
+use super::meetings::Meetings;
+use super::normal::{Approach, Mode, NormalForce};
+use super::patience::Patience;
+use super::records::Records;
+use super::rest::{Rest, Sleep};
+use super::rolling::RollingContacts;
+use super::staged;
+use super::switching::Told;
+use crate::constraints::Rows;
+use crate::contacts::Touches;
+use crate::contacts::geometry::{End, Shares, arms};
+use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
+use crate::contacts::{ContactPoint, Other};
+use crate::tick::{Balance, Evaluation, Ledger};
+use crate::world::{Bodies, Materials};
+use jostle_simd::BLOCK;
+use serde::{Deserialize, Serialize};
+
+/// History of all candidate pairs, beside the lists of [`CandidatePairs`].
+#[derive(Resource, Debug, Serialize, Deserialize)]
+pub struct PenaltyContacts {
+    version: u64,
+    #[serde(skip)]
+    pub(super) settings: Penalty,
+    #[serde(skip)]
+    pub(super) materials: Materials,
+    pub(super) laws: LawTable,
+    /// One for each pair of atoms.
+    pub atoms: ContactList,
+    /// One for each atom near a wall.
+    pub walls: ContactList,
+    pub(super) records: Records,
+    meetings: Meetings,
+    pub(super) rest: Rest,
+    pub(super) patience: Patience,
+    pub(super) sleep: Sleep,
+    /// Whether bodies at rest are left out of the work as long as nothing touches them; without, each evaluation looks at
+    /// them. It changes nothing of the motion.
+    pub may_sleep: bool,
+    pub(super) watch: Watch,
+    pub(super) held: Held,
+    pub(super) told: Told,
+    /// Energy in J of the tangential springs before modes were switched.
+    pub(super) held_before: Option<f64>,
+    /// As an event begins: the tangential and the rolling spring of each contact, where they stick, or slip beside a normal force
+    /// that is not held.
+    pub(super) before: Vec<[Option<Slider>; 2]>,
+    /// Energy in J of the tangential springs that slip, at the beginning of the step.
+    pub(super) slid: f64,
+}
+
+impl Default for PenaltyContacts {
+    fn default() -> Self {
+        Self {
+            version: 0,
+            settings: Penalty::default(),
+            materials: Materials::default(),
+            laws: LawTable::default(),
+            atoms: ContactList::default(),
+            walls: ContactList::default(),
+            records: Records::default(),
+            meetings: Meetings::default(),
+            rest: Rest::default(),
+            patience: Patience::default(),
+            sleep: Sleep::Never,
+            may_sleep: true,
+            watch: Watch::default(),
+            held: Held::default(),
+            told: Told::default(),
+            held_before: None,
+            before: Vec::new(),
+            slid: 0.0,
+        }
+    }
+}
+
+impl PenaltyContacts {
+    /// Goes on from saved contacts of the same scene.
+    pub(super) fn take_over(&mut self, saved: Self) {
+        let Self { settings, materials, .. } = std::mem::replace(self, saved);
+        (self.settings, self.materials) = (settings, materials);
+    }
+}
+
+/// Gives every pair of a new list its slot, with its history if it had one.
+fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
+    contacts.version = pairs.version;
+    let side = |atom: u32| Side {
+        stiffness: bodies.atom_stiffness(atom as usize),
+        material: bodies.atom_material(atom as usize),
+    };
+    let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
+    atoms.carry(&pairs.atoms_before, |place| {
+        let pair = pairs.atoms[place];
+        laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
+    });
+    atoms.pairs.list(pairs.atoms.iter().map(|pair| (pair.a, pair.b)));
+    // Between discs that turn about their centres no lever arm changes.
+    let changes = |place: &u32| laws.get(*place).damping.depends_on_mobility();
+    if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && !atoms.is_empty() && changes(&atoms.get(0).law) {
+        let mobility = |pair: &AtomPair| bodies.inverse_mass(pair.a as usize) + bodies.inverse_mass(pair.b as usize);
+        let damping = |law: &u32, pair| N::response(laws.get(*law), mobility(pair)).1;
+        atoms.damping = vec![[0.0; BLOCK]; atoms.law.len()];
+        for ((damped, law), pairs) in atoms.damping.iter_mut().zip(&atoms.law).zip(pairs.atoms.chunks(BLOCK)) {
+            for ((damped, law), pair) in damped.iter_mut().zip(law).zip(pairs) {
+                *damped = damping(law, pair);
+            }
+        }
+    }
+    walls.carry(&pairs.walls_before, |place| {
+        let pair = pairs.walls[place];
+        let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
+        laws.place::<N>(wall, side(pair.atom), materials, settings)
+    });
+}
+
+/// How side B approaches side A; `None` is a wall.
+#[inline]
+pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2) -> Approach {
+    let (velocity, mobility) = a.map_or((DVec2::ZERO, 0.0), |a| (a.velocity(bodies), a.mobility(bodies, normal)));
+    Approach { parting: (b.velocity(bodies) - velocity).dot(normal), mobility: mobility + b.mobility(bodies, normal) }
+}
+
+/// Where the forces of contacts go.
+pub(super) struct Sink<'a> {
+    pub bodies: &'a mut Bodies,
+    pub balance: &'a mut Balance,
+    pub forces: Option<&'a mut ContactForces>,
+}
+
+/// Accounts of a force on side B that has gone to the bodies: for who asks for it, and for what does not move by forces.
+#[inline]
+pub(super) fn account(
+    bodies: &Bodies,
+    (balance, forces): (&mut Balance, Option<&mut ContactForces>),
+    (a, b): (&End, &End),
+    (arm_a, arm_b): (DVec2, DVec2),
+    force: DVec2,
+) {
+    if let Some(forces) = forces {
+        forces.on_body[a.body] -= force;
+        forces.on_body[b.body] += force;
+    }
+    // What a fixed body gives comes from outside; one that moves as prescribed works.
+    let driven = |end: &End, arm: DVec2, force: DVec2| {
+        if bodies.moves[end.body] { force.dot(bodies.velocity_at(end.body, arm)) } else { 0.0 }
+    };
+    if !bodies.dynamic[a.body] {
+        balance.outside(bodies.position[b.body] + arm_b, force, 0.0);
+        balance.work += driven(a, arm_a, force);
+    }
+    if !bodies.dynamic[b.body] {
+        balance.outside(bodies.position[a.body] + arm_a, -force, 0.0);
+        balance.work += driven(b, arm_b, -force);
+    }
+}
+
+impl Sink<'_> {
+    /// `force` acts on side B, the opposite on side A, at the point where they touch.
+    #[inline]
+    pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares, force: DVec2) {
+        let (arm_a, arm_b) = arms((a, b), normal, overlap, shares);
+        self.bodies.push(a.body, arm_a, -force);
+        self.bodies.push(b.body, arm_b, force);
+        let (arms, forces) = (arms((a, b), normal, overlap, shares), self.forces.as_deref_mut());
+        account(self.bodies, (self.balance, forces), (a, b), arms, force);
+    }
+
+    /// `force` acts on an atom where it touches the wall, `height` metres from its centre.
+    #[inline]
+    pub fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
+        let arm = end.arm - normal * height;
+        self.bodies.push(end.body, arm, force);
+        self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
+        if let Some(&belt) = self.bodies.belts.get(wall as usize) {
+            self.balance.work += force.dot(belt);
+        }
+        if let Some(forces) = &mut self.forces {
+            forces.on_body[end.body] += force;
+            forces.on_wall[wall as usize] -= force;
+        }
+    }
+}
+
+/// The state that contacts act on.
+pub(super) struct Shared<'a> {
+    pub bodies: &'a mut Bodies,
+    pub balance: &'a mut Balance,
+    pub ledger: &'a mut Ledger,
+    pub evaluation: &'a Evaluation,
+    pub rows: &'a mut Rows,
+}
+
+/// What contacts have beside it.
+pub(super) struct Own<'a> {
+    pub pairs: &'a CandidatePairs,
+    pub contacts: &'a mut PenaltyContacts,
+    pub rolling: Option<&'a mut RollingContacts>,
+    pub forces: Option<&'a mut ContactForces>,
+}
+
+/// All contacts follow the state, or are evaluated as in a stage of a step.
+pub(super) fn apply<N: NormalForce>(
+    Shared { bodies, balance, ledger, evaluation, rows }: Shared,
+    Own { pairs, contacts, mut rolling, mut forces }: Own,
+    deepest: &mut DeepestOverlap,
+    touches: Option<&mut Touches>,
+) {
+    contacts.records.take_back(bodies);
+    if contacts.version != pairs.version {
+        carry_history::<N>(contacts, bodies, pairs);
+        let PenaltyContacts { records, atoms, .. } = &mut *contacts;
+        records.prepare(bodies, &pairs.atoms, atoms);
+        contacts.lay_asleep(bodies, pairs, forces.as_deref_mut());
+        bodies.try_flights(contacts.atoms.touching_count());
+    }
+    if bodies.asleep.is_empty() {
+        contacts.atoms.wake_all();
+        contacts.walls.wake_all();
+    }
+    if let Some(forces) = &mut forces {
+        forces.clear(bodies);
+    }
+    let mut losses = Losses::default();
+    let mut sink = Sink { bodies, balance, forces };
+    if evaluation.style.is_staged() {
+        if let Some(rolling) = &mut rolling {
+            rolling.carry(pairs);
+        }
+        staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, (&mut sink, rows));
+        if let Some(touches) = touches {
+            note_touches(contacts, sink.bodies, pairs, touches);
+        }
+        return;
+    }
+    let (time, elapsed) = (evaluation.time, evaluation.elapsed);
+    let PenaltyContacts { laws, atoms, walls, records, meetings, .. } = &mut *contacts;
+    let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
+    if !pairs.atoms.is_empty() {
+        let bound = sink.bodies.flights.take_bound();
+        let some_fly = meetings.keep((sink.bodies, &bound), &pairs.atoms, atoms, &mut records.list);
+        if !some_fly {
+            records.update(sink.bodies, &pairs.atoms, atoms, path);
+        }
+        let moment = Moment { path, time, elapsed };
+        losses = kernel::follow_pairs::<N>(
+            &records.list,
+            (&pairs.atoms, pairs.group_ends),
+            atoms,
+            laws,
+            &mut sink,
+            deepest,
+            moment,
+        );
+        records.lendable = !some_fly;
+    }
+    follow_walls::<N>((walls, &pairs.walls), laws, (&mut sink, &mut losses), deepest, Moment { path, time, elapsed });
+    ledger.friction.add(losses.friction);
+    ledger.inelasticity.add(losses.inelasticity);
+    contacts.follow_flights(sink.bodies, pairs, elapsed);
+    if let Some(touches) = touches {
+        note_touches(contacts, sink.bodies, pairs, touches);
+    }
+}
+
+/// Atoms near walls follow their motion.
+#[inline]
+fn follow_walls<N: NormalForce>(
+    (list, pairs): (&mut ContactList, &[WallPair]),
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    Moment { path, time, elapsed }: Moment,
+) {
+    for number in 0..list.awake_blocks() {
+        let block = list.awake_block(number);
+        // Nobody can have come near since it was looked at last.
+        if list.is_early(block, path) {
+            continue;
+        }
+        let pairs = &pairs[BLOCK * block..];
+        // Those that are asleep may touch.
+        let mut near = list.asleep_in(block) != 0;
+        let mut gap = f64::INFINITY;
+        for lane in lanes(list.awake_in(block)) {
+            let WallPair { wall, atom } = pairs[lane];
+            let (packed, passing) = (&sink.bodies.walls[wall as usize], sink.bodies.passing(atom as usize));
+            let at = passing.map_or_else(|| sink.bodies.atom_place(atom as usize), |passing| passing.position);
+            let apart = (at - packed.point).dot(packed.normal) - sink.bodies.atom_radius[atom as usize];
+            let place = BLOCK * block + lane;
+            if apart >= 0.0 && !list.is_touching(place) {
+                gap = gap.min(apart);
+            } else {
+                near = true;
+                // Whoever touches flies no more.
+                sink.bodies.bind(atom as usize);
+                follow_wall::<N>((list, place), pairs[lane], laws, (sink, losses), deepest, (time, elapsed));
+            }
+        }
+        // Half of it: more than rounding can take.
+        list.due[block] = if near { f64::NEG_INFINITY } else { path + 0.5 * gap };
+    }
+}
+
+/// An atom near a wall follows its motion.
+#[inline]
+fn follow_wall<N: NormalForce>(
+    (list, place): (&mut ContactList, usize),
+    WallPair { wall, atom }: WallPair,
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    (time, elapsed): (f64, f64),
+) {
+    let packed = sink.bodies.walls[wall as usize];
+    let end = End::of(sink.bodies, atom);
+    let height = (sink.bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
+    let mut contact = list.get(place);
+    let law = laws.get(contact.law);
+    let normal = packed.normal;
+    let (mut displacement, turn) = end.displacement(sink.bodies);
+    if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
+        displacement -= belt * elapsed;
+    }
+    let approach = if N::DEPENDS_ON_VELOCITY { approach(sink.bodies, None, &end, normal) } else { Approach::default() };
+    let touch = Touch {
+        normal: (normal.x, normal.y),
+        overlap: end.radius - height,
+        approach,
+        displacement: (displacement.x, displacement.y),
+        swing: 0.0,
+        rolled_a: (0.0, 0.0),
+        rolled_b: (end.radius, turn),
+    };
+    let lost = contact.follow::<N>(law, &touch, elapsed);
+    losses.friction += lost.friction;
+    losses.inelasticity += lost.inelasticity;
+    list.set(place, &contact);
+    if contact.mode != Mode::Open {
+        deepest.note(contact.overlap, end.radius, time, || (sink.bodies.entity[end.body], packed.entity));
+        sink.wall_pushes(&end, wall, normal, height, contact.force(law, normal));
+    }
+}
+
+fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs, touches: &mut Touches) {
+    let body = |atom: u32| bodies.atom_body(atom as usize);
+    touches.clear();
+    for place in contacts.atoms.touching() {
+        let AtomPair { a, b } = pairs.atoms[place];
+        touches.bodies(body(a), body(b));
+    }
+    for place in contacts.walls.touching() {
+        let WallPair { wall, atom } = pairs.walls[place];
+        touches.wall(body(atom), wall);
+    }
+}
+
+impl PenaltyContacts {
+    /// After all contacts were followed at the end of a tick: whoever touches something is bound, and who does not may fly.
+    fn follow_flights(&self, bodies: &mut Bodies, pairs: &CandidatePairs, elapsed: f64) {
+        // Whoever rests may sleep, and whether it does must change nothing: nor must it when lists were made.
+        if !self.rest.is_empty() {
+            return bodies.put_off_flights();
+        }
+        if !bodies.may_fly() {
+            return;
+        }
+        let of_atoms = self.atoms.touching().map(|place| pairs.atoms[place]).flat_map(|pair| [pair.a, pair.b]);
+        let mut touching: Vec<u32> =
+            of_atoms.chain(self.walls.touching().map(|place| pairs.walls[place].atom)).collect();
+        touching.sort_unstable();
+        touching.iter().for_each(|&body| bodies.bind(body as usize));
+        if elapsed > 0.0 {
+            bodies.take_off(&touching, elapsed);
+        }
+    }
+
+    /// Contacts between atoms, with their places.
+    pub(super) fn atom_points(
+        &self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+    ) -> impl Iterator<Item = (usize, ContactPoint)> {
+        self.atoms.touching().map(|place| {
+            let (pair, contact) = (pairs.atoms[place], self.atoms.get(place));
+            let (law, ends) = (self.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
+            let normal = pair.normal(bodies);
+            let (_, arm) = arms(ends, normal, contact.overlap, law.shares());
+            let force = contact.force(law, normal);
+            let point = bodies.position[ends.1.body] + arm;
+            (place, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force })
+        })
+    }
+
+    /// Contacts with walls, with their places.
+    pub(super) fn wall_points(
+        &self,
+        bodies: &Bodies,
+        pairs: &CandidatePairs,
+    ) -> impl Iterator<Item = (usize, ContactPoint)> {
+        self.walls.touching().map(|place| {
+            let (pair, contact) = (pairs.walls[place], self.walls.get(place));
+            let (law, end) = (self.laws.get(contact.law), End::of(bodies, pair.atom));
+            let normal = bodies.walls[pair.wall as usize].normal;
+            let arm = end.arm - normal * (end.radius - contact.overlap);
+            let force = contact.force(law, normal);
+            let point = bodies.position[end.body] + arm;
+            (place, ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point, force })
+        })
+    }
+}
+
+impl PenaltyContacts {
+    /// Elastic energy of all contacts in J.
+    pub fn energy(&self) -> f64 {
+        let of = |list: &ContactList, place: usize| {
+            let contact = list.get(place);
+            contact.energy(self.laws.get(contact.law))
+        };
+        let atoms = self.atoms.touching().map(|place| of(&self.atoms, place));
+        let walls = self.walls.touching().map(|place| of(&self.walls, place));
+        atoms.chain(walls).fold(0.0, |sum, energy| sum + energy)
+    }
+}

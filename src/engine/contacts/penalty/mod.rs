@@ -1,0 +1,196 @@
+//! Penalty contacts: overlap makes force. A normal law, a tangential law and a rolling law are chosen one by one.
+
+pub mod apply;
+mod case;
+pub mod contact;
+pub mod coulomb;
+mod critical;
+pub mod dashpot;
+mod follow;
+mod handover;
+mod held;
+mod indicators;
+pub mod inelasticity;
+mod joined;
+mod kernel;
+pub mod law;
+mod limits;
+pub mod list;
+mod meetings;
+mod model;
+mod modes;
+pub mod normal;
+mod patience;
+mod records;
+mod rest;
+pub mod rolling;
+mod rolling_stages;
+mod settling;
+mod staged;
+mod switching;
+mod watched;
+
+use bevy_app::App;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+pub use apply::PenaltyContacts;
+pub use dashpot::Dashpot;
+pub use inelasticity::Inelasticity;
+pub use inelasticity::{inelasticity_of, restitution_of};
+use model::Contacts;
+pub use model::PenaltyState;
+pub use rolling::RollingContacts;
+
+use super::search;
+use crate::scene::units::{Damping, Rate};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::TickAppExt;
+use crate::world::Materials;
+
+/// Contacts as springs: overlap makes force.
+///
+/// The three laws are chosen one by one; each may stand with each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Penalty {
+    /// What acts across the surface. Default: `Inelasticity`.
+    pub normal: NormalLaw,
+    /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: what gives the restitution of the pair.
+    pub damping: Option<Damping>,
+    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`: all contacts
+    /// lose their speed alike. The `gamma_n` of LAMMPS. Default: none, `damping` or the restitution counts.
+    pub damping_rate: Option<Rate>,
+    /// What acts along the surface, friction. Default: `Spring(ratio: 0.8)`.
+    pub tangential: TangentialLaw,
+    /// What acts against rolling. Default: `None`.
+    pub rolling: RollingLaw,
+}
+
+/// The normal law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum NormalLaw {
+    /// A spring that is stiffer while loading than while unloading, so that the restitution is the same at any speed.
+    #[default]
+    Inelasticity,
+    /// A spring and a dashpot that never pull.
+    Dashpot,
+}
+
+/// What acts along the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum TangentialLaw {
+    /// No friction, whatever the materials say.
+    None,
+    /// A spring that holds up to the static friction and then slips with the dynamic one.
+    Spring {
+        /// Stiffness of the tangential spring over that of the normal one. Between 2/3 and 1 for equal elastic solids
+        /// (Mindlin 1949).
+        ratio: f64,
+    },
+    /// Dry friction that sticks without any give, up to the static friction, and slips with the dynamic one. For few
+    /// contacts, under methods that locate events.
+    Exact,
+}
+
+impl Default for TangentialLaw {
+    fn default() -> Self {
+        Self::Spring { ratio: default_ratio() }
+    }
+}
+
+impl TangentialLaw {
+    /// Tangential over normal stiffness, if there is friction.
+    pub fn ratio(self) -> Option<f64> {
+        match self {
+            Self::None => None,
+            Self::Spring { ratio } => Some(ratio),
+            // No spring; the number serves estimates of how fast contacts respond.
+            Self::Exact => Some(0.0),
+        }
+    }
+}
+
+/// What acts against turning one side over the other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum RollingLaw {
+    /// No resistance against rolling.
+    #[default]
+    None,
+    /// A spring that gives way at a torque of `friction` times normal force and rolling radius.
+    Spring {
+        /// Torque over normal force and rolling radius at which the spring gives way: the tangent of the steepest slope
+        /// on which a disc stays.
+        friction: f64,
+        /// Stiffness of the spring at the rim over that of the normal one. Default: 0.8.
+        #[serde(default = "default_ratio")]
+        ratio: f64,
+    },
+}
+
+impl RollingLaw {
+    fn ratio(self) -> Option<f64> {
+        match self {
+            Self::None => None,
+            Self::Spring { ratio, .. } => Some(ratio),
+        }
+    }
+}
+
+fn default_ratio() -> f64 {
+    0.8
+}
+
+/// Installs penalty contacts with these settings.
+pub fn install(settings: Penalty, app: &mut App) {
+    search::plugin(app);
+    app.init_resource::<Materials>();
+    match settings.normal {
+        NormalLaw::Inelasticity => app.add_model(Contacts::<Inelasticity>::new(settings)),
+        NormalLaw::Dashpot => app.add_model(Contacts::<Dashpot>::new(settings)),
+    };
+}
+
+impl Entry for Penalty {
+    const SECTION: &'static str = "contacts";
+    const NAME: &'static str = "Penalty";
+    const EXAMPLE: &'static str = "Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, _: &Outline, report: &mut Report) {
+        if let TangentialLaw::Spring { ratio } = self.tangential {
+            report.positive("tangential.ratio", ratio);
+        }
+        if let RollingLaw::Spring { friction, ratio } = self.rolling {
+            report.positive("rolling.friction", friction);
+            report.positive("rolling.ratio", ratio);
+        }
+        let given = [("damping", self.damping.map(|d| d.si())), ("damping_rate", self.damping_rate.map(|d| d.si()))];
+        for (field, number) in given.iter().filter_map(|(field, number)| Some((*field, (*number)?))) {
+            if report.not_negative(field, number) && self.normal != NormalLaw::Dashpot {
+                let help = format!("write `normal: Dashpot` beside it, or remove `{field}`");
+                report.error(field, format!("`{field}` belongs to the normal law `Dashpot`")).help(help);
+            }
+        }
+        if self.damping.is_some() && self.damping_rate.is_some() {
+            let help = "remove one of them; `damping_rate` is `damping` over the effective mass of a contact";
+            report.error("damping_rate", "there is `damping` already").help(help);
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+        for entry in entries {
+            install(entry.value, app);
+        }
+    }
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Penalty>();
+}

@@ -1,0 +1,193 @@
+//! Penalty contacts as a model of the run.
+
+use std::any::Any;
+use std::marker::PhantomData;
+
+use bevy_ecs::prelude::*;
+
+use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
+use super::modes::{Scratch, choose};
+use super::normal::NormalForce;
+use super::rolling::{self, RollingContacts};
+use super::{Penalty, RollingLaw, handover, limits, meetings, patience, staged, watched};
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::touch::ContactPoint;
+use crate::tick::{
+    Dependence, Energies, Events, Foreseen, Holder, Model, Notes, Objection, Responses, State, SteadySpring, Style,
+};
+use crate::world::Materials;
+use serde::{Deserialize, Serialize};
+
+/// All contacts and rolling springs of a run.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub struct PenaltyState {
+    /// Contacts.
+    pub contacts: PenaltyContacts,
+    /// Rolling springs, if the law has them.
+    pub rolling: Option<RollingContacts>,
+}
+
+impl PenaltyState {
+    /// What the scene says of contacts.
+    pub fn settings(&self) -> &Penalty {
+        &self.contacts.settings
+    }
+}
+
+/// Contacts with a normal law.
+pub(super) struct Contacts<N> {
+    pub own: PenaltyState,
+    scratch: Scratch,
+    law: PhantomData<fn() -> N>,
+}
+
+impl<N> Contacts<N> {
+    pub fn new(settings: Penalty) -> Self {
+        let rolling = match settings.rolling {
+            RollingLaw::None => None,
+            RollingLaw::Spring { friction, ratio } => Some(RollingContacts::new(friction, ratio)),
+        };
+        let mut contacts = PenaltyContacts::default();
+        contacts.settings = settings;
+        Self { own: PenaltyState { contacts, rolling }, scratch: Scratch::default(), law: PhantomData }
+    }
+}
+
+impl<N: NormalForce> Model for Contacts<N> {
+    fn save(&self) -> Memory {
+        Memory::of(&self.own)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        let PenaltyState { contacts, rolling } = recall(bytes)?;
+        self.own.rolling = rolling;
+        self.own.contacts.take_over(contacts);
+        Ok(())
+    }
+
+    fn contact_law(&self) -> Option<&'static str> {
+        Some("Penalty")
+    }
+
+    fn dependence(&self) -> Dependence {
+        if N::DEPENDS_ON_VELOCITY { Dependence::Velocity } else { Dependence::Position }
+    }
+
+    fn flies(&self) -> bool {
+        self.own.rolling.is_none()
+    }
+
+    /// Takes up what the scene says of materials.
+    fn start(&mut self, world: &mut World) {
+        let contacts = &mut self.own.contacts;
+        contacts.materials = world.get_resource::<Materials>().cloned().unwrap_or_default();
+        let (settings, materials) = (contacts.settings, &contacts.materials);
+        let mut state = world.resource_mut::<State>();
+        let notes = limits::notes(&settings, materials, &state.bodies);
+        let angular_frequency = limits::stiffest_contact::<N>(&state.bodies, materials, &settings);
+        state.stability.foreseen.push(Foreseen { angular_frequency, holder: Holder::Contacts });
+        world.resource_mut::<Notes>().0.extend(notes);
+    }
+
+    fn energies(&self, state: &State) -> Energies {
+        let PenaltyState { contacts, rolling } = &self.own;
+        let pairs = state.pairs.as_ref();
+        let rolling = rolling.as_ref().zip(pairs);
+        let rolling = rolling.map_or(0.0, |(rolling, pairs)| rolling.energy(&state.bodies, pairs, contacts));
+        Energies { potential: 0.0, elastic: contacts.energy() + rolling }
+    }
+
+    /// It measures how fast contacts respond by itself.
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn responses(&self) -> Responses {
+        self.own.contacts.watch.found
+    }
+
+    fn has_modes(&self) -> bool {
+        true
+    }
+
+    fn begin_step(&mut self, state: &mut State) {
+        let State { bodies, balance, ledger, evaluation, rows, clock, span, pairs: Some(pairs), .. } = state else {
+            return;
+        };
+        let (forces, known) = (state.contact_forces.as_mut(), (&state.stability, &state.springs));
+        let PenaltyState { contacts, rolling } = &mut self.own;
+        let shared = Shared { bodies, balance, ledger, evaluation, rows };
+        let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
+        choose::<N>(shared, (clock, span), own, known, &mut self.scratch);
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let alone = state.is_alone();
+        let State { bodies, balance, ledger, evaluation, rows, pairs: Some(pairs), .. } = state else { return };
+        let PenaltyState { contacts, rolling } = &mut self.own;
+        let shared = Shared { bodies, balance, ledger, evaluation, rows };
+        let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces: state.contact_forces.as_mut() };
+        apply::<N>(shared, own, &mut state.deepest, state.touches.as_mut());
+        if alone {
+            contacts.records.lend(bodies);
+        }
+        if let Some(rolling) = rolling {
+            let shared = Shared { bodies, balance, ledger, evaluation, rows };
+            rolling::apply(shared, pairs, contacts, rolling);
+        }
+    }
+
+    fn has_rows(&self) -> bool {
+        true
+    }
+
+    fn take_rows(&mut self, state: &mut State) {
+        let PenaltyState { contacts, rolling } = &mut self.own;
+        let State { bodies, balance, rows, .. } = state;
+        let mut sink = Sink { bodies, balance, forces: state.contact_forces.as_mut() };
+        staged::take_rows(contacts, rolling.as_mut(), rows, &mut sink);
+    }
+
+    fn settles(&self) -> bool {
+        true
+    }
+
+    fn settle(&mut self, state: &mut State) {
+        let changing = state.changing_forces() || state.evaluation.style.is_staged();
+        let State { bodies, balance, pairs: Some(pairs), .. } = state else { return };
+        let forces = state.contact_forces.as_mut();
+        self.own.contacts.settle((bodies, balance), pairs, forces, changing);
+    }
+
+    fn events(&mut self) -> Option<&mut dyn Events> {
+        Some(self)
+    }
+
+    fn objection(&self, style: Style) -> Option<Objection> {
+        let PenaltyContacts { settings, materials, .. } = &self.own.contacts;
+        watched::objection(settings, materials, style)
+    }
+
+    fn remarks(&self, state: &State) -> Vec<String> {
+        let ticks = state.clock.ticks;
+        let patience = patience::remark(&self.own.contacts.patience, ticks);
+        patience.into_iter().chain(meetings::remark(&state.bodies, ticks)).collect()
+    }
+
+    fn contact_points(&self, state: &State) -> Option<Vec<ContactPoint>> {
+        let (contacts, bodies, pairs) = (&self.own.contacts, &state.bodies, state.pairs.as_ref()?);
+        let atoms = contacts.atom_points(bodies, pairs);
+        Some(atoms.chain(contacts.wall_points(bodies, pairs)).map(|(_, point)| point).collect())
+    }
+
+    fn inner(&self) -> Option<&dyn Any> {
+        Some(&self.own)
+    }
+
+    fn inner_mut(&mut self) -> Option<&mut dyn Any> {
+        Some(&mut self.own)
+    }
+}
+
+/// Whether contacts are too many to be resolved from event to event.
+pub(super) fn is_crowded(own: &PenaltyState) -> bool {
+    handover::crowded(&own.contacts, own.rolling.as_ref())
+}

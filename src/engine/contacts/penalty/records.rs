@@ -1,0 +1,171 @@
+//! Records of atoms: what the kernel of contacts reads of them, a line of the cache each.
+//!
+//! Where an evaluation needed those of all discs they are lent to the bodies: whoever moves all of them has all that a record
+//! holds at hand, and fills it in on the way. To read it again from eight lists takes half as long as the moving.
+
+use std::ops::Range;
+
+use super::kernel::FEWEST;
+use super::list::ContactList;
+use crate::contacts::AtomPair;
+use crate::contacts::geometry::End;
+use crate::world::Bodies;
+use crate::world::packed::Moved;
+use crate::world::part::parts_of;
+use jostle_simd::{BLOCK, Record};
+use serde::{Deserialize, Serialize};
+
+/// Evaluations for which all records are lent again before it is seen whether all are still needed: to see it costs a look at each
+/// block of pairs, a fiftieth of a tick; to fill them in for nothing a few of 64 times costs less.
+const TRUSTED: u32 = 64;
+
+/// What contacts need to know of each atom: place, displacement since the last accepted state, turn since then, radius and
+/// velocity.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Records {
+    pub list: Vec<Record>,
+    /// The atoms that move and that some pair may need, in order; empty: all.
+    needed: Vec<u32>,
+    /// There are records of those alone, in their order.
+    sparse: bool,
+    /// The last evaluation needed all of them.
+    all: bool,
+    /// Nobody flew in it: whoever moves bodies moves all of them.
+    pub lendable: bool,
+    /// Those that were lent have come back with the present state.
+    current: bool,
+    /// Evaluations since it was seen that all are needed.
+    trusted: u32,
+}
+
+impl Records {
+    /// After an evaluation: lends them, if all were needed, to the bodies until the next one. Only where nobody else changes bodies
+    /// between the step and that evaluation: it would not be seen.
+    pub fn lend(&mut self, bodies: &mut Bodies) {
+        let lendable = std::mem::take(&mut self.lendable);
+        if lendable && self.all && bodies.asleep.is_empty() && matches!(bodies.moved, Moved::For(_)) {
+            bodies.records = std::mem::take(&mut self.list);
+        }
+    }
+
+    /// Takes back what was lent.
+    pub fn take_back(&mut self, bodies: &mut Bodies) {
+        if !bodies.records.is_empty() {
+            self.list = std::mem::take(&mut bodies.records);
+        }
+        self.current = std::mem::take(&mut bodies.recorded);
+    }
+
+    /// Takes up new lists of pairs.
+    pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair], contacts: &mut ContactList) {
+        self.list.clear();
+        self.needed.clear();
+        (self.all, self.current) = (false, false);
+        let mut needed = vec![false; bodies.atom_count()];
+        for pair in pairs {
+            needed[pair.a as usize] = true;
+            needed[pair.b as usize] = true;
+        }
+        let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
+        let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
+        // Where most are needed, going by all in order is faster.
+        let few = 4 * count < 3 * needed.len();
+        if few || !bodies.lone_discs {
+            self.needed.reserve_exact(count);
+            self.needed.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
+        }
+        self.sparse = few && bodies.lone_discs && bodies.all_dynamic;
+        if self.sparse {
+            let mut place = vec![0; needed.len()];
+            self.needed.iter().zip(0..).for_each(|(&atom, number)| place[atom as usize] = number);
+            contacts.pairs.find_records(&place, count);
+            self.list.reserve_exact(count);
+            self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
+            return;
+        }
+        // Those of bodies that stand or are asleep are not filled in again.
+        self.list.reserve_exact(needed.len());
+        self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
+    }
+
+    /// Fills in the present state, as far as some pair has to be looked at; see [`super::kernel::Moment::path`].
+    pub fn update(&mut self, bodies: &Bodies, pairs: &[AtomPair], list: &ContactList, path: f64) {
+        let is_due = |block: &usize| !list.is_early(*block, path);
+        let blocks = || (0..list.awake_blocks()).map(|number| list.awake_block(number)).filter(is_due);
+        let all = bodies.lone_discs && self.needed.is_empty();
+        let atoms = if all { self.list.len() } else { self.needed.len() };
+        let current = std::mem::take(&mut self.current);
+        self.trusted += 1;
+        if current && self.trusted < TRUSTED {
+            return;
+        }
+        let few = 2 * BLOCK * blocks().count() < atoms;
+        (self.all, self.trusted) = (all && !few, 0);
+        if current {
+            return;
+        }
+        if few {
+            for first in blocks().map(|block| BLOCK * block) {
+                for (lane, pair) in pairs[first..pairs.len().min(first + BLOCK)].iter().enumerate() {
+                    let (a, b) = list.pairs.side(first / BLOCK).get(lane);
+                    self.list[a as usize] = record(bodies, pair.a as usize);
+                    self.list[b as usize] = record(bodies, pair.b as usize);
+                }
+            }
+            return;
+        }
+        let each = self.list.len().div_ceil(parts_of(atoms, FEWEST)).next_multiple_of(BLOCK);
+        let parts = self.list.chunks_mut(each).enumerate().map(|(number, part)| (number * each, part)).collect();
+        let (needed, sparse) = (&self.needed, self.sparse);
+        bodies.threads.each(parts, |(first, part): (usize, &mut [Record])| {
+            let atoms = first..first + part.len();
+            if all && bodies.asleep.is_empty() {
+                fill(bodies, atoms, part);
+            } else if all {
+                for number in bodies.awake_blocks_within(atoms) {
+                    let atoms = bodies.awake_block(number);
+                    fill(bodies, atoms.clone(), &mut part[atoms.start - first..atoms.end - first]);
+                }
+            } else if sparse {
+                for (own, &atom) in part.iter_mut().zip(&needed[atoms]) {
+                    *own = record(bodies, atom as usize);
+                }
+            } else {
+                let place = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
+                for &atom in &needed[place(atoms.start)..place(atoms.end)] {
+                    part[atom as usize - first] = record(bodies, atom as usize);
+                }
+            }
+        });
+    }
+}
+
+/// The records of lone discs in a row, as [`record`] makes them: lists are cut to them, so that places are looked at once.
+#[inline]
+fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
+    let Some((velocity, spin, time)) = bodies.drift_of(discs.clone()) else {
+        return discs.zip(records).for_each(|(disc, own)| *own = record(bodies, disc));
+    };
+    let count = records.len();
+    let (place, now) = (&bodies.position[discs.clone()][..count], &bodies.velocity[discs.clone()][..count]);
+    let (moves, radius) = (&bodies.moves[discs.clone()][..count], &bodies.atom_radius[discs][..count]);
+    let (velocity, spin) = (&velocity[..count], &spin[..count]);
+    for disc in 0..count {
+        let time = if moves[disc] { time } else { 0.0 };
+        let (place, now, moved, turn) = (place[disc], now[disc], velocity[disc] * time, spin[disc] * time);
+        records[disc] = Record([place.x, place.y, moved.x, moved.y, now.x, now.y, turn, radius[disc]]);
+    }
+}
+
+/// What contacts need to know of an atom at present.
+#[inline(always)]
+pub(super) fn record(bodies: &Bodies, atom: usize) -> Record {
+    if bodies.lone_discs {
+        let (place, velocity, radius) = (bodies.position[atom], bodies.velocity[atom], bodies.atom_radius[atom]);
+        let (moved, turn) = bodies.displacement(atom);
+        return Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, radius]);
+    }
+    let end = End::of(bodies, atom as u32);
+    let (place, (moved, turn), velocity) = (bodies.atom_place(atom), end.displacement(bodies), end.velocity(bodies));
+    Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, end.radius])
+}

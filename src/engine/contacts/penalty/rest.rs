@@ -1,0 +1,280 @@
+//! Bodies at rest: islands whose contacts hold every load stand still to the last bit until something changes.
+//!
+//! A body is laid to rest only with its whole island, when [`crate::constraints::rest_solver`] found forces within the bounds of the contact
+//! law that balance all loads and take the last velocity away. It stays while the sum of all forces on it does not change
+//! by a bit; anything new (a touch, another load, a changed velocity or place) wakes it.
+
+use glam::DVec2;
+
+use super::apply::PenaltyContacts;
+use crate::contacts::Other;
+use crate::contacts::{CandidatePairs, ContactForces};
+use crate::tick::Balance;
+use crate::world::Bodies;
+use jostle_simd::BLOCK;
+use serde::{Deserialize, Serialize};
+
+/// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
+const IMBALANCE: f64 = 1e-9;
+
+/// Bodies that move by forces, among which one at least has to sleep for all to be asked whether they do.
+const FEWEST: usize = 16;
+
+/// A body at rest.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Resting {
+    body: usize,
+    position: DVec2,
+    angle: f64,
+    /// Force against which its imbalance is judged, in newtons; see [`crate::constraints::rest_solver::loads`].
+    load: f64,
+    /// Sum of all forces and torques: what rounding leaves of zero. `None` before the first evaluation.
+    left_over: Option<(DVec2, f64)>,
+}
+
+/// Which bodies are at rest.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Rest {
+    generation: u64,
+    resting: Vec<Resting>,
+    /// For each body whether it is at rest.
+    still: Vec<bool>,
+    /// Bodies have been laid to rest or have woken since contacts were told.
+    changed: bool,
+    /// Some woke since their neighbours were looked at.
+    pub woke: bool,
+}
+
+impl Rest {
+    /// Whether `body` is at rest.
+    #[inline]
+    pub fn has(&self, body: usize) -> bool {
+        self.still.get(body).copied().unwrap_or(false)
+    }
+
+    /// Whether any body is.
+    pub fn is_empty(&self) -> bool {
+        self.resting.is_empty()
+    }
+
+    /// Lays `body` to rest under contact forces of `load` newtons in all: velocities become zero.
+    pub fn lay(&mut self, body: usize, load: f64, bodies: &mut Bodies) {
+        self.generation = bodies.generation;
+        self.still.resize(bodies.len(), false);
+        self.still[body] = true;
+        bodies.velocity[body] = DVec2::ZERO;
+        bodies.spin[body] = 0.0;
+        if !bodies.estimated_velocity.is_empty() {
+            bodies.estimated_velocity[body] = DVec2::ZERO;
+            bodies.estimated_spin[body] = 0.0;
+        }
+        bodies.force[body] = DVec2::ZERO;
+        bodies.torque[body] = 0.0;
+        bodies.stays(body);
+        self.changed = true;
+        let (position, angle) = (bodies.position[body], bodies.angle[body]);
+        self.resting.push(Resting { body, position, angle, load, left_over: None });
+    }
+
+    /// Wakes all.
+    pub fn clear(&mut self) {
+        self.changed |= !self.resting.is_empty();
+        self.resting.clear();
+        self.still.clear();
+    }
+
+    /// Wakes `body`; returns whether it was at rest.
+    pub fn wake(&mut self, body: usize) -> bool {
+        let was = self.has(body);
+        if was {
+            self.still[body] = false;
+            (self.changed, self.woke) = (true, true);
+        }
+        was
+    }
+
+    /// Forgets those that woke.
+    pub fn forget_woken(&mut self) {
+        let still = &self.still;
+        self.resting.retain(|resting| still[resting.body]);
+    }
+
+    /// After an evaluation: bodies on which nothing changed stay at rest, what rounding left of their balance is given
+    /// by what carries them. The others wake. Those that are asleep were given no force but that of what touches them anew.
+    pub fn settle(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
+        if self.resting.is_empty() {
+            return;
+        }
+        if self.generation != bodies.generation {
+            // Places have changed. Whoever rests is found at rest again before the next step.
+            self.clear();
+            return;
+        }
+        if !bodies.asleep.is_empty() {
+            bodies.disturbed = self.any_pushed_asleep(bodies);
+            // Where all that rest are asleep nothing else is to be seen; and an evaluation that is made anew with all
+            // of them counts alone: who was just laid to rest is looked at in that one.
+            if bodies.disturbed || !self.changed {
+                return;
+            }
+        }
+        let still = &mut self.still;
+        let (changed, woke) = (&mut self.changed, &mut self.woke);
+        self.resting.retain_mut(|resting| {
+            let body = resting.body;
+            if bodies.is_asleep(body) {
+                return still[body];
+            }
+            let stays = resting.unchanged(bodies);
+            if stays {
+                let (force, torque) = (bodies.force[body], bodies.torque[body]);
+                balance.outside(bodies.position[body], -force, -torque);
+                bodies.force[body] = DVec2::ZERO;
+                bodies.torque[body] = 0.0;
+            } else {
+                still[body] = false;
+                (*changed, *woke) = (true, true);
+            }
+            stays
+        });
+        if self.resting.len() == bodies.dynamic_count() {
+            // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
+            (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
+        }
+    }
+
+    /// Whether one of those that are asleep was pushed. All others were given no force.
+    fn any_pushed_asleep(&self, bodies: &Bodies) -> bool {
+        let pushed = |body: usize| bodies.force[body] != DVec2::ZERO || bodies.torque[body] != 0.0;
+        let mut awake = (0..bodies.awake_blocks()).flat_map(|number| bodies.awake_block(number));
+        awake.any(|body| bodies.is_asleep(body) && self.has(body) && pushed(body))
+    }
+}
+
+/// Whether bodies at rest need no work: forces are known not to change as long as nothing touches them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Sleep {
+    Allowed,
+    Never,
+}
+
+impl PenaltyContacts {
+    /// Tells bodies and contacts who is asleep: whoever is at rest under forces that were found not to change, with
+    /// what touches nothing else.
+    pub(super) fn lay_asleep(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &CandidatePairs,
+        forces: Option<&mut ContactForces>,
+    ) {
+        let Self { rest, atoms, walls, sleep, .. } = self;
+        // Whoever was laid to rest in this tick has yet to be looked at, though the lists be made anew before that.
+        rest.changed = rest.resting.iter().any(|resting| resting.left_over.is_none());
+        let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
+        let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
+        let mut asleep = vec![0_u8; bodies.len().div_ceil(BLOCK)];
+        let mut count = 0;
+        for resting in sleepers.filter(|_| known) {
+            asleep[resting.body / BLOCK] |= 1 << (resting.body % BLOCK);
+            count += 1;
+        }
+        if count == 0 || FEWEST * count < bodies.dynamic_count() {
+            bodies.wake_all();
+            atoms.wake_all();
+            walls.wake_all();
+            return;
+        }
+        bodies.lay_asleep(asleep);
+        let stands = |atom: u32| {
+            let body = bodies.atom_body(atom as usize);
+            !bodies.moves[body] || bodies.is_asleep(body)
+        };
+        atoms.lay_asleep(|place| stands(pairs.atoms[place].a) && stands(pairs.atoms[place].b));
+        walls.lay_asleep(|place| stands(pairs.walls[place].atom));
+        let mut awake = vec![false; bodies.asleep.len()];
+        let whole = |block: usize| {
+            let there = bodies.len() - BLOCK * block;
+            if there < BLOCK { (1_u8 << there) - 1 } else { u8::MAX }
+        };
+        for (block, awake) in awake.iter_mut().enumerate() {
+            let fixed = (BLOCK * block..bodies.len().min(BLOCK * block + BLOCK)).rev();
+            let fixed = fixed.fold(0, |bits, body| bits << 1 | u8::from(!bodies.moves[body]));
+            *awake = (bodies.asleep[block] | fixed) & whole(block) != whole(block);
+        }
+        // Whoever may be touched by what is awake is looked at.
+        for number in 0..atoms.awake_blocks() {
+            let first = BLOCK * atoms.awake_block(number);
+            for pair in &pairs.atoms[first..pairs.atoms.len().min(first + BLOCK)] {
+                for atom in [pair.a, pair.b] {
+                    awake[bodies.atom_body(atom as usize) / BLOCK] = true;
+                }
+            }
+        }
+        bodies.awake = (0..awake.len()).filter(|&block| awake[block]).map(|block| block as u32).collect();
+        if let Some(forces) = forces {
+            let mut asleep = (vec![DVec2::ZERO; bodies.len()], vec![DVec2::ZERO; bodies.walls.len()]);
+            for (place, point) in self.atom_points(bodies, pairs) {
+                if let Other::Body(other) = point.other
+                    && self.atoms.is_asleep(place)
+                {
+                    asleep.0[other] -= point.force;
+                    asleep.0[point.body] += point.force;
+                }
+            }
+            for (place, point) in self.wall_points(bodies, pairs) {
+                if let Other::Wall(wall) = point.other
+                    && self.walls.is_asleep(place)
+                {
+                    asleep.0[point.body] += point.force;
+                    asleep.1[wall] -= point.force;
+                }
+            }
+            forces.asleep = Some(asleep);
+        }
+    }
+}
+
+impl PenaltyContacts {
+    /// After all forces: see [`Rest::settle`]. Bodies at rest fall asleep unless forces are `changing`.
+    #[inline]
+    pub(super) fn settle(
+        &mut self,
+        (bodies, balance): (&mut Bodies, &mut Balance),
+        pairs: &CandidatePairs,
+        forces: Option<&mut ContactForces>,
+        changing: bool,
+    ) {
+        if self.rest.is_empty() && !self.rest.changed {
+            return;
+        }
+        let woken_by_others = bodies.asleep.is_empty() && self.sleep == Sleep::Allowed;
+        let new = self.rest.changed || woken_by_others;
+        self.rest.settle(bodies, balance);
+        if !bodies.disturbed && (new || self.rest.changed) {
+            // Joints find their forces from all forces on their bodies, so these have to be there.
+            let jointed = |resting: &Resting| bodies.jointed.get(resting.body).is_some_and(|jointed| *jointed);
+            let jointed = self.rest.resting.iter().any(jointed);
+            let carried = jointed || !bodies.prescribed.motions.is_empty() || !bodies.belts.is_empty();
+            let sleeps = !(changing || carried);
+            self.sleep = if sleeps && self.may_sleep { Sleep::Allowed } else { Sleep::Never };
+            self.lay_asleep(bodies, pairs, forces);
+        }
+    }
+}
+
+impl Resting {
+    fn unchanged(&mut self, bodies: &Bodies) -> bool {
+        let body = self.body;
+        let (force, torque) = (bodies.force[body], bodies.torque[body]);
+        let balanced = match self.left_over {
+            Some(left_over) => left_over == (force, torque),
+            None => {
+                self.left_over = Some((force, torque));
+                let limit = IMBALANCE * self.load;
+                force.length() <= limit && torque.abs() <= limit * bodies.extent(body)
+            }
+        };
+        let stands = bodies.position[body] == self.position && bodies.angle[body] == self.angle;
+        balanced && stands && bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0
+    }
+}

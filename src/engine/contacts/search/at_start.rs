@@ -1,0 +1,127 @@
+//! What overlaps at the start: springs that begin compressed, with energy that nothing in the scene put into them. It is noted
+//! once, before the first tick, so that `jostle check` tells it too.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::cells;
+use crate::scene::SceneError;
+use crate::tick::{LoadErrors, Notes, State};
+use crate::world::{Bodies, Name};
+use jostle_language::numbers::number;
+
+/// What overlaps by no more than this share of the smaller radius is not told: contacts at rest bear their loads so.
+const SHARE: f64 = 0.05;
+/// Pairs that are counted for the note: what lies in one heap has billions.
+const MOST_PAIRS: usize = 1 << 22;
+/// Contacts of so many pairs of atoms take more than ten gigabytes.
+const TOO_MANY: usize = 1 << 24;
+/// Pairs of atoms that are looked at, at most: a second or two are enough.
+const MOST_LOOKS: usize = 1 << 30;
+
+/// The deepest overlap before the first tick, if there is one worth telling.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct OverlapAtStart {
+    /// As a share of the smaller radius.
+    pub share: f64,
+    /// The two bodies, or the body and the wall.
+    pub between: (Entity, Entity),
+}
+
+/// A body, and a body behind it or a wall.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Pair {
+    Bodies(u32, u32),
+    Wall(u32, u32),
+}
+
+/// Who overlaps.
+#[derive(Default)]
+struct Overlaps {
+    pairs: Vec<Pair>,
+    /// How many pairs of atoms that are.
+    atoms: usize,
+    /// Whether there may be more.
+    more: bool,
+    /// The deepest, as a share of the smaller radius: the share, the overlap in metres, and whose it is.
+    deepest: Option<(f64, f64, Pair)>,
+}
+
+impl Overlaps {
+    fn of(bodies: &Bodies) -> Self {
+        let mut found = Self::default();
+        let complete = cells::overlapping(bodies, MOST_LOOKS, |pair| {
+            let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
+            let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
+            let whose = Pair::Bodies(bodies.atom_body(a) as u32, bodies.atom_body(b) as u32);
+            found.add(overlap, bodies.atom_radius[a].min(bodies.atom_radius[b]), whose)
+        });
+        let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
+        let looked_at = if touching.is_empty() { 0 } else { MOST_LOOKS / touching.len() };
+        for (place, wall) in bodies.walls.iter().enumerate().take(looked_at) {
+            let height = |at: DVec2| (at - wall.point).dot(wall.normal);
+            let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
+            for atom in near.flat_map(|&body| bodies.atoms_of(body)) {
+                let radius = bodies.atom_radius[atom];
+                let whose = Pair::Wall(bodies.atom_body(atom) as u32, place as u32);
+                found.add(radius - height(bodies.atom_place(atom)), radius, whose);
+            }
+        }
+        found.more |= !complete || bodies.walls.len() > looked_at && !touching.is_empty();
+        found.pairs.sort_unstable();
+        found.pairs.dedup();
+        found
+    }
+
+    /// Takes up an overlap; says whether there is room for more.
+    fn add(&mut self, overlap: f64, smaller_radius: f64, pair: Pair) -> bool {
+        let share = overlap / smaller_radius;
+        if share > SHARE {
+            self.atoms += 1;
+            // Atoms of one body follow each other, so most of what is there already is seen here.
+            self.more |= self.pairs.len() == MOST_PAIRS;
+            if self.pairs.last() != Some(&pair) && !self.more {
+                self.pairs.push(pair);
+            }
+            if self.deepest.is_none_or(|(most, ..)| share > most) {
+                self.deepest = Some((share, overlap, pair));
+            }
+        }
+        self.atoms < TOO_MANY
+    }
+}
+
+/// Says on the card who overlaps.
+pub(super) fn note_overlaps(world: &mut World) {
+    let bodies = &world.resource::<State>().bodies;
+    let Overlaps { pairs, atoms, more, deepest } = Overlaps::of(bodies);
+    let Some((share, overlap, deepest)) = deepest else { return };
+    if atoms >= TOO_MANY {
+        let message =
+            format!("at the start {TOO_MANY} pairs of atoms or more overlap: so many contacts do not fit into memory");
+        let help = "move them apart, or give those that are not to touch `collides: false`";
+        let error = SceneError::new("bodies", message).with_help(help);
+        return world.get_resource_or_init::<LoadErrors>().0.push(error);
+    }
+    let [a, b] = match deepest {
+        Pair::Bodies(a, b) => [bodies.entity[a as usize], bodies.entity[b as usize]],
+        Pair::Wall(body, wall) => [bodies.entity[body as usize], bodies.walls[wall as usize].entity],
+    };
+    let begin = OverlapAtStart { share, between: (a, b) };
+    let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string));
+    let (overlap, percent) = (number(overlap), number((share * 1000.0).round() / 10.0));
+    let who = match pairs.len() {
+        1 => format!("`{a}` and `{b}` overlap by {overlap} m, {percent} % of the smaller radius"),
+        many => format!(
+            "{}{many} pairs overlap by more than {} % of the smaller radius, deepest `{a}` and `{b}` by {overlap} m ({percent} %)",
+            if more { "at least " } else { "" },
+            100.0 * SHARE
+        ),
+    };
+    let note = format!(
+        "at the start {who}: their contacts begin compressed and push apart what no load holds; if that is not meant, move them \
+         apart, make them smaller, or give them `collides: false`"
+    );
+    world.resource_mut::<Notes>().0.push(note);
+    world.insert_resource(begin);
+}

@@ -1,0 +1,322 @@
+//! A force or torque that follows a course in time: `F(t) = F0 s(t)`, with `s` a sine, or a table between whose points it is
+//! linear.
+//!
+//! It is sampled at the time of each evaluation, so an integrator with stages sees it where its stages are, and keeps its
+//! order. A table has kinks at its points: a method with steps inside ticks ends a step at each, one that goes from tick to
+//! tick sees none that lies between two ticks.
+
+use std::f64::consts::TAU;
+
+use bevy_app::App;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
+use super::thrust::ThrustFrame;
+use super::{Targets, check_targets};
+use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::Memory;
+use crate::tick::{Clock, Departure, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
+
+/// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Drive {
+    /// The bodies it acts on, `*` matches.
+    of: Names,
+    /// Force in newtons where the course is 1. Default: none; a drive has a force, a torque or both.
+    force: Option<ForcePair>,
+    /// Torque in N m, counter-clockwise, where the course is 1. Default: none.
+    torque: Option<units::Torque>,
+    /// Where the force acts, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
+    #[serde(default)]
+    at: Position,
+    /// Whether the force turns with the body. Default: `World`.
+    #[serde(default)]
+    frame: ThrustFrame,
+    /// The course in time.
+    course: Course,
+}
+
+/// A number that depends on time.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Course {
+    /// `amplitude sin(2 pi frequency t + phase)`.
+    Sine {
+        /// The largest value. Default: 1.
+        #[serde(default = "one")]
+        amplitude: Scalar,
+        /// Periods per second, in Hz. Not negative. Either this or `angular_frequency`. Default: `angular_frequency` says
+        /// it.
+        frequency: Option<Rate>,
+        /// `2 pi` times that, in rad/s. Not negative. Default: `frequency` says it.
+        angular_frequency: Option<Spin>,
+        /// At the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
+        #[serde(default)]
+        phase: Angle,
+    },
+    /// Times in seconds, ascending, and values: linear between them. Before the first and after the last point it keeps
+    /// their values. Steps inside ticks end at the points; `VelocityVerlet` and `SemiImplicitEuler` without located events see
+    /// the course at ticks only, and the card warns where that changes the impulse.
+    Piecewise(Vec<(Time, Scalar)>),
+    /// The same from a file of two columns, time in seconds and value, with or without a line of names: a path from the
+    /// folder of the file in which this stands.
+    Csv(String),
+}
+
+fn one() -> Scalar {
+    Scalar::new(1.0)
+}
+
+impl Entry for Drive {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Drive";
+    const EXAMPLE: &'static str = "Drive(of: \"T\", force: (2, 0), course: Sine(frequency: \"1.5 Hz\"))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        check_targets(Some(&self.of), outline, report);
+        if self.force.is_none() && self.torque.is_none() {
+            report.error("", "this drive pushes nothing").help("give `force: (2, 0)`, `torque: 0.05` or both");
+        }
+        if self.force.is_none() && self.at != Position::default() {
+            report.error("at", "`at` is where a force acts, and there is none").help("give `force`, or remove `at`");
+        }
+        report.within("course", |report| self.course.check(report));
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for (Written { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
+            app.add_model(DriveForce {
+                path,
+                of: Targets::named(Some(&value.of), outline),
+                at: value.at.si(),
+                force: value.force.map_or(DVec2::ZERO, ForcePair::si),
+                torque: value.torque.map_or(0.0, units::Torque::si),
+                turns: value.frame == ThrustFrame::Body,
+                course: value.course,
+            });
+        }
+    }
+}
+
+impl Course {
+    pub(crate) fn check(&self, report: &mut Report) {
+        match self {
+            Self::Sine { frequency, angular_frequency, .. } => {
+                if let Some(frequency) = frequency {
+                    report.not_negative("frequency", *frequency);
+                }
+                if let Some(angular_frequency) = angular_frequency {
+                    report.not_negative("angular_frequency", *angular_frequency);
+                }
+                if frequency.is_some() == angular_frequency.is_some() {
+                    let message = "either `frequency` or `angular_frequency` says how fast it is";
+                    report.error("", message).help("for example `Sine(frequency: \"1.5 Hz\")`");
+                }
+            }
+            Self::Piecewise(points) => {
+                if points.is_empty() {
+                    let help = "for example `Piecewise([(0, 0), (\"0.5 s\", 1)])`";
+                    report.error("[0]", "must hold at least one point").help(help);
+                }
+                for (index, pair) in points.windows(2).enumerate() {
+                    let (before, time) = (pair[0].0.si(), pair[1].0.si());
+                    if time <= before {
+                        let message = format!("must be above the time before it, {before} s, got {time} s");
+                        report
+                            .error(&format!("[0][{}]", index + 1), message)
+                            .help("the points stand in the order of their times; a jump takes a short time");
+                    }
+                }
+            }
+            Self::Csv(file) => {
+                report.error("", format!("`{file}` was not read")).help("`Csv` stands in `course` of a scene");
+            }
+        }
+    }
+
+    /// The value at `time` seconds.
+    pub fn at(&self, time: f64) -> f64 {
+        match self {
+            Self::Sine { amplitude, phase, .. } => amplitude.si() * libm::sin(self.rhythm() * time + phase.si()),
+            Self::Piecewise(points) => {
+                let next = points.partition_point(|point| point.0.si() <= time);
+                let point = |place: usize| (points[place].0.si(), points[place].1.si());
+                match (next.checked_sub(1), next < points.len()) {
+                    (Some(before), true) => {
+                        let ((begin, from), (end, to)) = (point(before), point(next));
+                        from + (to - from) * ((time - begin) / (end - begin))
+                    }
+                    (Some(before), false) => point(before).1,
+                    (None, true) => point(next).1,
+                    (None, false) => 0.0,
+                }
+            }
+            // A check refuses it.
+            Self::Csv(_) => 0.0,
+        }
+    }
+
+    /// Its rate per second at `time` seconds; at a point of a table that of the piece behind it.
+    pub fn rate(&self, time: f64) -> f64 {
+        match self {
+            Self::Sine { amplitude, phase, .. } => {
+                amplitude.si() * self.rhythm() * libm::cos(self.rhythm() * time + phase.si())
+            }
+            Self::Piecewise(points) => {
+                let next = points.partition_point(|point| point.0.si() <= time);
+                let pair = next.checked_sub(1).and_then(|before| points.get(before..=next));
+                pair.map_or(0.0, |pair| (pair[1].1.si() - pair[0].1.si()) / (pair[1].0.si() - pair[0].0.si()))
+            }
+            // A check refuses it.
+            Self::Csv(_) => 0.0,
+        }
+    }
+
+    /// The angular frequency of a sine in rad/s; zero, if it is none.
+    fn rhythm(&self) -> f64 {
+        let Self::Sine { frequency, angular_frequency, .. } = self else { return 0.0 };
+        frequency.map_or(0.0, |rate| TAU * rate.si()) + angular_frequency.map_or(0.0, Spin::si)
+    }
+
+    /// What a table loses and gains of its area where it is seen at ticks only and has points between them, as shares of its
+    /// whole area so far: that below the line from tick to tick against that below the table. `None`: no point is between.
+    fn lost_and_gained(&self, clock: &Clock) -> Option<(f64, f64)> {
+        let Self::Piecewise(points) = self else { return None };
+        let end = clock.time();
+        let inside = points.iter().map(|point| point.0.si()).filter(|time| (0.0..end).contains(time));
+        let times: Vec<f64> = inside.collect();
+        let mut ticks: Vec<u64> =
+            times.iter().filter(|time| is_between(clock, **time)).map(|t| (t / clock.dt) as u64).collect();
+        ticks.dedup();
+        let area = |from: f64, to: f64| {
+            let mut bends = vec![from];
+            bends.extend(times.iter().filter(|time| (from..to).contains(*time)));
+            bends.push(to);
+            let pieces =
+                bends.windows(2).map(|piece| (piece[1] - piece[0]) * 0.5 * (self.at(piece[0]) + self.at(piece[1])));
+            pieces.fold((0.0, 0.0), |(sum, size), piece| (sum + piece, size + piece.abs()))
+        };
+        let (_, whole) = area(0.0, end);
+        let mut shares = (0.0, 0.0);
+        for tick in &ticks {
+            let (from, to) = (clock.time_of(*tick), clock.time_of(tick + 1));
+            let seen = clock.dt * 0.5 * (self.at(from) + self.at(to)).abs();
+            let missing = area(from, to).0.abs() - seen;
+            if missing > 0.0 { shares.0 += missing / whole } else { shares.1 -= missing / whole }
+        }
+        (!ticks.is_empty() && whole > 0.0).then_some(shares)
+    }
+
+    /// The first point of a table after `time` seconds, where the course has a kink; infinity if there is none.
+    pub fn next_point(&self, time: f64) -> f64 {
+        let Self::Piecewise(points) = self else { return f64::INFINITY };
+        let next = points.partition_point(|point| point.0.si() <= time);
+        points.get(next).map_or(f64::INFINITY, |point| point.0.si())
+    }
+}
+
+/// One entry, ready to be applied.
+#[derive(Clone, Debug)]
+pub struct DriveForce {
+    /// Where it stands in the scene, such as `forces[0]`.
+    pub path: String,
+    /// The bodies it acts on.
+    pub of: Targets,
+    /// Where the force acts, in the body's frame from its centre of mass, in metres.
+    pub at: DVec2,
+    /// Force in newtons where the course is 1.
+    pub force: DVec2,
+    /// Torque in N m where the course is 1.
+    pub torque: f64,
+    /// Whether the force turns with the body.
+    pub turns: bool,
+    /// The course in time.
+    pub course: Course,
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Drive>();
+}
+
+/// The force does not depend on velocities, its power does.
+impl Model for DriveForce {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn next_edge(&self, time: f64) -> f64 {
+        self.course.next_point(time)
+    }
+
+    fn rhythm(&self) -> Option<Rhythm> {
+        Some(Rhythm { path: self.path.clone(), angular_frequency: self.course.rhythm() })
+    }
+
+    /// What came of points between two ticks. Less than a thousandth is not told: the card calls energies right to that.
+    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
+        let shares = clock_of_whole_ticks(state, style).and_then(|clock| self.course.lost_and_gained(&clock));
+        let Some((lost, gained)) = shares else { return Vec::new() };
+        let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
+        let shares: Vec<String> = shares.map(|(share, what)| format!("{} {what}", percent(share))).collect();
+        if shares.is_empty() {
+            return Vec::new();
+        }
+        let (path, shares) = (&self.path, shares.join(" and "));
+        let what = format!(
+            "points of the course of `{path}` lie between ticks, where it is not seen: of its impulse {shares}"
+        );
+        vec![Departure { what, remedy: REMEDY, share: lost.max(gained) }]
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let value = self.course.at(state.evaluation.time);
+        let (bodies, rates) = state.bodies_and_rates();
+        let (push, torque) = (self.force * value, self.torque * value);
+        for body in self.of.places(bodies) {
+            let (mut force, mut arm) = (push, self.at);
+            if self.turns || self.at != DVec2::ZERO {
+                let (sin, cos) = libm::sincos(bodies.angle[body]);
+                let rotation = DVec2::new(cos, sin);
+                arm = rotation.rotate(arm);
+                force = if self.turns { rotation.rotate(force) } else { force };
+            }
+            bodies.push(body, arm, force);
+            bodies.torque[body] += torque;
+            rates.outside(bodies.position[body], force, arm.perp_dot(force) + torque);
+            rates.work += force.dot(bodies.velocity_at(body, arm)) + torque * bodies.spin[body];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_linear_between_its_points_and_keeps_its_ends() {
+        let points = [(1.0, 2.0), (3.0, -2.0), (3.5, 0.0)];
+        let course = Course::Piecewise(points.map(|(time, value)| (Time::new(time), Scalar::new(value))).to_vec());
+        for (time, value) in [(-5.0, 2.0), (1.0, 2.0), (1.5, 1.0), (2.0, 0.0), (3.0, -2.0), (3.25, -1.0), (9.0, 0.0)] {
+            assert_eq!(course.at(time), value, "{time}");
+        }
+    }
+}

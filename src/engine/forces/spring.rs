@@ -1,0 +1,185 @@
+//! A spring and a damper between two points (Hooke 1678; Kelvin and Voigt): with the distance `l` of its ends, both are
+//! pulled towards each other by `F = k (l - l0) + c dl/dt`, in newtons. Elastic energy `k (l - l0)^2/2`; the damper takes
+//! `c (dl/dt)^2` watts, booked as `damping`.
+//!
+//! In a place without distance the force of the spring has no direction: a spring that has a length of its own pushes
+//! nowhere then, and one of no length does not push at all; the damper acts along the motion of one end against the other,
+//! the limit of ends that run through each other.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::link::{self, DAMPING, End, Link, Partner};
+use crate::scene::units::{Damping, Length, Position, Stiffness};
+use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
+use crate::tick::response;
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::{Dependence, Energies, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+
+/// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
+/// `stiffness (distance - length) + damping d(distance)/dt`, and pushes where that is negative.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Spring {
+    /// The body at one end.
+    a: String,
+    /// The body at the other end, or `World`.
+    b: Partner,
+    /// Where it holds `a`, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
+    #[serde(default)]
+    anchor_a: Position,
+    /// Where it holds `b`, in the body's frame from its centre of mass, in metres; with `World` a place in the world.
+    /// Default: (0, 0), the centre of mass or the origin.
+    #[serde(default)]
+    anchor_b: Position,
+    /// Force over lengthening in N/m. Not negative.
+    stiffness: Stiffness,
+    /// Force over speed of lengthening in N s/m. Not negative. `2 sqrt(k m)` lets a mass `m` on it come to rest without a
+    /// swing. Default: 0.
+    #[serde(default)]
+    damping: Damping,
+    /// Length without force in metres. Not negative. Default: the distance of its ends at the start.
+    length: Option<Length>,
+}
+
+impl Entry for Spring {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Spring";
+    const EXAMPLE: &'static str = "Spring(a: \"left\", b: \"right\", stiffness: 100, damping: 0.5)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        link::check_ends(&self.a, &self.b, outline, report);
+        link::check_holds(self.stiffness, self.damping, report);
+        if let Some(length) = self.length {
+            report.not_negative("length", length);
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let paths = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
+        for (Written { value, .. }, mention) in entries.into_iter().zip(paths) {
+            app.add_model(SpringForce {
+                link: Link::named(&value.a, &value.b, (value.anchor_a.si(), value.anchor_b.si()), outline),
+                stiffness: value.stiffness.si(),
+                damping: value.damping.si(),
+                power: 0.0,
+                force: DVec2::ZERO,
+                length: value.length.map(Length::si),
+                path: mention.path.clone(),
+            });
+        }
+    }
+}
+
+/// One entry, ready to be applied.
+#[derive(Clone, Debug)]
+pub struct SpringForce {
+    /// Its ends.
+    pub link: Link,
+    /// Stiffness in N/m.
+    pub stiffness: f64,
+    /// Damping in N s/m.
+    pub damping: f64,
+    /// Power that the damper took in the last evaluation, in watts.
+    power: f64,
+    /// Its force on end A in the last evaluation, in newtons.
+    force: DVec2,
+    /// Length without force in metres; `None`: the distance of the ends at the start, which takes its place then.
+    pub length: Option<f64>,
+    /// Where it stands in the scene, such as `forces[0]`.
+    pub path: String,
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Spring>();
+}
+
+/// The state of a spring: direction from A to B, distance in m, and speed of lengthening in m/s.
+fn stretch(a: &End, b: &End) -> (DVec2, f64, f64) {
+    let (between, parting) = (b.position - a.position, b.velocity - a.velocity);
+    let distance = between.length();
+    let direction = if distance > 0.0 { between / distance } else { parting.normalize_or_zero() };
+    (direction, distance, parting.dot(direction))
+}
+
+impl SpringForce {
+    fn lengthening(&self, distance: f64) -> f64 {
+        distance - self.length.unwrap_or(distance)
+    }
+}
+
+impl Model for SpringForce {
+    fn dependence(&self) -> Dependence {
+        if self.damping > 0.0 { Dependence::Velocity } else { Dependence::Position }
+    }
+
+    /// Takes the distance at the start for a length that the scene does not give.
+    fn start(&mut self, world: &mut World) {
+        let Some((a, b)) = self.link.ends(&world.resource::<State>().bodies) else { return };
+        let distance = (b.position - a.position).length();
+        let length = *self.length.get_or_insert(distance);
+        if distance == 0.0 && length > 0.0 {
+            let path = format!("{}.length", self.path);
+            let message = format!("both ends are in one place: in which direction should {length} m lie?");
+            let help = "move an end or an anchor, or give the spring no length: `length: 0`";
+            let error = SceneError::new(path, message).with_help(help);
+            world.get_resource_or_init::<LoadErrors>().0.push(error);
+        }
+    }
+
+    fn loss(&self) -> Option<Loss> {
+        (self.damping > 0.0).then_some(Loss { account: DAMPING, power: self.power })
+    }
+
+    fn save(&self) -> Memory {
+        Memory::of(&(self.power, self.force, self.length))
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        (self.power, self.force, self.length) = recall(bytes)?;
+        Ok(())
+    }
+
+    fn energies(&self, state: &State) -> Energies {
+        let stretched =
+            self.link.ends(&state.bodies).map(|(a, b)| self.lengthening((b.position - a.position).length()));
+        Energies { potential: 0.0, elastic: 0.5 * self.stiffness * stretched.unwrap_or(0.0).powi(2) }
+    }
+
+    /// Along the spring it has its stiffness, across it that of its tension, `F/l`, where it pulls.
+    fn stiffness(&self, state: &State, list: &mut Vec<SteadySpring>) {
+        let Some((a, b)) = self.link.ends(&state.bodies) else { return };
+        let (direction, distance, _) = stretch(&a, &b);
+        let tension = if distance > 0.0 { self.lengthening(distance) / distance } else { 1.0 };
+        let across = self.stiffness * tension.max(0.0);
+        let normal = if direction == DVec2::ZERO { DVec2::X } else { direction };
+        let Some((a, b)) = link::sides(&a, &b) else { return };
+        let spring = response::Spring { a, b, normal, stiffness: (self.stiffness, across), damped: 0.0, turning: 0.0 };
+        list.push(SteadySpring { spring, damping: self.damping, turning_damping: 0.0 });
+    }
+
+    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+        let (a, b) = self.link.ends(&state.bodies)?;
+        let of = |end: &End, sign: f64| if end.body == Some(body) { sign } else { 0.0 };
+        Some((ForcePart::Spring, self.force * (of(&a, 1.0) + of(&b, -1.0))))
+    }
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        (self.power, self.force) = (0.0, DVec2::ZERO);
+        self.link.refresh(bodies);
+        let Some((a, b)) = self.link.ends(bodies) else { return };
+        let (direction, distance, speed) = stretch(&a, &b);
+        let elastic = if distance > 0.0 { self.stiffness * self.lengthening(distance) } else { 0.0 };
+        self.power = self.damping * speed * speed;
+        self.force = direction * (elastic + self.damping * speed);
+        link::pull(&a, &b, self.force, bodies, rates);
+    }
+}

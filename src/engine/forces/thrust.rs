@@ -1,0 +1,208 @@
+//! Thrust: a force at a point of a body, constant in the body's frame or in the world's, between two times.
+//!
+//! Where a run goes from tick to tick it acts in a whole tick or not at all: in those whose middle lies between the two
+//! times. So a schedule on the grid of ticks gives force times time to the last digit, and rounding of the times decides
+//! nothing; one beside the grid is warned of. Methods with steps inside ticks end one at each of the two times.
+
+use bevy_app::App;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
+use super::{Targets, check_targets};
+use crate::scene::units::{ForcePair, Position, Time};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::{Balance, Clock, Departure, Energies, Model, State, SteadySpring, Style, TickAppExt};
+use crate::world::Bodies;
+
+/// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located events
+/// it acts in whole ticks, in those whose middle lies between the two times; the card warns where that is not what was asked
+/// for.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Thrust {
+    /// The bodies it acts on, `*` matches.
+    of: Names,
+    /// Where it acts, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
+    #[serde(default)]
+    at: Position,
+    /// Force in newtons.
+    force: ForcePair,
+    /// Whether the force turns with the body. Default: `World`.
+    #[serde(default)]
+    frame: ThrustFrame,
+    /// It acts from this time on, in seconds. Default: 0.
+    #[serde(default)]
+    from: Time,
+    /// It no longer acts at this time, in seconds. Default: it never ends.
+    to: Option<Time>,
+}
+
+/// The frame in which a force is constant.
+#[derive(Clone, Copy, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+pub(super) enum ThrustFrame {
+    /// The force turns with the body.
+    Body,
+    /// It does not.
+    #[default]
+    World,
+}
+
+impl Entry for Thrust {
+    const SECTION: &'static str = "forces";
+    const NAME: &'static str = "Thrust";
+    const EXAMPLE: &'static str = "Thrust(of: \"T\", force: (0, 2), frame: Body, from: 1, to: 1.25)";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        check_targets(Some(&self.of), outline, report);
+        if self.to.is_some_and(|to| to.si() <= self.from.si()) {
+            report.error("to", format!("must be later than `from`, {} s", self.from.si()));
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        for (Written { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
+            app.add_model(ThrustForce {
+                path,
+                of: Targets::named(Some(&value.of), outline),
+                at: value.at.si(),
+                force: value.force.si(),
+                turns: value.frame == ThrustFrame::Body,
+                from: value.from.si(),
+                to: value.to.map_or(f64::INFINITY, Time::si),
+                acts: false,
+            });
+        }
+    }
+}
+
+/// One entry, ready to be applied.
+#[derive(Clone, Debug)]
+pub struct ThrustForce {
+    /// Where it stands in the scene, such as `forces[0]`.
+    pub path: String,
+    /// The bodies it acts on.
+    pub of: Targets,
+    /// Where it acts, in the body's frame from its centre of mass, in metres.
+    pub at: DVec2,
+    /// Force in newtons.
+    pub force: DVec2,
+    /// Whether the force turns with the body.
+    pub turns: bool,
+    /// It acts from this time on, in seconds.
+    pub from: f64,
+    /// It no longer acts at this time, in seconds.
+    pub to: f64,
+    /// Whether it acts in the present tick; false at the beginning.
+    pub acts: bool,
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_entry::<Thrust>();
+}
+
+/// The force does not depend on velocities, its power does.
+impl Model for ThrustForce {
+    fn save(&self) -> Memory {
+        Memory::of(&self.acts)
+    }
+
+    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+        self.acts = recall(bytes)?;
+        Ok(())
+    }
+
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        if self.acts {
+            let (bodies, rates) = state.bodies_and_rates();
+            self.push(bodies, rates, 1.0);
+        }
+    }
+
+    fn has_modes(&self) -> bool {
+        true
+    }
+
+    /// What begins or ends with a tick is added to or taken from the sums of its beginning.
+    fn begin_step(&mut self, state: &mut State) {
+        let acts = (self.from..self.to).contains(&state.span().middle());
+        if acts != self.acts {
+            self.acts = acts;
+            state.evaluation.stale = true;
+            let (bodies, rates) = state.bodies_and_rates();
+            self.push(bodies, rates, if acts { 1.0 } else { -1.0 });
+        }
+    }
+
+    fn has_edges(&self) -> bool {
+        true
+    }
+
+    fn next_edge(&self, time: f64) -> f64 {
+        [self.from, self.to].into_iter().filter(|edge| *edge > time).fold(f64::INFINITY, f64::min)
+    }
+
+    /// What came of times between two ticks.
+    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
+        clock_of_whole_ticks(state, style).and_then(|clock| self.departure(&clock)).into_iter().collect()
+    }
+}
+
+impl ThrustForce {
+    /// What came of it so far, if it begins or ends between two ticks.
+    fn departure(&self, clock: &Clock) -> Option<Departure> {
+        let between = |time: f64| time > 0.0 && time < clock.time() && is_between(clock, time);
+        if !between(self.from) && !between(self.to) {
+            return None;
+        }
+        // The first tick whose middle is not before a time.
+        let first = |time: f64| (time / clock.dt - 0.5).ceil().clamp(0.0, clock.ticks as f64) as u64;
+        let (begin, end) = (clock.time_of(first(self.from)), clock.time_of(first(self.to)));
+        let asked = self.to.min(clock.time()) - self.from.max(0.0);
+        let share = (end - begin) / asked - 1.0;
+        // To the nanosecond: rounded further, both might read the same.
+        let at = |time: f64| (time * 1e9).round() / 1e9;
+        let times = match self.to {
+            f64::INFINITY => format!("from {} s on", at(self.from)),
+            to => format!("from {} s to {} s", at(self.from), at(to)),
+        };
+        let came = match share {
+            -1.0 => "does not act at all: its whole impulse is lost".to_owned(),
+            _ => {
+                let impulse = match share {
+                    share if share <= -5e-4 => format!("{} of its impulse is lost", percent(-share)),
+                    share if share >= 5e-4 => format!("its impulse is {} too large", percent(share)),
+                    _ => "its impulse is right, but not its time".to_owned(),
+                };
+                format!("acts from {} s to {} s: {impulse}", at(begin), at(end))
+            }
+        };
+        let what = format!("`{}` is to act {times}, but acts in whole ticks and {came}", self.path);
+        Some(Departure { what, remedy: REMEDY, share: share.abs() })
+    }
+
+    fn push(&mut self, bodies: &mut Bodies, balance: &mut Balance, times: f64) {
+        for body in self.of.places(bodies) {
+            let (sin, cos) = libm::sincos(bodies.angle[body]);
+            let rotation = DVec2::new(cos, sin);
+            let force = times * if self.turns { rotation.rotate(self.force) } else { self.force };
+            let arm = rotation.rotate(self.at);
+            bodies.push(body, arm, force);
+            balance.outside(bodies.position[body], force, arm.perp_dot(force));
+            balance.work += force.dot(bodies.velocity_at(body, arm));
+        }
+    }
+}

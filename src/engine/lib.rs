@@ -1,0 +1,33 @@
+//! The physics of Jostle: a scene becomes a world, and the world moves. Use it through the crate `jostle`.
+//!
+//! The modules stand in the order in which they build on each other. Nothing points back: a module uses those above it in the
+//! list below and none under it, and a test holds it. A physical model knows nothing of pictures.
+
+pub mod threads;
+
+pub mod scene;
+
+pub mod shapes;
+pub mod world;
+
+pub mod constraints;
+pub mod tick;
+
+pub mod contacts;
+pub mod forces;
+pub mod joints;
+
+pub mod controllers;
+
+pub mod integrate;
+
+pub mod sensors;
+
+pub mod expect;
+
+pub mod record;
+
+pub mod plugins;
+pub mod simulation;
+
+pub use simulation::Simulation;

@@ -1,0 +1,45 @@
+//! The standard plugins, in the order of the tick: the table of contents of the physics.
+//!
+//! Here they only register what a scene may name. What a scene names is installed when it is read, in this order;
+//! what it does not name is not scheduled, not stored, not paid for.
+
+use bevy_app::App;
+use jostle_frames::palette;
+
+use crate::record::sections::look::THEMES;
+use crate::scene::SceneAppExt;
+use crate::world::material::COLORS;
+use crate::{contacts, controllers, expect, forces, integrate, joints, record, sensors, world};
+
+/// Names of the language that are kept for later.
+const RESERVED: [&str; 2] = ["randomise", "scene"];
+
+/// Registers the sections that describe the run and the film, their words, and the names that are kept for later.
+pub fn run_and_film(app: &mut App) {
+    integrate::clock::plugin(app);
+    record::sections::plugin(app);
+    // The painter knows its names; the language asks for them.
+    for color in palette::COLOR_NAMES {
+        app.register_word(COLORS, color);
+    }
+    for (theme, _) in palette::THEMES {
+        app.register_word(THEMES, theme);
+    }
+    for later in RESERVED {
+        app.reserve_section(later);
+    }
+}
+
+/// Registers everything the scene language offers.
+pub fn standard(app: &mut App) {
+    run_and_film(app);
+    integrate::plugin(app);
+    world::plugin(app);
+    forces::plugin(app);
+    joints::plugin(app);
+    controllers::plugin(app);
+    contacts::plugin(app);
+    sensors::plugin(app);
+    expect::plugin(app);
+    record::layers::plugin(app);
+}

@@ -1,0 +1,71 @@
+//! How a plugin claims a name of the scene language: a top-level section (`gravity: ..`) or an entry of a section
+//! that takes several kinds (`forces: [Drag(..)]`, `contacts: Penalty(..)`).
+
+use bevy_app::App;
+use schemars::{Schema, SchemaGenerator};
+use serde::de::DeserializeOwned;
+
+use super::{Outline, Report};
+
+/// A top-level section of the scene, `name: value`.
+///
+/// The type says how the value is written: a struct with named fields as `(a: 1, b: 2)`, a newtype of a `Vec` as
+/// `[..]`. Give every struct and enum in it `#[serde(deny_unknown_fields)]`, and use the quantities of
+/// [`units`](super::units) where a number has a unit. Do not use `flatten` or `untagged`: they lose places and words.
+pub trait Section: DeserializeOwned + Send + Sync + 'static {
+    /// The name as it stands in the scene.
+    const NAME: &'static str;
+    /// One correct use, shown in error messages and in the manual.
+    const EXAMPLE: &'static str;
+
+    /// What may be written in it, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on the
+    /// type it is `Some(generator.subschema_for::<Self>())`. Default: nothing, and the manual tells no fields.
+    fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
+        None
+    }
+
+    /// Tells the outline which names (bodies, walls, materials ...) this section brings. Sections declare in the order
+    /// of the file. Paths are relative to the section.
+    fn declare(&self, _outline: &mut Outline) {}
+
+    /// Reports every mistake that the types alone cannot exclude; paths are relative to the section.
+    fn check(&self, _outline: &Outline, _report: &mut Report) {}
+
+    /// Turns the section into entities, resources and systems. Called only when nothing was reported; sections and
+    /// entries are installed in the order of their registration.
+    fn install(self, outline: &Outline, app: &mut App);
+}
+
+/// One kind of entry of a section that takes several kinds.
+pub trait Entry: DeserializeOwned + Send + Sync + 'static {
+    /// The section it stands in, for example `"forces"`.
+    const SECTION: &'static str;
+    /// Its leading name, for example `"Drag"`. The type reads what stands in the brackets after it.
+    const NAME: &'static str;
+    /// One correct use, shown in error messages and in the manual.
+    const EXAMPLE: &'static str;
+
+    /// What may be written in its brackets, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on
+    /// the type it is `Some(generator.subschema_for::<Self>())`. Default: nothing, and the manual tells no fields.
+    fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
+        None
+    }
+
+    /// Tells the outline which names this entry brings.
+    fn declare(&self, _outline: &mut Outline) {}
+
+    /// Reports every mistake that the types alone cannot exclude; paths are relative to the entry.
+    fn check(&self, _outline: &Outline, _report: &mut Report) {}
+
+    /// Installs all entries of this kind at once, in the order of the file. `texts` are the entries as they were
+    /// written. Called only when nothing was reported.
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App);
+}
+
+/// An entry together with its text in the scene.
+pub struct Written<T> {
+    /// The entry.
+    pub value: T,
+    /// Its text as it stands in the file, comments left out at both ends.
+    pub text: String,
+}

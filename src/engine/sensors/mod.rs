@@ -1,0 +1,305 @@
+//! Sensors: each file one measured quantity. A sensor measures and never pushes.
+//!
+//! A sensor entry of the scene makes *channels*, one column each, named `owner.quantity[.component]`. Any channel can
+//! also be asked for by its name alone ([`find`]): expectations do that.
+
+mod acceleration;
+mod contact_force;
+mod contacts;
+pub(crate) mod energy;
+mod force;
+mod joint;
+mod motor;
+mod overlap;
+mod pose;
+mod velocity;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+
+use crate::controllers::output::CONTROLLER;
+use crate::scene::values::Word;
+use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
+use crate::tick::energy::CHANNELS;
+use crate::tick::{State, place_of};
+use crate::world::{Bodies, Body, Name, Wall};
+
+/// One measured number: its name, its unit and how it is read.
+pub struct Channel {
+    /// Name, `owner.quantity[.component]`.
+    pub name: String,
+    /// Unit as a symbol, empty for a pure number.
+    pub unit: &'static str,
+    read: Box<dyn Fn(&World) -> f64 + Send + Sync>,
+    /// Whether it may read components that the state keeps.
+    components: bool,
+}
+
+impl Channel {
+    /// A channel that reads anything of the world. Components are brought up to date for it after each batch of ticks.
+    pub fn new(
+        name: impl Into<String>,
+        unit: &'static str,
+        read: impl Fn(&World) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { components: true, ..Self::of_resources(name, unit, read) }
+    }
+
+    /// A channel that reads the state of the run: nothing is copied for it.
+    pub fn of_state(
+        name: impl Into<String>,
+        unit: &'static str,
+        read: impl Fn(&State) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self::of_resources(name, unit, move |world| read(world.resource()))
+    }
+
+    /// A channel that reads no pose and no velocity of a component.
+    fn of_resources(
+        name: impl Into<String>,
+        unit: &'static str,
+        read: impl Fn(&World) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), unit, read: Box::new(read), components: false }
+    }
+
+    /// The present value.
+    pub fn value(&self, world: &World) -> f64 {
+        (self.read)(world)
+    }
+}
+
+/// The channels the scene asks for, in the order of the file.
+#[derive(Resource, Default)]
+pub struct Channels(Vec<Channel>);
+
+impl Channels {
+    /// Adds a channel behind the others.
+    pub fn add(world: &mut World, channel: Channel) {
+        see_components(world, &channel);
+        world.get_resource_or_init::<Self>().0.push(channel);
+    }
+
+    /// All channels in order.
+    pub fn iter(&self) -> std::slice::Iter<'_, Channel> {
+        self.0.iter()
+    }
+
+    /// Whether the scene asks for none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// From now on components are brought up to date after each batch, if a channel may read them.
+fn see_components(world: &mut World, channel: &Channel) {
+    if channel.components {
+        world.get_resource_or_init::<State>().show_components();
+    }
+}
+
+/// A force of the last evaluation, or what follows from it: before the first tick there is none, and it is NaN.
+fn known(state: &State, value: f64) -> f64 {
+    if state.clock().ticks > 0 { value } else { f64::NAN }
+}
+
+/// Turns a channel's name into the channel, if it is one of its own.
+pub type Finder = fn(&mut World, owner: &str, quantity: &str) -> Option<Channel>;
+
+/// How the channels of each sensor are found.
+#[derive(Resource, Default)]
+struct Finders(Vec<Finder>);
+
+/// The open list of what can be measured of a body or wall, such as `position.x`.
+pub const QUANTITIES: &str = "quantity";
+
+/// How plugins add something that can be measured.
+pub trait SensorAppExt {
+    /// Adds how the channels `<body or wall>.<quantity>` are found.
+    fn add_quantities(&mut self, quantities: &[&'static str], finder: Finder) -> &mut Self;
+
+    /// Adds how channels of these full names are found.
+    fn add_channels(&mut self, channels: &[&'static str], finder: Finder) -> &mut Self;
+}
+
+impl SensorAppExt for App {
+    fn add_quantities(&mut self, quantities: &[&'static str], finder: Finder) -> &mut Self {
+        add(self, QUANTITIES, quantities, finder)
+    }
+
+    fn add_channels(&mut self, channels: &[&'static str], finder: Finder) -> &mut Self {
+        add(self, CHANNELS, channels, finder)
+    }
+}
+
+fn add<'a>(app: &'a mut App, list: &'static str, words: &[&'static str], finder: Finder) -> &'a mut App {
+    app.world_mut().get_resource_or_init::<Finders>().0.push(finder);
+    for word in words {
+        app.register_word(list, word);
+    }
+    app
+}
+
+/// Reports a channel name that cannot be right.
+pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Report) {
+    if outline.word(CHANNELS, name).is_some() {
+        return;
+    }
+    let Some((owner, quantity)) = name.split_once('.') else {
+        let help = "a channel is a name, a dot and a quantity, such as \"ball.position.x\" or \"energy.total\"";
+        report.error(path, format!("{name:?} is not a channel")).help(help);
+        return;
+    };
+    if ["energy", "overlap"].contains(&owner) {
+        Word(name.to_owned()).check(outline, CHANNELS, path, report);
+    } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report) {
+        let named = |kind: &Kind| [Kind::WALL, Kind::BODY].contains(kind) || outline.count(*kind) > 0;
+        let owners: Vec<Kind> = [Kind::WALL, Kind::BODY, Kind::JOINT, CONTROLLER].into_iter().filter(named).collect();
+        outline.require_any(&owners, owner, path, report);
+    }
+}
+
+/// Reports a choice of channels that cannot be right: a channel's name, in which `*` stands for any letters of the names
+/// of bodies.
+pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut Report) {
+    match pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) {
+        Some((owner, quantity)) => {
+            if check_quantity(quantity, path, outline, report) {
+                outline.require_matching(Kind::BODY, owner, path, report);
+            }
+        }
+        None => check_channel(pattern, path, outline, report),
+    }
+}
+
+/// Reports what cannot be measured of a body or wall. Returns whether it can.
+pub fn check_quantity(quantity: &str, path: &str, outline: &Outline, report: &mut Report) -> bool {
+    Word(quantity.to_owned()).check(outline, QUANTITIES, path, report)
+}
+
+/// The names of the channels that a choice means, in canonical order of their bodies.
+pub fn chosen(pattern: &str, outline: &Outline) -> Vec<String> {
+    let Some((owner, quantity)) = pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) else {
+        return vec![pattern.to_owned()];
+    };
+    let bodies = outline.matching(Kind::BODY, owner).into_iter().map(|place| &outline.names(Kind::BODY)[place]);
+    bodies.map(|body| format!("{body}.{quantity}")).collect()
+}
+
+/// The names of all channels that a pattern means, in which `*` stands for any letters also of the quantity, in canonical
+/// order of bodies and walls. Bodies and walls must have been spawned.
+pub fn expanded(pattern: &str, world: &mut World, outline: &Outline) -> Vec<String> {
+    let Some((owner, _)) = pattern.split_once('.').filter(|(_, quantity)| quantity.contains('*')) else {
+        return chosen(pattern, outline);
+    };
+    let whole = outline.words(CHANNELS).map(|(name, _)| name.to_owned());
+    let owners = [Kind::BODY, Kind::WALL].into_iter().flat_map(|kind| outline.names(kind));
+    let owners = owners.filter(|name| fits(owner, name));
+    let own = owners.flat_map(|name| outline.words(QUANTITIES).map(move |(quantity, _)| format!("{name}.{quantity}")));
+    let fitting: Vec<String> = whole.chain(own).filter(|name| fits(pattern, name)).collect();
+    let found = find_all(world, &fitting);
+    fitting.into_iter().zip(found).filter(|(_, channel)| channel.is_some()).map(|(name, _)| name).collect()
+}
+
+/// The channel called `name`, for example `ball.position.x` or `energy.residual`. Bodies and walls must have been
+/// spawned.
+pub fn find(world: &mut World, name: &str) -> Option<Channel> {
+    let (owner, quantity) = name.split_once('.')?;
+    let finders: Vec<Finder> = world.get_resource::<Finders>()?.0.clone();
+    let channel = finders.into_iter().find_map(|finder| finder(world, owner, quantity))?;
+    see_components(world, &channel);
+    Some(channel)
+}
+
+/// Adds channels; one that is there already stays the only one of its name.
+fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
+    let channels = world.get_resource_or_init::<Channels>();
+    let mut there: BTreeSet<String> = channels.0.iter().map(|channel| channel.name.clone()).collect();
+    let names: Vec<String> = names.into_iter().filter(|name| there.insert(name.clone())).collect();
+    let found: Vec<Channel> = find_all(world, &names).into_iter().flatten().collect();
+    world.resource_mut::<Channels>().0.extend(found);
+}
+
+/// The channels of these names, each as [`find`] finds it, in a time that grows with their number and that of bodies.
+pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
+    let mut query = world.query::<(Entity, &Name, Has<Body>, Has<Wall>)>();
+    let mut index = NameIndex::default();
+    for (entity, name, body, wall) in query.iter(world) {
+        for (list, has) in [(&mut index.bodies, body), (&mut index.walls, wall)] {
+            if has {
+                list.entry(name.to_string()).or_insert(entity);
+            }
+        }
+    }
+    world.insert_resource(index);
+    let found = names.iter().map(|name| find(world, name)).collect();
+    world.remove_resource::<NameIndex>();
+    found
+}
+
+/// Bodies and walls by name, while many are looked for.
+#[derive(Resource, Default)]
+struct NameIndex {
+    bodies: BTreeMap<String, Entity>,
+    walls: BTreeMap<String, Entity>,
+}
+
+/// The entity of the body called `name`.
+fn body_named(world: &mut World, name: &str) -> Option<Entity> {
+    match world.get_resource::<NameIndex>() {
+        Some(index) => index.bodies.get(name).copied(),
+        None => search::<Body>(world, name),
+    }
+}
+
+/// The entity of the wall called `name`.
+fn wall_named(world: &mut World, name: &str) -> Option<Entity> {
+    match world.get_resource::<NameIndex>() {
+        Some(index) => index.walls.get(name).copied(),
+        None => search::<Wall>(world, name),
+    }
+}
+
+fn search<C: Component>(world: &mut World, name: &str) -> Option<Entity> {
+    let mut query = world.query_filtered::<(Entity, &Name), With<C>>();
+    query.iter(world).find(|(_, found)| **found == *name).map(|(entity, _)| entity)
+}
+
+/// A channel of a body: read by its place in the packed state; not a number once the body is gone.
+fn of_body(
+    world: &mut World,
+    name: &str,
+    quantity: &str,
+    unit: &'static str,
+    read: fn(&Bodies, usize) -> f64,
+) -> Option<Channel> {
+    let entity = body_named(world, name)?;
+    let value = move |world: &World| {
+        let bodies = &world.resource::<State>().bodies;
+        place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))
+    };
+    Some(Channel::of_resources(format!("{name}.{quantity}"), unit, value))
+}
+
+/// Registers the sensors of this folder.
+pub fn plugin(app: &mut App) {
+    app.init_resource::<Finders>();
+    app.register_entry_section("sensors", Arity::List, "sensors: [Pose(of: \"ball\"), Energy()]");
+    app.describe_section(
+        "sensors",
+        "What is measured. Each number is a channel, `name.quantity`, and a column of the CSV. Channels are read at ticks; under \
+         a `tolerance` or `method: Reference` those are the frames of the film.",
+    );
+    pose::plugin(app);
+    velocity::plugin(app);
+    acceleration::plugin(app);
+    energy::plugin(app);
+    force::plugin(app);
+    contact_force::plugin(app);
+    overlap::plugin(app);
+    contacts::plugin(app);
+    joint::plugin(app);
+    motor::plugin(app);
+}

@@ -1,0 +1,196 @@
+//! Trials of a scene, one finer than the other.
+
+use super::Tell;
+use super::trajectory::{MOST_MOMENTS, Trajectory};
+use crate::Simulation;
+use crate::integrate::clock::EventTiming;
+use crate::integrate::{Allowance, Pace};
+use crate::scene::SceneErrors;
+use crate::simulation::Plan;
+use jostle_language::numbers::number;
+
+/// What is made finer from trial to trial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ladder {
+    /// The error allowed to a step.
+    Allowed,
+    /// The steps of a tick.
+    Steps,
+    /// The ticks of a tick of the plan: for methods that go by whole ticks.
+    Ticks,
+}
+
+/// The power of the step by which errors of the methods that estimate them fall.
+const ORDER: f64 = 8.0;
+
+/// Looks of a trial are so many of the steps apart that suit the fastest contact or spring: eight to a contact.
+const STEPS_BETWEEN_LOOKS: u32 = 5;
+
+/// Steps of a tick at which a hasty trial ends, and how many more it may take for each that suits the fastest contact or spring.
+const HASTY_STEPS: f64 = 1e4;
+const STEPS_OF_A_SWING: f64 = 10.0;
+
+/// The trials of a scene.
+pub(super) struct Trials<'a> {
+    /// The plan they follow.
+    pub plan: Plan,
+    pub ladder: Ladder,
+    /// Order of accuracy of the method.
+    pub order: u32,
+    /// Steps of a tick that suit the fastest contact or spring.
+    pub steps: u32,
+    make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
+    tell: Option<Tell>,
+    /// Ticks of a trial in one of the plan, where its steps do not depend on them: moments at which trials are compared lie within
+    /// contacts, and within swings of springs and drives.
+    looks: u32,
+    /// Whether something moves as prescribed, which is told from tick to tick: then no step goes beyond a tick.
+    by_ticks: bool,
+    /// Whether a trial ends where a tick takes many steps: errors that let bodies meet in a way they never would take most of them.
+    pub hasty: bool,
+    /// Whether the last one ended so.
+    pub cut: bool,
+    /// The fineness of the first.
+    coarsest: f64,
+    /// How many were made.
+    pub count: u32,
+    /// How often forces were evaluated in all of them.
+    pub evaluations: u64,
+    /// How far and how fast bodies go, as the last trial found it.
+    sizes: (f64, f64),
+}
+
+impl<'a> Trials<'a> {
+    pub fn new(
+        (plan, order, steps): (Plan, u32, u32),
+        make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
+        tell: Option<Tell>,
+    ) -> Self {
+        let ladder = if matches!(plan.pace, Pace::Allowed(_)) { Ladder::Allowed } else { Ladder::Steps };
+        let looks = match plan.pace {
+            Pace::Allowed(Allowance { longest, .. }) => {
+                let most = MOST_MOMENTS as f64 * plan.tick / longest;
+                f64::from(steps.div_ceil(STEPS_BETWEEN_LOOKS)).min(most).max(1.0) as u32
+            }
+            Pace::Even(_) => 1,
+        };
+        Self {
+            plan,
+            ladder,
+            order,
+            steps,
+            make,
+            tell,
+            looks,
+            by_ticks: false,
+            hasty: false,
+            cut: false,
+            coarsest: 0.0,
+            count: 0,
+            evaluations: 0,
+            sizes: (0.0, 0.0),
+        }
+    }
+
+    /// From here on ticks become finer, by velocity Verlet with events at their ends. Says whether the scene can be run so: some
+    /// models need located events.
+    pub fn go_by_ticks(&mut self) -> bool {
+        let plan = Plan { method: "VelocityVerlet".to_owned(), events: EventTiming::PerTick, ..self.plan.clone() };
+        let before = (self.ladder, std::mem::replace(&mut self.plan, plan));
+        self.ladder = Ladder::Ticks;
+        let plan = self.planned(1.0);
+        let runs = (self.make)(&plan).is_ok();
+        if !runs {
+            (self.ladder, self.plan) = before;
+        }
+        runs
+    }
+
+    /// The plan of a trial. `fineness` is the share of error allowed to a step, or one over the number of steps.
+    pub fn planned(&self, fineness: f64) -> Plan {
+        let mut plan = self.plan.clone();
+        let many = (1.0 / fineness).ceil().clamp(1.0, 1e9) as u32;
+        match self.ladder {
+            Ladder::Allowed => {
+                if let Pace::Allowed(allowance) = &mut plan.pace {
+                    allowance.share = fineness;
+                    // Where no error bounds a step, two trials would make the same steps, and differ by nothing.
+                    let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
+                    allowance.longest /= finer;
+                    if self.by_ticks && finer > 1.0 {
+                        plan.tick /= finer.ceil();
+                        // A step from an event to the end of a tick would be the same in both.
+                        allowance.longest = allowance.longest.min(0.5 * plan.tick);
+                    }
+                }
+            }
+            Ladder::Steps => plan.pace = Pace::Even(many),
+            Ladder::Ticks => (plan.pace, plan.tick) = (Pace::Even(1), plan.tick / f64::from(many)),
+        }
+        plan
+    }
+
+    /// Runs the scene by a plan; `change` may change its beginning.
+    pub fn run(
+        &mut self,
+        fineness: f64,
+        what: &str,
+        change: impl FnOnce(&mut Simulation),
+    ) -> Result<Trajectory, SceneErrors> {
+        self.coarsest = self.coarsest.max(fineness);
+        if self.count == 0 && self.ladder == Ladder::Allowed {
+            let plan = self.planned(fineness);
+            self.by_ticks = !(self.make)(&plan)?.bodies().prescribed.motions.is_empty();
+        }
+        let mut plan = self.planned(fineness);
+        let per_moment = (self.plan.tick / plan.tick).round() as u64;
+        let looks = if self.ladder == Ladder::Allowed && !self.by_ticks { self.looks } else { 1 };
+        plan.tick /= f64::from(looks);
+        plan.detail.looks *= looks;
+        let mut hastened = false;
+        if let Pace::Allowed(allowance) = &mut plan.pace
+            && self.hasty
+        {
+            allowance.most_steps = HASTY_STEPS + STEPS_OF_A_SWING * f64::from(self.steps);
+            hastened = true;
+        }
+        let mut simulation = (self.make)(&plan)?;
+        self.count += 1;
+        if let Some(tell) = self.tell {
+            tell(self.count, what);
+        }
+        change(&mut simulation);
+        let trajectory = Trajectory::record(&mut simulation, per_moment);
+        self.evaluations += trajectory.evaluations;
+        self.cut = hastened && trajectory.failure.is_some();
+        if trajectory.failure.is_none() {
+            let (distance, speed) = trajectory.sizes();
+            if distance > 0.0 || speed > 0.0 {
+                self.sizes = (distance, speed);
+            }
+        }
+        Ok(trajectory)
+    }
+
+    /// A plan in words.
+    pub fn words(&self, plan: &Plan) -> String {
+        match plan.pace {
+            Pace::Allowed(allowance) => {
+                format!("{} with steps of an estimated error of {:.0e} each", plan.method, allowance.share)
+            }
+            Pace::Even(1) => format!("{} with ticks of {} s", plan.method, number(plan.tick)),
+            Pace::Even(steps) => format!("{} with {steps} steps per tick", plan.method),
+        }
+    }
+
+    /// What the trials cost, in words.
+    pub fn cost(&self) -> String {
+        format!("{} runs before this one, with {} evaluations of all forces, found that", self.count, self.evaluations)
+    }
+
+    /// How far bodies go in m, and how fast in m/s; one, where nothing moves.
+    pub fn sizes(&self) -> (f64, f64) {
+        let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
+        (or_one(self.sizes.0), or_one(self.sizes.1))
+    }
+}

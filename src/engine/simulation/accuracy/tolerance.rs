@@ -1,0 +1,223 @@
+//! `tolerance`: the coarsest steps with which the error of a whole run stays below what is allowed.
+//!
+//! Two runs differ by the error of the coarser one, unless they are wrong alike. So a fineness is taken only after it was tried: where
+//! a finer trial differs by no more than is allowed. Otherwise the power by which errors fall says how fine the steps have to
+//! be; it is believed only where a third trial differs by what it foretold. Errors are those of the whole run, not of a
+//! step: what a scene makes of the error of a step is measured, not guessed.
+
+use super::fineness::{Ladder, Trials};
+use super::trajectory::{Apart, Trajectory};
+use crate::scene::SceneErrors;
+use crate::simulation::Plan;
+use crate::simulation::error::{ErrorEstimate, ErrorParts};
+use jostle_language::numbers::{number, rough};
+
+/// A trial is good where a finer one differs from it by this share of the tolerance; and the finer one is where they differ by so
+/// many tolerances: it is wrong by more only if both are wrong by as much, and alike.
+const MEASURED: f64 = 0.7;
+const BETWEEN: f64 = 2.5;
+/// The fineness of a trial whose steps are no parts of those of the others, over that of the finer one.
+const OTHER_STEPS: f64 = 1.0 / 1.37;
+/// An error that is foretold aims at this share of the tolerance.
+const FORETOLD: f64 = 0.3;
+/// What was foretold is confirmed by no more than so many times as much: errors of located events scatter.
+const SCATTER: f64 = 3.0;
+/// The first run allows its steps this share of the tolerance: errors of steps add up.
+const FIRST: f64 = 0.1;
+/// Trials at the most, where the error does not fall as it should.
+const MOST_TRIALS: u32 = 9;
+/// Evaluations of all forces after which no further trial is made: some ten seconds of a small scene.
+const MOST_EVALUATIONS: u64 = 30_000_000;
+
+/// A scene so many times as far from the origin as its bodies go loses digits that it would have there.
+const FAR: f64 = 10.0;
+
+/// Observed powers beyond these are chance.
+const LEAST_POWER: f64 = 0.5;
+const MOST_POWER: f64 = 9.0;
+
+/// How a ladder is climbed.
+struct Climb {
+    /// The fineness of the first trial, and by how much the next one is finer at least, and at most.
+    first: f64,
+    finer: f64,
+    finest_step: f64,
+    /// The power of the fineness by which the error falls, until it is seen.
+    power: f64,
+    /// Whether the power has to be seen before it says how fine the next trial is.
+    wary: bool,
+    /// The finest that is tried.
+    finest: f64,
+    /// How much finer than the last trial the final run may be.
+    trusted: f64,
+}
+
+impl Climb {
+    fn of(trials: &Trials, tolerance: f64) -> Self {
+        let steps = 1.0 / f64::from(trials.steps);
+        let even = Self {
+            first: steps,
+            finer: 0.5,
+            finest_step: 1.0 / 16.0,
+            power: 1.0,
+            wary: true,
+            finest: steps / 4096.0,
+            trusted: 0.25,
+        };
+        match trials.ladder {
+            Ladder::Allowed => Self {
+                first: (FIRST * tolerance).clamp(1e-13, 1e-3),
+                finer: 0.1,
+                finest_step: 1e-3,
+                power: 1.0,
+                wary: false,
+                finest: 1e-14,
+                trusted: 1.0,
+            },
+            Ladder::Steps => Self { power: f64::from(trials.order), wary: false, ..even },
+            Ladder::Ticks => even,
+        }
+    }
+}
+
+/// Finds the plan: with hasty trials, and with patient ones where hasty ones ended before they told anything.
+pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
+    trials.hasty = true;
+    let plan = climb(tolerance, trials)?;
+    if plan.warning.is_none() || !trials.cut || trials.evaluations > MOST_EVALUATIONS {
+        return Ok(plan);
+    }
+    (trials.hasty, trials.count) = (false, 0);
+    climb(tolerance, trials)
+}
+
+fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
+    let mut climb = Climb::of(trials, tolerance);
+    let mut coarse = trials.run(climb.first, "a coarse run", |_| {})?;
+    if coarse.crowded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
+        climb = Climb::of(trials, tolerance);
+        coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
+    }
+    if coarse.bounded {
+        // Two runs that rounding bounds are alike, and what they differ by is no error.
+        climb.first /= climb.finer;
+        coarse = trials.run(climb.first, "a coarser run", |_| {})?;
+    }
+    let mut fineness = climb.first;
+    let mut next = (fineness * climb.finer).max(climb.finest);
+    // Fineness and difference of the last pair of trials, and the error that it foretold.
+    let mut before: Option<(f64, f64, f64)> = None;
+    loop {
+        let fine = trials.run(next, "a finer run", |_| {})?;
+        let mut apart = coarse.apart(&fine);
+        if trials.ladder == Ladder::Steps && fine.jumped && apart.share <= BETWEEN * tolerance {
+            // Steps of one run are halves of those of the other: events that fall alike into both are wrong alike.
+            let other = trials.run(next * OTHER_STEPS, "a run with other steps", |_| {})?;
+            apart = apart.max(coarse.apart(&other));
+        }
+        let difference = apart.share;
+        let confirmed = before.is_some_and(|(.., error)| error.is_finite() && difference <= SCATTER * error);
+        if trials.ladder != Ladder::Allowed
+            && let Some((coarser, larger, _)) = before
+        {
+            let seen = (larger / difference).ln() / (coarser / fineness).ln();
+            climb.power = if seen.is_finite() { seen.clamp(LEAST_POWER, MOST_POWER) } else { climb.power };
+        }
+        // The finer run's own error is in the difference too.
+        let left = 1.0 - (next / fineness).powf(climb.power);
+        let foretold_at = |then: f64| (then / fineness).powf(climb.power) / left;
+        // What rounding bounds no longer falls with fineness.
+        let share_at = |then: f64| if fine.bounded { foretold_at(then).max(1.0) } else { foretold_at(then) };
+        let wanted = fineness * (FORETOLD * tolerance * left / difference).powf(1.0 / climb.power);
+        let alike = coarse.bounded && fine.bounded;
+        let chosen = match difference {
+            _ if alike => None,
+            // Ticks with too many events went on by another method, of which two runs make the same errors.
+            _ if coarse.crowded || fine.crowded => None,
+            _ if difference <= MEASURED * tolerance => Some(fineness),
+            _ if difference <= BETWEEN * tolerance => Some(next),
+            _ if confirmed && wanted >= (next * climb.trusted).max(climb.finest) => Some(wanted.min(next)),
+            _ => None,
+        };
+        if let Some(chosen) = chosen {
+            return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
+        }
+        let dear = trials.evaluations > MOST_EVALUATIONS;
+        if alike || dear || next <= climb.finest || trials.count >= MOST_TRIALS {
+            return Ok(missed(trials, next, tolerance, (&coarse, &fine), apart.times(share_at(next))));
+        }
+        let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
+        before = Some((fineness, difference, difference * share_at(next)));
+        (fineness, coarse) = (next, fine);
+        next = wanted.clamp(next * least, next * climb.finer);
+        // Two trials that are finest but for rounding would differ by nothing.
+        if next < 2.0 * climb.finest {
+            next = climb.finest;
+        }
+    }
+}
+
+/// The error of a run as the card shows it.
+pub(super) fn estimate(apart: Apart) -> ErrorEstimate {
+    let part = |value: f64| ErrorParts { discretisation: value.is_finite().then_some(value), ..Default::default() };
+    ErrorEstimate { position: part(apart.distance), velocity: part(apart.speed), ..Default::default() }
+}
+
+fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: Apart) -> Plan {
+    let mut plan = trials.planned(fineness);
+    let (distance, speed) = trials.sizes();
+    plan.notes.push(format!(
+        "tolerance {}: {}; bodies go as far as {} m and are as fast as {} m/s, and the run is expected to be within {} m of \
+         the exact places and within {} m/s of the exact velocities",
+        number(tolerance),
+        trials.words(&plan),
+        number(distance),
+        number(speed),
+        rough(error.distance),
+        rough(error.speed),
+    ));
+    plan.notes.push(trials.cost());
+    plan.error = Some(estimate(error));
+    plan
+}
+
+/// Why there are no smaller steps for bodies that come `farthest` metres from the origin and go `distance`.
+fn bounded(farthest: f64, distance: f64) -> String {
+    if farthest > FAR * distance {
+        let (farthest, distance) = (number(farthest), number(distance));
+        format!(
+            "rounding of places {farthest} m from the origin leaves no smaller steps for bodies that go {distance} m; move the scene to the origin"
+        )
+    } else {
+        "rounding leaves no smaller steps, and the motion magnifies it".to_owned()
+    }
+}
+
+/// No run was fine enough: the finest is taken, and the card says from when on it is wrong.
+fn missed(
+    trials: &Trials,
+    fineness: f64,
+    tolerance: f64,
+    (coarse, fine): (&Trajectory, &Trajectory),
+    error: Apart,
+) -> Plan {
+    let mut plan = trials.planned(fineness);
+    let lost = coarse.parts(fine, tolerance * trials.sizes().0);
+    let why = match lost {
+        _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
+        _ if trials.evaluations > MOST_EVALUATIONS => {
+            format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
+        }
+        _ if coarse.crowded || fine.crowded => {
+            "some ticks have too many contacts to locate all, and went on under velocity Verlet".to_owned()
+        }
+        Some(time) => format!("the two finest runs part at t = {} s, by rounding or chaos", number(time)),
+        None => "the two finest runs differ in their velocities by more".to_owned(),
+    };
+    plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
+    plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
+    let mut known = estimate(error);
+    known.position.rounding = Some(f64::EPSILON * fine.farthest());
+    plan.error = Some(known);
+    plan
+}

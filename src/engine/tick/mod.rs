@@ -1,0 +1,233 @@
+//! One tick, read aloud.
+//!
+//! | schedule | stage | what happens |
+//! |---|---|---|
+//! | [`SimTick`] | [`Stage::Begin`] | plugins look at the state and change it: spawn, despawn, steer |
+//! | | [`Stage::Integrate`] | the integrator advances the state by `dt`; it runs [`Modes`] and [`Evaluate`] as often as its method needs |
+//! | | [`Stage::Observe`] | expectations and guards look at the new state |
+//! | [`Modes`] | | models choose the modes that stay frozen during the step |
+//! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now, candidate pairs are found |
+//! | | [`EvaluateStage::Systems`] | systems of users add to `Force` and `Torque` |
+//! | | [`EvaluateStage::Forces`] | the models of the scene add their forces in order, contact laws last |
+//! | | [`EvaluateStage::Constraints`] | what models hold exactly is solved for, all rows at once |
+//! | | [`EvaluateStage::Settle`] | what depends on all forces |
+//!
+//! **State and models.** [`State`] is the one resource that all of this works on. A [`Model`] is anything that acts: it is added with
+//! [`TickAppExt::add_model`], and a scene may have many of a kind. The stages of [`Evaluate`] and [`Modes`] are systems that take
+//! `ResMut<State>` (`stages.rs`); each is there only if some model needs it.
+//!
+//! Under methods with several stages per step an evaluation is a pure function of the state: state in, forces out. Under methods that
+//! go from tick to tick contacts remember the state before. The forces of the last evaluation stay in place, so an integrator that
+//! ends where the next tick begins evaluates once per tick.
+//!
+//! **Systems of users.** One that works on [`State`] alone is registered with [`TickAppExt::add_packed_systems`]. Around any other the
+//! engine keeps the components (`Position`, `Velocity` ...) up to date. A scene without such systems pays nothing for that. A system
+//! in [`Stage::Begin`] that changes components, spawns or despawns is noticed, and the forces are evaluated anew before the tick; one
+//! that changes anything else that forces depend on says so with [`Bodies::touched`](crate::world::Bodies::touched).
+
+pub mod after_load;
+pub mod balance;
+mod batch;
+pub mod bounds;
+pub mod clock;
+mod components;
+mod context;
+pub mod energy;
+mod failure;
+mod flight;
+pub mod flow;
+mod following;
+mod guard;
+mod hold;
+pub mod kept;
+mod method;
+mod model;
+mod notes;
+mod ode;
+pub mod pairs;
+mod progress;
+mod registered;
+pub mod response;
+pub mod snapshot;
+pub mod stability;
+pub mod stages;
+mod state;
+pub mod steady;
+mod step;
+pub mod stopwatch;
+pub mod touch;
+mod travel;
+mod undo;
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
+
+pub use after_load::{AfterLoad, LoadErrors};
+pub use balance::{Balance, Ledger, Totals};
+pub use batch::step;
+pub(crate) use batch::{advance, foresee_components, open, rebuild};
+pub use clock::{Clock, Evaluation, Span, Style};
+pub use components::place_of;
+pub use context::Tick;
+pub use failure::{Failure, Wrong};
+pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
+pub use flow::{Reach, WorldFlow};
+pub use guard::Created;
+pub use hold::{Blow, FromOutside, JointDrift};
+pub use method::{Integrator, Method};
+pub use model::{Departure, Dependence, Energies, Events, ForcePart, Indicator, Loss, Model, Objection, Rhythm};
+pub use notes::Notes;
+pub use ode::Flow;
+pub use progress::{LocatedEvents, StepCount};
+pub(crate) use registered::systems_of_users;
+use registered::{Kind, register};
+pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
+pub use state::State;
+pub use steady::{SteadySpring, SteadySprings};
+pub use step::{energy_seen, set_method};
+pub use travel::{FarTravel, far_travel, largest_travel};
+pub use undo::Undo;
+
+/// The schedule of one tick.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SimTick;
+
+/// The schedule that turns a state into forces. The integrator runs it.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Evaluate;
+
+/// The schedule in which models choose the modes (on or off, loading or unloading) that stay frozen during the step. A force that
+/// is switched there corrects the sums of forces.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Modes;
+
+/// The stages of [`SimTick`], in order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Plugins look at the state and change it.
+    Begin,
+    /// The state is advanced by `dt`.
+    Integrate,
+    /// Expectations and guards look at the new state.
+    Observe,
+}
+
+/// The stages of [`Evaluate`], in order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EvaluateStage {
+    /// Bounding boxes are checked against where the bodies stand now, and candidate pairs found.
+    Bounds,
+    /// Systems of users add to components.
+    Systems,
+    /// Models add their forces, contact laws last.
+    Forces,
+    /// What models hold exactly is solved for, all rows at once.
+    Constraints,
+    /// What depends on all forces.
+    Settle,
+}
+
+/// How plugins take part in the tick.
+pub trait TickAppExt {
+    /// Adds the schedules and the state. Adding it twice does nothing.
+    fn add_tick(&mut self) -> &mut Self;
+
+    /// Adds a model: a force, a spring, a contact law. It acts after those that were added before; contact laws act last.
+    fn add_model(&mut self, model: impl Model) -> &mut Self;
+
+    /// Adds a force as a system: it reads `Position`, `Velocity` ... and adds to `Force` and `Torque`.
+    ///
+    /// Systems of forces act one after the other, in the order in which they were added, before all models. They may depend on
+    /// velocities; the work that they do stands in the ledger as work.
+    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self;
+
+    /// Adds systems that work on [`State`] only. They may not spawn or despawn.
+    fn add_packed_systems<M>(
+        &mut self,
+        schedule: impl ScheduleLabel,
+        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self;
+}
+
+/// Place of a system of forces in the order of sums.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct ForceSlot(usize);
+
+impl TickAppExt for App {
+    fn add_tick(&mut self) -> &mut Self {
+        if self.world().contains_resource::<State>() {
+            return self;
+        }
+        let mut tick = single_threaded(SimTick);
+        tick.configure_sets((Stage::Begin, Stage::Integrate, Stage::Observe).chain());
+        let mut evaluate = single_threaded(Evaluate);
+        use EvaluateStage::{Bounds, Constraints, Forces, Settle, Systems};
+        evaluate.configure_sets((Bounds, Systems, Forces, Constraints, Settle).chain());
+        self.add_schedule(tick).add_schedule(evaluate).add_schedule(single_threaded(Modes));
+        self.init_resource::<State>().insert_resource(crate::world::Roster { changed: true, pushed: false });
+        register(self.world_mut(), SimTick, Kind::Flies, |schedule| {
+            schedule.add_systems(step::integrate.in_set(Stage::Integrate));
+        });
+        self
+    }
+
+    fn add_model(&mut self, model: impl Model) -> &mut Self {
+        self.world_mut().get_resource_or_init::<State>().add_model(model);
+        self
+    }
+
+    fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self {
+        let mut state = self.world_mut().get_resource_or_init::<State>();
+        let slot = ForceSlot(state.force_systems);
+        state.force_systems += 1;
+        self.configure_sets(Evaluate, slot.in_set(EvaluateStage::Systems));
+        if let Some(before) = slot.0.checked_sub(1) {
+            self.configure_sets(Evaluate, slot.after(ForceSlot(before)));
+        }
+        self.add_systems(Evaluate, system.in_set(slot))
+    }
+
+    fn add_packed_systems<M>(
+        &mut self,
+        schedule: impl ScheduleLabel,
+        systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+    ) -> &mut Self {
+        add_packed_systems(self.world_mut(), schedule, systems);
+        self
+    }
+}
+
+/// Adds systems that work on [`State`] only, while a scene is read.
+pub fn add_packed_systems<M>(
+    world: &mut World,
+    schedule: impl ScheduleLabel,
+    systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+) {
+    register(world, schedule, Kind::Packed, |schedule| {
+        schedule.add_systems(systems);
+    });
+}
+
+/// Adds one system to [`Stage::Observe`] that looks at the state and changes nothing of it.
+pub(crate) fn add_looker<M>(world: &mut World, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) {
+    register(world, SimTick, Kind::Looks, |schedule| {
+        schedule.add_systems(system.in_set(Stage::Observe));
+    });
+}
+
+/// Adds one system to [`Stage::Observe`] that works on [`State`] only, while a scene is read.
+pub fn add_packed_observer<M>(
+    world: &mut World,
+    system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
+) {
+    add_packed_systems(world, SimTick, system.in_set(Stage::Observe));
+}
+
+/// Parallelism is inside a system, never between systems: with a dozen short systems a thread pool costs a hundred
+/// times the work.
+fn single_threaded(label: impl ScheduleLabel) -> Schedule {
+    let mut schedule = Schedule::new(label);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule
+}

@@ -1,0 +1,573 @@
+//! The state of a run: all that a step changes, as packed arrays in canonical order, and the models that change it.
+
+use std::ops::Range;
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+
+use super::balance::Totals;
+use super::bounds::Bounds;
+use super::hold::{Blow, JointDrift};
+use super::model::{Dependence, Energies, Model};
+use super::pairs::CandidatePairs;
+use super::progress::{LocatedEvents, Progress, StepCount};
+use super::stopwatch::{Part, Stopwatch};
+use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
+use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
+use crate::constraints::{Cancelled, Projection, Rows};
+use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
+
+/// The state of a run.
+///
+/// Systems of users take it as `Res<State>` or `ResMut<State>`, models as an argument. Bodies, atoms and walls stand in canonical
+/// order, the order in which the scene names them.
+#[derive(Resource, Default, Serialize, Deserialize)]
+pub struct State {
+    pub(crate) bodies: Bodies,
+    pub(crate) balance: Balance,
+    pub(crate) ledger: Ledger,
+    /// What models hold exactly in the present evaluation.
+    pub(crate) rows: Rows,
+    /// Working memory for bringing states back onto joints: the rows of a state that a step has reached, and of places tried.
+    #[serde(skip)]
+    pub(super) projected: Rows,
+    #[serde(skip)]
+    pub(super) projection: Projection,
+    /// Blows that come before the next step.
+    #[serde(skip)]
+    pub(super) blows: Vec<Blow>,
+    pub(super) joint_drift: JointDrift,
+    pub(crate) evaluation: Evaluation,
+    pub(crate) span: Span,
+    pub(crate) clock: Clock,
+    /// Where pairs are searched for.
+    pub(crate) bounds: Option<Bounds>,
+    pub(crate) pairs: Option<CandidatePairs>,
+    pub(crate) deepest: DeepestOverlap,
+    pub(crate) contact_forces: Option<ContactForces>,
+    pub(crate) touches: Option<Touches>,
+    pub(crate) stability: Stability,
+    pub(crate) springs: SteadySprings,
+    pub(crate) steps: StepCount,
+    pub(crate) located: LocatedEvents,
+    /// How many systems of users make forces.
+    pub(crate) force_systems: usize,
+    pub(super) progress: Progress,
+    #[serde(skip)]
+    pub(crate) stopwatch: Option<Stopwatch>,
+    #[serde(skip)]
+    pub(super) models: Vec<Box<dyn Model>>,
+    #[serde(skip)]
+    pub(super) roles: Roles,
+}
+
+/// What models do, as far as it does not change while they act.
+#[derive(Default)]
+pub(super) struct Roles {
+    /// Places of those that take part in a stage.
+    find_pairs: Vec<usize>,
+    pub(super) rows: Vec<usize>,
+    settle: Vec<usize>,
+    begin_step: Vec<usize>,
+    end_tick: Vec<usize>,
+    events: Vec<usize>,
+    edges: Vec<usize>,
+    /// Places of models with an account of their own, and of that account in the ledger.
+    accounts: Vec<(usize, usize)>,
+    /// How many are neither contact laws nor their search for pairs; those follow.
+    others: usize,
+    velocity_dependent: bool,
+    velocity_forces: bool,
+    changing_forces: bool,
+    flies: bool,
+    /// [`Progress::version`] for which all of this was found out.
+    version: Option<u64>,
+}
+
+impl Roles {
+    fn of(models: &mut [Box<dyn Model>]) -> Self {
+        let with_events = models.iter_mut().enumerate().filter_map(|(place, model)| model.events().map(|_| place));
+        let events = with_events.collect();
+        let places = |is: fn(&dyn Model) -> bool| -> Vec<usize> {
+            models.iter().enumerate().filter(|(_, model)| is(&***model)).map(|(place, _)| place).collect()
+        };
+        let others = models.iter().filter(|model| !belongs_to_contacts(&***model)).count();
+        let depends =
+            |models: &[Box<dyn Model>], on: &[Dependence]| models.iter().any(|m| on.contains(&m.dependence()));
+        Self {
+            find_pairs: places(|model| model.finds_pairs()),
+            rows: places(|model| model.has_rows()),
+            settle: places(|model| model.settles()),
+            begin_step: places(|model| model.has_modes()),
+            end_tick: places(|model| model.looks_at_ticks()),
+            events,
+            edges: places(|model| model.has_edges()),
+            accounts: Vec::new(),
+            others,
+            velocity_dependent: depends(models, &[Dependence::Velocity]),
+            velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
+            changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
+            flies: models.iter().all(|model| model.flies()),
+            version: None,
+        }
+    }
+}
+
+/// Whether a model is a contact law, or the search for pairs that contact laws go by: these act last.
+fn belongs_to_contacts(model: &dyn Model) -> bool {
+    model.contact_law().is_some() || model.finds_pairs()
+}
+
+/// Lets some models act on the state that holds them.
+macro_rules! each {
+    ($state:ident, $places:ident, $model:ident => $act:expr) => {
+        if !$state.roles.$places.is_empty() {
+            let mut models = std::mem::take(&mut $state.models);
+            for number in 0..$state.roles.$places.len() {
+                let $model = &mut models[$state.roles.$places[number]];
+                $act;
+            }
+            $state.models = models;
+        }
+    };
+}
+
+/// The stages of a step.
+impl State {
+    /// Stages Bounds and Pairs: boxes are checked against where bodies stand now, and candidate pairs found.
+    pub(super) fn update_bounding_boxes(&mut self) {
+        self.turn_to(Part::Bounds);
+        let Self { bounds, bodies, evaluation, .. } = self;
+        if let Some(bounds) = bounds {
+            bounds.update(bodies, evaluation);
+        }
+        self.turn_to(Part::Pairs);
+        each!(self, find_pairs, model => model.find_pairs(self));
+    }
+
+    /// Stage Forces: all models add to the sums.
+    pub(super) fn apply_forces(&mut self) {
+        self.turn_to(Part::Forces);
+        self.rows.clear();
+        let mut models = std::mem::take(&mut self.models);
+        let (forces, contacts) = models.split_at_mut(self.roles.others);
+        forces.iter_mut().for_each(|model| model.apply_forces(self));
+        if !contacts.is_empty() {
+            self.turn_to(Part::Contacts);
+            contacts.iter_mut().for_each(|model| model.apply_forces(self));
+        }
+        self.models = models;
+    }
+
+    /// Stage Constraints: the rows of all models are solved together, and each model takes its answers.
+    #[inline]
+    pub(super) fn solve_constraints(&mut self) {
+        if !self.roles.rows.is_empty() {
+            self.add_joint_rows();
+        }
+        if self.rows.is_empty() {
+            return;
+        }
+        self.turn_to(Part::Constraints);
+        self.rows.solve(&self.bodies);
+        each!(self, rows, model => model.take_rows(self));
+        let Self { rows, bodies, balance, .. } = self;
+        rows.cancel(bodies, |bodies, Cancelled { body, force, torque }| {
+            balance.outside(bodies.position[body], force, torque);
+        });
+    }
+
+    /// Stage Settle: what depends on all forces.
+    pub(super) fn settle(&mut self) {
+        self.turn_to(Part::Settle);
+        each!(self, settle, model => model.settle(self));
+    }
+
+    /// Models with rows hear that velocities have jumped.
+    pub(super) fn tell_of_blow(&mut self) {
+        each!(self, rows, model => model.after_blow(self));
+    }
+
+    /// Models choose the modes that stay frozen during the step.
+    pub(super) fn begin_step(&mut self) {
+        self.turn_to(Part::Modes);
+        each!(self, begin_step, model => model.begin_step(self));
+        self.turn_to(Part::Integrate);
+    }
+
+    /// Models look at the state at the end of a tick.
+    pub(super) fn show_to_models(&mut self) {
+        each!(self, end_tick, model => model.end_tick(self));
+    }
+
+    /// Shows the models that have state of their own and events, in order.
+    pub(super) fn each_with_events(&mut self, mut see: impl FnMut(&mut dyn super::model::Events, &mut Self)) {
+        each!(self, events, model => if let Some(events) = model.events() { see(events, self) });
+    }
+
+    /// Whether nothing but the engine's own stages sees the state between the evaluations of a tick and between ticks.
+    pub(crate) fn is_alone(&self) -> bool {
+        self.progress.alone
+    }
+
+    /// Which stages there are.
+    pub(super) fn stages(&self) -> Stages {
+        let Roles { find_pairs, rows, settle, begin_step, .. } = &self.roles;
+        Stages {
+            bounds: self.bounds.is_some() || !find_pairs.is_empty(),
+            forces: !self.models.is_empty(),
+            constraints: !rows.is_empty(),
+            settle: !settle.is_empty(),
+            modes: !begin_step.is_empty(),
+        }
+    }
+
+    /// From now on the time counts for another part of the tick, if it is measured.
+    #[inline]
+    pub(super) fn turn_to(&mut self, part: Part) {
+        if let Some(stopwatch) = &mut self.stopwatch {
+            stopwatch.turn_to(part);
+        }
+    }
+}
+
+/// The stages that a scene needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Stages {
+    pub bounds: bool,
+    pub forces: bool,
+    pub constraints: bool,
+    pub settle: bool,
+    pub modes: bool,
+}
+
+/// Models, and what they know together.
+impl State {
+    /// Adds a model behind the others: contact laws stand behind all other models.
+    ///
+    /// # Panics
+    /// While models act: a model cannot add another one. A system in [`Stage::Begin`](super::Stage::Begin) can.
+    pub fn add_model(&mut self, model: impl Model) {
+        let place = if belongs_to_contacts(&model) { self.models.len() } else { self.roles.others };
+        self.insert_model(place, model);
+    }
+
+    /// Adds a model before all others.
+    pub(crate) fn add_first_model(&mut self, model: impl Model) {
+        self.insert_model(0, model);
+    }
+
+    fn insert_model(&mut self, place: usize, model: impl Model) {
+        assert!(
+            place <= self.models.len(),
+            "a model cannot add another one while it acts: a system in `Stage::Begin` can"
+        );
+        self.note_change();
+        self.roles.others += usize::from(!belongs_to_contacts(&model));
+        self.models.insert(place, Box::new(model));
+        self.progress.version += 1;
+    }
+
+    /// Keeps the models for which `keep` says so. Returns how many went.
+    pub fn retain_models(&mut self, keep: impl FnMut(&mut Box<dyn Model>) -> bool) -> usize {
+        self.note_change();
+        let before = self.models.len();
+        self.models.retain_mut(keep);
+        self.progress.version += 1;
+        self.find_roles();
+        before - self.models.len()
+    }
+
+    /// Forces are evaluated anew before the next tick, and the energy by which the coming change differs from now counts as work.
+    fn note_change(&mut self) {
+        self.bodies.touched = true;
+        self.springs.look_again();
+        if self.ledger.start.is_some() && self.progress.before.is_none() {
+            self.progress.before = Some(self.totals());
+        }
+    }
+
+    /// Finds out what the models do, if there are others than before.
+    pub(super) fn find_roles(&mut self) {
+        if self.roles.version != Some(self.progress.version) {
+            self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models) };
+            let Self { models, ledger, roles, .. } = self;
+            let losses = models.iter().enumerate().filter_map(|(place, model)| Some((place, model.loss()?.account)));
+            roles.accounts.extend(losses.map(|(place, account)| (place, ledger.account(account))));
+        }
+    }
+
+    /// All models in the order in which they act.
+    pub fn models(&self) -> impl Iterator<Item = &dyn Model> {
+        self.models.iter().map(|model| &**model)
+    }
+
+    /// All models of a type, in order.
+    pub fn models_of<T: 'static>(&self) -> impl Iterator<Item = &T> {
+        self.models().filter_map(|model| {
+            let own: &dyn std::any::Any = model;
+            own.downcast_ref().or_else(|| model.inner()?.downcast_ref())
+        })
+    }
+
+    /// The first model of a type.
+    pub fn model<T: 'static>(&self) -> Option<&T> {
+        self.models_of().next()
+    }
+
+    /// The first model of a type, to be changed. Forces are evaluated anew before the next tick; energy that changes with it counts as
+    /// work.
+    pub fn model_mut<T: 'static>(&mut self) -> Option<&mut T> {
+        let has = |model: &dyn Model| {
+            let own: &dyn std::any::Any = model;
+            own.is::<T>() || model.inner().is_some_and(|inner| inner.is::<T>())
+        };
+        let place = self.models.iter().position(|model| has(&**model))?;
+        self.note_change();
+        self.progress.version += 1;
+        let model = &mut *self.models[place];
+        if (model as &dyn std::any::Any).is::<T>() {
+            return (model as &mut dyn std::any::Any).downcast_mut();
+        }
+        model.inner_mut()?.downcast_mut()
+    }
+
+    /// Lets each model do something once, while the world is there without this state's models.
+    pub(crate) fn start_models(world: &mut World) {
+        let mut models = std::mem::take(&mut world.resource_mut::<Self>().models);
+        models.iter_mut().for_each(|model| model.start(world));
+        let mut state = world.resource_mut::<Self>();
+        state.models = models;
+        state.progress.version += 1;
+        state.find_roles();
+    }
+
+    /// Whether some force depends on velocities.
+    pub fn velocity_dependent(&self) -> bool {
+        self.force_systems > 0 || self.roles.velocity_dependent
+    }
+
+    /// Whether some force other than those of contacts depends on velocities.
+    pub fn has_velocity_forces(&self) -> bool {
+        self.force_systems > 0 || self.roles.velocity_forces
+    }
+
+    /// Whether some force other than those of contacts may change with time in a state that does not.
+    pub fn changing_forces(&self) -> bool {
+        self.force_systems > 0 || self.roles.changing_forces
+    }
+
+    /// Whether bodies may fly as far as models go.
+    pub(super) fn flies(&self) -> bool {
+        self.force_systems == 0 && self.roles.flies
+    }
+
+    /// Whether forces have times at which they or their rates jump.
+    pub(crate) fn has_edges(&self) -> bool {
+        !self.roles.edges.is_empty()
+    }
+
+    /// Whether models have state of their own or events.
+    pub(super) fn has_events(&self) -> bool {
+        !self.roles.events.is_empty()
+    }
+
+    /// The first of them after a time in seconds, or infinity.
+    pub(crate) fn next_edge(&self, now: f64) -> f64 {
+        self.roles.edges.iter().map(|place| self.models[*place].next_edge(now)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The name of the contact law, if there is one.
+    pub fn contact_law(&self) -> Option<&'static str> {
+        self.models.iter().find_map(|model| model.contact_law())
+    }
+
+    /// All contacts of the present state in canonical order; `None` without a contact law that tells them.
+    pub fn contact_points(&self) -> Option<Vec<ContactPoint>> {
+        self.models.iter().find_map(|model| model.contact_points(self))
+    }
+
+    /// Books what models with accounts of their own took, at the power of the last evaluation, over `dt` seconds.
+    #[inline]
+    pub(super) fn book_losses(&mut self, dt: f64) {
+        let Self { models, ledger, roles, .. } = self;
+        for &(model, account) in &roles.accounts {
+            let power = models[model].loss().map_or(0.0, |loss| loss.power);
+            ledger.accounts[account].1.add(power * dt);
+        }
+    }
+
+    /// Adds the powers of models with accounts of their own, one number for each account of the ledger.
+    pub(super) fn add_losses(&self, powers: &mut [f64]) {
+        for &(model, account) in &self.roles.accounts {
+            powers[account] += self.models[model].loss().map_or(0.0, |loss| loss.power);
+        }
+    }
+
+    /// Energies of all models together.
+    pub fn energies(&self) -> Energies {
+        self.models.iter().map(|model| model.energies(self)).fold(Energies::default(), |sum, of| Energies {
+            potential: sum.potential + of.potential,
+            elastic: sum.elastic + of.elastic,
+        })
+    }
+
+    /// Energies and momenta.
+    pub fn totals(&self) -> Totals {
+        let Energies { potential, elastic } = self.energies();
+        Totals::with(&self.bodies, potential, elastic)
+    }
+
+    /// How fast all models respond, as far as it was measured.
+    pub fn responses(&self) -> Responses {
+        let models = self.models.iter().map(|model| model.responses());
+        Responses::of_all(models.chain([self.springs.found()]))
+    }
+}
+
+/// What systems and models of users read and write.
+impl State {
+    /// All bodies, atoms and walls.
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    /// All bodies, atoms and walls, to be changed.
+    pub fn bodies_mut(&mut self) -> &mut Bodies {
+        &mut self.bodies
+    }
+
+    /// The rows of the present evaluation.
+    pub fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// The rows of the present evaluation, to be added to.
+    pub fn rows_mut(&mut self) -> &mut Rows {
+        &mut self.rows
+    }
+
+    /// Gives the forces of some rows to their bodies, with what comes from outside: a model does so in [`Model::take_rows`] with
+    /// the rows that it added, given by their indices.
+    pub fn apply_rows(&mut self, indices: Range<usize>) {
+        let Self { rows, bodies, balance, .. } = self;
+        for index in indices {
+            let (row, amount) = (rows.row(index), rows.force(index));
+            balance.work += amount * row.powers(bodies)[2];
+            let inside = row.sides.iter().all(|side| side.is_some_and(|side| bodies.dynamic[side.body]));
+            for side in row.sides.iter().flatten() {
+                let (force, torque) = (side.force * amount, side.torque * amount);
+                bodies.force[side.body] += force;
+                bodies.torque[side.body] += torque;
+                if !inside && bodies.dynamic[side.body] {
+                    balance.outside(bodies.position[side.body], force, torque);
+                }
+            }
+        }
+    }
+
+    /// Bodies and the rates of energy and momentum at once: forces add to both.
+    pub fn bodies_and_rates(&mut self) -> (&mut Bodies, &mut Balance) {
+        (&mut self.bodies, &mut self.balance)
+    }
+
+    /// The same with the candidate pairs: contact laws go by them.
+    pub fn bodies_rates_and_pairs(&mut self) -> (&mut Bodies, &mut Balance, Option<&CandidatePairs>) {
+        (&mut self.bodies, &mut self.balance, self.pairs.as_ref())
+    }
+
+    /// Rates of energy and momentum of the present evaluation.
+    pub fn rates(&self) -> &Balance {
+        &self.balance
+    }
+
+    /// What has gone in and out since the beginning.
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// The clock of ticks.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Time in seconds at the beginning of the present tick, and between ticks.
+    pub fn time(&self) -> f64 {
+        self.clock.time()
+    }
+
+    /// The moment at which forces are being evaluated.
+    pub fn evaluation(&self) -> Evaluation {
+        self.evaluation
+    }
+
+    /// The stretch of time for which modes are being chosen.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// Who may touch whom; `None` where nothing is searched for.
+    pub fn pairs(&self) -> Option<&CandidatePairs> {
+        self.pairs.as_ref()
+    }
+
+    /// The deepest overlap so far.
+    pub fn deepest_overlap(&self) -> &DeepestOverlap {
+        &self.deepest
+    }
+
+    /// The pairs that touch, where something asks for contact events.
+    pub fn touches(&self) -> Option<&Touches> {
+        self.touches.as_ref()
+    }
+
+    /// How many events were located inside ticks so far.
+    pub fn located(&self) -> LocatedEvents {
+        self.located
+    }
+
+    /// How many steps were made and thrown away so far.
+    pub fn steps(&self) -> StepCount {
+        self.steps
+    }
+
+    /// What is known of the longest stable tick.
+    pub fn stability(&self) -> &Stability {
+        &self.stability
+    }
+
+    /// The time that the parts of ticks took, if it is measured.
+    pub fn stopwatch(&self) -> Option<&Stopwatch> {
+        self.stopwatch.as_ref()
+    }
+
+    /// The forces of contacts on each body and wall, where a sensor asks for them.
+    pub fn contact_forces(&self) -> Option<&ContactForces> {
+        self.contact_forces.as_ref()
+    }
+
+    /// The acceleration of free fall in m/s2.
+    pub fn gravity(&self) -> DVec2 {
+        self.bodies.field.unwrap_or_default()
+    }
+
+    /// The section `gravity`: the sums of forces begin with the weight from now on.
+    pub(crate) fn begin_field(&mut self, gravity: DVec2) {
+        self.bodies.field = Some(gravity);
+        self.bodies.posed = false;
+    }
+
+    /// Another acceleration of free fall in m/s2. The energy that bodies have more by it counts as work. Says whether it was done: a
+    /// scene without the section `gravity` has no weight that could change.
+    #[must_use]
+    pub fn set_gravity(&mut self, gravity: DVec2) -> bool {
+        let Some(field) = self.bodies.field else { return false };
+        if field != gravity {
+            self.note_change();
+            self.bodies.field = Some(gravity);
+            self.bodies.posed = false;
+        }
+        true
+    }
+}

@@ -1,0 +1,398 @@
+//! `fill`: many equal bodies in a box or polygon, none touching another, by seeded chance.
+
+use bevy_app::App;
+use glam::DVec2;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use crate::scene::units::{Length, Speed};
+use crate::scene::values::WholeNumber;
+use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::shapes::Atoms;
+use crate::shapes::mass_properties;
+use crate::world::sections::Region;
+use crate::world::{material, sections};
+
+/// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read, and a film reads its
+/// scene twice.
+pub const LARGEST_COUNT: u64 = 1_000_000;
+/// How often a place is tried for one body before the region counts as full.
+const TRIES: usize = 20_000;
+/// Bodies that would take a smaller share of their region do not fill it.
+const SPARSE: f64 = 0.3;
+/// How much work the tries of one entry may be: about as many looks at a place among four corners. That takes seconds.
+const MOST_WORK: usize = 100_000_000;
+/// After so many entries without room the others are not tried: each costs all its tries.
+const MOST_FULL: usize = 10;
+/// So many corners take about as long as the other work of a try.
+const CORNERS: usize = 16;
+/// Cells of the search grid along one side, at most.
+const CELLS: usize = 512;
+
+/// Many equal bodies.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename = "")]
+#[schemars(rename = "Fill")]
+pub struct FillEntry {
+    /// What their names begin with.
+    pub name: String,
+    /// The atoms of each.
+    pub atoms: Atoms,
+    /// The name of their material. Default: `default`.
+    #[serde(default)]
+    pub material: Option<String>,
+    /// How many, from 1 to 1 000 000 in all.
+    pub count: WholeNumber,
+    /// Two opposite corners of a box, or the corners of a polygon in order, in m.
+    pub within: Region,
+    /// How fast each moves at the start, in m/s. Default: 0.
+    #[serde(default)]
+    pub speed: Speed,
+    /// The seed of chance. Default: 0.
+    #[serde(default)]
+    pub seed: WholeNumber,
+    /// How far those circles stay apart from each other and from other bodies at least, in m. Default: 0.
+    #[serde(default)]
+    pub gap: Length,
+}
+
+/// One body of a fill.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Centre of mass, in m.
+    pub position: DVec2,
+    /// Angle in rad, from 0 to 2 pi.
+    pub angle: f64,
+    /// Velocity, in m/s.
+    pub velocity: DVec2,
+}
+
+/// Many equal bodies in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
+/// `gas_1` and so on.
+///
+/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about the
+/// bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the region's border.
+/// The same seed gives the same places on every machine.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+pub struct FillSection(pub Vec<FillEntry>);
+
+impl FillSection {
+    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the region
+    /// is full or too narrow to be met by chance, which `check` reports. Lists end after ten that are too short. The
+    /// outline tells which places are taken.
+    pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
+        let mut taken = outline.obstacles().to_vec();
+        let (mut all, mut full) = (Vec::new(), 0);
+        for entry in &self.0 {
+            if full == MOST_FULL {
+                break;
+            }
+            let radius = entry.radius();
+            let placed = entry.place(radius, &taken);
+            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
+            full += usize::from((placed.len() as u64) < entry.count.0);
+            all.push(placed);
+        }
+        all
+    }
+}
+
+impl Section for FillSection {
+    const NAME: &'static str = "fill";
+    const EXAMPLE: &'static str =
+        "fill: [(name: \"gas\", atoms: Disc(radius: 0.02), count: 500, within: ((0, 0), (6, 6)), speed: 1, seed: 7)]";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    /// Declares the bodies' names.
+    fn declare(&self, outline: &mut Outline) {
+        for (index, entry) in self.0.iter().enumerate() {
+            let count = entry.count.0.min(LARGEST_COUNT);
+            outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
+        }
+    }
+
+    /// Reports wrong atoms, counts and boxes, unknown materials, and boxes in which not all bodies find room.
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        let mut good = true;
+        for (index, entry) in self.0.iter().enumerate() {
+            good &=
+                report.all_good(|report| report.within(&format!("[{index}]"), |report| entry.check(outline, report)));
+        }
+        let all: u64 = self.0.iter().map(|entry| entry.count.0).fold(0, u64::saturating_add);
+        if good && all > LARGEST_COUNT {
+            report.error("", format!("must be at most {LARGEST_COUNT} bodies in all, got {all}"));
+            return;
+        }
+        if !good || !outline.is_complete() {
+            return;
+        }
+        for (index, (entry, placed)) in self.0.iter().zip(self.place(outline)).enumerate() {
+            if (placed.len() as u64) < entry.count.0 {
+                let gap = entry.gap.si();
+                let (apart, smaller) = if gap > 0.0 {
+                    (format!("{gap} m apart from any other"), "`gap`")
+                } else {
+                    ("without touching anything".to_owned(), "atoms")
+                };
+                let radius = entry.radius() + gap / 2.0;
+                let share = entry.count.0 as f64 * std::f64::consts::PI * radius * radius / entry.within.area();
+                let message = format!(
+                    "only {} of {} bodies find room in the {} {apart}: all would take {:.0} % of its area",
+                    placed.len(),
+                    entry.count.0,
+                    entry.within.noun(),
+                    100.0 * share,
+                );
+                let narrow =
+                    if share < SPARSE { ". So little is hard to meet by chance: use a wider region" } else { "" };
+                let help = format!(
+                    "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the \
+                     area{narrow}"
+                );
+                report.error(&format!("[{index}].count"), message).help(help);
+            }
+        }
+    }
+
+    fn install(self, outline: &Outline, app: &mut App) {
+        sections::spawn_fill(self, outline, app.world_mut());
+    }
+}
+
+impl FillEntry {
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        report.within("atoms", |report| self.atoms.check(report));
+        mass_properties::of(&self.atoms.specs(), None, self.atoms.own_rule(), 1.0).check(report);
+        material::require(self.material.as_deref(), outline, report);
+        if !(1..=LARGEST_COUNT).contains(&self.count.0) {
+            report.error("count", format!("must be from 1 to {LARGEST_COUNT}, got {}", self.count.0));
+        }
+        report.within("within", |report| self.within.check(report));
+        report.not_negative("speed", self.speed);
+        report.not_negative("gap", self.gap);
+    }
+
+    /// The radius of a circle that holds the atoms of one body, in m.
+    fn radius(&self) -> f64 {
+        mass_properties::reach(&self.atoms.specs(), self.atoms.own_rule())
+    }
+
+    fn place(&self, radius: f64, taken: &[Obstacle]) -> Vec<Placed> {
+        let (low, high) = self.within.bounds();
+        let (low, high) = (low + radius, high - radius);
+        let mut placed = Vec::new();
+        if !(low.x <= high.x && low.y <= high.y) {
+            return placed;
+        }
+        let standing = taken.len() as u64 + self.count.0.min(LARGEST_COUNT);
+        let mut grid = Grid::new(low, high, radius, self.gap.si(), standing);
+        for obstacle in taken {
+            grid.insert(*obstacle);
+        }
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed.0);
+        // The upper 53 bits: a number from 0 up to, not including, 1, the same on every machine.
+        let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let mut left = MOST_WORK / (1 + self.within.corner_count() / CORNERS);
+        for _ in 0..self.count.0.min(LARGEST_COUNT) {
+            let free = (0..TRIES.min(left))
+                .inspect(|_| left -= 1)
+                .map(|_| low + (high - low) * DVec2::new(chance(), chance()))
+                .find(|&at| self.within.holds(at, radius) && grid.is_free(at));
+            let Some(position) = free else { break };
+            grid.insert(Obstacle::Disc { center: position, radius });
+            let angle = chance() * std::f64::consts::TAU;
+            let (sine, cosine) = libm::sincos(chance() * std::f64::consts::TAU);
+            placed.push(Placed { position, angle, velocity: self.speed.si() * DVec2::new(cosine, sine) });
+        }
+        placed
+    }
+}
+
+/// Square cells over the box; each knows which discs are near enough to touch a body whose centre lies in it. A few long lists, and
+/// none for each cell: memory in many small pieces stays with the program.
+struct Grid {
+    low: DVec2,
+    high: DVec2,
+    cell: DVec2,
+    columns: usize,
+    rows: usize,
+    radius: f64,
+    gap: f64,
+    /// Discs of cells, those of each cell in bunches.
+    near: Vec<Bunch>,
+    /// For each cell the place of its last bunch.
+    last: Vec<u32>,
+    /// What concerns every cell: two points each.
+    walls: Vec<(DVec2, DVec2)>,
+}
+
+/// No bunch.
+const NONE: u32 = u32::MAX;
+
+/// A few discs of one cell side by side, so that they are found in one place of memory: centre and radius of each.
+#[derive(Default)]
+struct Bunch {
+    discs: [(DVec2, f64); 4],
+    count: usize,
+    /// The place of the next bunch of the cell.
+    next: u32,
+}
+
+impl Grid {
+    /// A grid for a box in which `standing` bodies stand in the end: it has no more cells along a side than there are
+    /// bodies, and not many more in all.
+    fn new(low: DVec2, high: DVec2, radius: f64, gap: f64, standing: u64) -> Self {
+        let size = high - low;
+        let most = ((4.0 * standing as f64).sqrt() as usize).clamp(1, CELLS);
+        let count = |length: f64| ((length / (2.0 * radius + gap)) as usize).clamp(1, most);
+        let (columns, rows) = (count(size.x), count(size.y));
+        let cell = size / DVec2::new(columns as f64, rows as f64);
+        let last = vec![NONE; columns * rows];
+        let (near, walls) = Default::default();
+        Self { low, high, cell, columns, rows, radius, gap, near, last, walls }
+    }
+
+    fn column_and_row(&self, at: DVec2) -> (usize, usize) {
+        let place = ((at - self.low) / self.cell).max(DVec2::ZERO);
+        ((place.x as usize).min(self.columns - 1), (place.y as usize).min(self.rows - 1))
+    }
+
+    fn insert(&mut self, obstacle: Obstacle) {
+        let (center, radius) = match obstacle {
+            Obstacle::Disc { center, radius } => (center, radius),
+            Obstacle::Wall { left, right } => return self.walls.push((left, right)),
+        };
+        let reach = radius + self.radius + self.gap;
+        let (low, high) = (center - reach, center + reach);
+        // A body far outside the box concerns none of its cells.
+        if low.x > self.high.x || low.y > self.high.y || high.x < self.low.x || high.y < self.low.y {
+            return;
+        }
+        let ((first_column, first_row), (last_column, last_row)) =
+            (self.column_and_row(low), self.column_and_row(high));
+        for row in first_row..=last_row {
+            for column in first_column..=last_column {
+                let last = &mut self.last[row * self.columns + column];
+                if self.near.get(*last as usize).is_none_or(|bunch| bunch.count == bunch.discs.len()) {
+                    self.near.push(Bunch { next: *last, ..Bunch::default() });
+                    *last = self.near.len() as u32 - 1;
+                }
+                let bunch = &mut self.near[*last as usize];
+                bunch.discs[bunch.count] = (center, radius);
+                bunch.count += 1;
+            }
+        }
+    }
+
+    fn is_free(&self, at: DVec2) -> bool {
+        let (column, row) = self.column_and_row(at);
+        let clear_of_wall = |&(left, right): &(DVec2, DVec2)| {
+            // The open side is to the left of one who goes from the right point to the left point.
+            let along = left - right;
+            // A wall without length is reported by its own check; here it stops nobody.
+            along.perp().dot(at - right) >= self.radius * along.length()
+        };
+        self.walls.iter().all(clear_of_wall)
+            && self
+                .discs_of(row * self.columns + column)
+                .all(|(center, radius)| center.distance(at) >= radius + self.radius + self.gap)
+    }
+
+    fn discs_of(&self, cell: usize) -> impl Iterator<Item = (DVec2, f64)> {
+        let first = self.near.get(self.last[cell] as usize);
+        let bunches = std::iter::successors(first, |bunch| self.near.get(bunch.next as usize));
+        bunches.flat_map(|bunch| bunch.discs[..bunch.count].iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::units::Position;
+    use crate::shapes::disc::OneDisc;
+
+    fn gas(count: u64, radius: f64) -> FillSection {
+        let disc = OneDisc { radius: Length::new(radius), mass: None, stiffness: None };
+        FillSection(vec![FillEntry {
+            name: "gas".into(),
+            atoms: Atoms::Disc(disc),
+            material: None,
+            count: WholeNumber(count),
+            within: vec![Position::new(0.0, 0.0), Position::new(2.0, 1.0)].into(),
+            speed: Speed::new(3.0),
+            seed: WholeNumber(7),
+            gap: Length::default(),
+        }])
+    }
+
+    #[test]
+    fn nothing_touches_anything() {
+        let mut outline = Outline::new();
+        outline.occupy(Obstacle::Disc { center: DVec2::new(1.0, 0.5), radius: 0.3 });
+        outline.occupy(Obstacle::Wall { left: DVec2::new(2.0, 0.2), right: DVec2::new(0.0, 0.2) });
+        let placed = gas(200, 0.02).place(&outline).remove(0);
+        assert_eq!(placed.len(), 200);
+        for (index, body) in placed.iter().enumerate() {
+            let DVec2 { x, y } = body.position;
+            assert!((0.02..=1.98).contains(&x) && (0.22..=0.98).contains(&y), "{body:?}");
+            assert!(body.position.distance(DVec2::new(1.0, 0.5)) >= 0.32);
+            assert!(placed[..index].iter().all(|other| other.position.distance(body.position) >= 0.04));
+            assert!((body.velocity.length() - 3.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_gap_keeps_bodies_apart_but_not_from_walls() {
+        let mut outline = Outline::new();
+        outline.occupy(Obstacle::Disc { center: DVec2::new(1.0, 0.5), radius: 0.3 });
+        let mut section = gas(100, 0.02);
+        section.0[0].gap = Length::new(0.05);
+        let placed = section.place(&outline).remove(0);
+        assert_eq!(placed.len(), 100);
+        for (index, body) in placed.iter().enumerate() {
+            assert!(body.position.distance(DVec2::new(1.0, 0.5)) >= 0.37);
+            assert!(placed[..index].iter().all(|other| other.position.distance(body.position) >= 0.09));
+        }
+        // With 7 cm less to stand in on each side, some would be missing from the border.
+        assert!(placed.iter().any(|body| body.position.y < 0.07));
+    }
+
+    /// Neither many walls nor many entries may take memory and time for cells in which nothing stands.
+    #[test]
+    fn a_grid_is_not_much_larger_than_what_stands_in_it() {
+        let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 0.0, 10);
+        assert_eq!(grid.last.len(), 36);
+        for _ in 0..1000 {
+            grid.insert(Obstacle::Wall { left: DVec2::X, right: DVec2::ZERO });
+        }
+        assert!(grid.near.is_empty());
+        assert!(grid.is_free(DVec2::new(5.0, 1e-3)) && !grid.is_free(DVec2::new(5.0, 0.9e-3)));
+    }
+
+    #[test]
+    fn the_seed_decides() {
+        let outline = Outline::new();
+        let first = gas(50, 0.02).place(&outline);
+        assert_eq!(first, gas(50, 0.02).place(&outline));
+        let mut other = gas(50, 0.02);
+        other.0[0].seed = WholeNumber(8);
+        assert_ne!(first, other.place(&outline));
+    }
+
+    #[test]
+    fn a_full_box_is_reported() {
+        let mut report = Report::new();
+        gas(100_000, 0.1).check(&Outline::new(), &mut report);
+        let problem = &report.problems()[0];
+        assert_eq!(problem.path, "[0].count");
+        assert!(problem.message.starts_with("only ") && problem.message.contains(" of 100000 bodies find room"));
+        let mut report = Report::new();
+        gas(1, 0.51).check(&Outline::new(), &mut report);
+        assert!(report.problems()[0].message.starts_with("only 0 of 1 bodies"));
+    }
+}

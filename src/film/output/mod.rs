@@ -1,0 +1,206 @@
+//! Frames -> files: films as GIF, APNG, video or raw pictures; stills as PNG. One format, one file.
+//!
+//! Frames stream: they are drawn and packed in small groups, several at once, and written in order, so the memory
+//! needed does not grow with the length of the film, and the bytes do not depend on the number of threads. A file is
+//! written beside its target as `<name>.<random letters>.part` and takes the target's name when it is complete.
+
+mod apng;
+mod crew;
+pub mod csv;
+mod delta;
+mod error;
+mod gif;
+mod lzw;
+mod palette;
+mod part;
+mod png;
+mod raw;
+pub mod sheet;
+mod stream;
+mod studio;
+mod video;
+mod whole;
+
+use std::path::{Path, PathBuf};
+
+use part::PartFile;
+
+pub use self::png::{flat_picture, write_picture};
+pub use error::OutputError;
+pub use whole::{may_be_written, write_new, write_whole};
+
+use crate::raster::View;
+use jostle_frames::frame::Frame;
+
+/// How a film is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmSettings {
+    /// Frames per second of film.
+    pub frames_per_second: f64,
+    /// How many threads draw and pack; 0 counts as 1. The bytes do not depend on it.
+    pub threads: usize,
+    /// Each frame is written as soon as it is pushed, for a reader that shows it at once; otherwise several are drawn
+    /// together. Only raw pictures and videos heed it.
+    pub live: bool,
+    /// Colours of a GIF, from 3 to 255; other formats have them all.
+    pub colors: usize,
+    /// A GIF that grows beyond so many bytes is given up.
+    pub most_bytes: Option<u64>,
+}
+
+impl Default for FilmSettings {
+    /// 30 frames per second by one thread, of any size, in as many colours as there can be.
+    fn default() -> FilmSettings {
+        FilmSettings { frames_per_second: 30.0, threads: 1, live: false, colors: 255, most_bytes: None }
+    }
+}
+
+/// A film in the making.
+///
+/// A film that is dropped before [`Film::finish`] leaves the frames written so far in its `.part` file.
+pub trait Film: Send {
+    /// Adds the next frame.
+    ///
+    /// # Errors
+    /// If the frame has not one pose for each body, or the system refuses to write. After an error of the system the
+    /// film is lost beyond the frames written so far.
+    fn push(&mut self, frame: Frame) -> Result<(), OutputError>;
+
+    /// Writes what is left, and leaves it open whether the film is kept. May be called at any time: the film then ends
+    /// with the last frame pushed.
+    ///
+    /// # Errors
+    /// If there is no frame, or the system refuses to write.
+    fn close(self: Box<Self>) -> Result<Draft, OutputError>;
+
+    /// Writes what is left and gives the file its name.
+    ///
+    /// # Errors
+    /// If there is no frame, or the system refuses to write.
+    fn finish(self: Box<Self>) -> Result<Written, OutputError> {
+        self.close()?.keep()
+    }
+}
+
+/// A film that is complete, but for its name. Dropped, it is given up as any other unfinished film.
+#[derive(Debug)]
+pub struct Draft {
+    /// What will have been written.
+    written: Written,
+    /// None where there is no name to be given.
+    file: Option<PartFile>,
+}
+
+impl Draft {
+    /// How many bytes it has.
+    pub fn bytes(&self) -> u64 {
+        self.written.bytes
+    }
+
+    /// Gives the film its name.
+    ///
+    /// # Errors
+    /// If the system refuses to write.
+    pub fn keep(self) -> Result<Written, OutputError> {
+        let Draft { written, file } = self;
+        file.map_or(Ok(()), PartFile::complete)?;
+        Ok(written)
+    }
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The file, or the directory of a sequence.
+    pub path: PathBuf,
+    /// How many frames.
+    pub frames: u64,
+    /// How many bytes, all files together.
+    pub bytes: u64,
+    /// How long the film lasts, in seconds; 0 for a still.
+    pub seconds: f64,
+    /// Pictures of an earlier, longer sequence that still lie in the directory, after the last frame of this one.
+    pub left_over: u64,
+}
+
+/// A format of films.
+#[derive(Debug)]
+struct Format {
+    /// The ending of its files, as it is to be written.
+    ending: &'static str,
+    open: fn(&Path, &FilmSettings, View) -> Opened,
+}
+
+type Opened = Result<Box<dyn Film>, OutputError>;
+
+/// Every format, the directory of a sequence last.
+const FORMATS: [&Format; 7] =
+    [&gif::FORMAT, &apng::FORMAT, &video::MP4, &video::WEBM, &raw::FORMAT, &png::STILL, &png::SEQUENCE];
+
+/// Where a film goes, and in which format.
+#[derive(Clone, Debug)]
+pub struct Target {
+    path: PathBuf,
+    format: &'static Format,
+}
+
+impl Target {
+    /// The target at a path; its ending tells the format. `film.gif` is a film, and so are `.apng`, `.mp4`, `.webm` and
+    /// `.rgba` (raw pictures); `-` is raw pictures to standard output; `picture.png` is the last frame pushed; a path
+    /// that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
+    ///
+    /// # Errors
+    /// [`OutputError::UnknownFormat`] names the known endings.
+    pub fn new(path: impl Into<PathBuf>) -> Result<Target, OutputError> {
+        let path: PathBuf = path.into();
+        let name = path.to_string_lossy().to_lowercase();
+        let known = FORMATS.into_iter().find(|format| name.ends_with(format.ending));
+        match known {
+            _ if path == Path::new(raw::STANDARD_OUTPUT) => Ok(Target { path, format: &raw::FORMAT }),
+            _ if path.is_dir() => Ok(Target { path, format: &png::SEQUENCE }),
+            Some(format) => Ok(Target { path, format }),
+            None => Err(OutputError::UnknownFormat { path, known: Target::endings() }),
+        }
+    }
+
+    /// The known endings, `/` for a sequence of pictures.
+    pub fn endings() -> Vec<&'static str> {
+        FORMATS.iter().map(|format| format.ending).collect()
+    }
+
+    /// Whether it is raw pictures to standard output.
+    pub fn is_standard_output(&self) -> bool {
+        self.path == Path::new(raw::STANDARD_OUTPUT)
+    }
+
+    /// Whether it is a GIF.
+    pub fn is_gif(&self) -> bool {
+        self.format.ending == gif::FORMAT.ending
+    }
+
+    /// Whether it is raw pictures, which tell nothing of their size and rate.
+    pub fn is_raw(&self) -> bool {
+        self.format.ending == raw::FORMAT.ending
+    }
+
+    /// The path of the file or directory.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `.part` file, so that a
+/// target that cannot be written is known before the run.
+///
+/// # Errors
+/// If the format does not allow the size or the rate, or the file cannot be created.
+pub fn open(target: &Target, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+    let (width, height) = view.size();
+    if width == 0 || height == 0 {
+        return Err(OutputError::Size { width, height, longest: 0 });
+    }
+    (target.format.open)(&target.path, settings, view)
+}
+
+#[cfg(test)]
+mod tests;

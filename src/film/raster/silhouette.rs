@@ -1,0 +1,314 @@
+//! One body as one silhouette: the union of its discs, drawn at once, so that no seam shows between neighbours.
+//!
+//! Discs of one size that touch are joined by the straight strip between them, and the pinholes in the middle of
+//! four are closed: a body looks as massive as it is. The outline lies inside the edge, so the edge of the picture
+//! is the edge of the discs.
+
+use glam::DVec2;
+
+use super::canvas::{Canvas, Ink, blend, fill, span};
+use jostle_frames::frame::Disc;
+
+/// Discs count as touching up to this share of the sum of their radii beyond it.
+const TOUCH: f64 = 1e-3;
+
+/// A packing of equal discs in which each touches more than this many has no pinholes to close.
+const NEIGHBORS_OF_A_LATTICE: usize = 6;
+
+/// A strip with round ends, from `from` to `to`, in pixels from the body's centre with y up. A disc is a strip whose
+/// ends agree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Strip {
+    from: DVec2,
+    to: DVec2,
+    radius: f64,
+}
+
+/// The shape of one body, in pixels.
+#[derive(Clone, Debug)]
+pub(super) struct Silhouette {
+    strips: Vec<Strip>,
+}
+
+/// Where a body stands in the picture: centre in pixels, and the direction of its own x axis with y up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stand {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) cosine: f64,
+    pub(super) sine: f64,
+}
+
+impl Stand {
+    /// A point of the body in the picture.
+    pub(super) fn place(&self, offset: DVec2) -> (f32, f32) {
+        let x = self.x + offset.x * self.cosine - offset.y * self.sine;
+        let y = self.y - (offset.x * self.sine + offset.y * self.cosine);
+        (x as f32, y as f32)
+    }
+}
+
+/// The distances of the pixels of a box to a body. Kept from body to body to spare allocations.
+#[derive(Debug, Default)]
+pub(super) struct Field {
+    distances: Vec<f32>,
+}
+
+impl Silhouette {
+    /// The shape of the discs of a body at a scale.
+    pub(super) fn new(discs: &[Disc], pixels_per_meter: f64) -> Silhouette {
+        let bonds = bonds(discs);
+        let mut bonded = vec![false; discs.len()];
+        for &(a, b) in &bonds {
+            bonded[a] = true;
+            bonded[b] = true;
+        }
+        // A strip holds the discs at its ends; only those without one are drawn by themselves.
+        let alone = (0..discs.len()).filter(|&disc| !bonded[disc]).map(|disc| (disc, disc));
+        let strip = |(a, b): (usize, usize)| Strip {
+            from: discs[a].offset * pixels_per_meter,
+            to: discs[b].offset * pixels_per_meter,
+            radius: discs[a].radius * pixels_per_meter,
+        };
+        // As wide as the square's diagonal, a disc in its middle lies within the strips around it.
+        let closure = |(a, b): (usize, usize)| {
+            let middle = 0.5 * (discs[a].offset + discs[b].offset) * pixels_per_meter;
+            let radius = 0.5 * discs[a].offset.distance(discs[b].offset) * pixels_per_meter;
+            Strip { from: middle, to: middle, radius }
+        };
+        let closed = closures(discs, &bonds).into_iter().map(closure);
+        Silhouette { strips: bonds.iter().copied().chain(alone).map(strip).chain(closed).collect() }
+    }
+
+    /// Draws the body where it stands.
+    pub(super) fn draw(&self, stand: &Stand, ink: &Ink, canvas: &mut Canvas, field: &mut Field) {
+        match self.strips.as_slice() {
+            [only] if only.from == only.to => {
+                let (x, y) = stand.place(only.from);
+                canvas.disc(x, y, only.radius as f32, ink);
+            }
+            strips => draw_union(strips, stand, ink, canvas, field),
+        }
+    }
+}
+
+fn draw_union(strips: &[Strip], stand: &Stand, ink: &Ink, canvas: &mut Canvas, field: &mut Field) {
+    let placed: Vec<Segment> = strips.iter().map(|strip| Segment::new(strip, stand)).collect();
+    let seen = placed.iter().map(|segment| segment.reach(canvas)).filter(|reach| !reach.is_empty());
+    let Some(reach) = seen.reduce(Reach::union) else { return };
+    let width = reach.columns.len();
+    field.distances.clear();
+    field.distances.resize(width * reach.rows.len(), f32::MAX);
+    for segment in &placed {
+        let own = segment.reach(canvas);
+        if own.is_empty() {
+            continue;
+        }
+        for row in own.rows {
+            let start = (row - reach.rows.start) * width + own.columns.start - reach.columns.start;
+            let distances = &mut field.distances[start..start + own.columns.len()];
+            segment.lower(distances, own.columns.start as f32 + 0.5, row as f32 + 0.5);
+        }
+    }
+    let solid = -(ink.width + 0.5);
+    for (row, distances) in reach.rows.clone().zip(field.distances.chunks_exact(width)) {
+        let pixels = &mut canvas.row(row)[4 * reach.columns.start..4 * reach.columns.end];
+        for (pixel, &distance) in pixels.chunks_exact_mut(4).zip(distances) {
+            if distance <= solid {
+                fill(pixel, ink.fill);
+            } else if distance < 0.5 {
+                let (color, coverage) = ink.at(distance);
+                blend(pixel, color, coverage);
+            }
+        }
+    }
+}
+
+/// A strip in the picture.
+struct Segment {
+    from: (f32, f32),
+    along: (f32, f32),
+    /// One over the squared length; 0 for a disc, whose nearest point is always its centre.
+    inverse_square: f32,
+    radius: f32,
+}
+
+impl Segment {
+    fn new(strip: &Strip, stand: &Stand) -> Segment {
+        let from = stand.place(strip.from);
+        let to = stand.place(strip.to);
+        let along = (to.0 - from.0, to.1 - from.1);
+        let square = along.0 * along.0 + along.1 * along.1;
+        let inverse_square = if square > 1e-6 { 1.0 / square } else { 0.0 };
+        Segment { from, along, inverse_square, radius: (strip.radius as f32).max(0.75) }
+    }
+
+    /// The box of pixels it may touch.
+    fn reach(&self, canvas: &Canvas) -> Reach {
+        let half = |along: f32| 0.5 * along.abs() + self.radius + 0.5;
+        Reach {
+            columns: span(self.from.0 + 0.5 * self.along.0, half(self.along.0), canvas.width()),
+            rows: span(self.from.1 + 0.5 * self.along.1, half(self.along.1), canvas.height()),
+        }
+    }
+
+    /// Lowers the distances of a row of pixels, whose first centre is (`x`, `y`), to those of this strip.
+    fn lower(&self, distances: &mut [f32], x: f32, y: f32) {
+        let dy = y - self.from.1;
+        let share_of_y = dy * self.along.1;
+        // A 32-bit count turns into a float within vector registers; a 64-bit one would keep the loop from them.
+        for (distance, column) in distances.iter_mut().zip(0_i32..) {
+            let dx = x + column as f32 - self.from.0;
+            let share = (dx * self.along.0 + share_of_y) * self.inverse_square;
+            let share = if share > 0.0 { share } else { 0.0 };
+            let share = if share < 1.0 { share } else { 1.0 };
+            let to_x = dx - share * self.along.0;
+            let to_y = dy - share * self.along.1;
+            let own = (to_x * to_x + to_y * to_y).sqrt() - self.radius;
+            *distance = if own < *distance { own } else { *distance };
+        }
+    }
+}
+
+/// A box of pixels.
+struct Reach {
+    columns: std::ops::Range<usize>,
+    rows: std::ops::Range<usize>,
+}
+
+impl Reach {
+    fn is_empty(&self) -> bool {
+        self.columns.is_empty() || self.rows.is_empty()
+    }
+
+    fn union(self, other: Reach) -> Reach {
+        Reach {
+            columns: self.columns.start.min(other.columns.start)..self.columns.end.max(other.columns.end),
+            rows: self.rows.start.min(other.rows.start)..self.rows.end.max(other.rows.end),
+        }
+    }
+}
+
+/// The pairs of discs of one size that touch, lower place first, in order.
+fn bonds(discs: &[Disc]) -> Vec<(usize, usize)> {
+    let mut by_x: Vec<usize> = (0..discs.len()).collect();
+    by_x.sort_by(|&a, &b| discs[a].offset.x.total_cmp(&discs[b].offset.x));
+    let largest = discs.iter().map(|disc| disc.radius).fold(0.0, f64::max);
+    let mut found = Vec::new();
+    for (rank, &a) in by_x.iter().enumerate() {
+        for &b in &by_x[rank + 1..] {
+            let apart = discs[b].offset - discs[a].offset;
+            if apart.x > 2.0 * largest * (1.0 + TOUCH) {
+                break;
+            }
+            let (ra, rb) = (discs[a].radius, discs[b].radius);
+            let alike = (ra - rb).abs() <= TOUCH * ra;
+            if alike && apart.length() <= (ra + rb) * (1.0 + TOUCH) {
+                found.push((a.min(b), a.max(b)));
+            }
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// One diagonal of each complete square of bonded discs, where a pinhole has to be closed.
+fn closures(discs: &[Disc], bonds: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    let mut neighbors = vec![Vec::new(); discs.len()];
+    for &(a, b) in bonds {
+        neighbors[a].push(b);
+        neighbors[b].push(a);
+    }
+    // Each diagonal with a corner that sees both its ends.
+    let mut corners = Vec::new();
+    for (corner, around) in neighbors.iter().enumerate().filter(|(_, around)| around.len() <= NEIGHBORS_OF_A_LATTICE) {
+        for (place, &a) in around.iter().enumerate() {
+            for &b in &around[place + 1..] {
+                let longest = 2.0 * std::f64::consts::SQRT_2 * discs[a].radius * (1.0 + TOUCH);
+                let near = discs[a].offset.distance(discs[b].offset) <= longest;
+                if near && !neighbors[a].contains(&b) {
+                    corners.push((a.min(b), a.max(b), corner));
+                }
+            }
+        }
+    }
+    // A complete square is seen from two corners. Where these touch each other there is no pinhole between them.
+    corners.sort_unstable();
+    let complete = corners
+        .windows(2)
+        .filter(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1) && !neighbors[pair[0].2].contains(&pair[1].2));
+    let mut squares: Vec<_> = complete
+        .map(|pair| {
+            let (a, b) = (pair[0].0, pair[0].1);
+            let mut square = [a, b, pair[0].2, pair[1].2];
+            square.sort_unstable();
+            (square, (a, b))
+        })
+        .collect();
+    squares.sort_unstable();
+    squares.dedup_by_key(|(square, _)| *square);
+    squares.into_iter().map(|(_, diagonal)| diagonal).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jostle_frames::frame::Rgb;
+    use tiny_skia::Pixmap;
+
+    fn grid(rows: &[&str]) -> Vec<Disc> {
+        let row = |(y, line): (usize, &&str)| {
+            let disc = move |(x, _)| Disc { offset: DVec2::new(x as f64, -(y as f64)), radius: 0.5 };
+            line.chars().enumerate().filter(|(_, letter)| *letter == '#').map(disc).collect::<Vec<_>>()
+        };
+        rows.iter().enumerate().flat_map(row).collect()
+    }
+
+    #[test]
+    fn neighbours_are_joined_and_complete_squares_closed() {
+        let discs = grid(&["##.", "##.", "..#"]);
+        assert_eq!(bonds(&discs), [(0, 1), (0, 2), (1, 3), (2, 3)]);
+        assert_eq!(closures(&discs, &bonds(&discs)), [(0, 3)]);
+        // Three of four: the inner corner stays open.
+        let corner = grid(&["##", "#."]);
+        assert_eq!(closures(&corner, &bonds(&corner)), []);
+    }
+
+    /// Along such a chain every disc sees two others far apart: nothing is open between them.
+    #[test]
+    fn a_chain_of_overlapping_discs_has_nothing_to_close() {
+        let chain: Vec<Disc> =
+            (0..6).map(|k| Disc { offset: DVec2::new(0.35 * f64::from(k), 0.0), radius: 0.5 }).collect();
+        assert_eq!(closures(&chain, &bonds(&chain)), []);
+    }
+
+    #[test]
+    fn discs_of_different_size_are_not_joined() {
+        let small = Disc { offset: DVec2::ZERO, radius: 0.1 };
+        let large = Disc { offset: DVec2::new(0.3, 0.0), radius: 0.2 };
+        assert_eq!(bonds(&[small, large]), []);
+    }
+
+    #[test]
+    fn a_body_turns_counter_clockwise() {
+        let stand = Stand { x: 10.0, y: 20.0, cosine: 0.0, sine: 1.0 };
+        // A quarter turn brings its right side to the top, its top to the left; up is less y in the picture.
+        assert_eq!(stand.place(DVec2::new(3.0, 0.0)), (10.0, 17.0));
+        assert_eq!(stand.place(DVec2::new(0.0, 3.0)), (7.0, 20.0));
+    }
+
+    #[test]
+    fn a_block_is_one_flat_area_inside_its_outline() {
+        let ink = Ink { fill: Rgb(200, 100, 50), outline: Rgb(10, 20, 30), width: 2.0 };
+        let mut pixmap = Pixmap::new(80, 80).expect("small");
+        let silhouette = Silhouette::new(&grid(&["####", "####", "####"]), 16.0);
+        let stand = Stand { x: 20.0, y: 20.0, cosine: 0.8, sine: -0.6 };
+        silhouette.draw(&stand, &ink, &mut Canvas::new(&mut pixmap), &mut Field::default());
+        // Along a line through the body in its own frame, all pixels well inside have the fill.
+        for step in 0..=30 {
+            let (x, y) = stand.place(DVec2::new(1.6 * f64::from(step), -8.0));
+            let pixel = pixmap.pixel(x as u32, y as u32).expect("inside");
+            assert_eq!((pixel.red(), pixel.green(), pixel.blue()), (200, 100, 50), "step {step}");
+        }
+    }
+}

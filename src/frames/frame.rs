@@ -1,0 +1,83 @@
+//! What a film shows, as plain data: the cast (shapes and colours, which stay the same) and the
+//! frames (time and poses, which change).
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::mark::Mark;
+
+/// A colour as red, green and blue, each 0 to 255, in sRGB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Rgb(pub u8, pub u8, pub u8);
+
+/// One disc of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    /// Centre in the body's own frame, from its centre of mass, in metres.
+    pub offset: DVec2,
+    /// Radius in metres.
+    pub radius: f64,
+}
+
+/// How one body looks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyLook {
+    /// The body's name in the scene.
+    pub name: String,
+    /// Its discs.
+    pub discs: Vec<Disc>,
+    /// The colour its material asks for, as a name of the theme's palette (`"teal"`) or `"#rrggbb"`; `None`: the
+    /// theme chooses by the body's place in the scene.
+    pub color: Option<String>,
+    /// Whether the body never moves.
+    pub fixed: bool,
+}
+
+/// How one wall looks: the half-plane behind the line through two points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallLook {
+    /// The wall's name in the scene.
+    pub name: String,
+    /// Seen from the open side, the left point, in metres.
+    pub left: DVec2,
+    /// Seen from the open side, the right point, in metres.
+    pub right: DVec2,
+    /// The colour its material asks for; see [`BodyLook::color`].
+    pub color: Option<String>,
+}
+
+/// What a film shows and never changes: bodies, walls, title.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cast {
+    /// The scene's title, empty if it has none.
+    pub title: String,
+    /// The bodies in canonical order.
+    pub bodies: Vec<BodyLook>,
+    /// The walls in canonical order.
+    pub walls: Vec<WallLook>,
+}
+
+/// Where a body is and how it is turned.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Centre of mass in metres.
+    pub position: DVec2,
+    /// Angle in radians, counter-clockwise, continuous (not wrapped).
+    pub angle: f64,
+}
+
+/// One picture's worth of motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Time in seconds.
+    pub time: f64,
+    /// What is shown.
+    pub cast: Arc<Cast>,
+    /// One pose for each body of the cast, in the same order.
+    pub poses: Vec<Pose>,
+    /// What layers add, from back to front.
+    pub marks: Vec<Mark>,
+    /// Where the camera looks if it moves, in metres; `None`: where the film's camera looks.
+    pub center: Option<DVec2>,
+}

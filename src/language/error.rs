@@ -1,0 +1,267 @@
+//! What is wrong with a scene, and how it is told: every mistake with its place, path, source line and remedy.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use serde::Serialize;
+
+use super::source::{Lines, Source};
+
+/// How many mistakes are shown in full; the rest are counted.
+const SHOWN: usize = 20;
+/// Longer excerpts than this many bytes are not shown, only named.
+const LONGEST_EXCERPT: usize = 4000;
+
+/// No part of a message is longer than this many bytes.
+const LONGEST_PART: usize = 2000;
+
+/// How many steps of the way to a mistake are shown: instances, repetitions, included files.
+const STEPS_SHOWN: usize = 4;
+
+/// A place in one of the scene's files, and what it has to do with a mistake.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Mark {
+    pub(crate) source: usize,
+    pub(crate) span: Range<usize>,
+    pub(crate) label: String,
+}
+
+/// One mistake.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct SceneError {
+    /// The line, from one; absent when the mistake has no place in the text (a missing file).
+    pub line: Option<usize>,
+    /// The column in characters, from one.
+    pub column: Option<usize>,
+    /// The file, if it is one that the scene includes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Where in the scene, such as `bodies[0].mass`; empty for the scene as a whole.
+    pub path: String,
+    /// What is wrong, and what was found.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// What stands beside the caret.
+    #[serde(skip)]
+    pub(crate) label: String,
+    /// The bytes the caret stands under.
+    #[serde(skip)]
+    pub(crate) span: Option<Range<usize>>,
+    /// The value the mistake is about, until its path is known.
+    #[serde(skip)]
+    pub(crate) node: Option<u32>,
+    /// Whether the walk over the text found it, before anything was read.
+    #[serde(skip)]
+    pub(crate) by_walk: bool,
+    /// A second place and what it has to do with the mistake.
+    #[serde(skip)]
+    pub(crate) also: Option<(Range<usize>, String)>,
+    /// The number of the file among those of the scene.
+    #[serde(skip)]
+    pub(crate) source: usize,
+    /// Through which instances, repetitions and included files the place is reached, nearest first.
+    #[serde(rename = "through", skip_serializing_if = "Vec::is_empty", serialize_with = "labels")]
+    pub(crate) chain: Vec<Mark>,
+    /// How often the same mistake is made again through other instances or repetitions.
+    #[serde(skip)]
+    pub(crate) again: usize,
+}
+
+fn labels<S: serde::Serializer>(chain: &[Mark], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(chain.iter().map(|mark| &mark.label))
+}
+
+/// Cuts a text that nobody reads to its end.
+fn clip(text: &mut String) {
+    if text.len() > LONGEST_PART {
+        let left_out = text.len() - LONGEST_PART;
+        text.truncate(text.floor_char_boundary(LONGEST_PART));
+        text.push_str(&format!(" ... ({left_out} bytes left out)"));
+    }
+}
+
+impl SceneError {
+    /// A mistake without a place.
+    pub fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { path: path.into(), message: message.into(), ..Self::default() }
+    }
+
+    /// Adds what to do about it.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    pub(crate) fn at(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+        self.span = Some(span);
+        self.label = label.into();
+        self
+    }
+
+    pub(crate) fn also(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+        self.also = Some((span, label.into()));
+        self
+    }
+
+    fn title(&self) -> String {
+        if self.path.is_empty() { self.message.clone() } else { format!("{}: {}", self.path, self.message) }
+    }
+}
+
+/// Everything that is wrong with one scene, in the order of the file.
+#[derive(Clone, Debug)]
+pub struct SceneErrors {
+    /// The scene, and the files it includes.
+    sources: Vec<Source>,
+    errors: Vec<SceneError>,
+    notes: Vec<String>,
+}
+
+impl SceneErrors {
+    /// Puts mistakes in the order of the file and gives them line and column.
+    pub fn new(source: Source, errors: Vec<SceneError>, notes: Vec<String>) -> Self {
+        Self::of_files(vec![source], errors, notes)
+    }
+
+    /// The same for a scene that includes other files.
+    pub(crate) fn of_files(sources: Vec<Source>, mut errors: Vec<SceneError>, notes: Vec<String>) -> Self {
+        errors.sort_by_key(|error| (error.source, error.span.as_ref().map_or(usize::MAX, |span| span.start)));
+        // What the walk over the text found wrong with a value, the checks need not repeat.
+        let walked: BTreeSet<String> =
+            errors.iter().filter(|error| error.by_walk).map(|error| error.path.clone()).collect();
+        errors.retain(|error| error.by_walk || !walked.contains(&error.path));
+        let lines: Vec<Lines> = sources.iter().map(|source| Lines::new(&source.text)).collect();
+        for error in &mut errors {
+            if let Some(span) = &error.span {
+                let (line, column) = lines[error.source].place(span.start);
+                error.line = Some(line);
+                error.column = Some(column);
+            }
+        }
+        drop(lines);
+        // What stands in a scene may be of any length, and comes back in what is said of it.
+        for error in &mut errors {
+            [&mut error.path, &mut error.message, &mut error.label].into_iter().for_each(clip);
+            error.help.iter_mut().for_each(clip);
+        }
+        Self { sources, errors, notes }
+    }
+
+    /// The mistakes in the order of the file.
+    pub fn errors(&self) -> &[SceneError] {
+        &self.errors
+    }
+
+    /// What the checks noted beside the mistakes.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The scene's name.
+    pub fn name(&self) -> &str {
+        &self.sources[0].name
+    }
+
+    /// The mistakes as plain data for `--json`: line, column, path, message, help.
+    pub fn to_json(&self) -> serde_json::Value {
+        serde_json::json!({ "scene": self.name(), "errors": self.errors })
+    }
+
+    /// The mistakes as text for people; with `color` for terminals, without for files and tests.
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+        let lines: Vec<Lines> = self.sources.iter().map(|source| Lines::new(&source.text)).collect();
+        let mut text = String::new();
+        for error in self.errors.iter().take(SHOWN) {
+            if !text.is_empty() {
+                text.push('\n');
+            }
+            text.push_str(&renderer.render(&[self.report(error, &lines)]));
+            text.push('\n');
+        }
+        if self.errors.len() > SHOWN {
+            text.push_str(&format!("\n... and {} more mistakes of this scene\n", self.errors.len() - SHOWN));
+        }
+        text
+    }
+
+    fn report<'a>(&'a self, error: &'a SceneError, all_lines: &[Lines]) -> Group<'a> {
+        let (source, lines) = (&self.sources[error.source], &all_lines[error.source]);
+        let mut group = Group::with_title(Level::ERROR.primary_title(error.title()));
+        if let Some(span) = &error.span {
+            let near = error.also.as_ref().filter(|(also, _)| also.start.abs_diff(span.start) < LONGEST_EXCERPT);
+            let first = near.map_or(span.start, |(also, _)| also.start.min(span.start));
+            let last = near.map_or(span.end, |(also, _)| also.end.max(span.end));
+            let (first_line, _) = lines.place(first);
+            let (last_line, _) = lines.place(last);
+            let window = lines.span(first_line, (last_line + 1).min(lines.count()));
+            let window = if window.len() > LONGEST_EXCERPT { lines.span(first_line, last_line) } else { window };
+            if window.len() > LONGEST_EXCERPT {
+                let origin =
+                    Origin::path(&source.name).line(error.line.unwrap_or(1)).char_column(error.column.unwrap_or(1));
+                group = group.element(origin);
+            } else {
+                let shift = |span: &Range<usize>| span.start - window.start..span.end - window.start;
+                let mut snippet = Snippet::source(&source.text[window.clone()])
+                    .path(&source.name)
+                    .line_start(first_line)
+                    .annotation(AnnotationKind::Primary.span(shift(span)).label(&error.label));
+                if let Some((also, label)) = near {
+                    snippet = snippet.annotation(AnnotationKind::Context.span(shift(also)).label(label));
+                }
+                group = group.element(snippet);
+            }
+            if let (Some((also, label)), None) = (&error.also, near) {
+                let (line, column) = lines.place(also.start);
+                group = group.element(Level::NOTE.message(format!("{label} at {line}:{column}")));
+            }
+        }
+        for mark in error.chain.iter().take(STEPS_SHOWN) {
+            group = self.step(group, mark, all_lines);
+        }
+        let more = error.chain.len().saturating_sub(STEPS_SHOWN);
+        if more > 0 {
+            group = group.element(Level::NOTE.message(format!("... and {more} more steps from the scene to there")));
+        }
+        if error.again > 0 {
+            let times = if error.again == 1 { "once".to_owned() } else { format!("{} times", error.again) };
+            group = group.element(Level::NOTE.message(format!("the same mistake is made {times} more")));
+        }
+        if let Some(help) = &error.help {
+            group = group.element(Level::HELP.message(help));
+        }
+        group
+    }
+}
+
+impl SceneErrors {
+    /// One step of the way to a mistake, with the line on which it stands.
+    fn step<'a>(&'a self, group: Group<'a>, mark: &'a Mark, all_lines: &[Lines]) -> Group<'a> {
+        let (source, lines) = (&self.sources[mark.source], &all_lines[mark.source]);
+        let (line, column) = lines.place(mark.span.start);
+        let window = lines.span(line, line);
+        if window.len() > LONGEST_EXCERPT {
+            return group.element(Level::NOTE.message(format!("{} at {}:{line}:{column}", mark.label, source.name)));
+        }
+        let end = mark.span.end.min(window.end).max(mark.span.start);
+        let place = mark.span.start - window.start..end - window.start;
+        group.element(
+            Snippet::source(&source.text[window])
+                .path(&source.name)
+                .line_start(line)
+                .annotation(AnnotationKind::Context.span(place).label(&mark.label)),
+        )
+    }
+}
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for SceneErrors {}

@@ -1,0 +1,55 @@
+//! Entries that name a file beside the scene: the file is read by its owner, and the entry is told what it became.
+
+use super::emit::{Context, WORK};
+use super::write::Buffer;
+use super::{Expander, Outcome};
+use crate::embed::{EmbeddingPlace, Unfit};
+use crate::tree::Id;
+
+impl Expander {
+    /// The number of the reader for an entry with this leading name, under this key.
+    pub(super) fn reader_of(&self, name: &str, key: &str, is_entry: bool) -> Option<usize> {
+        self.readers.iter().position(|(known, _)| match known.place {
+            EmbeddingPlace::Atoms => key == "atoms" && name == known.name,
+            EmbeddingPlace::Section => is_entry && key == known.name,
+        })
+    }
+
+    /// Adds what its file became to an entry whose fields were just copied; `start` is where the entry begins.
+    pub(super) fn embed(
+        &mut self,
+        context: &Context,
+        out: &mut Buffer,
+        (id, reader): (Id, usize),
+        start: usize,
+    ) -> Outcome<()> {
+        let known = self.readers[reader].0;
+        self.fields(context, id, known.fields, known.example)?;
+        let name = if known.place == EmbeddingPlace::Atoms { known.name.len() } else { 0 };
+        let entry = format!("{})", &out.text[start + name..]);
+        let folder = context.file.source.folder.as_deref();
+        let read =
+            self.readers[reader].1.embed(&entry, folder, &self.door).map_err(|Unfit { message, help, field }| {
+                let (tree, text) = (&context.file.tree, &context.file.source.text);
+                let at = self.field(context, id, field).unwrap_or(id);
+                let mut error = self.wrong(context, tree.head_or_value(at), message);
+                error.path = tree.path(at, text);
+                error.label = "this value".into();
+                Box::new(error.with_help(help))
+            })?;
+        let Some(read) = read else {
+            for field in known.required {
+                self.required(context, id, field, known.example)?;
+            }
+            return Ok(());
+        };
+        self.notes.extend(read.note);
+        self.tables.extend(read.data);
+        if read.work > 0 {
+            self.spend(context, id, 0, WORK * read.work + read.fields.len())?;
+        }
+        let fields = format!(", {}", read.fields);
+        out.made(&fields, context.file.number, context.file.tree.head(id), context.step);
+        Ok(())
+    }
+}

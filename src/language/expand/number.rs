@@ -1,0 +1,96 @@
+//! Numbers of expressions: values that know their units, so that a length is never added to a mass.
+
+use crate::units::{self, Powers};
+
+/// A number with the powers of its units. Without any it is a plain number, which fits every quantity: as everywhere
+/// in a scene it is then in SI units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Number {
+    pub(super) si: f64,
+    pub(super) powers: Powers,
+}
+
+impl Number {
+    pub(super) const fn plain(si: f64) -> Self {
+        Self { si, powers: Powers { meter: 0, kilogram: 0, second: 0, radian: 0 } }
+    }
+
+    pub(super) fn is_plain(self) -> bool {
+        self.powers == Powers::default()
+    }
+
+    /// The units of two numbers that are added, subtracted or compared: the same, or those of the one that has any.
+    pub(super) fn common(self, other: Self, verb: &str) -> Result<Powers, String> {
+        if self.powers == other.powers || other.is_plain() {
+            Ok(self.powers)
+        } else if self.is_plain() {
+            Ok(other.powers)
+        } else {
+            Err(format!("cannot {verb} {} and {}", self.kind(), other.kind()))
+        }
+    }
+
+    /// The product, or with `power` -1 the quotient.
+    pub(super) fn times(self, other: Self, power: i32) -> Result<Self, String> {
+        let si = if power < 0 { self.si / other.si } else { self.si * other.si };
+        let other = combined(other.powers, Powers::default(), |a, _| a * power)?;
+        Ok(Self { si, powers: combined(self.powers, other, |a, b| a + b)? })
+    }
+
+    pub(super) fn raised(self, exponent: Self) -> Result<Self, String> {
+        if !exponent.is_plain() {
+            return Err(format!("an exponent is a plain number, not {}", exponent.kind()));
+        }
+        if self.is_plain() {
+            return Ok(Self::plain(libm::pow(self.si, exponent.si)));
+        }
+        if exponent.si.fract() != 0.0 || exponent.si.abs() > 8.0 {
+            return Err(format!("{} can only be raised to a whole power up to 8", self.kind()));
+        }
+        let power = exponent.si as i32;
+        let powers = combined(self.powers, Powers::default(), |a, _| a * power)?;
+        Ok(Self { si: libm::pow(self.si, exponent.si), powers })
+    }
+
+    pub(super) fn root(self) -> Result<Self, String> {
+        let Powers { meter, kilogram, second, radian } = self.powers;
+        if [meter, kilogram, second, radian].iter().any(|power| power % 2 != 0) {
+            return Err(format!("{} has no square root in whole units", self.kind()));
+        }
+        Ok(Self { si: libm::sqrt(self.si), powers: combined(self.powers, Powers::default(), |a, _| a / 2)? })
+    }
+
+    /// What it measures, for messages.
+    pub(super) fn kind(self) -> String {
+        units::name_of(self.powers).trim_end_matches(':').to_owned()
+    }
+
+    /// As it may stand in a scene where a number or quantity may: every digit is kept.
+    pub(super) fn written(self) -> String {
+        if self.is_plain() { self.digits() } else { format!("\"{}\"", self.shown()) }
+    }
+
+    /// As it may stand within a text.
+    pub(super) fn shown(self) -> String {
+        if self.is_plain() { self.digits() } else { format!("{} {}", self.digits(), units::base_units(self.powers)) }
+    }
+
+    fn digits(self) -> String {
+        const EXACT: f64 = (1_u64 << 53) as f64;
+        let whole = self.si.fract() == 0.0 && self.si.abs() < EXACT && (self.si != 0.0 || self.si.is_sign_positive());
+        if whole { format!("{}", self.si as i64) } else { format!("{:?}", self.si) }
+    }
+}
+
+fn combined(a: Powers, b: Powers, with: impl Fn(i32, i32) -> i32) -> Result<Powers, String> {
+    let of = |a: i8, b: i8| i8::try_from(with(a.into(), b.into())).ok().filter(|power| power.abs() < 10);
+    let powers = || {
+        Some(Powers {
+            meter: of(a.meter, b.meter)?,
+            kilogram: of(a.kilogram, b.kilogram)?,
+            second: of(a.second, b.second)?,
+            radian: of(a.radian, b.radian)?,
+        })
+    };
+    powers().ok_or_else(|| "the powers of its units grow too large".to_owned())
+}

@@ -1,0 +1,243 @@
+//! Hard cases: scenes that break engines, each with what is measured on it and the threshold that physics or numerics
+//! sets, derived and not tuned. Tests and `jostle report` run the same cases.
+//!
+//! Adding a case is one file plus its line in [`ALL`]: it becomes at once a test and a part of the report. Nothing is put to sleep,
+//! clamped or damped for a case beyond what the engine does in every scene; what goes wrong is a reading that failed.
+//!
+//! Left out: a rope of light links with a heavy load, which needs joints.
+
+pub mod column;
+pub mod deep_overlap;
+pub mod far_away;
+pub mod gas;
+pub mod mass_ratio;
+pub mod million_ticks;
+pub mod pile;
+pub mod sizes;
+pub mod spin;
+pub mod stiffness;
+pub mod tick_limit;
+pub mod tick_sweep;
+
+use crate::SimulationExt;
+use std::error::Error;
+
+use jostle_engine::Simulation;
+use jostle_engine::scene::Source;
+use jostle_engine::scene::number;
+use jostle_engine::world::Bodies;
+
+/// All cases.
+pub const ALL: &[Case] = &[
+    mass_ratio::CASE,
+    stiffness::CASE,
+    tick_limit::CASE,
+    spin::CASE,
+    far_away::CASE,
+    sizes::CASE,
+    deep_overlap::CASE,
+    million_ticks::CASE,
+    gas::CASE,
+    column::CASE,
+    pile::CASE,
+    tick_sweep::CASE,
+];
+
+/// The two methods that go by whole ticks and follow contacts.
+pub const METHODS: [&str; 2] = ["SemiImplicitEuler", "VelocityVerlet"];
+
+/// How much of a case is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// What takes a few seconds at most.
+    Short,
+    /// All of it.
+    Full,
+}
+
+impl Extent {
+    /// One value or the other.
+    pub fn pick<T>(self, short: T, full: T) -> T {
+        match self {
+            Self::Short => short,
+            Self::Full => full,
+        }
+    }
+}
+
+/// What a value has to keep to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Threshold {
+    /// It is not larger.
+    AtMost(f64),
+    /// It is not smaller.
+    AtLeast(f64),
+}
+
+impl std::fmt::Display for Threshold {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let (sign, bound) = match self {
+            Self::AtMost(bound) => ("<=", bound),
+            Self::AtLeast(bound) => (">=", bound),
+        };
+        write!(f, "{sign} {}", rounded(*bound))
+    }
+}
+
+/// Three digits of a value.
+pub fn rounded(value: f64) -> String {
+    let three = format!("{value:.2e}").parse().unwrap_or(value);
+    if three != 0.0 && !(1e-3..1e5).contains(&f64::abs(three)) { format!("{three:e}") } else { number(three) }
+}
+
+/// How a reading came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The value keeps to the threshold.
+    Passed,
+    /// It does not, and the engine said so: it ended the run with a message, or warned.
+    Told,
+    /// It does not, and nothing says so; or the value is no number.
+    Failed,
+}
+
+/// One measured value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// What was measured, with its unit.
+    pub what: String,
+    /// The value.
+    pub value: f64,
+    /// What it has to keep to.
+    pub threshold: Threshold,
+    /// Where the threshold comes from.
+    pub why: &'static str,
+    /// What the engine said of the run, where a value beyond the threshold is to be expected.
+    pub told: Option<String>,
+}
+
+impl Reading {
+    /// How it came out.
+    pub fn verdict(&self) -> Verdict {
+        let kept = match self.threshold {
+            Threshold::AtMost(bound) => self.value <= bound,
+            Threshold::AtLeast(bound) => self.value >= bound,
+        };
+        match (kept, &self.told) {
+            (true, _) => Verdict::Passed,
+            (false, Some(_)) => Verdict::Told,
+            (false, None) => Verdict::Failed,
+        }
+    }
+}
+
+/// The readings of a case, as they come.
+#[derive(Clone, Debug, Default)]
+pub struct Readings(pub Vec<Reading>);
+
+impl Readings {
+    /// A value that may not be larger than a bound.
+    pub fn at_most(&mut self, what: impl Into<String>, value: f64, bound: f64, why: &'static str) {
+        self.0.push(Reading { what: what.into(), value, threshold: Threshold::AtMost(bound), why, told: None });
+    }
+
+    /// A value that may not be smaller than a bound.
+    pub fn at_least(&mut self, what: impl Into<String>, value: f64, bound: f64, why: &'static str) {
+        self.0.push(Reading { what: what.into(), value, threshold: Threshold::AtLeast(bound), why, told: None });
+    }
+
+    /// Runs to `time`, and on for `still` seconds: by then nothing moves at all, and the state does not change by a bit.
+    ///
+    /// # Errors
+    /// When the run goes wrong.
+    pub fn rests(
+        &mut self,
+        what: &str,
+        simulation: &mut Simulation,
+        time: f64,
+        still: f64,
+    ) -> Result<(), Box<dyn Error>> {
+        run_to(simulation, time)?;
+        let energy = kinetic(simulation.bodies());
+        let seconds = number(time);
+        self.at_most(
+            format!("{what}: kinetic energy at {seconds} s, J"),
+            energy,
+            0.0,
+            "contacts hold with any force that their law allows at rest, so what stands stands exactly",
+        );
+        let before = simulation.card().hash;
+        run_to(simulation, time + still)?;
+        let changed = f64::from(simulation.card().hash != before);
+        self.at_most(
+            format!("{what}: state hashes that differ after {} s more", number(still)),
+            changed,
+            0.0,
+            "what is in balance stays to the last bit",
+        );
+        Ok(())
+    }
+}
+
+/// How a case is run and measured.
+pub type Run = fn(Extent, &mut Readings) -> Result<(), Box<dyn Error>>;
+
+/// A case.
+#[derive(Clone, Copy)]
+pub struct Case {
+    /// Name, as the file.
+    pub name: &'static str,
+    /// What is hard about it.
+    pub what: &'static str,
+    /// Where its law is to be found.
+    pub source: &'static str,
+    /// Whether it takes less than a second in its short form.
+    pub cheap: bool,
+    /// What its short form leaves out; empty: nothing.
+    pub short: &'static str,
+    /// Runs and measures it.
+    pub run: Run,
+}
+
+impl Case {
+    /// All readings; a run that goes wrong where it should not is one that failed.
+    pub fn measure(&self, extent: Extent) -> Vec<Reading> {
+        let mut readings = Readings::default();
+        if let Err(error) = (self.run)(extent, &mut readings) {
+            let first = error.to_string().lines().next().unwrap_or_default().to_owned();
+            readings.at_most(format!("the run ends: {first}"), f64::NAN, 0.0, "it has to come to its end");
+        }
+        readings.0
+    }
+}
+
+/// A scene, ready to run.
+///
+/// # Errors
+/// When the scene is refused.
+pub fn load(text: &str) -> Result<Simulation, Box<dyn Error>> {
+    Simulation::load(&Source::new("hard.ron", text)).map_err(Into::into)
+}
+
+/// Runs on to `time` seconds.
+///
+/// # Errors
+/// When the run goes wrong.
+pub fn run_to(simulation: &mut Simulation, time: f64) -> Result<(), Box<dyn Error>> {
+    let tick = (time / simulation.clock().dt).round() as u64;
+    simulation.run_to_tick(tick).map_err(Into::into)
+}
+
+/// Kinetic energy in J of all bodies that forces move, summed here and not by the engine.
+pub fn kinetic(bodies: &Bodies) -> f64 {
+    let of = |body: usize| {
+        0.5 * bodies.mass[body] * bodies.velocity[body].length_squared()
+            + 0.5 * bodies.inertia[body] * bodies.spin[body] * bodies.spin[body]
+    };
+    (0..bodies.len()).filter(|&body| bodies.dynamic[body]).map(of).sum()
+}
+
+/// Numbers between 0 and 1, the same each time: multiples of the golden section.
+pub fn golden() -> impl Iterator<Item = f64> {
+    (1..).map(|number: u32| (f64::from(number) * 0.618_033_988_749_894_9).fract())
+}
