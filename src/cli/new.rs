@@ -46,7 +46,7 @@ struct NewPlugin {
     /// Small letters, digits and underscores, such as rubber_band; the entry in scenes is then RubberBand
     #[arg(value_name = "NAME")]
     name: String,
-    /// A checkout of Jostle to build against. Default: the released version of this program
+    /// A checkout of Jostle to build against. Default: the one that this program was built from
     #[arg(long, value_name = "PATH")]
     jostle: Option<PathBuf>,
 }
@@ -62,7 +62,7 @@ const EXAMPLES: &str = "\
 Examples:
   jostle new scene pendulum                         pendulum.ron; then: jostle render pendulum.ron
   jostle new plugin rubber_band                     the crate rubber_band/; then: cd rubber_band && cargo test
-  jostle new plugin rubber_band --jostle ../jostle  the same, built against a checkout
+  jostle new plugin rubber_band --jostle ../jostle  the same, built against another checkout
 
 They are written into the present folder. Nothing is ever overwritten.";
 
@@ -110,10 +110,8 @@ impl NewPlugin {
                 "`{name}` means something else to Rust or to the plugin's own code: take another name"
             ));
         }
-        let source = match &self.jostle {
-            Some(path) => format!("{{ path = {} }}", quoted_path(path)?),
-            None => format!("\"{}\"", env!("CARGO_PKG_VERSION")),
-        };
+        let checkout = self.jostle.clone().map_or_else(built_from, Ok)?;
+        let source = format!("{{ path = {} }}", quoted_path(&checkout)?);
         let own = |text: &str| text.replace(TEMPLATE[0], name).replace(TEMPLATE[1], &in_camel_case(name));
         let folder = Path::new(name);
         // The crate is there as a whole or not at all.
@@ -158,6 +156,15 @@ fn quoted_path(path: &Path) -> Result<String, String> {
     let text = seen.to_str().ok_or_else(|| format!("`{shown}` has letters that Cargo.toml cannot hold"))?;
     // Basic strings of TOML take the escapes of JSON.
     Ok(serde_json::Value::from(text).to_string())
+}
+
+/// The checkout that this program was built from.
+fn built_from() -> Result<PathBuf, String> {
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR"));
+    match checkout.join("Cargo.toml").is_file() {
+        true => Ok(checkout.to_owned()),
+        false => Err("a plugin is built against a checkout of Jostle: name its folder with --jostle PATH".to_owned()),
+    }
 }
 
 /// A folder in the making; it goes unless it is kept.

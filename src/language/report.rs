@@ -39,7 +39,7 @@ impl Problem {
 /// Collects mistakes and notes. Paths are relative to the section or entry that is checked.
 ///
 /// ```
-/// # use jostle::scene::Report;
+/// # use jostle_language::Report;
 /// let mut report = Report::new();
 /// report.within("[3]", |report| {
 ///     report.positive("mass", -1.5);

@@ -47,7 +47,8 @@ fn a_new_plugin_is_the_template_by_another_name() {
     }
     let manifest = read("Cargo.toml");
     assert!(manifest.contains("name = \"rubber_band\""), "{manifest}");
-    assert!(manifest.contains(&format!("\njostle = \"{}\"\n", env!("CARGO_PKG_VERSION"))), "{manifest}");
+    let checkout = env!("CARGO_MANIFEST_DIR");
+    assert!(manifest.contains(&format!("\njostle = {{ path = {checkout:?} }}\n")), "{manifest}");
     // What is tested is what is handed out.
     let tested = std::fs::read_to_string(templates.join("../../../tools/plugin_template/Cargo.toml")).unwrap();
     let dependencies = tested.lines().skip_while(|line| *line != "[dependencies]").skip(1);

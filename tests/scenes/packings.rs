@@ -1,7 +1,7 @@
 //! Bodies from tables beside the scene: what they become, and what is said to tables that cannot be read.
 //!
 //! Tolerance: none; all numbers are exact. Not tested here: the columns one by one, which the unit tests of
-//! `src/world/sections/packing` do, and what the scenes of `scenes/benchmarks` do: they are only read.
+//! `src/engine/world/sections/packing` do, and what the scenes of `scenes/benchmarks` do: they are only read.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

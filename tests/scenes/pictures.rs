@@ -1,7 +1,7 @@
 //! One picture of each theme, pixel by pixel: whoever changes how films look sees it here.
 //!
 //! Tolerance: none, as the same picture has the same bytes everywhere. Not tested: whether it is beautiful; look at
-//! `tests/pictures`. That shapes are drawn where they are is tested in `src/raster`.
+//! `tests/pictures`. That shapes are drawn where they are is tested in `src/film/raster`.
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! Silhouettes from PNG pictures: what they become, and what is said to pictures that cannot be one.
 //!
 //! Tolerance: said where it is used. Not tested here: how well discs cover, which the unit tests of
-//! `src/shapes/silhouette` do.
+//! `src/engine/shapes/silhouette` do.
 
 use std::path::{Path, PathBuf};
 

@@ -2,7 +2,7 @@
 //!
 //! Each file holds one mistake (some hold several, to show how they are told together) and is named by it. `NAME.txt` is
 //! what `jostle check` prints for `NAME.ron`. Tolerance: none. Not tested: files that cannot be read as text, which the
-//! tests of the command line do, and mistakes in sections of plugins, which `src/scene/tests` does.
+//! tests of the command line do, and mistakes in sections of plugins, which `src/engine/scene/tests` does.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -6,6 +6,7 @@
 //! A plugin with a section of its own:
 //!
 //! ```
+//! # extern crate jostle_engine as jostle;
 //! use bevy_app::App;
 //! use bevy_ecs::resource::Resource;
 //! use jostle::scene::units::Speed;

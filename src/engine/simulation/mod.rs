@@ -65,6 +65,7 @@ pub struct Overrides {
 /// A scene, ready to run.
 ///
 /// ```
+/// # extern crate jostle_engine as jostle;
 /// use jostle::{Simulation, scene::Source};
 ///
 /// let scene = r#"Scene(

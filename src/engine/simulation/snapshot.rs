@@ -132,6 +132,7 @@ impl Simulation {
     /// As [`Simulation::snapshot`]; if bodies were spawned or removed, or systems added, since the scene was read.
     ///
     /// ```
+    /// # extern crate jostle_engine as jostle;
     /// use jostle::{Simulation, scene::Source};
     ///
     /// let scene = r#"Scene(

@@ -22,6 +22,7 @@ pub struct NextKey {
 /// Everything a body needs to exist.
 ///
 /// ```
+/// # extern crate jostle_engine as jostle;
 /// use bevy_ecs::prelude::*;
 /// use glam::DVec2;
 /// use jostle::world::{Atom, MaterialIndex, NewBody};

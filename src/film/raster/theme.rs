@@ -73,6 +73,7 @@ impl Theme {
     /// The theme of that name; `None` if there is none.
     ///
     /// ```
+    /// # extern crate jostle_film as jostle;
     /// use jostle::raster::Theme;
     /// assert!(Theme::named("paper").is_some());
     /// assert!(Theme::named("wallpaper").is_none());

@@ -7,7 +7,7 @@
 //! A plugin may add a dimension of its own:
 //!
 //! ```
-//! use jostle::scene::units::{Dimension, Powers, Quantity};
+//! use jostle_language::units::{Dimension, Powers, Quantity};
 //!
 //! struct AngularStiffness;
 //! impl Dimension for AngularStiffness {

@@ -4,7 +4,7 @@
 //! its line in [`ALL`]: it becomes at once a test at a stated tick and a line in the convergence test.
 //!
 //! ```
-//! use jostle::problems::{Setting, linear_drag};
+//! use jostle_report::problems::{Setting, linear_drag};
 //!
 //! let problem = linear_drag::PROBLEM;
 //! let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..Setting::default() };

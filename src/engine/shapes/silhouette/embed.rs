@@ -147,7 +147,7 @@ mod tests {
     /// A picture that is not listed would be missing from an installed program.
     #[test]
     fn every_picture_of_the_folder_is_listed() {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/silhouettes");
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/silhouettes");
         let mut files: Vec<String> = std::fs::read_dir(folder)
             .unwrap()
             .filter_map(|entry| entry.unwrap().file_name().to_str().map(str::to_owned))
