@@ -1,7 +1,8 @@
 //! Law: each of the hard cases of `jostle::problems::hard`, its own, in the short form. Source and tolerances: each case's file, where
 //! every threshold stands beside what it is derived from.
 //!
-//! A value beyond its threshold of which the engine tells is no failure here: only the sweep of ticks has such, above the critical tick.
+//! A value beyond its threshold of which the engine tells is no failure here: only the sweep of ticks has such, above the critical tick, and dead
+//! points of linkages.
 //!
 //! Not tested: what the short forms leave out; `jostle report` runs all.
 
@@ -54,4 +55,10 @@ cases!(
     column,
     pile,
     tick_sweep,
+    heavy_load,
+    upright_pendulum,
+    cut_chain,
+    dead_point,
+    fast_limits,
+    pulled_apart,
 );

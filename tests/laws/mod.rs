@@ -31,6 +31,7 @@ mod ledger;
 mod located;
 mod long_steps;
 mod measured;
+mod mechanisms;
 mod momentum;
 mod oblique;
 mod orbit;

@@ -248,4 +248,22 @@ fn closed_forms_agree_with_the_truth_files() {
         assert_near("stick", sticks, number("stick duration"), ULPS);
         assert_near("highest place", highest, number("x max"), ULPS);
     }
+    let truth = Truth::read(problems::servo_wheel::TRUTH);
+    for (time, row) in rows(&truth, "q") {
+        assert_near("angle of the wheel", problems::servo_wheel::angle(time), row[0], ULPS * 2.0);
+    }
+    let truth = Truth::read(problems::slider_crank::TRUTH);
+    for (time, row) in rows(&truth, "piston x,v,a") {
+        assert_near("place of the piston", problems::slider_crank::piston(time), row[0], ULPS);
+    }
+    let truth = Truth::read(problems::rigid_ring::TRUTH);
+    assert_near(
+        "radius of the rigid ring",
+        problems::rigid_ring::radius(),
+        truth.number("rigid-link ring: radius"),
+        ULPS,
+    );
+    assert_near("pull in it", problems::rigid_ring::tension(), truth.number("rigid-link ring: tension"), ULPS * 5.0);
+    let truth = Truth::read(problems::falling_rod::TRUTH);
+    assert_near("when the rod is level", problems::falling_rod::LEVEL, truth.number("time to horizontal"), ULPS);
 }

@@ -12,16 +12,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod catenary;
 pub mod cluster_rotation;
+pub mod compound_pendulum;
 pub mod constant_acceleration;
 pub mod coulomb_oscillator;
 pub mod cradle;
 pub mod damped_oscillator;
 pub mod dashpot_impact;
+pub mod double_pendulum;
 pub mod driven_oscillator;
 pub mod elastic_bounce;
+pub mod falling_chain;
+pub mod falling_rod;
 pub mod figure_eight;
 pub mod firing;
+pub mod four_bar;
 pub mod free_flight;
 pub mod frictional_collision;
 pub mod hard;
@@ -29,17 +35,26 @@ pub mod incline;
 pub mod inelastic_impact;
 pub mod kepler;
 pub mod linear_drag;
+pub mod linkage;
+pub mod loaded_rope;
 pub mod oblique_collision;
 pub mod overlap_release;
+pub mod parallelogram;
+pub mod pendulum;
 pub mod quadratic_drag;
+pub mod rigid_ring;
 pub mod rotating_ring;
+pub mod servo_wheel;
 pub mod settling_bounce;
 pub mod slide_to_roll;
+pub mod slider_crank;
 pub mod sliding_stop;
 pub mod spring_mass;
 pub mod stick_slip;
 pub mod tangential_impact;
+pub mod triple_pendulum;
 pub mod truth;
+pub mod two_link_arm;
 
 use std::error::Error;
 
@@ -80,12 +95,26 @@ pub const ALL: &[Problem] = &[
     frictional_collision::PROBLEM,
     incline::PROBLEM,
     stick_slip::PROBLEM,
+    pendulum::PROBLEM,
+    compound_pendulum::PROBLEM,
+    double_pendulum::PROBLEM,
+    triple_pendulum::PROBLEM,
+    two_link_arm::PROBLEM,
+    servo_wheel::PROBLEM,
+    four_bar::PROBLEM,
+    slider_crank::PROBLEM,
+    catenary::PROBLEM,
+    falling_rod::PROBLEM,
+    falling_chain::PROBLEM,
+    parallelogram::PROBLEM,
+    loaded_rope::PROBLEM,
+    rigid_ring::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// No force: every method is exact but for rounding.
+    /// No force, or forces in balance in the end: every method is exact but for rounding.
     Free,
     /// Constant acceleration: methods of order 2 and more are exact but for rounding.
     ConstantAcceleration,

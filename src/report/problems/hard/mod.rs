@@ -4,20 +4,27 @@
 //! Adding a case is one file plus its line in [`ALL`]: it becomes at once a test and a part of the report. Nothing is put to sleep,
 //! clamped or damped for a case beyond what the engine does in every scene; what goes wrong is a reading that failed.
 //!
-//! Left out: a rope of light links with a heavy load, which needs joints.
+//! Hard cases of joints that are tests rather than numbers: a motor against a limit and a break in the midst of a step
+//! (`laws/joint_limits`), a table on four jointed legs (`laws/joints_at_rest`), a loop that cannot close (`wrong_scenes/joints`).
 
 pub mod column;
+pub mod cut_chain;
+pub mod dead_point;
 pub mod deep_overlap;
 pub mod far_away;
+pub mod fast_limits;
 pub mod gas;
+pub mod heavy_load;
 pub mod mass_ratio;
 pub mod million_ticks;
 pub mod pile;
+pub mod pulled_apart;
 pub mod sizes;
 pub mod spin;
 pub mod stiffness;
 pub mod tick_limit;
 pub mod tick_sweep;
+pub mod upright_pendulum;
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -41,6 +48,12 @@ pub const ALL: &[Case] = &[
     column::CASE,
     pile::CASE,
     tick_sweep::CASE,
+    heavy_load::CASE,
+    upright_pendulum::CASE,
+    cut_chain::CASE,
+    dead_point::CASE,
+    fast_limits::CASE,
+    pulled_apart::CASE,
 ];
 
 /// The two methods that go by whole ticks and follow contacts.

@@ -1,0 +1,55 @@
+//! Three uniform rods, each hung on the end of the one before. Lagrange's equations, and independently the equations of bodies with
+//! multipliers. SI units.
+//!
+//! The motion is chaotic; the problem ends after 3 s, where rounding has grown by a few hundred.
+
+use super::linkage::{Chain, Link, chain, turned_off};
+use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use jostle_engine::Simulation;
+
+/// The problem.
+pub const PROBLEM: Problem = Problem {
+    name: "triple_pendulum",
+    law: "a triple pendulum of rods follows Lagrange's equations",
+    source: "Lagrange's equations against bodies with multipliers; truth file J04",
+    class: Class::Smooth,
+    tick: 1.0 / 1024.0,
+    samples: &[0.5, 1.0, 2.0, 3.0],
+    unit: "1",
+    always_located: false,
+    scene,
+    error,
+    leading_error: None,
+    constants: CONSTANTS,
+    // Errors of angles grow as the motion is sensitive. The reference is known to 9e-13.
+    rounding: |tick| rounding_of(3.0 / tick, 300.0) + 8.9e-13,
+};
+
+/// Measured at finer ticks.
+const CONSTANTS: &[Constant] = &[
+    Constant::located("ExplicitEuler", 1, 1.918e3),
+    Constant::per_tick("SemiImplicitEuler", 1, 4.139e0),
+    Constant::located("SemiImplicitEuler", 1, 1.391e3),
+    Constant::per_tick("VelocityVerlet", 2, 1.971e2),
+    Constant::located("VelocityVerlet", 2, 9.322e1),
+    Constant::located("RungeKutta4", 4, 2.721e4),
+    Constant::located("ImplicitMidpoint", 2, 4.225e2),
+];
+
+/// The reference values.
+pub const TRUTH: &str = include_str!("../../../assets/truths/J04_triple_pendulum.json");
+/// Masses in kg, lengths in m and angles at the start in degrees from the downward vertical.
+const RODS: [(f64, f64, f64); 3] = [(1.0, 1.0, 100.0), (0.8, 0.8, 80.0), (0.6, 0.6, 120.0)];
+
+fn scene(setting: &Setting, duration: f64) -> String {
+    let clock = setting.clock(duration);
+    let links = RODS.map(|(mass, length, degrees)| Link { mass, length, angle: degrees.to_radians() });
+    let Chain { bodies, joints, .. } = chain("rod", &links);
+    format!("Scene({clock}, gravity: (0, -9.81), contacts: None, bodies: [{bodies}], joints: [{joints}])")
+}
+
+/// The greatest of the angles, in rad.
+fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
+    let Some(row) = Truth::read(TRUTH).row("theta..omega (t<=3)", time) else { return f64::NAN };
+    turned_off(simulation, 0, &row[..RODS.len()])
+}
