@@ -110,8 +110,9 @@ impl Evidence<'_> {
             return near::of_endless_steps(self);
         }
         if matches!(failure.wrong, Wrong::Pairs(_)) {
-            return "use fewer bodies, keep them from falling into one place, or give those that are not to touch `collides: false`"
-                .to_owned();
+            let ways =
+                "use fewer bodies, keep them from falling into one place, take a finer tick if they go far in one";
+            return format!("{ways}, or give those that are not to touch `collides: false`");
         }
         if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
             return "look at what the plugin does to the world".to_owned();
