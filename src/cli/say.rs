@@ -2,6 +2,7 @@
 //! (`jostle .. | head`) does no harm: the macros of the standard library would panic then.
 
 use std::io::{ErrorKind, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Exit;
 
@@ -21,6 +22,9 @@ pub(super) fn say(message: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
+/// Whether it was told that standard output takes no more.
+static TOLD: AtomicBool = AtomicBool::new(false);
+
 /// Prints a result to standard output, one line.
 pub(super) fn print_line(line: &str) -> Exit {
     match writeln!(std::io::stdout(), "{line}") {
@@ -28,7 +32,10 @@ pub(super) fn print_line(line: &str) -> Exit {
         // A reader that has gone away wants no more.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Exit::Good,
         Err(error) => {
-            say(&format!("error: the result cannot be written to standard output: {error}"));
+            // Results of many lines would say so many times.
+            if !TOLD.swap(true, Ordering::Relaxed) {
+                say(&format!("error: the result cannot be written to standard output: {error}"));
+            }
             Exit::Usage
         }
     }

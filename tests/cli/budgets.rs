@@ -9,8 +9,13 @@ const BALL: &str = "(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.1))";
 
 /// Runs `check --run` with 6 GB of memory; standard error of what has to end with 1.
 fn refused(name: &str, scene: &str) -> String {
+    refused_within(name, scene, 6_000_000)
+}
+
+/// The same with so many kB.
+fn refused_within(name: &str, scene: &str, memory: u32) -> String {
     let folder = Folder::new(&format!("budget_{name}")).with("scene.ron", scene);
-    let script = format!("ulimit -v 6000000; exec {} check --run scene.ron", env!("CARGO_BIN_EXE_jostle"));
+    let script = format!("ulimit -v {memory}; exec {} check --run scene.ron", env!("CARGO_BIN_EXE_jostle"));
     let start = Instant::now();
     let output =
         std::process::Command::new("bash").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
@@ -26,7 +31,41 @@ fn refused(name: &str, scene: &str) -> String {
 fn a_heap_of_more_pairs_than_memory_holds_is_refused() {
     let bodies = "Repeat(count: 30000, make: (name: \"b_{i}\", at: (0, 0), atoms: Disc(radius: 0.1)))";
     let said = refused("heap", &format!("Scene({CLOCK}, bodies: [{bodies}])"));
-    assert!(said.contains("pairs of atoms or more overlap: so many contacts do not fit into memory"), "{said}");
+    assert!(said.contains("pairs of atoms overlap: so many contacts do not fit into memory"), "{said}");
+}
+
+/// Discs that all come to one place in a tick: nothing is known of it at the start.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_heap_that_comes_together_in_a_run_ends_it_before_memory_does() {
+    let bodies = "Repeat(count: (100, 30), grid: (from: (-5, -2), step: (0.1, 0.1)), make: (name: \"b_{i}_{j}\", at: (\"x\", \"y\"),
+        velocity: (\"-10 * x\", \"-10 * y\"), atoms: Disc(radius: 0.04)))";
+    for method in ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853"] {
+        let clock = format!("format: 1, clock: (duration: 1, tick: 0.1, method: {method}, events: PerTick)");
+        let scene = format!("Scene({clock}, bodies: [{bodies}])");
+        let folder = Folder::new(&format!("budget_cloud_{method}")).with("scene.ron", scene);
+        let script = format!("ulimit -v 1500000; exec {} run --no-estimate scene.ron", env!("CARGO_BIN_EXE_jostle"));
+        let start = Instant::now();
+        let output =
+            std::process::Command::new("bash").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{method}: {said:.2000}");
+        assert!(start.elapsed() < Duration::from_secs(30), "{method}: {:?}", start.elapsed());
+        let why = "error: scene.ron: the run went wrong: more than 1048576 pairs of atoms lie near each other, most of them of `b_";
+        assert!(said.contains(why) && said.contains("help: use fewer bodies"), "{method}: {said}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_that_would_be_tried_for_days_is_refused() {
+    let pair =
+        "(name: \"a\", at: (0, 0), atoms: Disc(radius: 0.1, mass: 1)), (name: \"b\", at: (1, 0), velocity: (0, 1),
+        atoms: Disc(radius: 0.1, mass: 1))";
+    let long =
+        "format: 1, clock: (duration: 4294967296, tolerance: 1e-3), forces: [Attraction(constant: 1, softening: 0.1)]";
+    let said = refused("endless", &format!("Scene({long}, bodies: [{pair}])"));
+    assert!(said.contains("clock.duration") && said.contains("would be run several times"), "{said}");
 }
 
 #[cfg(target_os = "linux")]
@@ -41,6 +80,20 @@ fn more_patterns_than_can_be_compared_are_refused() {
             said.contains("here patterns and names have become too many to be compared") || name == "strange",
             "{said}"
         );
+    }
+}
+
+/// Each entry of `fill` may ask for as many bodies as there may be in all.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_of_more_bodies_than_there_may_be_are_not_made() {
+    for count in ["1e9", "1000000"] {
+        let fill = format!(
+            "fill: [Repeat(count: 100, make: (name: \"ball_{{i}}\", count: {count}, seed: 1, atoms: Disc(radius: 0.1),
+                within: ((0, 0), (1, 1))))], sensors: [Pose(of: \"ball_99_*\")]"
+        );
+        let said = refused_within(&format!("names_{count}"), &format!("Scene({CLOCK}, {fill})"), 1_500_000);
+        assert!(said.contains("1000000"), "{said}");
     }
 }
 

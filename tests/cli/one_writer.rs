@@ -117,6 +117,33 @@ fn read_only_files_are_refused_and_stay() {
     }
 }
 
+/// A name that tells of a picture or a table, and leads to a scene.
+#[cfg(unix)]
+#[test]
+fn links_to_scenes_are_refused() {
+    let merge = "sweep --merge out";
+    for (command, link) in [
+        ("render fall.ron --quiet -o link.gif", "link.gif"),
+        ("render fall.ron --quiet --at 0.1 -o link.png", "link.png"),
+        ("run fall.ron --quiet -o link.csv", "link.csv"),
+        ("run fall.ron --quiet --save at=0.1s:link.bin", "link.bin"),
+        (merge, "out/table.csv"),
+    ] {
+        let folder = Folder::new("scene_link").with("fall.ron", FALL).with("other.ron", FALL).with("out/x", "");
+        if command == merge {
+            for shard in ["1/2", "2/2"] {
+                let sweep =
+                    format!("sweep fall.ron --vary clock.duration=1..2 --no-sheet --quiet -o out --shard {shard}");
+                folder.jostle(&sweep).code(0);
+            }
+        }
+        std::os::unix::fs::symlink(folder.path("other.ron"), folder.path(link)).unwrap();
+        folder.jostle(command).code(2).says("scene");
+        assert_eq!(folder.read("other.ron"), FALL.as_bytes(), "{command}");
+        assert!(folder.path(link).is_symlink(), "{command}");
+    }
+}
+
 /// The random letters of the temporary file do not make a name too long that is long but good.
 #[test]
 fn a_name_as_long_as_names_may_be_is_written() {

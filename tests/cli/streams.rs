@@ -43,4 +43,11 @@ fn a_result_that_cannot_be_written_is_told() {
     let output = folder.command("run fall.ron --json").stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("cannot be written to standard output"));
+
+    // Results of many lines say so once.
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = folder.command("list").stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(said.matches("cannot be written to standard output").count(), 1, "{said}");
 }

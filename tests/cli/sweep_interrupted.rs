@@ -113,3 +113,16 @@ fn a_shard_that_was_cut_or_changed_is_found_out() {
     std::fs::write(folder.path("out/table.2-of-2.csv"), shard).unwrap();
     folder.jostle("sweep --merge out").code(0);
 }
+
+/// Names of tables may tell of any number of shards, and belong to anything.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_no_table_of_a_shard_is_told_at_once() {
+    let folder = Folder::new("shards_odd").with("fall.ron", FALL).with("many/table.1-of-99999999999.csv", "");
+    let ended = folder.jostle("sweep --merge many").code(2);
+    assert!(ended.err.contains("these are missing: 2, 3, 4") && ended.err.contains(" and more"), "{ended:?}");
+    std::fs::create_dir(folder.path("pipe")).unwrap();
+    let pipe = folder.path("pipe/table.1-of-1.csv");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    folder.jostle("sweep --merge pipe").code(2).says("`pipe/table.1-of-1.csv` is no file");
+}

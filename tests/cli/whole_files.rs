@@ -36,7 +36,9 @@ fn a_film_killed_at_any_moment_is_the_old_one_or_the_whole_new_one() {
         // What is left over is in the way of no later film.
         folder.jostle(&arguments).code(0);
         assert!(folder.read(name) == new);
-        folder.without_parts(name);
+        // A film that is of no use before its end has no name until then: nothing is left of those that were killed.
+        let left = folder.without_parts(name);
+        assert!(!cfg!(target_os = "linux") || name.ends_with(".gif") || left.is_empty(), "{left:?}");
         assert_eq!(folder.names(), [name]);
     }
 }
@@ -97,6 +99,20 @@ fn a_full_disk_leaves_the_old_file_and_is_told() {
         let place = parts.iter().all(|part| said.contains(&format!("What was written so far is in `{part}`")));
         assert!(place && said.contains("so far") == is_of_use, "{said}");
     }
+}
+
+/// Nothing stays of a film that has to fit, and nothing is said to stay.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_keeps_no_beginning_of_a_film_within_a_size() {
+    let folder = Folder::new("disk_within").with("film.gif", OLD);
+    let command = "render example:tetris --duration 6 --size 640x360 --quiet --max-size 90MB -o film.gif";
+    let script = format!("trap '' XFSZ; ulimit -f 16; exec {} {command}", env!("CARGO_BIN_EXE_jostle"));
+    let output = Command::new("bash").args(["-c", &script]).current_dir(folder.path("")).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("File too large") && !said.contains("so far"), "{said}");
+    assert_eq!((folder.read("film.gif"), folder.names()), (OLD.to_vec(), vec!["film.gif".to_owned()]));
 }
 
 /// The same for what goes to standard output, whose device is full or whose reader goes away.

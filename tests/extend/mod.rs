@@ -3,6 +3,7 @@
 mod account;
 mod axis_wise;
 mod bevy_app;
+mod broken_world;
 mod components;
 mod contact_events;
 mod contact_law;

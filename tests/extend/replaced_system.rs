@@ -50,6 +50,17 @@ fn a_force_in_the_place_of_another_acts_in_its_place() {
     assert!(simulation.world_mut().resource::<Runs>().0 >= 1000);
 }
 
+/// Likewise one that is registered as working on the state only.
+#[test]
+fn a_packed_system_in_evaluations_acts() {
+    let mut simulation = without_drag(|app| {
+        app.add_packed_systems(Evaluate, push_up.in_set(EvaluateStage::Systems));
+    });
+    simulation.run_to_end().unwrap();
+    let speed = simulation.bodies().velocity[0].y;
+    assert!((speed - (2.0 - 9.81)).abs() < 1e-9, "{speed} m/s");
+}
+
 #[test]
 fn a_system_that_is_taken_out_acts_no_more_whatever_else_is_there() {
     fn count(mut runs: ResMut<Runs>) {

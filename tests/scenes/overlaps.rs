@@ -6,9 +6,13 @@
 use jostle::scene::Source;
 use jostle::{Simulation, SimulationExt};
 
-fn loaded(sections: &str) -> Simulation {
+fn source(sections: &str) -> Source {
     let text = format!("Scene(format: 1, clock: (duration: 0.01, tick: 0.001, method: VelocityVerlet), {sections})");
-    Simulation::load(&Source::new("a.ron", text)).unwrap_or_else(|errors| panic!("{errors}"))
+    Source::new("a.ron", text)
+}
+
+fn loaded(sections: &str) -> Simulation {
+    Simulation::load(&source(sections)).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 fn notes(sections: &str) -> Vec<String> {
@@ -81,14 +85,17 @@ fn all_pairs_of_many_are_counted() {
     assert!(simulation.notes().iter().any(|note| note.starts_with(&begins)), "{begins}: {:?}", simulation.notes());
 }
 
-/// A heap in one place is not counted to its end: 4096 discs make more than 2^22 pairs.
+/// A heap in one place is refused where its pairs would not fit into memory: more than 2^20, as 1449 discs make.
 #[test]
-fn a_heap_in_one_place_is_not_counted_to_its_end() {
-    let heap = "bodies: [Repeat(count: 4096, make: (name: \"g_{i}\", at: (\"1e-6 * i\", 0), atoms: Disc(radius: 1)))]";
-    let simulation = loaded(heap);
-    assert!(
-        simulation.notes().iter().any(|note| note.starts_with("at the start at least 419")),
-        "{:?}",
-        simulation.notes()
-    );
+fn a_heap_in_one_place_is_refused_where_it_is_too_large() {
+    let heap = |count: u32| {
+        format!(
+            "bodies: [Repeat(count: {count}, make: (name: \"g_{{i}}\", at: (\"1e-6 * i\", 0), atoms: Disc(radius: 1)))]"
+        )
+    };
+    let simulation = loaded(&heap(1448));
+    let begins = format!("at the start {} pairs overlap", 1448 * 1447 / 2);
+    assert!(simulation.notes().iter().any(|note| note.starts_with(&begins)), "{:?}", simulation.notes());
+    let errors = Simulation::load(&source(&heap(1449))).err().expect("too many").to_string();
+    assert!(errors.contains("at the start more than 1048576 pairs of atoms overlap"), "{errors}");
 }

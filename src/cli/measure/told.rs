@@ -54,6 +54,10 @@ fn note(setting: &Setting) -> String {
                 Wrong::Steps(step) => format!("steps have become as short as {step:.1e} s near `{}`", failure.body),
                 Wrong::Joint { meters } => format!("a joint of `{}` is open by {meters:.1e} m", failure.body),
                 Wrong::Energy(_) => "energy comes out of nowhere".to_owned(),
+                Wrong::Pairs(most) => format!("more than {most} pairs of atoms lie near each other"),
+                Wrong::Torn(list) => format!("the packed list `{list}` of bodies does not fit the others"),
+                Wrong::Lost(component) => format!("`{}` has lost its component `{component}`", failure.body),
+                Wrong::Gone(name) => format!("{name} is gone"),
             };
             Some(format!("fails at t = {} s: {what}", number(failure.time)))
         }

@@ -12,17 +12,24 @@ use crate::scene::embed::{Wanted, told};
 /// A table of a shard.
 const SHARD: Wanted = Wanted { most: 1 << 30, noun: "the table of a shard", smaller: "use more shards" };
 
+/// So many shards that are missing are told.
+const MOST_NAMED: usize = 20;
+
 /// Merges all shards in a directory into `table.csv`.
 pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
     let shown = folder.display();
     let (shards, of) = shards_in(folder)?;
-    let missing: Vec<String> =
-        (1..=of).filter(|which| !shards.contains_key(which)).map(|which| which.to_string()).collect();
-    if !missing.is_empty() {
-        let missing = missing.join(", ");
-        return Err(format!("of {of} shards in `{shown}` these are missing: {missing}"));
+    // A name may tell of any number of them.
+    let mut missing = (1..=of).filter(|which| !shards.contains_key(which)).map(|which| which.to_string());
+    let first: Vec<String> = missing.by_ref().take(MOST_NAMED).collect();
+    if !first.is_empty() {
+        let (first, more) = (first.join(", "), if missing.next().is_some() { " and more" } else { "" });
+        return Err(format!("of {of} shards in `{shown}` these are missing: {first}{more}"));
     }
     let read = |path: &PathBuf| {
+        if !path.is_file() {
+            return Err(format!("`{}` is no file", path.display()));
+        }
         let bytes = SHARD.take(path, &path.display().to_string(), "").map_err(told)?;
         let text = String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))?;
         Table::from_csv(&text).map_err(|why| format!("`{}`: {why}", path.display()))

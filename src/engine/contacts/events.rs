@@ -77,16 +77,18 @@ pub fn watch(world: &mut World) {
 fn find_contact_events(
     mut state: ResMut<State>,
     mut events: ResMut<ContactEvents>,
-    mut notes: ResMut<Notes>,
+    notes: Option<ResMut<Notes>>,
     mut warned: Local<bool>,
 ) {
     let law = state.contact_law();
     let State { bodies, clock, touches: Some(touches), .. } = state.bypass_change_detection() else { return };
     if let Some(name) = law.filter(|_| !touches.told && !*warned) {
         *warned = true;
-        notes
-            .0
-            .push(format!("contacts: `{name}` does not tell who touches: contact events and `Contacts` see nothing"));
+        if let Some(mut notes) = notes {
+            let note =
+                format!("contacts: `{name}` does not tell who touches: contact events and `Contacts` see nothing");
+            notes.0.push(note);
+        }
     }
     touches.pairs.sort_unstable();
     touches.pairs.dedup();

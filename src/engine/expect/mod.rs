@@ -156,7 +156,8 @@ impl Expectations {
 }
 
 /// Those that need nothing but the state look at it.
-fn observe_state(state: Res<State>, mut expectations: ResMut<Expectations>) {
+fn observe_state(state: Res<State>, expectations: Option<ResMut<Expectations>>) {
+    let Some(mut expectations) = expectations else { return };
     let Expectations { watches, all_ticks } = &mut *expectations;
     let sight = Sight::of(&state, None);
     due(watches, *all_ticks, state.clock.ticks).filter(|watch| !watch.needs_world()).for_each(|w| w.observe(&sight));

@@ -80,7 +80,9 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let entity = body_named(world, owner).or_else(|| wall_named(world, owner))?;
     watch(world);
     if quantity == "contacts" {
-        let count = move |world: &World| world.resource::<ContactEvents>().count(entity) as f64;
+        let count = move |world: &World| {
+            world.get_resource::<ContactEvents>().map_or(f64::NAN, |events| events.count(entity) as f64)
+        };
         return Some(Channel::of_resources(format!("{owner}.{quantity}"), "", count));
     }
     if !world.contains_resource::<Begun>() {
@@ -93,7 +95,10 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     if known.is_none() {
         begun.0.push((entity, 0));
     }
-    let count = move |world: &World| world.resource::<Begun>().0[place].1 as f64;
+    let count = move |world: &World| {
+        let begun = world.get_resource::<Begun>().and_then(|begun| begun.0.get(place));
+        begun.map_or(f64::NAN, |(_, count)| *count as f64)
+    };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "", count))
 }
 

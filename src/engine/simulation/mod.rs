@@ -22,7 +22,7 @@ use crate::contacts;
 use crate::expect::{Expectations, Outcome, observe_all};
 use crate::record::layers::{self, WantedLayers};
 use crate::record::sections::FilmSection;
-use crate::scene::{self, SceneErrors, SceneHeader, Source};
+use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::sensors::Channel;
 use crate::threads::Threads;
 use crate::tick::{
@@ -177,6 +177,11 @@ impl Simulation {
         Ok(Self { world, header, film, ticks, spent: Duration::ZERO, failure: None, origin: origin.clone() })
     }
 
+    /// The scene is refused for something that turned out in a run.
+    fn refused(&self, error: SceneError) -> SceneErrors {
+        scene::found_later(&self.world, &self.origin.source, vec![error])
+    }
+
     /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.
     pub fn plan(&self) -> Option<&Plan> {
         self.unpublished_world().get_resource()
@@ -218,16 +223,25 @@ impl Simulation {
     }
 
     /// The present value of a channel.
+    ///
+    /// # Panics
+    /// If a resource that the channel reads was removed from the world.
     pub fn value(&self, channel: &Channel) -> f64 {
         channel.value(self.unpublished_world())
     }
 
     /// The state of the run.
+    ///
+    /// # Panics
+    /// If the resource [`State`] was removed from the world; so does all that reads the state through it.
     pub fn state(&self) -> &State {
         self.unpublished_world().resource()
     }
 
     /// The packed bodies in canonical order.
+    ///
+    /// # Panics
+    /// As [`Self::state`].
     pub fn bodies(&self) -> &crate::world::Bodies {
         self.state().bodies()
     }
@@ -239,7 +253,7 @@ impl Simulation {
 
     /// What the engine chose and what it noted so far; the card adds what shows at its end.
     pub fn notes(&self) -> &[String] {
-        &self.unpublished_world().resource::<Notes>().0
+        self.unpublished_world().get_resource::<Notes>().map_or(&[], |notes| &notes.0)
     }
 
     /// What is to be drawn.
@@ -248,6 +262,9 @@ impl Simulation {
     }
 
     /// The clock.
+    ///
+    /// # Panics
+    /// As [`Self::state`].
     pub fn clock(&self) -> Clock {
         self.state().clock()
     }
@@ -265,16 +282,18 @@ impl Simulation {
     /// Runs until `tick` ticks are done in all; does nothing if they are.
     ///
     /// # Errors
-    /// When a number stops being finite, or energy comes out of nowhere.
+    /// When a number stops being finite, or energy comes out of nowhere; when there are too many contacts; when something that ticks
+    /// need was taken from the world, or put into it in a state that cannot be.
     pub fn run_to_tick(&mut self, tick: u64) -> Result<(), Failure> {
-        let missing = tick.saturating_sub(self.clock().ticks);
+        let ticks = self.get_resource::<State>().map_or(0, |state| state.clock.ticks);
+        let missing = tick.saturating_sub(ticks);
         if missing == 0 {
             return Ok(());
         }
         let start = Instant::now();
         let result = advance(&mut self.world, missing);
         self.spent += start.elapsed();
-        if self.clock().ticks == self.ticks {
+        if self.get_resource::<State>().is_some_and(|state| state.clock.ticks == self.ticks) {
             observe_all(&mut self.world);
         }
         self.failure = result.as_ref().err().cloned();
@@ -284,7 +303,7 @@ impl Simulation {
     /// Runs until the end of the scene's duration.
     ///
     /// # Errors
-    /// When a number stops being finite, or energy comes out of nowhere.
+    /// As [`Self::run_to_tick`].
     pub fn run_to_end(&mut self) -> Result<(), Failure> {
         self.run_to_tick(self.ticks)
     }
@@ -300,6 +319,9 @@ impl Simulation {
     }
 
     /// Name of the body at `place`; empty for a body spawned without one, and where there is no body.
+    ///
+    /// # Panics
+    /// As [`Self::state`].
     pub fn name(&self, place: usize) -> String {
         let name = self.bodies().entity.get(place).and_then(|&entity| self.unpublished_world().get::<Name>(entity));
         name.map(Name::to_string).unwrap_or_default()
@@ -348,6 +370,11 @@ pub fn begin(
     let late = world.remove_resource::<LoadErrors>().unwrap_or_default().0;
     if !late.is_empty() {
         return Err(scene::found_later(world, source, late));
+    }
+    if let Some(level) = overrides.level.filter(|level| *level > Level::best()) {
+        let error = SceneError::new("--simd", format!("this processor has no {level}"));
+        let error = error.with_help(format!("its best is `{}`", Level::best()));
+        return Err(scene::found_later(world, source, vec![error]));
     }
     let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(world, source, vec![*error]))?;
     if world.contains_resource::<Goal>() {

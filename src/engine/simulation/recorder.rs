@@ -33,7 +33,11 @@ impl Recorder {
     ///
     /// # Errors
     /// When the run goes wrong.
+    ///
+    /// # Panics
+    /// If the time is not a finite number; as [`Simulation::state`].
     pub fn frame(&mut self, simulation: &mut Simulation, time: f64) -> Result<Frame, Failure> {
+        assert!(time.is_finite(), "no frame shows {time} s: its time has to be a finite number");
         let dt = simulation.clock().dt;
         // A time that is a tick but for rounding is that tick.
         let exact = time / dt;

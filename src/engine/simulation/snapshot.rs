@@ -169,11 +169,14 @@ impl Simulation {
         if self.failure.is_some() {
             return Err(Unsaved { name: "a run that went wrong".to_owned() });
         }
+        if !self.contains_resource::<State>() {
+            return Err(Unsaved { name: "a world without its resource `State`".to_owned() });
+        }
         let world = &mut self.world;
         open(world);
         let kept = kept::save(world)?;
         let state = world.resource::<State>().save()?;
-        let notes = world.resource::<Notes>().0.clone();
+        let notes = world.get_resource::<Notes>().map_or_else(Vec::new, |notes| notes.0.clone());
         let expectations = world.get_resource::<Expectations>().map_or(Ok(Vec::new()), Expectations::save)?;
         let body = postcard::to_stdvec(&Body { state, kept, notes, expectations }).unwrap_or_default();
         Ok(Snapshot { header: self.identity(), body })
@@ -185,6 +188,9 @@ impl Simulation {
     /// # Errors
     /// If the snapshot is of another scene, version, method or tick, or the plugins are others.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Unfit> {
+        if !self.contains_resource::<State>() {
+            return Err(Unfit("this run has lost its resource `State`: load the scene again".to_owned()));
+        }
         open(&mut self.world);
         let Header { version, scene, plan, systems, .. } = self.identity();
         let of = &snapshot.header;
@@ -213,7 +219,7 @@ impl Simulation {
         present.load(&state)?;
         present.evaluation.count = of.evaluations;
         kept::load(world, &kept)?;
-        world.resource_mut::<Notes>().0 = notes;
+        world.insert_resource(Notes(notes));
         if let Some(mut own) = world.get_resource_mut::<Expectations>() {
             own.load(&expectations)?;
         }

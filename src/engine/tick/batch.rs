@@ -1,6 +1,6 @@
 //! A batch of ticks.
 
-use bevy_ecs::change_detection::{DetectChanges, Tick as ChangeTick};
+use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut, Tick as ChangeTick};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleCleanupPolicy, ScheduleLabel, Schedules};
 
@@ -8,15 +8,14 @@ use super::balance::Totals;
 use super::components::{
     clear_forces, collect_forces, components_differ, load_state, make_pushable, publish_components,
 };
-use super::failure::Failure;
+use super::failure::{Failure, Trouble, Wrong};
 use super::flight;
-use super::progress::Progress;
 use super::registered::{Kind, Registered};
 use super::stages::schedule_stages;
 use super::step::{integrate, integrate_among_systems, refresh};
 use super::stopwatch::Part;
 use super::{Evaluate, EvaluateStage, Method, Modes, SimTick, Stage, State};
-use crate::world::{Roster, packed};
+use crate::world::{Bodies, Roster, incomplete, packed};
 
 /// What runs while a batch of ticks does.
 pub(super) struct Running {
@@ -62,8 +61,14 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
 /// Runs `ticks` ticks. Between batches of a world that nobody else sees what runs them stays at hand: [`open`] comes before all
 /// that changes the world or reads components.
 pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
+    demand_all(world)?;
+    let awaited = world.resource::<Roster>().changed;
     let mut state = world.resource_mut::<State>();
     let watched = state.stopwatch.is_some();
+    // Others may have written to the lists since the last batch. Lists that were never filled will be.
+    if state.bodies.counts.is_some() || !awaited {
+        state.heal();
+    }
     let (kept, looked_at) = (state.progress.sim.take(), state.progress.looked_at);
     let mut sim = match kept {
         Some(sim) => {
@@ -76,28 +81,31 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     };
     let mut stale = false;
     for _ in 0..ticks {
+        if world.resource::<State>().progress.trouble.is_some() {
+            break;
+        }
         if watched {
             world.resource_mut::<State>().turn_to(Part::Begin);
         }
         sim.run(world);
-        let state = world.resource::<State>();
+        let Some(state) = world.get_resource::<State>() else { return Err(Failure::gone(STATE)) };
         stale = state.evaluation.stale;
-        if state.progress.trouble.is_some() {
-            break;
-        }
     }
-    if stale {
+    if stale && world.resource::<State>().progress.trouble.is_none() {
         refresh(world);
     }
     let mut state = world.resource_mut::<State>();
+    // To look at the lists is no change.
+    state.bypass_change_detection().heal();
     let changed = state.last_changed();
     state.see_writers(changed);
     state.complete();
-    if world.resource::<Others>().in_tick {
+    if world.resource::<Others>().in_tick && world.resource::<State>().progress.trouble.is_none() {
         take_up_last(world);
     }
+    let trouble = mend(world);
     let state = world.resource::<State>();
-    let Progress { trouble, shown, .. } = state.progress;
+    let shown = state.progress.shown;
     let stays = trouble.is_none() && state.progress.running.as_ref().is_some_and(|running| running.stays());
     world.resource_mut::<State>().progress.sim = Some(sim);
     if !stays {
@@ -108,6 +116,58 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     match trouble {
         Some(trouble) => Err(trouble.named(world)),
         None => Ok(()),
+    }
+}
+
+const STATE: &str = "the resource `State`";
+
+/// Others may have taken out what ticks need.
+fn demand_all(world: &World) -> Result<(), Failure> {
+    let Some(State { progress, .. }) = world.get_resource() else { return Err(Failure::gone(STATE)) };
+    if progress.sim.is_some() {
+        return Ok(());
+    }
+    if progress.method.is_none() {
+        return Err(Failure::gone("the method of integration that belongs to the resource `State`"));
+    }
+    let Some(schedules) = world.get_resource::<Schedules>() else {
+        return Err(Failure::gone("the resource `Schedules`"));
+    };
+    let there = [
+        (schedules.contains(SimTick), "the schedule `SimTick`"),
+        (schedules.contains(Evaluate), "the schedule `Evaluate`"),
+        (schedules.contains(Modes), "the schedule `Modes`"),
+        (world.contains_resource::<Registered>(), "the list of registered systems"),
+        (world.contains_resource::<Roster>(), "the roster of bodies"),
+    ];
+    there.into_iter().find(|(there, _)| !there).map_or(Ok(()), |(_, name)| Err(Failure::gone(name)))
+}
+
+/// What went wrong so far. Where the lists of bodies do not fit each other, they are filled anew from the components: the world
+/// can be looked at, and go on.
+fn mend(world: &mut World) -> Option<Trouble> {
+    let progress = &mut world.resource_mut::<State>().into_inner().progress;
+    let trouble = progress.trouble?;
+    if trouble.wrong.can_be_mended() {
+        progress.trouble = None;
+    }
+    if matches!(trouble.wrong, Wrong::Torn(_)) {
+        progress.behind = false;
+        let previous = std::mem::take(&mut world.resource_mut::<State>().bodies);
+        let Bodies { generation, level, threads, field, .. } = previous;
+        world.resource_mut::<State>().bodies = Bodies { generation, level, threads, field, ..Bodies::default() };
+        rebuild(world);
+        world.resource_mut::<State>().bodies.touched = true;
+    }
+    Some(trouble)
+}
+
+impl State {
+    /// Lists of bodies that do not fit each other are made to, and the run ends. Says whether there was one.
+    pub(super) fn heal(&mut self) -> bool {
+        let Some(list) = self.bodies.make_fit() else { return false };
+        self.progress.trouble.get_or_insert(Trouble::at(&self.clock, None, Wrong::Torn(list)));
+        true
     }
 }
 
@@ -135,6 +195,9 @@ fn begin(world: &mut World) -> Box<Schedule> {
 
 /// Opens the world to others: components show the state, and schedules and method stand in their places.
 pub(crate) fn open(world: &mut World) {
+    if !world.contains_resource::<State>() {
+        return;
+    }
     show_components(world);
     let mut state = world.resource_mut::<State>();
     let Some(sim) = state.progress.sim.take() else { return };
@@ -315,15 +378,23 @@ fn take_up_changes(world: &mut World) -> Option<Totals> {
     let before = state.totals();
     if changed {
         show_components(world);
-        rebuild(world);
+        if !rebuild(world) {
+            return None;
+        }
     } else {
         run_once(world, load_state);
     }
     Some(before)
 }
 
-/// Fills the packed arrays anew.
-pub(crate) fn rebuild(world: &mut World) {
+/// Fills the packed arrays anew, unless a body has lost one of its components. Says whether they were filled.
+pub(crate) fn rebuild(world: &mut World) -> bool {
+    if let Some((entity, component)) = incomplete(world) {
+        let mut state = world.resource_mut::<State>();
+        let trouble = Trouble { entity: Some(entity), ..Trouble::at(&state.clock, None, Wrong::Lost(component)) };
+        state.progress.trouble.get_or_insert(trouble);
+        return false;
+    }
     if Roster::pushes(world) {
         make_pushable(world);
     }
@@ -331,4 +402,5 @@ pub(crate) fn rebuild(world: &mut World) {
     let bodies = packed::rebuild(world, previous);
     world.resource_mut::<State>().bodies = bodies;
     world.resource_mut::<Roster>().changed = false;
+    true
 }

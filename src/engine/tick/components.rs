@@ -77,6 +77,10 @@ pub(super) fn publish_components(
     ticks: SystemChangeTick,
 ) {
     let state = state.bypass_change_detection();
+    // Lists that were made to fit hold nothing that is worth showing.
+    if state.heal() || state.progress.is_torn() {
+        return;
+    }
     state.progress.published_at = Some(ticks.this_run());
     let bodies = &state.bodies;
     for (entity, mut position, mut rotation, mut velocity, mut spin) in &mut poses {

@@ -319,7 +319,8 @@ impl Tick<'_> {
         let Clock { ticks, .. } = self.state.clock;
         let time = self.state.evaluation.time;
         let progress = &mut self.state.progress;
-        progress.trouble.get_or_insert(Trouble { body: worst, wrong: Wrong::Steps(step), tick: ticks + 1, time });
+        let wrong = Wrong::Steps(step);
+        progress.trouble.get_or_insert(Trouble { body: worst, entity: None, wrong, tick: ticks + 1, time });
     }
 
     /// Velocities change by the present forces over `dt` seconds, and the ledger books it.

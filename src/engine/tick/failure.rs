@@ -1,5 +1,7 @@
 //! A run that went wrong.
 
+use bevy_ecs::prelude::Entity;
+
 use super::Clock;
 use super::guard::Created;
 use crate::scene::number;
@@ -21,6 +23,8 @@ pub struct Failure {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trouble {
     pub body: Option<usize>,
+    /// The body itself, where it has no place yet.
+    pub entity: Option<Entity>,
     pub wrong: Wrong,
     pub tick: u64,
     pub time: f64,
@@ -29,7 +33,7 @@ pub(super) struct Trouble {
 impl Trouble {
     /// At the end of the last tick.
     pub fn at(clock: &Clock, body: Option<usize>, wrong: Wrong) -> Self {
-        Self { body, wrong, tick: clock.ticks, time: clock.time() }
+        Self { body, entity: None, wrong, tick: clock.ticks, time: clock.time() }
     }
 }
 
@@ -47,12 +51,58 @@ pub enum Wrong {
         /// The largest gap.
         meters: f64,
     },
+    /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
+    Pairs(usize),
+    /// A system has changed the length of this packed list, or put another value into it that does not fit. Bodies were read from
+    /// their components again.
+    Torn(&'static str),
+    /// A body has lost this component, which each body has.
+    Lost(&'static str),
+    /// This is gone, without which there are no ticks.
+    Gone(&'static str),
+}
+
+impl Wrong {
+    /// Whether it is mended by whoever did it, and the run can go on then.
+    pub(super) fn can_be_mended(&self) -> bool {
+        matches!(self, Self::Torn(_) | Self::Lost(_) | Self::Gone(_))
+    }
+}
+
+impl Failure {
+    /// Something is gone without which there are no ticks, nor a time.
+    pub(super) fn gone(name: &'static str) -> Self {
+        Self { body: String::new(), wrong: Wrong::Gone(name), tick: 0, time: 0.0 }
+    }
 }
 
 impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { body, wrong, tick, time } = self;
         match wrong {
+            Wrong::Gone(name) => {
+                return write!(
+                    f,
+                    "{name} is gone, without which there are no ticks: put it back as it was, or load the scene again"
+                );
+            }
+            Wrong::Pairs(most) => {
+                write!(
+                    f,
+                    "more than {most} pairs of atoms lie near each other, most of them of `{body}`: so many contacts do not fit \
+                     into memory,"
+                )?;
+            }
+            Wrong::Torn(list) => {
+                write!(
+                    f,
+                    "a system has left the packed list `{list}` of bodies in a state that does not fit the others: change \
+                     items, and spawn or despawn entities in place of lengths,"
+                )?;
+            }
+            Wrong::Lost(component) => {
+                write!(f, "`{body}` has lost its component `{component}`: put it back, or despawn the body,")?;
+            }
             Wrong::NotFinite(quantity) => write!(f, "the {quantity} of `{body}` is no longer a finite number")?,
             Wrong::Steps(step) => {
                 let short =

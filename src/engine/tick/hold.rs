@@ -126,7 +126,7 @@ impl State {
             let body = sides().map(|side| side.body).next_back();
             let wrong = Wrong::Joint { meters };
             let tick = self.clock.ticks + 1;
-            self.progress.trouble.get_or_insert(Trouble { body, wrong, tick, time });
+            self.progress.trouble.get_or_insert(Trouble { body, entity: None, wrong, tick, time });
         }
     }
 

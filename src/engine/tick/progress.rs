@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use super::Method;
 use super::balance::Totals;
 use super::batch::Running;
-use super::failure::Trouble;
+use super::failure::{Trouble, Wrong};
 use super::guard::EnergyGuard;
 use super::travel::FarTravel;
 use serde::{Deserialize, Serialize};
@@ -62,6 +62,13 @@ pub(super) struct Progress {
     pub trouble: Option<Trouble>,
     /// How many indicators each model with events told last, in order.
     pub told: Vec<usize>,
+}
+
+impl Progress {
+    /// Whether the lists of bodies did not fit each other.
+    pub fn is_torn(&self) -> bool {
+        self.trouble.is_some_and(|trouble| matches!(trouble.wrong, Wrong::Torn(_)))
+    }
 }
 
 /// How many events were located, and how many ticks had too many.

@@ -105,10 +105,11 @@ impl Registered {
         self.knows(label.intern(), schedule, |known| known.kind != Kind::Packed)
     }
 
-    /// Whether a schedule holds the systems that were registered for it, and no others.
+    /// Whether a schedule holds the systems that the engine registered for it, and no others.
     pub fn is_as_registered(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
         let label = label.intern();
-        let registered = self.0.iter().filter(|known| known.schedule == label).count();
-        keys(schedule).count() == registered && self.knows(label, schedule, |_| true)
+        let own = |known: &Known| known.kind == Kind::Flies;
+        let registered = self.0.iter().filter(|known| known.schedule == label && own(known)).count();
+        keys(schedule).count() == registered && self.knows(label, schedule, own)
     }
 }

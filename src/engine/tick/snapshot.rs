@@ -140,6 +140,7 @@ impl State {
     fn take_over(&mut self, other: Self) {
         let Self { bodies, progress, models, roles, stopwatch, ledger, .. } = std::mem::replace(self, other);
         (self.bodies.level, self.bodies.threads) = (bodies.level, bodies.threads);
+        self.bodies.counts = bodies.counts;
         (self.models, self.roles, self.stopwatch) = (models, roles, stopwatch);
         for (account, (name, _)) in self.ledger.accounts.iter_mut().zip(ledger.accounts) {
             account.0 = name;

@@ -1,7 +1,8 @@
 //! The stages of a step as systems, and the schedules in which they stand.
 //!
 //! Each system calls one function of [`State`]. Where the schedules of a run hold these systems and no others, the integrator calls
-//! the functions in the same order without them: a schedule and its systems take more instructions than a small world.
+//! the functions in the same order without them: a schedule and its systems take more instructions than a small world. Systems see
+//! to the lists of bodies first, for others may have written to them.
 
 use bevy_ecs::prelude::*;
 
@@ -11,26 +12,31 @@ use super::{Evaluate, EvaluateStage, Modes, State};
 
 /// Stages Bounds and Pairs.
 pub fn update_bounding_boxes(mut state: ResMut<State>) {
+    state.heal();
     state.update_bounding_boxes();
 }
 
 /// Stage Forces: the models of the scene in order, contacts last.
 pub fn apply_forces(mut state: ResMut<State>) {
+    state.heal();
     state.apply_forces();
 }
 
 /// Stage Constraints: the rows of all models together.
 pub fn solve_constraints(mut state: ResMut<State>) {
+    state.heal();
     state.solve_constraints();
 }
 
 /// Stage Settle.
 pub fn settle(mut state: ResMut<State>) {
+    state.heal();
     state.settle();
 }
 
 /// The models that have modes choose them.
 pub fn begin_step(mut state: ResMut<State>) {
+    state.heal();
     state.begin_step();
 }
 

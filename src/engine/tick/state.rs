@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use super::balance::Totals;
 use super::bounds::Bounds;
+use super::failure::{Trouble, Wrong};
 use super::hold::{Blow, JointDrift};
 use super::model::{Dependence, Energies, Model};
 use super::pairs::CandidatePairs;
@@ -204,6 +205,13 @@ impl State {
     /// Shows the models that have state of their own and events, in order.
     pub(super) fn each_with_events(&mut self, mut see: impl FnMut(&mut dyn super::model::Events, &mut Self)) {
         each!(self, events, model => if let Some(events) = model.events() { see(events, self) });
+    }
+
+    /// The run ends with this tick, because of a body.
+    pub(crate) fn end_run(&mut self, body: usize, wrong: Wrong) {
+        let tick = self.clock.ticks + 1;
+        let trouble = Trouble { body: Some(body), entity: None, wrong, tick, time: self.evaluation.time };
+        self.progress.trouble.get_or_insert(trouble);
     }
 
     /// Whether nothing but the engine's own stages sees the state between the evaluations of a tick and between ticks.

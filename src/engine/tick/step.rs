@@ -1,6 +1,6 @@
 //! A tick.
 
-use bevy_ecs::change_detection::DetectChanges;
+use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut};
 use bevy_ecs::prelude::*;
 
 use super::batch::{Others, Running, take_up};
@@ -13,6 +13,11 @@ use crate::world::{Name, finite};
 
 /// The system of [`Stage::Integrate`].
 pub(super) fn integrate(mut state: ResMut<State>) {
+    // Systems of users may have written to the lists. To look at them is no change.
+    let alone = state.progress.running.as_ref().is_some_and(|running| running.alone);
+    if !alone && state.bypass_change_detection().heal() {
+        return;
+    }
     let changed = state.last_changed();
     state.see_writers(changed);
     state.integrate(None);
@@ -24,8 +29,12 @@ pub(super) fn integrate(mut state: ResMut<State>) {
 pub(super) fn integrate_among_systems(world: &mut World) {
     let changed = world.resource_ref::<State>().last_changed();
     world.resource_mut::<State>().see_writers(changed);
+    world.resource_mut::<State>().bypass_change_detection().heal();
     if world.resource::<Others>().in_tick {
         take_up(world);
+    }
+    if world.resource::<State>().progress.trouble.is_some() {
+        return;
     }
     let mut state = std::mem::take(&mut *world.resource_mut::<State>());
     state.integrate(Some(world));
@@ -119,14 +128,15 @@ impl State {
         self.progress.energy = energy;
         if let Some((body, created)) = created {
             let wrong = if created.energy.is_finite() { Wrong::Energy(created) } else { Wrong::NotFinite("energy") };
-            self.progress.trouble = Some(Trouble::at(&self.clock, Some(body), wrong));
+            self.progress.trouble.get_or_insert(Trouble::at(&self.clock, Some(body), wrong));
         }
     }
 
     /// Looks for a number that is not finite. All bodies have landed.
     pub(super) fn note_failure(&mut self) {
         if let Some((body, quantity)) = finite::first_not_finite(&self.bodies) {
-            self.progress.trouble = Some(Trouble::at(&self.clock, Some(body), Wrong::NotFinite(quantity)));
+            let trouble = Trouble::at(&self.clock, Some(body), Wrong::NotFinite(quantity));
+            self.progress.trouble.get_or_insert(trouble);
         }
     }
 }
@@ -160,7 +170,8 @@ pub(super) fn refresh(world: &mut World) {
 impl Trouble {
     /// With the name of the body.
     pub(super) fn named(self, world: &World) -> Failure {
-        let entity = self.body.and_then(|body| world.resource::<State>().bodies.entity.get(body).copied());
+        let placed = || world.resource::<State>().bodies.entity.get(self.body?).copied();
+        let entity = self.entity.or_else(placed);
         let name = entity.and_then(|entity| world.get::<Name>(entity));
         let body = name.map(Name::to_string).unwrap_or_default();
         Failure { body, wrong: self.wrong, tick: self.tick, time: self.time }

@@ -29,6 +29,11 @@ impl Keys {
         key + (place - first) as u64
     }
 
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.len
+    }
+
     /// The place of a key, if it is there.
     pub fn find(&self, key: u64) -> Option<usize> {
         let run = self.runs.partition_point(|&(_, begin)| begin <= key).checked_sub(1)?;

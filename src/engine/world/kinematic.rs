@@ -57,7 +57,8 @@ impl Path {
     }
 
     fn within(&self, time: f64) -> PathPoint {
-        let next = self.points.partition_point(|point| point.time <= time);
+        // A time that is no number is before all points.
+        let next = self.points.partition_point(|point| point.time <= time).max(1);
         match self.points.get(next) {
             Some(to) => between(&self.points[next - 1], to, time),
             None => uniform(&self.points[next - 1], time),
@@ -74,7 +75,7 @@ impl Path {
             return (DVec2::ZERO, 0.0);
         }
         let began = if middle >= last.time { (middle / last.time).floor() * last.time } else { 0.0 };
-        let next = self.points.partition_point(|point| point.time <= middle - began);
+        let next = self.points.partition_point(|point| point.time <= middle - began).max(1);
         match self.points.get(next) {
             Some(to) => bending(&self.points[next - 1], to, time - began),
             None => (DVec2::ZERO, 0.0),

@@ -10,6 +10,7 @@ use glam::DVec2;
 use super::apart::Apart;
 use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Mass, Motion, Position, Rotation, Spin, Velocity};
+use super::fitting::Counts;
 use super::flight::Flights;
 use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
@@ -46,7 +47,9 @@ pub(crate) enum Moved {
 
 /// All bodies, atoms and walls, packed.
 ///
-/// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`].
+/// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`]. Whoever writes to the lists
+/// leaves them as long as they are: bodies come and go as entities. A run in which a system has changed a length ends with
+/// [`Wrong::Torn`](crate::tick::Wrong::Torn); a model that does so while it acts may panic.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bodies {
     /// Set by a plugin that changed something forces depend on other than the components of bodies (a setting of its
@@ -179,6 +182,10 @@ pub struct Bodies {
     pub walls: Vec<PackedWall>,
     /// Velocity of the surface of each wall in m/s; empty if all stand.
     pub belts: Vec<DVec2>,
+
+    /// How long the lists were when they were filled.
+    #[serde(skip)]
+    pub(crate) counts: Option<Counts>,
 }
 
 impl Bodies {
@@ -519,5 +526,6 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         .into_iter()
         .map(|(entity, wall)| PackedWall { entity, point: wall.left, normal: wall.normal(), material: wall.material })
         .collect();
+    bodies.count_all();
     bodies
 }

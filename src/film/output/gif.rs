@@ -48,7 +48,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
     let workers = (0..settings.threads.max(1)).map(|_| studio.easel().map(Worker::new));
     Ok(Box::new(Gif {
         path: path.to_path_buf(),
-        part: file.part().to_path_buf(),
+        part: file.beginning(),
         workers: workers.collect::<Result<_, _>>()?,
         width: width as usize,
         height: height as usize,
@@ -64,7 +64,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
 
 struct Gif {
     path: PathBuf,
-    part: PathBuf,
+    part: Option<PathBuf>,
     studio: Studio,
     workers: Vec<Worker>,
     width: usize,
@@ -256,7 +256,7 @@ impl Gif {
             gif::EncodingError::Io(cause) => cause,
             other => io::Error::other(other),
         };
-        OutputError::Io { path: self.path.clone(), cause, kept: (self.frames > 0).then(|| self.part.clone()) }
+        OutputError::Io { path: self.path.clone(), cause, kept: self.part.clone().filter(|_| self.frames > 0) }
     }
 }
 

@@ -14,8 +14,11 @@ use super::OutputError;
 pub(super) enum Unfinished {
     /// It stays where it is, unless it is empty: its beginning can be shown.
     Kept,
-    /// It goes: its beginning is of no use.
+    /// It goes: its beginning is of no use. Where the system can, it has no name before it is complete, so that a program that is
+    /// killed leaves nothing behind.
     Removed,
+    /// It goes, and has a name: another program writes into it.
+    Shared,
 }
 
 /// The ending of names of files in the making.
@@ -27,7 +30,8 @@ const LONGEST_BEGINNING: usize = 200;
 /// So many links lead on from each other in Linux; more of them lead in a circle.
 const MOST_LINKS: usize = 40;
 
-/// A file in the making: `<name>.<random letters>.part` beside its target. Two programs that write one target have a file each.
+/// A file in the making: without a name, or `<name>.<random letters>.part` beside its target. Two programs that write one target
+/// have a file each.
 #[derive(Debug)]
 pub(super) struct PartFile {
     /// As messages call it.
@@ -36,7 +40,7 @@ pub(super) struct PartFile {
     target: PathBuf,
     /// Where the file is, as messages call the folder.
     shown: PathBuf,
-    /// None once complete.
+    /// None once complete, and as long as it has no name.
     part: Option<TempPath>,
     /// None once complete.
     file: Option<BufWriter<File>>,
@@ -50,23 +54,31 @@ impl PartFile {
         let told = |cause: io::Error| OutputError::io(name, cause);
         let target = behind_links(name).map_err(told)?;
         let before = writable(&target).map_err(told)?;
-        let (folder, beginning) = (folder_of(&target), beginning(&target));
-        let mut maker = tempfile::Builder::new();
-        // Permissions are those of any new file: the maker's own way would let only the user read it.
-        let make = |path: &Path| File::options().write(true).create_new(true).open(path);
-        let made = maker.prefix(&beginning).suffix(ENDING).make_in(folder, make);
-        let (file, part) = made.map_err(told)?.into_parts();
+        let unnamed = (unfinished == Unfinished::Removed).then(|| unnamed::create(folder_of(&target))).flatten();
+        let (file, part) = match unnamed {
+            Some(file) => (file, None),
+            None => {
+                let (file, part) = named(&target).map_err(told)?;
+                (file, Some(part))
+            }
+        };
         if let Some(before) = before {
             file.set_permissions(before).map_err(told)?;
         }
-        let shown = target.with_file_name(part.file_name().unwrap_or_default());
+        let shown = part.as_ref().and_then(|part| part.file_name());
+        let shown = shown.map_or_else(|| target.clone(), |name| target.with_file_name(name));
         let file = Some(BufWriter::with_capacity(1 << 16, file));
-        Ok(PartFile { name: name.to_path_buf(), target, shown, part: Some(part), file, bytes: 0, unfinished })
+        Ok(PartFile { name: name.to_path_buf(), target, shown, part, file, bytes: 0, unfinished })
     }
 
-    /// Where the file is until it is complete.
+    /// Where the file is until it is complete, if it has a name: see [`Unfinished`].
     pub(super) fn part(&self) -> &Path {
         &self.shown
+    }
+
+    /// Where its beginning stays if it is never completed.
+    pub(super) fn beginning(&self) -> Option<PathBuf> {
+        (self.unfinished == Unfinished::Kept).then(|| self.shown.clone())
     }
 
     /// How many bytes were written so far.
@@ -118,6 +130,9 @@ impl PartFile {
         self.flush()?;
         if let Some(file) = &self.file {
             file.get_ref().sync_all()?;
+            if self.part.is_none() {
+                self.part = Some(unnamed::name(file.get_ref(), &self.target)?);
+            }
         }
         let Some(part) = self.part.take() else { return Ok(()) };
         if let Err(refused) = persist(part, &self.target) {
@@ -126,6 +141,81 @@ impl PartFile {
         }
         self.file = None;
         Ok(())
+    }
+}
+
+/// A new file beside a target, with a name that no other file has, which goes with the path.
+fn named(target: &Path) -> io::Result<(File, TempPath)> {
+    // Permissions are those of any new file: the maker's own way would let only the user read it.
+    made_at(target, |path| File::options().write(true).create_new(true).open(path))
+}
+
+/// What is made at a name that no other file has.
+fn made_at<T>(target: &Path, make: impl FnMut(&Path) -> io::Result<T>) -> io::Result<(T, TempPath)> {
+    let mut maker = tempfile::Builder::new();
+    let made = maker.prefix(&beginning(target)).suffix(ENDING).make_in(folder_of(target), make)?;
+    Ok(made.into_parts())
+}
+
+/// Files without a name: the system frees their space when the program ends, however it does.
+#[cfg(target_os = "linux")]
+mod unnamed {
+    use std::fs::File;
+    use std::io::{self, ErrorKind, Seek};
+    use std::os::fd::AsRawFd;
+    use std::path::{Path, PathBuf};
+
+    use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, open};
+    use tempfile::TempPath;
+
+    use super::{made_at, named};
+
+    /// A file in a folder; none where the file system or the system has no such thing.
+    pub(super) fn create(folder: &Path) -> Option<File> {
+        let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+        let file = File::from(open(folder, flags, Mode::from_raw_mode(0o666)).ok()?);
+        // It gets its name by way of this entry.
+        entry(&file).try_exists().is_ok_and(|there| there).then_some(file)
+    }
+
+    fn entry(file: &File) -> PathBuf {
+        format!("/proc/self/fd/{}", file.as_raw_fd()).into()
+    }
+
+    /// Gives a complete file a name of its own beside its target.
+    pub(super) fn name(file: &File, target: &Path) -> io::Result<TempPath> {
+        let link = |path: &Path| Ok(linkat(CWD, entry(file), CWD, path, AtFlags::SYMLINK_FOLLOW)?);
+        match made_at(target, link) {
+            Ok(((), part)) => Ok(part),
+            Err(cause) if cause.kind() == ErrorKind::StorageFull => Err(cause),
+            // A file system that has such files and cannot name them.
+            Err(_) => {
+                let (mut copy, part) = named(target)?;
+                let mut whole = file;
+                whole.rewind()?;
+                io::copy(&mut whole, &mut copy)?;
+                copy.set_permissions(file.metadata()?.permissions())?;
+                copy.sync_all()?;
+                Ok(part)
+            }
+        }
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+mod unnamed {
+    use std::fs::File;
+    use std::io::{self, ErrorKind};
+    use std::path::Path;
+
+    use tempfile::TempPath;
+
+    pub(super) fn create(_: &Path) -> Option<File> {
+        None
+    }
+
+    pub(super) fn name(_: &File, _: &Path) -> io::Result<TempPath> {
+        Err(ErrorKind::Unsupported.into())
     }
 }
 
@@ -162,10 +252,20 @@ fn behind_links(name: &Path) -> io::Result<PathBuf> {
     let mut target = name.to_path_buf();
     for _ in 0..MOST_LINKS {
         // A link may lead to a file that is still to be made.
-        let Ok(next) = fs::read_link(&target) else { return Ok(target) };
+        let Ok(next) = fs::read_link(&target) else {
+            // A name that tells something else leads to a scene by mistake only.
+            if is_scene(&target) && !is_scene(name) {
+                return Err(io::Error::new(ErrorKind::InvalidInput, "it is a link to a scene"));
+            }
+            return Ok(target);
+        };
         target = folder_of(&target).join(next);
     }
     Err(io::Error::new(ErrorKind::InvalidInput, "its links lead in a circle"))
+}
+
+fn is_scene(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
 /// The permissions of a file that is there. Renaming would replace it even where it may not be written.

@@ -35,7 +35,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View, codec: &[&str]) -> Ope
     if !(RATES.0..=RATES.1).contains(&rate) {
         return Err(OutputError::Rate { frames_per_second: rate, allowed: RATES });
     }
-    let file = PartFile::create(path, Unfinished::Removed)?;
+    let file = PartFile::create(path, Unfinished::Shared)?;
     let (width, height) = view.size();
     let mut command = Command::new("ffmpeg");
     command.args(["-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba"]);

@@ -15,6 +15,12 @@ const TOUCH: f64 = 1e-3;
 /// A packing of equal discs in which each touches more than this many has no pinholes to close.
 const NEIGHBORS_OF_A_LATTICE: usize = 6;
 
+/// Discs that touch more others than this on average leave neither seams nor pinholes between them.
+const MOST_BONDS: usize = 64;
+
+/// Pairs that are looked at for bonds, at most: a second's work.
+const MOST_LOOKS: usize = 1 << 28;
+
 /// A strip with round ends, from `from` to `to`, in pixels from the body's centre with y up. A disc is a strip whose
 /// ends agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,23 +195,32 @@ impl Reach {
     }
 }
 
-/// The pairs of discs of one size that touch, lower place first, in order.
+/// The pairs of discs of one size that touch, lower place first, in order. None where discs lie upon each other by the dozen: they
+/// look the same without strips between them, whose number grows with its square.
 fn bonds(discs: &[Disc]) -> Vec<(usize, usize)> {
-    let mut by_x: Vec<usize> = (0..discs.len()).collect();
-    by_x.sort_by(|&a, &b| discs[a].offset.x.total_cmp(&discs[b].offset.x));
+    // A tall chain swept along x would be compared each with each.
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = discs.iter().fold(none, |(low, high), disc| (low.min(disc.offset), high.max(disc.offset)));
+    let axis = usize::from((high - low).y > (high - low).x);
+    let mut sorted: Vec<usize> = (0..discs.len()).collect();
+    sorted.sort_by(|&a, &b| discs[a].offset[axis].total_cmp(&discs[b].offset[axis]));
     let largest = discs.iter().map(|disc| disc.radius).fold(0.0, f64::max);
-    let mut found = Vec::new();
-    for (rank, &a) in by_x.iter().enumerate() {
-        for &b in &by_x[rank + 1..] {
+    let (mut found, mut looks) = (Vec::new(), 0);
+    for (rank, &a) in sorted.iter().enumerate() {
+        for &b in &sorted[rank + 1..] {
             let apart = discs[b].offset - discs[a].offset;
-            if apart.x > 2.0 * largest * (1.0 + TOUCH) {
+            if apart[axis] > 2.0 * largest * (1.0 + TOUCH) {
                 break;
             }
+            looks += 1;
             let (ra, rb) = (discs[a].radius, discs[b].radius);
             let alike = (ra - rb).abs() <= TOUCH * ra;
             if alike && apart.length() <= (ra + rb) * (1.0 + TOUCH) {
                 found.push((a.min(b), a.max(b)));
             }
+        }
+        if found.len() > MOST_BONDS * discs.len() || looks > MOST_LOOKS {
+            return Vec::new();
         }
     }
     found.sort_unstable();
@@ -280,6 +295,22 @@ mod tests {
         let chain: Vec<Disc> =
             (0..6).map(|k| Disc { offset: DVec2::new(0.35 * f64::from(k), 0.0), radius: 0.5 }).collect();
         assert_eq!(closures(&chain, &bonds(&chain)), []);
+    }
+
+    /// A chain in which each disc overlaps many is joined as ever; a heap of them is not, for its strips would take gigabytes.
+    #[test]
+    fn discs_by_the_thousand_in_one_place_are_drawn_by_themselves() {
+        let chain = |step: f64| -> Vec<Disc> {
+            (0..3000).map(|k| Disc { offset: DVec2::new(step * f64::from(k), 0.0), radius: 0.5 }).collect()
+        };
+        assert!(bonds(&chain(0.02)).len() > 49 * 2900);
+        let turned = |disc: Disc| Disc { offset: disc.offset.perp(), ..disc };
+        assert_eq!(bonds(&chain(0.02)), bonds(&chain(0.02).into_iter().map(turned).collect::<Vec<_>>()));
+        let column = (0..100_000).map(|k| Disc { offset: DVec2::new(0.0, 0.9 * f64::from(k)), radius: 0.5 });
+        assert_eq!(bonds(&column.collect::<Vec<_>>()).len(), 99_999);
+        let heap = chain(1e-9);
+        assert_eq!(bonds(&heap), []);
+        assert_eq!(Silhouette::new(&heap, 10.0).strips.len(), heap.len());
     }
 
     #[test]

@@ -204,11 +204,12 @@ fn affordable(simulation: &Simulation, times: f64) -> f64 {
 /// The order with which errors are expected to fall: jumps of forces that are not located leave one.
 fn expected_order(simulation: &Simulation) -> f64 {
     let world = simulation.unpublished_world();
-    let chosen = world.resource::<ChosenMethod>();
+    let Some(chosen) = world.get_resource::<ChosenMethod>() else { return 1.0 };
     if touches(simulation) && !chosen.located {
         return 1.0;
     }
-    world.resource::<Methods>().named(chosen.name).map_or(1.0, |method| f64::from(method.order))
+    let method = world.get_resource::<Methods>().and_then(|methods| methods.named(chosen.name));
+    method.map_or(1.0, |method| f64::from(method.order))
 }
 
 /// Whether anything has touched in a run.

@@ -109,6 +109,14 @@ impl Evidence<'_> {
         if matches!(failure.wrong, Wrong::Steps(_)) {
             return near::of_endless_steps(self);
         }
+        if matches!(failure.wrong, Wrong::Pairs(_)) {
+            let ways =
+                "use fewer bodies, keep them from falling into one place, take a finer tick if they go far in one";
+            return format!("{ways}, or give those that are not to touch `collides: false`");
+        }
+        if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
+            return "look at what the plugin does to the world".to_owned();
+        }
         let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, place::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
             return energy::of_unknown_cause(self);

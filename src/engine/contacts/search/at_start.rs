@@ -4,7 +4,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::cells;
+use super::{cells, most_pairs};
 use crate::scene::SceneError;
 use crate::tick::{LoadErrors, Notes, State};
 use crate::world::{Bodies, Name};
@@ -14,8 +14,6 @@ use jostle_language::numbers::number;
 const SHARE: f64 = 0.05;
 /// Pairs that are counted for the note: what lies in one heap has billions.
 const MOST_PAIRS: usize = 1 << 22;
-/// Contacts of so many pairs of atoms take more than ten gigabytes.
-const TOO_MANY: usize = 1 << 24;
 /// Pairs of atoms that are looked at, at most: a second or two are enough.
 const MOST_LOOKS: usize = 1 << 30;
 
@@ -38,6 +36,8 @@ enum Pair {
 /// Who overlaps.
 #[derive(Default)]
 struct Overlaps {
+    /// More pairs of atoms than this are too many.
+    most: usize,
     pairs: Vec<Pair>,
     /// How many pairs of atoms that are.
     atoms: usize,
@@ -49,7 +49,7 @@ struct Overlaps {
 
 impl Overlaps {
     fn of(bodies: &Bodies) -> Self {
-        let mut found = Self::default();
+        let mut found = Self { most: most_pairs(bodies), ..Self::default() };
         let complete = cells::overlapping(bodies, MOST_LOOKS, |pair| {
             let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
             let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
@@ -87,18 +87,18 @@ impl Overlaps {
                 self.deepest = Some((share, overlap, pair));
             }
         }
-        self.atoms < TOO_MANY
+        self.atoms <= self.most
     }
 }
 
 /// Says on the card who overlaps.
 pub(super) fn note_overlaps(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
-    let Overlaps { pairs, atoms, more, deepest } = Overlaps::of(bodies);
+    let Overlaps { most, pairs, atoms, more, deepest } = Overlaps::of(bodies);
     let Some((share, overlap, deepest)) = deepest else { return };
-    if atoms >= TOO_MANY {
+    if atoms > most {
         let message =
-            format!("at the start {TOO_MANY} pairs of atoms or more overlap: so many contacts do not fit into memory");
+            format!("at the start more than {most} pairs of atoms overlap: so many contacts do not fit into memory");
         let help = "move them apart, or give those that are not to touch `collides: false`";
         let error = SceneError::new("bodies", message).with_help(help);
         return world.get_resource_or_init::<LoadErrors>().0.push(error);

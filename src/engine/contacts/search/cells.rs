@@ -4,6 +4,8 @@
 //! Atoms much larger than most stand beside the cells: each is compared with all cells that it covers. So one large disc
 //! under a thousand grains does not make all cells as large as itself, and costs no more than the cells under it.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::DVec2;
 
 use super::AtomPair;
@@ -71,12 +73,16 @@ impl Sorted {
         Self { all: Vec::new(), ..self }
     }
 
-    /// All pairs of atoms of different bodies that are nearer than the margin and do not both stand still, in canonical order.
-    pub fn pairs(&self, bodies: &Bodies) -> Vec<AtomPair> {
-        let among = self.cells.all_pairs(&bodies.threads, |a, b| moves(bodies, a, b));
+    /// All pairs of atoms of different bodies that are nearer than the margin and do not both stand still, in canonical order; some
+    /// of them, but more than `most`, if there are more.
+    pub fn pairs(&self, bodies: &Bodies, most: usize) -> Vec<AtomPair> {
+        let among = self.cells.all_pairs(&bodies.threads, most, |a, b| moves(bodies, a, b));
         let mut pairs = in_order(among, bodies.atom_count());
         let sorted = pairs.len();
-        self.each_of_large(bodies, |pair| pairs.push(pair));
+        self.each_of_large(bodies, |pair| {
+            pairs.push(pair);
+            pairs.len() <= most
+        });
         if pairs.len() > sorted {
             // Two sorted runs and a little more: nearly linear.
             pairs.sort();
@@ -84,37 +90,55 @@ impl Sorted {
         pairs
     }
 
-    /// Shows pairs of which one at least is large.
-    fn each_of_large(&self, bodies: &Bodies, mut see: impl FnMut(AtomPair)) {
+    /// Shows pairs of which one at least is large, until `see` has seen enough.
+    fn each_of_large(&self, bodies: &Bodies, mut see: impl FnMut(AtomPair) -> bool) {
+        let mut more = true;
         for (place, entry) in self.large.iter().enumerate() {
             let mut look = |other: &Entry| {
-                if moves(bodies, entry.body, other.body) {
-                    see(entry.with(other));
+                if more && moves(bodies, entry.body, other.body) {
+                    more = see(entry.with(other));
                 }
             };
             self.cells.near(entry, self.cells.reach, &mut look);
             self.large[place + 1..].iter().filter(|other| are_near(entry, other)).for_each(look);
+            if !more {
+                break;
+            }
         }
     }
 
-    /// Shows the same pairs as [`Sorted::pairs`], in any order, and those with one of `others`, of bodies that `counts` says.
+    /// Shows the same pairs as [`Sorted::pairs`], in any order, and those with one of `others`, of bodies that `counts` says; some of
+    /// them, but more than `most`, if there are more.
     pub fn each_pair(
         &self,
         bodies: &Bodies,
+        most: usize,
         (others, counts): (&Self, impl Fn(u32) -> bool),
         mut see: impl FnMut(AtomPair),
     ) {
-        let among = self.cells.all_pairs(&bodies.threads, |a, b| moves(bodies, a, b));
-        among.into_iter().flatten().for_each(&mut see);
+        let mut count = 0;
+        let mut see = |pair: AtomPair| {
+            count += 1;
+            see(pair);
+            count <= most
+        };
+        let among = self.cells.all_pairs(&bodies.threads, most, |a, b| moves(bodies, a, b));
+        if !among.into_iter().flatten().all(&mut see) {
+            return;
+        }
         self.each_of_large(bodies, &mut see);
         for entry in self.all.iter().chain(&self.large) {
+            let mut more = true;
             let mut look = |other: &Entry| {
-                if counts(other.body) && moves(bodies, entry.body, other.body) {
-                    see(entry.with(other));
+                if more && counts(other.body) && moves(bodies, entry.body, other.body) {
+                    more = see(entry.with(other));
                 }
             };
             others.cells.near(entry, others.cells.reach, &mut look);
             others.large.iter().filter(|other| are_near(entry, other)).for_each(look);
+            if !more {
+                break;
+            }
         }
     }
 }
@@ -322,8 +346,14 @@ impl Cells {
     }
 
     /// Pairs of entries of different bodies that are near each other, each once, if their bodies are wanted: band by band of
-    /// rows, in the order of cells.
-    fn all_pairs(&self, threads: &Threads, wanted: impl Fn(u32, u32) -> bool + Sync) -> Vec<Vec<AtomPair>> {
+    /// rows, in the order of cells. The search ends where it has found more than `most`.
+    fn all_pairs(
+        &self,
+        threads: &Threads,
+        most: usize,
+        wanted: impl Fn(u32, u32) -> bool + Sync,
+    ) -> Vec<Vec<AtomPair>> {
+        let total = AtomicUsize::new(0);
         let bands = parts_of(self.entries.len(), FEWEST).min(self.rows.count);
         let mut found = vec![Vec::new(); bands];
         let each = self.rows.count.div_ceil(bands);
@@ -331,14 +361,19 @@ impl Cells {
             let rows = band * each..self.rows.count.min((band + 1) * each);
             found.reserve(3 * self.entries.len() / bands);
             for row in rows {
-                self.pairs_of_row(row, &wanted, found);
+                let before = found.len();
+                self.pairs_of_row(row, &wanted, most, found);
+                let new = found.len() - before;
+                if total.fetch_add(new, Ordering::Relaxed) + new > most {
+                    break;
+                }
             }
         });
         found
     }
 
     /// Those of a row with what stands behind them in the row, and with the next row.
-    fn pairs_of_row(&self, row: usize, wanted: &impl Fn(u32, u32) -> bool, found: &mut Vec<AtomPair>) {
+    fn pairs_of_row(&self, row: usize, wanted: &impl Fn(u32, u32) -> bool, most: usize, found: &mut Vec<AtomPair>) {
         let columns = self.columns.count;
         let (begin, end) = (row * columns, (row + 1) * columns);
         for cell in begin..end {
@@ -354,6 +389,9 @@ impl Cells {
                 0..0
             };
             for place in own {
+                if found.len() > most {
+                    return;
+                }
                 let entry = &self.entries[place];
                 for other in self.entries[place + 1..beside].iter().chain(&self.entries[above.clone()]) {
                     if are_near(entry, other) && wanted(entry.body, other.body) {
@@ -466,7 +504,7 @@ pub(super) mod tests {
                 }
                 (bounds.low[0], bounds.high[0]) = (bounds.low[0] + far, bounds.high[0] + far);
             }
-            let found = Sorted::of(&bodies, bounds.margin).pairs(&bodies);
+            let found = Sorted::of(&bodies, bounds.margin).pairs(&bodies, usize::MAX);
             assert_eq!(found, sweep::pairs(&bodies, &bounds), "seed {seed}");
             assert!(count < 10 || found.len() > 10, "{} pairs", found.len());
         }

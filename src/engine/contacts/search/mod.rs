@@ -23,7 +23,7 @@ use self::still::Still;
 use crate::tick::bounds::{self, Bounds};
 use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, WallPair};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, TickAppExt, Wrong};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -76,8 +76,11 @@ impl Model for PairSearch {
     }
 
     fn find_pairs(&mut self, state: &mut State) {
-        if let State { bounds: Some(bounds), pairs: Some(pairs), bodies, .. } = state {
-            self.update(pairs, bodies, bounds);
+        if let State { bounds: Some(bounds), pairs: Some(pairs), bodies, .. } = state
+            && let Some(body) = self.update(pairs, bodies, bounds)
+        {
+            let most = most_pairs(bodies);
+            state.end_run(body, Wrong::Pairs(most));
         }
     }
 
@@ -89,32 +92,44 @@ impl Model for PairSearch {
 }
 
 impl PairSearch {
-    /// Makes the lists anew when the bounding boxes were.
+    /// Makes the lists anew when the bounding boxes were. If there are too many pairs the lists are empty, and the body is returned
+    /// that has most of them.
     #[inline]
-    fn update(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) {
-        if self.bounds_version != bounds.version {
-            self.bounds_version = bounds.version;
-            if !self.still.as_ref().is_some_and(|still| still.holds(bodies, bounds)) {
-                self.renew(pairs, bodies, bounds);
-            }
+    fn update(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) -> Option<usize> {
+        if self.bounds_version == bounds.version {
+            return None;
         }
+        self.bounds_version = bounds.version;
+        if self.still.as_ref().is_some_and(|still| still.holds(bodies, bounds)) {
+            return None;
+        }
+        self.renew(pairs, bodies, bounds)
     }
 
-    fn renew(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) {
+    fn renew(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) -> Option<usize> {
+        let most = most_pairs(bodies);
         pairs.version += 1;
         let old_atoms = std::mem::take(&mut pairs.atoms);
         let [touching, close] = std::mem::take(&mut pairs.group_ends);
         let old_walls = std::mem::take(&mut pairs.walls);
         pairs.search = suiting(bodies);
         let sorted = (pairs.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
-        pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies));
+        pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies, most));
         if !bodies.apart.is_empty() {
             let apart = places_apart(bodies);
             let body = |atom: u32| bodies.atom_body(atom as usize);
             pairs.atoms.retain(|pair| apart.binary_search(&ordered(body(pair.a), body(pair.b))).is_err());
         }
         pairs.walls.clear();
-        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| pairs.walls.push(pair));
+        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| {
+            if pairs.walls.len() <= most {
+                pairs.walls.push(pair);
+            }
+        });
+        let most_of = (pairs.atoms.len() + pairs.walls.len() > most).then(|| body_with_most(pairs, bodies));
+        if most_of.is_some() {
+            (pairs.atoms, pairs.walls) = (Vec::new(), Vec::new());
+        }
         bounds.candidates = pairs.atoms.len() + pairs.walls.len();
         let same = self.generation == bodies.generation;
         let renamed = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
@@ -139,7 +154,26 @@ impl PairSearch {
             self.wall_count = bodies.walls.len();
             self.identities = Identities::of(bodies);
         }
+        most_of
     }
+}
+
+/// Pairs take 200 to 700 bytes each: so many take less than a gigabyte.
+const MOST_PAIRS: usize = 1 << 20;
+/// Pairs for each atom that are never too many: in the densest packing of discs the widest margin of `bounds` gives 55.
+const PAIRS_PER_ATOM: usize = 64;
+
+/// So many candidate pairs at most are taken up: with more of them a run ends.
+fn most_pairs(bodies: &Bodies) -> usize {
+    MOST_PAIRS.max(PAIRS_PER_ATOM * bodies.atom_count())
+}
+
+/// The first of the bodies that have most pairs.
+fn body_with_most(pairs: &CandidatePairs, bodies: &Bodies) -> usize {
+    let mut counts = vec![0_u32; bodies.len()];
+    let atoms = pairs.atoms.iter().flat_map(|pair| [pair.a, pair.b]).chain(pairs.walls.iter().map(|pair| pair.atom));
+    atoms.for_each(|atom| counts[bodies.atom_body(atom as usize)] += 1);
+    (0..counts.len()).rev().max_by_key(|&body| counts[body]).unwrap_or_default()
 }
 
 /// The places of bodies that do not touch each other, the lower one first, in order.

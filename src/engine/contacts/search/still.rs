@@ -6,7 +6,7 @@
 //! whether they were.
 
 use super::cells::Sorted;
-use super::{AtomPair, WallPair, each_wall_pair, group_of};
+use super::{AtomPair, WallPair, each_wall_pair, group_of, most_pairs};
 use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 use jostle_simd::BLOCK;
@@ -83,7 +83,7 @@ impl Still {
         let mut found = Pairs::default();
         let own = Sorted::among(bodies, self.margin, moving.clone().flat_map(|body| bodies.atoms_of(body)));
         let stands = |body: u32| !has(&self.moves, body as usize);
-        own.each_pair(bodies, (&self.sorted, stands), |pair| {
+        own.each_pair(bodies, most_pairs(bodies), (&self.sorted, stands), |pair| {
             found.atoms.push((pair, group_of(pair, bodies, self.margin)));
         });
         found.atoms.sort_unstable();

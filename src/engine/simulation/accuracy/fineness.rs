@@ -5,7 +5,7 @@ use super::trajectory::{MOST_MOMENTS, Trajectory};
 use crate::Simulation;
 use crate::integrate::clock::EventTiming;
 use crate::integrate::{Allowance, Pace};
-use crate::scene::SceneErrors;
+use crate::scene::{SceneError, SceneErrors};
 use crate::simulation::Plan;
 use jostle_language::numbers::number;
 
@@ -29,6 +29,19 @@ const STEPS_BETWEEN_LOOKS: u32 = 5;
 /// Steps of a tick at which a hasty trial ends, and how many more it may take for each that suits the fastest contact or spring.
 const HASTY_STEPS: f64 = 1e4;
 const STEPS_OF_A_SWING: f64 = 10.0;
+
+/// Evaluations of all forces that no trial may need: an hour of the smallest scene, and much more of others.
+const MOST_OF_A_RUN: f64 = 1e10;
+
+fn endless(duration: f64, evaluations: f64) -> SceneError {
+    let message = format!(
+        "these {} s would be run several times to find steps that keep the tolerance, with {evaluations:.0e} evaluations of all \
+         forces each: that takes more than hours",
+        number(duration)
+    );
+    SceneError::new("clock.duration", message)
+        .with_help("use a shorter duration, or give a `tick` in place of the tolerance")
+}
 
 /// The trials of a scene.
 pub(super) struct Trials<'a> {
@@ -160,7 +173,8 @@ impl<'a> Trials<'a> {
             tell(self.count, what);
         }
         change(&mut simulation);
-        let trajectory = Trajectory::record(&mut simulation, per_moment);
+        let trajectory = Trajectory::record(&mut simulation, per_moment, MOST_OF_A_RUN)
+            .map_err(|evaluations| simulation.refused(endless(simulation.duration(), evaluations)))?;
         self.evaluations += trajectory.evaluations;
         self.cut = hastened && trajectory.failure.is_some();
         if trajectory.failure.is_none() {

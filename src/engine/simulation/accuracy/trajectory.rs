@@ -98,6 +98,9 @@ impl Apart {
     }
 }
 
+/// After so many ticks, and each time that they have doubled, it is seen what the whole run would take.
+const FORETOLD_FROM: u64 = 1 << 16;
+
 /// Where a run looks at its bodies, and what it saw: without ending a batch of ticks, after which forces are evaluated for
 /// whoever else may look.
 #[derive(Resource, Default)]
@@ -122,13 +125,29 @@ impl Lookout {
 }
 
 impl Trajectory {
-    /// Runs a scene to its end. `per_moment` ticks of it are one of the run that it is to be compared with.
-    pub fn record(simulation: &mut Simulation, per_moment: u64) -> Self {
+    /// Runs a scene to its end. `per_moment` ticks of it are one of the run that it is to be compared with. Nothing if it would take
+    /// more than `budget` evaluations of all forces, as they go on from its beginning; how many it would take instead.
+    pub fn record(simulation: &mut Simulation, per_moment: u64, budget: f64) -> Result<Self, f64> {
         let ticks = simulation.ticks() / per_moment;
         let bodies = simulation.bodies().len() as u64;
         let most = MOST_MOMENTS.min(MOST_NUMBERS / (6 * bodies.max(1))).max(8);
         let stride = ticks.div_ceil(most).max(1) * per_moment;
-        Self::seen(simulation, stride, |simulation| simulation.run_to_end().err())
+        let (mut next, mut endless) = (FORETOLD_FROM, None);
+        let trajectory = Self::seen(simulation, stride, |simulation| {
+            while next < simulation.ticks() {
+                if let Err(failure) = simulation.run_to_tick(next) {
+                    return Some(failure);
+                }
+                let expected = simulation.state().evaluation.count as f64 * (simulation.ticks() as f64 / next as f64);
+                if expected > budget {
+                    endless = Some(expected);
+                    return None;
+                }
+                next *= 2;
+            }
+            simulation.run_to_end().err()
+        });
+        endless.map_or(Ok(trajectory), Err)
     }
 
     /// Runs a scene to its end and looks at each `stride` ticks. `goes_on` is asked a hundred times; nothing, and the share of the

@@ -110,8 +110,11 @@ impl Section for FillSection {
 
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {
+        // Names of more than there may be in all are of no use, and take memory.
+        let mut left = LARGEST_COUNT;
         for (index, entry) in self.0.iter().enumerate() {
-            let count = entry.count.0.min(LARGEST_COUNT);
+            let count = entry.count.0.min(left);
+            left -= count;
             outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
         }
     }

@@ -60,8 +60,14 @@ impl Section for PackingsSection {
 
     /// Declares the bodies' names and the places they take.
     fn declare(&self, outline: &mut Outline) {
+        let mut atoms = 0;
         for (index, entry) in self.0.iter().enumerate() {
             let Some(table) = entry.read(outline) else { continue };
+            // More than there may be in all are refused: their names would only take memory.
+            atoms += table.atom_count() as u64;
+            if atoms > MOST_ATOMS {
+                return;
+            }
             let count = table.body_count() as u64;
             outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
             for (center, radius) in table.discs() {
@@ -82,6 +88,9 @@ impl Section for PackingsSection {
                     return;
                 };
                 atoms += table.atom_count() as u64;
+                if atoms > MOST_ATOMS {
+                    return;
+                }
                 let finite = |number| {
                     let body = table.body(number, 1.0);
                     body.properties.inertia.is_finite() && body.position.is_finite() && body.velocity.is_finite()
