@@ -4,7 +4,7 @@
 //! Not tested: whether what such scenes compute is of any use.
 
 use jostle::scene::Source;
-use jostle::simulation::{Overrides, Simulation};
+use jostle::simulation::Simulation;
 use jostle::tick::{Failure, Wrong};
 
 /// Runs some ticks, one at a time or all at once, and sees that the state is finite as long as nothing is said.
@@ -53,35 +53,4 @@ fn a_velocity_that_leaves_the_numbers_in_the_last_kick() {
     assert!(first.body == "brick" && matches!(first.wrong, Wrong::NotFinite(_)), "{first}");
     let step_by_step = run(sections, 40, false).expect_err("likewise");
     assert_eq!(first, step_by_step);
-}
-
-/// The plan of a tolerance that was not tried yet may let bodies meet in a way they never would, and then takes steps without end:
-/// here two cradles that stand in one place.
-#[test]
-fn a_plan_that_was_not_tried_ends_soon() {
-    let ball = |name: String, x: f64, y: f64| {
-        format!("(name: \"{name}\", at: ({x:?}, {y:?}), material: \"steel\", atoms: Disc(radius: 0.08, mass: 1)),")
-    };
-    let rod = |name: String, x: f64| {
-        format!("Distance(name: \"rod_{name}\", a: World, anchor_a: ({x:?}, 0), b: \"{name}\", length: 1),")
-    };
-    let (mut bodies, mut joints) = (String::new(), String::new());
-    for (cradle, begin, coming) in [("one", -0.9, 1), ("two", 1e-18, 2)] {
-        for number in 0..5 {
-            let (name, x) = (format!("{cradle}_{number}"), begin + 0.162 * f64::from(number - 2));
-            let angle: f64 = if number < coming { 0.7 } else { 0.0 };
-            bodies += &ball(name.clone(), x - angle.sin(), -angle.cos());
-            joints += &rod(name, x);
-        }
-    }
-    let scene = format!(
-        "Scene(format: 1, clock: (duration: 8, tolerance: 1e-5, method: Dop853), gravity: (0, -9.81),
-        materials: {{ \"steel\": (stiffness: 1e7, restitution: 1) }}, bodies: [{bodies}], joints: [{joints}])"
-    );
-    let overrides = Overrides { untried: true, ..Overrides::default() };
-    let mut simulation = Simulation::load_with(&Source::new("cradles.ron", scene), &overrides, |_| {})
-        .unwrap_or_else(|errors| panic!("{errors}"));
-    let _ = simulation.run_to_tick(12);
-    let evaluations = simulation.state().evaluation().count;
-    assert!(evaluations < 1_000_000, "{evaluations} evaluations");
 }

@@ -19,8 +19,6 @@ const TICKS_PER_HALF_PERIOD: f64 = 40.0;
 const COARSEST_TICK: f64 = 1e-3;
 /// More ticks than anybody can wait for, and still counted exactly.
 const MOST_TICKS: f64 = 1e15;
-/// Steps that a tick may need where the plan is not tried.
-const UNTRIED_STEPS: f64 = 1e4;
 /// Ticks per frame where frames do not fall on ticks: states between ticks are interpolated.
 const TICKS_PER_ODD_FRAME: f64 = 8.0;
 
@@ -232,9 +230,8 @@ fn plan_for(
     plan.method = method;
     let estimates = description.one_step.is_some_and(|make| make().order_of_error() > 0);
     plan.pace = if estimates {
-        // Trials say how much a step may err. Where none are made errors may let bodies meet in a way they never would.
-        let most_steps = if overrides.untried { UNTRIED_STEPS } else { MOST_STEPS };
-        Pace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps })
+        // Trials say how much a step may err.
+        Pace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps: MOST_STEPS })
     } else {
         Pace::Even(steps_per_tick(world, &plan))
     };
