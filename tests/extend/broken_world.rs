@@ -6,6 +6,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::Schedules;
 use glam::DVec2;
 use jostle::Simulation;
+use jostle::SimulationExt;
 use jostle::contacts::ContactEvents;
 use jostle::expect::Expectations;
 use jostle::integrate::{ChosenMethod, Methods, Pace};
