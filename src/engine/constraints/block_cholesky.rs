@@ -32,6 +32,9 @@ pub struct BlockCholesky {
     numbers: Vec<f64>,
     /// Diagonal before elimination.
     whole: Vec<f64>,
+    /// Whether the least pivot is looked for, and what share of its number before elimination it was.
+    pub watch: bool,
+    pub least_pivot: f64,
 }
 
 /// A pivot that is less than this share of its number before elimination counts as zero.
@@ -114,6 +117,8 @@ impl BlockCholesky {
             targets,
             numbers: vec![0.0; length as usize],
             whole: vec![0.0; unknowns as usize],
+            watch: false,
+            least_pivot: 1.0,
         }
     }
 
@@ -134,7 +139,8 @@ impl BlockCholesky {
 
     /// Replaces the matrix by its factor, with `share` of its diagonal added to that. Says whether all unknowns are determined.
     pub fn factor(&mut self, share: f64) -> bool {
-        let Self { size, first, order, diagonal, below, targets, numbers, whole } = self;
+        let Self { size, first, order, diagonal, below, targets, numbers, whole, watch, least_pivot } = self;
+        *least_pivot = 1.0;
         for (node, &own) in size.iter().enumerate() {
             for place in 0..own {
                 let number = &mut numbers[(diagonal[node] + place * (own + 1)) as usize];
@@ -147,7 +153,12 @@ impl BlockCholesky {
             let node = node as usize;
             let own = size[node] as usize;
             let at = diagonal[node] as usize;
-            regular &= factor_block(&mut numbers[at..at + own * own], own, &whole[first[node] as usize..]);
+            let whole = &whole[first[node] as usize..];
+            regular &= factor_block(&mut numbers[at..at + own * own], own, whole);
+            if *watch {
+                let share = |place: usize| numbers[at + place * (own + 1)].powi(2) / whole[place];
+                *least_pivot = (0..own).map(share).fold(*least_pivot, f64::min);
+            }
             for block in &below[node] {
                 let (head, tail) = numbers.split_at_mut(block.at as usize);
                 let rows = size[block.node as usize] as usize;

@@ -60,7 +60,7 @@ impl Islands {
     }
 }
 
-fn find(root: &mut [u32], mut body: u32) -> u32 {
+pub(super) fn find(root: &mut [u32], mut body: u32) -> u32 {
     while root[body as usize] != body {
         root[body as usize] = root[root[body as usize] as usize];
         body = root[body as usize];

@@ -13,6 +13,7 @@
 //! takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).
 
 mod block_cholesky;
+mod dead_point;
 pub mod islands;
 mod projection;
 mod redundant;
@@ -21,6 +22,7 @@ mod row;
 mod rows;
 mod solver;
 
+pub use dead_point::DeadPoints;
 pub use projection::{Gap, Projection, Standing};
 pub use redundant::Share;
 pub use row::{Kind, LostTo, Row, Side};

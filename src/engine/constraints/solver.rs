@@ -5,7 +5,7 @@
 //! solution of least norm, each unknown measured by its diagonal (proximal iteration, Rockafellar 1976).
 
 use super::block_cholesky::BlockCholesky;
-use super::islands::{Islands, Link};
+use super::islands::{Islands, Link, find};
 use super::redundant::{self, Share};
 use super::row::{Kind, Row};
 use crate::world::Bodies;
@@ -100,6 +100,11 @@ impl Solver {
         self.dependent
     }
 
+    /// The least pivot of the factors as a share of its number before elimination, where joints are loops and no row depends on others.
+    pub fn least_pivot(&self) -> Option<f64> {
+        (self.factor.watch && !self.dependent).then_some(self.factor.least_pivot)
+    }
+
     fn fill(&mut self, rows: &[Row], bodies: &Bodies) {
         let numbers = self.factor.numbers();
         numbers.fill(0.0);
@@ -180,6 +185,8 @@ impl Solver {
             }
         }
         self.moved = (0..bodies.len()).filter(|body| !nodes_of[*body].is_empty()).collect();
+        let nodes = first.iter().map(|place| ends[sparse[*place]].bodies);
+        self.factor.watch = has_loop(nodes, bodies.len());
     }
 
     /// Solves for `values`, a number for each row, in their place. Dense islands with dependent rows take the answer nearest to their
@@ -245,6 +252,17 @@ impl Solver {
         let of = |side: &super::Side| side.direction.dot(self.velocity[side.body]) + side.lever * self.spin[side.body];
         row.sides.iter().flatten().map(of).fold(0.0, |sum, term| sum + term)
     }
+}
+
+/// Whether joints between pairs of bodies, or a body and what no force moves, are a loop. Found by union-find.
+fn has_loop(joints: impl Iterator<Item = [u32; 2]>, bodies: usize) -> bool {
+    let mut root: Vec<u32> = (0..=bodies as u32).collect();
+    let mut closes = |[a, b]: [u32; 2]| {
+        let [a, b] = [a, b].map(|body| find(&mut root, body.min(bodies as u32)));
+        root[a.max(b) as usize] = a.min(b);
+        a == b
+    };
+    joints.fold(false, |found, joint| closes(joint) || found)
 }
 
 fn ends(row: &Row, bodies: &Bodies) -> Ends {

@@ -357,6 +357,15 @@ impl Model for Joint {
         if let Some(time) = self.parts.broken {
             remarks.push(format!("the joint `{}` broke at {} s", self.name, number(time)));
         }
+        let dead = state.dead_points();
+        if let (true, Some(time)) = (first, dead.first) {
+            remarks.push(format!(
+                "a loop of joints passes a dead point at t = {} s, {} in all: bars are in line there, joints alone do not determine the \
+                 way on, and rounding grows",
+                number(time),
+                dead.passed,
+            ));
+        }
         if !(first && state.rows().is_dependent()) {
             return remarks;
         }

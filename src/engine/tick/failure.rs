@@ -50,6 +50,8 @@ pub enum Wrong {
     Joint {
         /// The largest gap.
         meters: f64,
+        /// Whether a loop is near a dead point, where its bars are in line.
+        dead: bool,
     },
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
     Pairs(usize),
@@ -109,12 +111,13 @@ impl std::fmt::Display for Failure {
                     if *step > 0.0 { format!("as short as {step:.1e} s") } else { "too short to pass time".to_owned() };
                 write!(f, "steps have become {short}, for the acceleration of `{body}` grows beyond all bounds,")?;
             }
-            Wrong::Joint { meters } => {
+            Wrong::Joint { meters, dead } => {
                 let gap = number(*meters);
-                write!(
-                    f,
-                    "a joint of `{body}` cannot be closed, {gap} m are left: its bodies turn too far in a step,"
-                )?;
+                let why = match dead {
+                    true => "its loop is at a dead point, where bars are in line and the way on is not determined",
+                    false => "its bodies turn too far in a step",
+                };
+                write!(f, "a joint of `{body}` cannot be closed, {gap} m are left: {why},")?;
             }
             Wrong::Energy(Created { energy, put_in }) => {
                 write!(

@@ -6,7 +6,7 @@ use super::context::Tick;
 use super::failure::{Trouble, Wrong};
 use super::stopwatch::Part;
 use super::{Ledger, Model, State};
-use crate::constraints::{Gap, Kind, Row, Rows, Side, Standing};
+use crate::constraints::{DeadPoints, Gap, Kind, Row, Rows, Side, Standing};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -94,6 +94,11 @@ impl State {
         Some((self.joint_drift, &**model))
     }
 
+    /// What is known of dead points of loops of joints.
+    pub fn dead_points(&self) -> &DeadPoints {
+        &self.dead_points
+    }
+
     /// Whether joints hold something in the present state.
     pub fn has_joints(&self) -> bool {
         !self.bodies.jointed.is_empty()
@@ -124,7 +129,7 @@ impl State {
         }
         if gap.failed {
             let body = sides().map(|side| side.body).next_back();
-            let wrong = Wrong::Joint { meters };
+            let wrong = Wrong::Joint { meters, dead: self.dead_points.is_near() };
             let tick = self.clock.ticks + 1;
             self.progress.trouble.get_or_insert(Trouble { body, entity: None, wrong, tick, time });
         }
@@ -143,9 +148,12 @@ impl State {
     }
 
     /// Changes velocities until those that `rows` hold are what they should be. Returns the impulse from outside.
-    fn hold_velocities(&mut self, rows: &mut Rows) -> FromOutside {
-        let Self { bodies, projection, .. } = self;
+    fn hold_velocities(&mut self, rows: &mut Rows, time: f64) -> FromOutside {
+        let Self { bodies, projection, dead_points, .. } = self;
         let (rows, solver) = rows.prepared(bodies);
+        if let Some(pivot) = solver.least_pivot() {
+            dead_points.look(time, pivot);
+        }
         let mut outside = FromOutside::default();
         projection.speed(rows, solver, bodies, |bodies, row, impulse| outside.add(row, impulse, bodies));
         outside
@@ -173,7 +181,7 @@ impl State {
             rows.retain(|row| !row.gives_way);
             blown.iter().for_each(|row| rows.add(*row));
         }
-        let outside = self.hold_velocities(&mut rows);
+        let outside = self.hold_velocities(&mut rows, time);
         self.projected = rows;
         self.turn_to(Part::Integrate);
         outside
@@ -270,7 +278,7 @@ impl State {
     pub(super) fn hold_at_end(&mut self) {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.rows);
-        let outside = self.hold_velocities(&mut rows);
+        let outside = self.hold_velocities(&mut rows, self.evaluation.time);
         outside.book(&mut self.ledger);
         rows.still(&mut self.bodies, self.clock.dt);
         self.rows = rows;

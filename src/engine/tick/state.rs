@@ -15,7 +15,7 @@ use super::progress::{LocatedEvents, Progress, StepCount};
 use super::stopwatch::{Part, Stopwatch};
 use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
 use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
-use crate::constraints::{Cancelled, Projection, Rows};
+use crate::constraints::{Cancelled, DeadPoints, Projection, Rows};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,7 @@ pub struct State {
     #[serde(skip)]
     pub(super) blows: Vec<Blow>,
     pub(super) joint_drift: JointDrift,
+    pub(super) dead_points: DeadPoints,
     pub(crate) evaluation: Evaluation,
     pub(crate) span: Span,
     pub(crate) clock: Clock,

@@ -6,6 +6,7 @@
 
 use std::error::Error;
 
+use crate::SimulationExt;
 use glam::DVec2;
 
 use super::{Case, Extent, Reading, Readings, Threshold, load};
@@ -91,6 +92,17 @@ fn passes(method: &str, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
         crank("right", 1.0)
     ))?;
     let told = simulation.run_to_end().err().map(|failure| failure.to_string());
+    let said = |text: &str| text.contains("dead point");
+    let silent = match &told {
+        Some(failure) => !said(failure),
+        None => !simulation.card().notes.iter().any(|note| said(note)),
+    };
+    readings.at_most(
+        format!("parallelogram, {method}: runs that do not say that they met a dead point"),
+        f64::from(silent),
+        0.0,
+        "rows depend on each other where bars are in line",
+    );
     // How near the end of a tick comes to the dead point.
     let quarter = std::f64::consts::FRAC_PI_2 / (spin * tick);
     let nearest = (quarter - quarter.round()).abs() * spin * tick;
