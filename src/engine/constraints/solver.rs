@@ -255,14 +255,14 @@ impl Solver {
 }
 
 /// Whether joints between pairs of bodies, or a body and what no force moves, are a loop. Found by union-find.
-fn has_loop(joints: impl Iterator<Item = [u32; 2]>, bodies: usize) -> bool {
+fn has_loop(mut joints: impl Iterator<Item = [u32; 2]>, bodies: usize) -> bool {
     let mut root: Vec<u32> = (0..=bodies as u32).collect();
-    let mut closes = |[a, b]: [u32; 2]| {
+    let closes = |[a, b]: [u32; 2]| {
         let [a, b] = [a, b].map(|body| find(&mut root, body.min(bodies as u32)));
         root[a.max(b) as usize] = a.min(b);
         a == b
     };
-    joints.fold(false, |found, joint| closes(joint) || found)
+    joints.any(closes)
 }
 
 fn ends(row: &Row, bodies: &Bodies) -> Ends {
