@@ -16,7 +16,7 @@ pub struct Word(pub String);
 
 impl Word {
     /// Reports a word that is not in an open list of words
-    /// ([`register_word`](super::SceneAppExt::register_word)), or not available yet. Returns whether it is good.
+    /// ([`Registry::add_word`](super::Registry::add_word)), or not available yet. Returns whether it is good.
     pub fn check(&self, outline: &Outline, list: &str, path: &str, report: &mut Report) -> bool {
         match outline.word(list, &self.0) {
             Some(true) => true,
@@ -120,7 +120,7 @@ impl<'de> Deserialize<'de> for WholeNumber {
 }
 
 /// A field that is read elsewhere: a list of entries inside a section
-/// ([`register_entry_section`](super::SceneAppExt::register_entry_section)).
+/// ([`Registry::add_entry_section`](super::Registry::add_entry_section)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Elsewhere;
 
