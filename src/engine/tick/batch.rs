@@ -10,6 +10,7 @@ use super::components::{
 };
 use super::failure::{Failure, Trouble, Wrong};
 use super::flight;
+use super::progress::Progress;
 use super::registered::{Kind, Registered};
 use super::stages::schedule_stages;
 use super::step::{integrate, integrate_among_systems, refresh};
@@ -61,14 +62,18 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
 /// Runs `ticks` ticks. Between batches of a world that nobody else sees what runs them stays at hand: [`open`] comes before all
 /// that changes the world or reads components.
 pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
-    demand_all(world)?;
-    let awaited = world.resource::<Roster>().changed;
+    let Some(State { progress, .. }) = world.get_resource() else { return Err(Failure::gone(STATE)) };
+    // Others may have written to the lists if the world was open. Lists that were never filled will be.
+    if progress.sim.is_none() {
+        demand_all(world, progress)?;
+        let awaited = world.resource::<Roster>().changed;
+        let mut state = world.resource_mut::<State>();
+        if state.bodies.counts.is_some() || !awaited {
+            state.heal();
+        }
+    }
     let mut state = world.resource_mut::<State>();
     let watched = state.stopwatch.is_some();
-    // Others may have written to the lists since the last batch. Lists that were never filled will be.
-    if state.bodies.counts.is_some() || !awaited {
-        state.heal();
-    }
     let (kept, looked_at) = (state.progress.sim.take(), state.progress.looked_at);
     let mut sim = match kept {
         Some(sim) => {
@@ -79,9 +84,9 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
         }
         None => begin(world),
     };
-    let mut stale = false;
+    let (mut stale, mut troubled) = (false, world.resource::<State>().progress.trouble.is_some());
     for _ in 0..ticks {
-        if world.resource::<State>().progress.trouble.is_some() {
+        if troubled {
             break;
         }
         if watched {
@@ -89,14 +94,16 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
         }
         sim.run(world);
         let Some(state) = world.get_resource::<State>() else { return Err(Failure::gone(STATE)) };
-        stale = state.evaluation.stale;
+        (stale, troubled) = (state.evaluation.stale, state.progress.trouble.is_some());
     }
-    if stale && world.resource::<State>().progress.trouble.is_none() {
+    if stale && !troubled {
         refresh(world);
     }
     let mut state = world.resource_mut::<State>();
-    // To look at the lists is no change.
-    state.bypass_change_detection().heal();
+    // Systems of users may have written to the lists. To look at them is no change.
+    if !state.progress.running.as_ref().is_some_and(|running| running.alone) {
+        state.bypass_change_detection().heal();
+    }
     let changed = state.last_changed();
     state.see_writers(changed);
     state.complete();
@@ -122,11 +129,7 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
 const STATE: &str = "the resource `State`";
 
 /// Others may have taken out what ticks need.
-fn demand_all(world: &World) -> Result<(), Failure> {
-    let Some(State { progress, .. }) = world.get_resource() else { return Err(Failure::gone(STATE)) };
-    if progress.sim.is_some() {
-        return Ok(());
-    }
+fn demand_all(world: &World, progress: &Progress) -> Result<(), Failure> {
     if progress.method.is_none() {
         return Err(Failure::gone("the method of integration that belongs to the resource `State`"));
     }
