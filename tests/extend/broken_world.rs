@@ -48,7 +48,7 @@ fn ask_everything(simulation: &mut Simulation) {
     let _ = (simulation.name(0), simulation.name(99), simulation.name(usize::MAX), simulation.frame_step());
     let _ = (simulation.outcomes(), simulation.failure(), simulation.seconds_spent(), simulation.plan());
     let _ = (simulation.clock(), simulation.card().to_string(), simulation.bodies().len());
-    for name in ["ball.contacts", "ball.contacts.begun", "ball.position.x", "energy.kinetic", "nobody.x", ""] {
+    for name in ["ball.contacts", "ball.contacts.begun", "ball.position.x", "energy.kinetic", "absent.x", ""] {
         if let Some(channel) = sensors::find(simulation.world_mut(), name) {
             let _ = simulation.value(&channel);
         }
@@ -262,7 +262,7 @@ fn bodies_may_go_at_any_time() {
     }
 }
 
-/// Numbers that are none in components end the run with the name of the body.
+/// A component that holds NaN or an infinite number ends the run with the name of the body.
 #[test]
 fn numbers_that_are_none_are_told() {
     for clock in CLOCKS {

@@ -254,7 +254,7 @@ impl Solver {
     }
 }
 
-/// Whether joints between pairs of bodies, or a body and what no force moves, are a loop. Found by union-find.
+/// Whether joints form a loop, found by union-find. Fixed bodies, prescribed bodies and the world count as one body.
 fn has_loop(mut joints: impl Iterator<Item = [u32; 2]>, bodies: usize) -> bool {
     let mut root: Vec<u32> = (0..=bodies as u32).collect();
     let closes = |[a, b]: [u32; 2]| {

@@ -65,7 +65,7 @@ pub enum Wrong {
 }
 
 impl Wrong {
-    /// Whether it is mended by whoever did it, and the run can go on then.
+    /// Whether the run can go on after its author has mended the cause.
     pub(super) fn can_be_mended(&self) -> bool {
         matches!(self, Self::Torn(_) | Self::Lost(_) | Self::Gone(_))
     }

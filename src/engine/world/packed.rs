@@ -47,7 +47,7 @@ pub(crate) enum Moved {
 
 /// All bodies, atoms and walls, packed.
 ///
-/// Lengths: everything per body has [`Bodies::len`] items, everything per atom [`Bodies::atom_count`]. Whoever writes to the lists
+/// Lists of bodies have [`Bodies::len`] items, lists of atoms [`Bodies::atom_count`]. A system that writes to the lists
 /// leaves them as long as they are: bodies come and go as entities. A run in which a system has changed a length ends with
 /// [`Wrong::Torn`](crate::tick::Wrong::Torn); a model that does so while it acts may panic.
 #[derive(Debug, Default, Serialize, Deserialize)]

@@ -114,7 +114,7 @@ pub const ALL: &[Problem] = &[
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// No force, or forces in balance in the end: every method is exact but for rounding.
+    /// No force, or forces in balance in the end: the error of every method is rounding.
     Free,
     /// Constant acceleration: methods of order 2 and more are exact but for rounding.
     ConstantAcceleration,

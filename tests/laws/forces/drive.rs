@@ -58,9 +58,9 @@ fn a_ramp_gives_the_area_below_it() {
 }
 
 /// A pulse much shorter than a step: its area is 1 s, the lever arm brings -1 N m beside a torque of 1 N m. Exact:
-/// `v = 4 N s / 2 kg`, and the way from the middle of the pulse on. Each piece of a table is linear, so that all these
-/// methods, of order 2 and more, are exact but for rounding: of the area, of at most 200 steps, and of steps that end at
-/// times of an ulp of 1 s where the course rises by 1e6 a second. Not tested: courses that are no table.
+/// `v = 4 N s / 2 kg`, and the way from the middle of the pulse on. Each piece of a table is linear, and methods of order 2 and
+/// more integrate it exactly. Rounding is that of the area and of at most 200 steps. Steps end at times rounded to an ulp of 1 s,
+/// and the course rises by 1e6 a second there. Not tested: courses that are no table.
 #[test]
 fn a_pulse_between_two_ticks_is_met_by_every_step_inside_ticks() {
     let pulse = "Piecewise([(0.5004, 0), (0.5014, 1000), (0.5024, 0)])";
@@ -114,7 +114,7 @@ fn the_card_says_what_comes_of_points_between_ticks() {
     }
 }
 
-/// The file stands beside the scene; a constant force makes `v = F t/m`, exact but for rounding.
+/// The file stands beside the scene. A constant force makes `v = F t/m`; the numbers chosen leave no rounding.
 #[test]
 fn a_course_comes_from_the_file_beside_the_scene() {
     let folder = std::env::temp_dir().join(format!("jostle-course-{}", std::process::id()));
