@@ -26,7 +26,7 @@ fn a_scene_schedules_what_it_names_and_nothing_else() {
     for (sections, more) in [
         // What is only drawn, measured after the run, or said in words is not in the tick.
         (
-            "look: (theme: \"night\", layers: [Trails(seconds: 1), ContactForces, Velocities, ContactPoints, Names, Boxes]),",
+            "look: (theme: \"night\", layers: [Trails(seconds: 1), ContactForces, FreeBody, Velocities, ContactPoints, Names, Boxes]),",
             [0, 0, 0],
         ),
         (

@@ -166,6 +166,25 @@ fn accounts_of_mechanisms_close_under_dop853() {
     }
 }
 
+/// Methods that are symplectic on free bodies, but project states onto joints, say so on the card.
+#[test]
+fn methods_that_project_say_that_they_are_not_symplectic() {
+    let problem = &problems::pendulum::PROBLEM;
+    for (method, events, projects) in [
+        ("VelocityVerlet", EventTiming::PerTick, false),
+        ("VelocityVerlet", EventTiming::Located, true),
+        ("SemiImplicitEuler", EventTiming::PerTick, false),
+        ("Symplectic4", EventTiming::Located, true),
+        ("ImplicitMidpoint", EventTiming::Located, true),
+        ("RungeKutta4", EventTiming::Located, false),
+    ] {
+        let setting = Setting { method, tick: problem.tick, events, ..Setting::default() };
+        let notes = problem.load(&setting).expect("a scene").notes().to_vec();
+        let told = notes.iter().any(|note| note.contains("is not symplectic here"));
+        assert_eq!(told, projects, "{method} {events:?}: {notes:?}");
+    }
+}
+
 /// Law: errors of a double pendulum grow as `e^(lambda t)` with the greatest Lyapunov exponent, 0.86/s, known to 30 %. Source: J03, with 40
 /// digits until 30 s. Tolerance: the rounding of as many ticks, by chance, grown with the upper end of that.
 #[test]

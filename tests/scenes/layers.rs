@@ -97,10 +97,55 @@ fn arrows_of_forces_at_rest_are_as_long_as_the_weight_they_bear() {
     );
 }
 
+/// Newton's first law on an incline: the slope is 30 degrees steep and rough enough to hold the block, so that the normal force is
+/// `m g cos 30` across the slope, friction `m g sin 30` up the slope, and weight `m g` down: 1 kg, 10 m/s2. The picture is 10 m high and
+/// 10 N are a tenth of it, so that an arrow of 1 m stands for 10 N. Tolerance: at rest forces balance to rounding; 1e-6 is far above that.
+#[test]
+fn a_free_body_diagram_shows_weight_normal_force_and_friction() {
+    let slope = "gravity: (0, -10), materials: { \"m\": (stiffness: 1e5, friction: 0.9, restitution: 0) },
+        walls: [(name: \"slope\", left: (8.660254037844386, 5), right: (0, 0), material: \"m\")],
+        bodies: [(name: \"block\", at: (4.2, 2.6), angle: \"30 deg\", material: \"m\",
+            atoms: Picture(spacing: 0.2, mass: 0.125, rows: [\"####\", \"####\"]))]";
+    let mut simulation = load(slope, "look: (layers: [FreeBody(of: \"block\", scale: \"10 N\")])");
+    simulation.world_mut().insert_resource(PictureHeight(10.0));
+    let marks = frame(&mut simulation, &mut Recorder::default(), 3.9).marks;
+    let shown = |name: &str| {
+        let labelled = marks.windows(2).filter_map(|pair| match (&pair[0].shape, &pair[1].shape) {
+            (MarkShape::Arrow(from, to), MarkShape::Label { text, .. }) if text == name => Some(*to - *from),
+            _ => None,
+        });
+        labelled.collect::<Vec<_>>()
+    };
+    let (sin, cos) = (0.5, 0.75_f64.sqrt());
+    let along = glam::DVec2::new(cos, sin);
+    for (name, expected) in [("weight", -glam::DVec2::Y), ("normal", along.perp() * cos), ("friction", along * sin)] {
+        let found = shown(name);
+        assert!(matches!(found[..], [arrow] if (arrow - expected).length() < 1e-6), "{name}: {found:?} {expected}");
+    }
+    assert_eq!(shown("spring").len() + shown("joint").len(), 0);
+}
+
+/// A weight on a rod: the joint pulls at its anchor with `m g`, and nothing else but the weight acts. As above 1 m for 10 N.
+#[test]
+fn a_free_body_diagram_shows_joints_at_their_anchors() {
+    let hung = "gravity: (0, -10), contacts: None,
+        bodies: [(name: \"bob\", at: (0, -1), mass: 2, inertia: 1, atoms: Disc(radius: 0.1))],
+        joints: [Revolute(name: \"pin\", a: World, anchor_a: (0, 0.5), b: \"bob\", anchor_b: (0, 1.5))]";
+    let mut simulation = load(hung, "look: (layers: [FreeBody(parts: [Joint], names: false, scale: \"10 N\")])");
+    simulation.world_mut().insert_resource(PictureHeight(10.0));
+    let marks = frame(&mut simulation, &mut Recorder::default(), 1.0).marks;
+    let arrows: Vec<_> = marks.iter().filter(|mark| matches!(mark.shape, MarkShape::Arrow(..))).collect();
+    let [mark] = arrows[..] else { panic!("{marks:?}") };
+    let MarkShape::Arrow(from, to) = mark.shape else { panic!("{mark:?}") };
+    assert!((from - glam::DVec2::new(0.0, 0.5)).length() < 1e-9, "{from}");
+    assert!((to - from - glam::DVec2::new(0.0, 2.0)).length() < 1e-9, "{to}");
+    assert!(!marks.iter().any(|mark| matches!(mark.shape, MarkShape::Label { .. })));
+}
+
 /// With all layers a film takes the run through the same states as without one, to the last bit.
 #[test]
 fn layers_change_nothing_of_the_run() {
-    let all = "look: (layers: [Trails, Trails(of: \"high\", seconds: 0.37), ContactForces, Velocities, ContactPoints, Boxes, Names, ScaleBar, Time])";
+    let all = "look: (layers: [Trails, Trails(of: \"high\", seconds: 0.37), ContactForces, FreeBody, Velocities, ContactPoints, Boxes, Names, ScaleBar, Time])";
     let mut bare = load(PILE, "");
     bare.run_to_tick(2500).expect("numbers stay finite");
     let mut filmed = load(PILE, all);

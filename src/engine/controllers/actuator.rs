@@ -2,7 +2,6 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -11,7 +10,7 @@ use super::output::{self, Output};
 use super::target::Target;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, ForcePart, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Energies, ForceOn, Model, State, SteadySpring, TickAppExt};
 
 /// Turns a hinge by a torque, or pushes a slide by a force, that follows a course in time.
 #[derive(Deserialize, JsonSchema)]
@@ -68,7 +67,7 @@ impl Model for ActuatorForce {
 
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
-    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+    fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {
         self.driven.force_on(state, body, self.output.values.0)
     }
 

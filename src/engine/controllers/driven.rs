@@ -9,7 +9,7 @@ use crate::joints::KnownJoints;
 use crate::joints::ends::{Along, End, Ends, Pair};
 use crate::joints::law::Law;
 use crate::scene::{Kind, Outline, Report};
-use crate::tick::{ForcePart, LoadErrors, State};
+use crate::tick::{ForceOn, ForcePart, LoadErrors, State};
 use crate::world::Bodies;
 
 /// The joint of a controller: what it leaves free is driven.
@@ -78,10 +78,10 @@ impl Driven {
     }
 
     /// For sensors: what `amount` N m or N along the motion is as a force on a body.
-    pub fn force_on(&self, state: &State, body: usize, amount: f64) -> Option<(ForcePart, DVec2)> {
+    pub fn force_on(&self, state: &State, body: usize, amount: f64) -> Option<ForceOn> {
         let Motion { pair, along, .. } = self.motion(state.bodies())?;
-        let of = |end: &End, side: (DVec2, f64)| if end.body == Some(body) { side.0 * amount } else { DVec2::ZERO };
-        Some((ForcePart::Joint, of(&pair.a, along.sides[0]) + of(&pair.b, along.sides[1])))
+        let end = |end: &End, side: (DVec2, f64)| (end.body, end.position, side.0 * amount);
+        ForceOn::of_ends(ForcePart::Joint, body, [end(&pair.a, along.sides[0]), end(&pair.b, along.sides[1])])
     }
 
     /// Adds a torque in N m, or a force in N, along the motion. Its power is work.

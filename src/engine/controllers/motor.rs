@@ -3,7 +3,6 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -14,7 +13,7 @@ use crate::joints::bounded::Bounded;
 use crate::scene::units::{Scalar, Spin};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForcePart, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// Turns a hinge at a constant rate, or moves a slide at a constant speed, with as much torque or force as that takes.
@@ -81,7 +80,7 @@ impl Model for MotorRow {
 
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
-    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+    fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {
         self.driven.force_on(state, body, self.output.values.0)
     }
 

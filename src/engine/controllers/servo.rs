@@ -5,7 +5,6 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -16,7 +15,7 @@ use crate::scene::units::{Rate, Scalar};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForcePart, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
 
 /// Drives a hinge to an angle, or a slide to a place: its torque (force) is `kp (target - angle) + ki` times the integral of that
 /// `+ kd (rate of the target - rate)`, bounded by `limit`.
@@ -117,7 +116,7 @@ impl Model for ServoForce {
 
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
-    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+    fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {
         self.driven.force_on(state, body, self.output.values.0)
     }
 

@@ -17,7 +17,7 @@ use crate::scene::units::{Damping, Length, Position, Stiffness};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
 use crate::tick::response;
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Dependence, Energies, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Dependence, Energies, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
 /// `stiffness (distance - length) + damping d(distance)/dt`, and pushes where that is negative.
@@ -165,10 +165,10 @@ impl Model for SpringForce {
         list.push(SteadySpring { spring, damping: self.damping, turning_damping: 0.0 });
     }
 
-    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+    fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {
         let (a, b) = self.link.ends(&state.bodies)?;
-        let of = |end: &End, sign: f64| if end.body == Some(body) { sign } else { 0.0 };
-        Some((ForcePart::Spring, self.force * (of(&a, 1.0) + of(&b, -1.0))))
+        let ends = [(a.body, a.position, self.force), (b.body, b.position, -self.force)];
+        ForceOn::of_ends(ForcePart::Spring, body, ends)
     }
 
     fn apply_forces(&mut self, state: &mut State) {

@@ -13,7 +13,7 @@ use super::law::{Freedom, Law};
 use crate::constraints::{Kind as Holds, Row, Rows, Side};
 use crate::scene::{Entry, Kind, Outline, Report, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, ForcePart, LoadErrors, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Energies, ForceOn, ForcePart, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 use std::sync::Arc;
 
@@ -103,11 +103,11 @@ impl Model for Coupling {
 
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
-    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+    fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {
         let index = self.row.filter(|row| *row < state.rows().len())?;
         let (row, amount) = (state.rows().row(index), state.rows().force(index));
-        let side = row.sides.iter().flatten().find(|side| side.body == body);
-        Some((ForcePart::Joint, side.map_or(DVec2::ZERO, |side| side.force * amount)))
+        let side = row.sides.iter().flatten().find(|side| side.body == body)?;
+        Some(ForceOn { part: ForcePart::Joint, force: side.force * amount, point: state.bodies().position[body] })
     }
 
     fn has_rows(&self) -> bool {

@@ -15,7 +15,7 @@ use crate::constraints::{Kind as Holds, Rows};
 use crate::forces::link::{DAMPING, Partner};
 use crate::scene::{Entry, Kind, Outline, Report, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Origin};
 use jostle_language::numbers::number;
 
@@ -249,10 +249,11 @@ impl Model for Joint {
         Some(Loss { account: DAMPING, power: soft.power })
     }
 
-    fn force_on(&self, state: &State, body: usize) -> Option<(ForcePart, DVec2)> {
+    fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {
         let pair = self.pair(&state.bodies)?;
-        let of = |end: &super::ends::End, sign: f64| if end.body == Some(body) { sign } else { 0.0 };
-        Some((ForcePart::Joint, self.reaction.0 * (of(&pair.b, 1.0) + of(&pair.a, -1.0))))
+        let force = self.reaction.0;
+        let ends = [(pair.b.body, pair.b.position, force), (pair.a.body, pair.a.position, -force)];
+        ForceOn::of_ends(ForcePart::Joint, body, ends)
     }
 
     fn has_rows(&self) -> bool {

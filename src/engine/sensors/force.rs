@@ -110,7 +110,7 @@ fn of(part: Part, state: &State, place: usize) -> DVec2 {
     let bodies = state.bodies();
     let told = |part: ForcePart| {
         let forces = state.models().filter_map(|model| model.force_on(state, place));
-        forces.filter(|(told, _)| *told == part).fold(DVec2::ZERO, |sum, (_, force)| sum + force)
+        forces.filter(|told| told.part == part).fold(DVec2::ZERO, |sum, told| sum + told.force)
     };
     match part {
         Part::Weight if !bodies.dynamic[place] => DVec2::ZERO,

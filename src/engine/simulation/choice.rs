@@ -308,6 +308,12 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
     if located && state.contact_law().is_some() {
         notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
     }
+    if method.symplectic && (located || method.whole_ticks.is_none()) && state.models().any(|model| model.has_rows()) {
+        let name = method.name;
+        notes.push(format!(
+            "{name} brings states back onto the joints behind each step: it keeps its order, but is not symplectic here"
+        ));
+    }
     world.insert_resource(ChosenMethod { name: method.name, located, style });
     crate::tick::set_method(world, made);
     Ok(())

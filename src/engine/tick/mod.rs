@@ -76,7 +76,9 @@ pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use hold::{Blow, FromOutside, JointDrift};
 pub use method::{Integrator, Method};
-pub use model::{Departure, Dependence, Energies, Events, ForcePart, Indicator, Loss, Model, Objection, Rhythm};
+pub use model::{
+    Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
+};
 pub use notes::Notes;
 pub use ode::Flow;
 pub use progress::{LocatedEvents, StepCount};

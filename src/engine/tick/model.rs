@@ -44,6 +44,27 @@ pub enum ForcePart {
     Joint,
 }
 
+/// The force of a model on a body, as sensors and pictures tell it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceOn {
+    /// The part of all forces to which it counts.
+    pub part: ForcePart,
+    /// In newtons.
+    pub force: DVec2,
+    /// Where it acts on the body, in metres.
+    pub point: DVec2,
+}
+
+impl ForceOn {
+    /// That on `body` of something with two ends, each with its body, the point at which it acts and the force there. `None`: neither
+    /// end is on the body. Where both are, the point is that of the first.
+    pub fn of_ends(part: ForcePart, body: usize, ends: [(Option<usize>, DVec2, DVec2); 2]) -> Option<Self> {
+        let own = ends.into_iter().filter(|(of, ..)| *of == Some(body));
+        let forces = own.map(|(_, point, force)| Self { part, force, point });
+        forces.reduce(|first, second| Self { force: first.force + second.force, ..first })
+    }
+}
+
 /// A physical model: what it does in each stage of a step, and what it owes the card.
 ///
 /// Models act in the order in which they were added. Required is what must not be left out in silence: energies and stiffness. A
@@ -57,9 +78,8 @@ pub trait Model: Any + Send + Sync {
     /// The energies in J that it holds in the present state.
     fn energies(&self, state: &State) -> Energies;
 
-    /// For sensors: its force in newtons on the body of this index in the present state, and the part to which that counts. Default:
-    /// sensors hear of no force.
-    fn force_on(&self, _: &State, _: usize) -> Option<(ForcePart, DVec2)> {
+    /// For sensors and pictures: its force on the body of this index in the present state. Default: they hear of no force.
+    fn force_on(&self, _: &State, _: usize) -> Option<ForceOn> {
         None
     }
 

@@ -114,4 +114,6 @@ pub struct ContactPoint {
     pub point: DVec2,
     /// The force on `body` in newtons.
     pub force: DVec2,
+    /// The unit vector along which contacts press `body`; friction is across it.
+    pub normal: DVec2,
 }

@@ -402,7 +402,7 @@ impl PenaltyContacts {
             let (_, arm) = arms(ends, normal, contact.overlap, law.shares());
             let force = contact.force(law, normal);
             let point = bodies.position[ends.1.body] + arm;
-            (place, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force })
+            (place, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force, normal })
         })
     }
 
@@ -419,7 +419,7 @@ impl PenaltyContacts {
             let arm = end.arm - normal * (end.radius - contact.overlap);
             let force = contact.force(law, normal);
             let point = bodies.position[end.body] + arm;
-            (place, ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point, force })
+            (place, ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point, force, normal })
         })
     }
 }

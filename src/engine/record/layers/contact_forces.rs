@@ -58,7 +58,11 @@ impl OfBodies for ContactForces {
             marks.push(scale.key());
             let places: Vec<usize> = shown.places(&world.resource::<State>().bodies).collect();
             let up = -world.resource::<State>().gravity();
-            let loads = loads(points, |body| places.binary_search(&body).is_ok());
+            let is_shown = |body: usize| places.binary_search(&body).is_ok();
+            let contacts = points.into_iter().filter(|contact| {
+                is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
+            });
+            let loads = loads(contacts);
             marks.extend(loads.iter().filter_map(|load| {
                 let turned = matches!(load.other, Other::Body(_)) && load.force.dot(up) < 0.0;
                 scale.arrow(load.point, if turned { -load.force } else { load.force })
@@ -72,13 +76,11 @@ impl OfBodies for ContactForces {
 const ALIKE: f64 = 0.7;
 
 /// Contacts of one pair of bodies in about one direction, put together.
-fn loads(contacts: Vec<ContactPoint>, shown: impl Fn(usize) -> bool) -> Vec<ContactPoint> {
-    let is_shown =
-        |contact: &ContactPoint| shown(contact.body) || matches!(contact.other, Other::Body(other) if shown(other));
+pub(super) fn loads(contacts: impl Iterator<Item = ContactPoint>) -> Vec<ContactPoint> {
     let mut loads: Vec<ContactPoint> = Vec::new();
     // Of each load the direction of its first force, and the sum of forces by which its point is weighted.
     let mut sums: Vec<(DVec2, f64)> = Vec::new();
-    for contact in contacts.into_iter().filter(is_shown) {
+    for contact in contacts {
         let (size, direction) = (contact.force.length(), contact.force.normalize_or_zero());
         // Contacts of one pair follow each other in the list, but for those of bodies with many atoms.
         let same = |(load, (first, _)): &(&mut ContactPoint, &mut (DVec2, f64))| {
@@ -105,11 +107,11 @@ const LOOKED_BACK: usize = 64;
 
 /// The force of a scene, in N, by which the default scale is chosen: it stays the same for the whole film.
 #[derive(Resource)]
-struct TypicalForce(f64);
+pub(super) struct TypicalForce(pub f64);
 
 /// The weight of the middle one of the bodies; without gravity the force with which the fastest body would be stopped by
 /// its own stiffness, `v sqrt(k m)`.
-fn note_start(world: &mut World) {
+pub(super) fn note_start(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let mut masses: Vec<f64> = (0..bodies.len()).filter(|&b| bodies.dynamic[b]).map(|b| bodies.mass[b]).collect();
     masses.sort_by(f64::total_cmp);
@@ -134,17 +136,23 @@ mod tests {
 
     #[test]
     fn atoms_of_one_face_are_one_arrow_at_the_centre_of_pressure() {
-        let contact = |x: f64, force: DVec2, other: Other| ContactPoint { body: 1, other, point: DVec2::X * x, force };
+        let contact = |x: f64, force: DVec2, other: Other| ContactPoint {
+            body: 1,
+            other,
+            point: DVec2::X * x,
+            force,
+            normal: DVec2::Y,
+        };
         let floor = Other::Wall(0);
         let found = loads(
-            vec![
+            [
                 contact(0.0, DVec2::new(0.0, 1.0), floor),
                 contact(1.0, DVec2::new(0.1, 3.0), floor),
                 contact(2.0, DVec2::new(-2.0, 0.0), floor),
                 contact(3.0, DVec2::new(0.0, 1.0), Other::Body(0)),
                 contact(4.0, DVec2::ZERO, Other::Body(0)),
-            ],
-            |_| true,
+            ]
+            .into_iter(),
         );
         assert_eq!(found.len(), 3);
         assert_eq!(found[0].force, DVec2::new(0.1, 4.0));

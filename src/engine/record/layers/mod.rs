@@ -8,6 +8,7 @@
 mod boxes;
 mod contact_forces;
 mod contact_points;
+mod free_body;
 mod joints;
 mod names;
 mod of_bodies;
@@ -30,7 +31,7 @@ use crate::tick::State;
 use crate::world::Bodies;
 
 /// The built-in layers by the words of the command line, with their names in the scene, from back to front.
-pub const WORDS: [(&str, &str); 10] = [
+pub const WORDS: [(&str, &str); 11] = [
     ("trails", "Trails"),
     ("boxes", "Boxes"),
     ("springs", "Springs"),
@@ -38,6 +39,7 @@ pub const WORDS: [(&str, &str); 10] = [
     ("velocities", "Velocities"),
     ("contacts", "ContactPoints"),
     ("forces", "ContactForces"),
+    ("freebody", "FreeBody"),
     ("names", "Names"),
     ("scale", "ScaleBar"),
     ("time", "Time"),
@@ -192,6 +194,7 @@ pub fn plugin(app: &mut App) {
     velocities::plugin(app);
     contact_points::plugin(app);
     contact_forces::plugin(app);
+    free_body::plugin(app);
     names::plugin(app);
     scale_bar::plugin(app);
     time::plugin(app);
