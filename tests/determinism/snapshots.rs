@@ -33,8 +33,9 @@ fn difference(source: &Source, overrides: &Overrides) -> Option<String> {
         return None;
     }
     let (expected, plan) = (end(&mut whole), whole.plan().cloned());
-    let others = Overrides { plan, threads: Some(2), level: Some(Level::Scalar), ..overrides.clone() };
-    let mut saved = Simulation::load_with(source, overrides, |_| {}).unwrap();
+    let own = Overrides { plan, ..overrides.clone() };
+    let others = Overrides { threads: Some(2), level: Some(Level::Scalar), ..own.clone() };
+    let mut saved = Simulation::load_with(source, &own, |_| {}).unwrap();
     for moment in MOMENTS {
         let tick = (moment * whole.ticks() as f64) as u64;
         saved.run_to_tick(tick).unwrap();
