@@ -39,8 +39,28 @@ impl Inputs {
     }
 }
 
-/// Whether two paths lead to one file, also by links of any kind.
+/// The most links that are followed to a file.
+const MOST_LINKS: usize = 40;
+
+/// Where a file would be written that is not there yet: its folder and links are followed.
+fn destination(path: &Path) -> Option<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let whole = std::fs::canonicalize(folder).ok()?.join(path.file_name()?);
+        match std::fs::read_link(&whole) {
+            Ok(link) => path = whole.parent()?.join(link),
+            Err(_) => return Some(whole),
+        }
+    }
+    None
+}
+
+/// Whether two paths lead to one file, also by links of any kind, and if it is not there yet.
 pub(super) fn is_same_file(one: &Path, other: &Path) -> bool {
+    if destination(one).is_some_and(|one| Some(one) == destination(other)) {
+        return true;
+    }
     #[cfg(unix)]
     {
         use std::os::unix::fs::MetadataExt;

@@ -157,7 +157,10 @@ impl Run {
         };
         let strict = self.strict.strict;
         let ran = Ran { back: back.as_ref(), strict, ..Ran::whole(&simulation, failure.as_ref()) };
-        result::tell(request, &ran, Detail::of(self.json, self.quiet))
+        match result::tell(request, &ran, Detail::of(self.json, self.quiet)) {
+            Exit::Good if saves.failed => Exit::Usage,
+            exit => exit,
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use super::flags::moment;
 use super::inputs::{Inputs, is_same_file};
 use super::load::Request;
 use super::pace::Runner;
+use super::say::say;
 use super::target::{is_directory, takes_no_file};
 use crate::output::{OutputError, write_whole};
 use crate::simulation::{Simulation, Snapshot};
@@ -57,7 +58,12 @@ impl From<OutputError> for Trouble {
 
 /// The snapshots that a run is still to write, in order of their ticks.
 #[derive(Debug, Default)]
-pub(super) struct Saves(Vec<(u64, PathBuf)>);
+pub(super) struct Saves {
+    /// Ticks and files, in order of ticks.
+    missing: Vec<(u64, PathBuf)>,
+    /// Whether one could not be written.
+    pub failed: bool,
+}
 
 impl SnapshotFlags {
     /// The file that the run goes on from.
@@ -84,6 +90,9 @@ impl SnapshotFlags {
         let mut saves = Saves::default();
         for (number, Saving { at, file }) in self.save.iter().enumerate() {
             let (name, dt) = (file.display(), simulation.clock().dt);
+            if file == Path::new("-") {
+                return Err("--save: a snapshot is written to a file, not to standard output: name one".to_owned());
+            }
             let tick = (at / dt).round() as u64;
             let same = |other: &Path| other == file.as_path() || is_same_file(other, file);
             let (begin, end) = (simulation.clock().time(), simulation.ticks() as f64 * dt);
@@ -98,12 +107,12 @@ impl SnapshotFlags {
             } else if let Some(message) = inputs.objection(file).or_else(|| takes_no_file(file)) {
                 return Err(format!("--save: {message}"));
             }
-            saves.0.push((tick, file.clone()));
+            saves.missing.push((tick, file.clone()));
         }
-        if !saves.0.is_empty() {
+        if !saves.missing.is_empty() {
             simulation.snapshot().map_err(|error| format!("--save: this run cannot be saved: {error}"))?;
         }
-        saves.0.sort_by_key(|save| save.0);
+        saves.missing.sort_by_key(|save| save.0);
         Ok(saves)
     }
 }
@@ -130,13 +139,17 @@ fn resume(simulation: &mut Simulation, file: &Path) -> Result<(), String> {
 }
 
 impl Saves {
-    /// Runs to a tick, and writes the snapshots of the moments on the way.
+    /// Runs to a tick, and writes the snapshots of the moments on the way. One that cannot be written is told at once and does not end the
+    /// run.
     pub fn run_to(&mut self, runner: &mut Runner, simulation: &mut Simulation, tick: u64) -> Result<(), Trouble> {
-        while let Some((at, _)) = self.0.first().filter(|(at, _)| *at <= tick) {
+        while let Some((at, _)) = self.missing.first().filter(|(at, _)| *at <= tick) {
             runner.run_to(simulation, *at).map_err(Trouble::Run)?;
-            let (_, file) = self.0.remove(0);
+            let (_, file) = self.missing.remove(0);
             let snapshot = simulation.snapshot().map_err(|error| Trouble::Unsaved(error.to_string()))?;
-            write_whole(&file, snapshot.to_bytes())?;
+            if let Err(error) = write_whole(&file, snapshot.to_bytes()) {
+                say(&format!("error: --save: {error}; the run goes on"));
+                self.failed = true;
+            }
         }
         runner.run_to(simulation, tick).map_err(Trouble::Run)
     }

@@ -19,6 +19,8 @@ use crate::digest;
 const SMALLEST: &str = "the smallest scene is `Scene(format: 1, clock: (duration: 1), bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.1))])`";
 /// More mistakes than this are not looked up in the text.
 const MOST_PROBLEMS: usize = 1000;
+/// The longest title of a scene, in bytes.
+const LONGEST_TITLE: usize = 1000;
 
 /// What a scene says about itself, and which names it brought.
 #[derive(Clone, Debug, Default)]
@@ -204,7 +206,7 @@ impl<A> Loading<'_, A> {
                     format = true;
                     self.format(id);
                 }
-                "title" => self.header.title = self.read(id, "title: \"Five balls\""),
+                "title" => self.title(id),
                 "notes" => self.header.notes = self.read(id, "notes: \"What to look for.\""),
                 name => {
                     clock |= name == "clock";
@@ -232,6 +234,17 @@ impl<A> Loading<'_, A> {
                 self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, example));
                 None
             }
+        }
+    }
+
+    fn title(&mut self, id: Id) {
+        self.header.title = self.read(id, "title: \"Five balls\"");
+        let length = self.header.title.as_ref().map_or(0, String::len);
+        if length > LONGEST_TITLE {
+            let message = format!("a title of {length} bytes is too long: {LONGEST_TITLE} are allowed");
+            let error = SceneError::new("title", message).at(self.walked.tree.span(id), "this title");
+            self.errors
+                .push(error.with_help("a title is one line of the film; longer texts have their place in `notes`"));
         }
     }
 

@@ -65,9 +65,11 @@ impl Source {
             return Err(fail(format!("`{name}` is a folder"), "name a scene file, such as `scenes/first.ron`"));
         }
         let too_large = |length: u64| {
-            let found = length as f64 / f64::from(1 << 20);
+            let (found, most) = (length >> 20, LARGEST_SCENE as u64 >> 20);
+            // Of devices no more is read than shows that they are too large.
+            let found = if found > most { format!("{found} MiB, ") } else { String::new() };
             fail(
-                format!("`{name}` is too large for a scene: {found:.0} MiB, the limit is {} MiB", LARGEST_SCENE >> 20),
+                format!("`{name}` is too large for a scene: {found}the limit is {most} MiB"),
                 "check that it is a scene; many bodies are shorter with `fill`",
             )
         };

@@ -104,3 +104,41 @@ fn what_cannot_be_saved_or_resumed_is_said_before_anything_runs() {
     let left = ["damaged.snapshot", "folder", "good.snapshot", "short.snapshot", "text.snapshot"];
     assert_eq!(folder.names(), left);
 }
+
+/// Two outputs of one command never share a file, however it is spelt, and even if it is not there yet.
+#[test]
+fn one_new_file_of_two_names_is_refused() {
+    let folder = Folder::new("one_file_two_names");
+    std::fs::create_dir(folder.path("sub")).unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../a.snapshot", folder.path("sub/link.snapshot")).unwrap();
+    let run = "run example:tetris --duration 0.2 --quiet --no-estimate";
+    let whole = folder.path("a.snapshot");
+    let mut pairs = vec![
+        "--save at=0.1:a.snapshot --save at=0.2:./a.snapshot".to_owned(),
+        "-o a.snapshot --save at=0.1:sub/../a.snapshot".to_owned(),
+        format!("-o a.snapshot --save at=0.1:{}", whole.display()),
+    ];
+    if cfg!(unix) {
+        pairs.push("--save at=0.1:a.snapshot --save at=0.2:sub/link.snapshot".to_owned());
+    }
+    for pair in pairs {
+        let ended = folder.jostle(&format!("{run} {pair}")).code(2);
+        assert!(ended.err.contains("is written by this command already"), "{pair}: {}", ended.err);
+        assert!(!whole.exists(), "{pair}");
+    }
+}
+
+/// A snapshot that cannot be written costs neither the table nor the snapshots behind it. No file has a name of 300 letters.
+#[test]
+fn a_snapshot_that_cannot_be_written_does_not_end_the_run() {
+    let folder = Folder::new("one_snapshot_fails");
+    let run = "run example:tetris --duration 0.2 --quiet --no-estimate";
+    folder.jostle(&format!("{run} -o whole.csv")).code(0);
+    let name = "n".repeat(300);
+    let saves = format!("--save at=0.1:{name} --save at=0.15:later.snapshot");
+    let ended = folder.jostle(&format!("{run} -o saved.csv {saves}")).code(2);
+    assert!(ended.err.contains("--save") && ended.err.contains("the run goes on"), "{}", ended.err);
+    assert_eq!(text(&folder, "saved.csv"), text(&folder, "whole.csv"));
+    assert!(folder.path("later.snapshot").exists());
+}

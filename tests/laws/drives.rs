@@ -142,5 +142,11 @@ fn gears_and_racks_couple_what_they_drive() {
         let bodies = racked.bodies();
         demand(&[bodies.angle[0], bodies.angle[1], bodies.position[2].x], &[turned, 0.7, 0.1 * turned], 1e-12, method);
         assert!(racked.card().energy.residual.abs() < 1e-11, "{method}: {:?}", racked.card().energy);
+        // What teeth give to one side only comes from the world, through the bearings of the other.
+        for card in [geared.card(), racked.card()] {
+            let [x, y] = card.momentum_residual;
+            let worst = x.abs().max(y.abs()).max(card.angular_momentum_residual.abs());
+            assert!(worst < 1e-11, "{method}: {x} {y} {}", card.angular_momentum_residual);
+        }
     }
 }

@@ -23,6 +23,7 @@ mod frames;
 mod friction;
 mod hard;
 mod impacts;
+mod joint_friction;
 mod joint_limits;
 mod joints;
 mod joints_at_rest;

@@ -52,6 +52,7 @@ fn note(setting: &Setting) -> String {
                     format!("the {quantity} of `{}` is no longer a finite number", failure.body)
                 }
                 Wrong::Steps(step) => format!("steps have become as short as {step:.1e} s near `{}`", failure.body),
+                Wrong::Contradiction => format!("motors and joints ask for different motions of `{}`", failure.body),
                 Wrong::Joint { meters, .. } => format!("a joint of `{}` is open by {meters:.1e} m", failure.body),
                 Wrong::Energy(_) => "energy comes out of nowhere".to_owned(),
                 Wrong::Pairs(most) => format!("more than {most} pairs of atoms lie near each other"),

@@ -18,6 +18,10 @@ const ROUNDING: f64 = 1e-15;
 /// An iteration that leaves more than this share of the greatest gap does not converge, unless the gap is within
 /// [`GOOD`] of the size.
 const SLOW: f64 = 0.9;
+/// A rate that is off by more than this share of the greatest speed contradicts other rows: what follows from others is solved to less.
+const CONTRADICTS: f64 = 1e-6;
+/// A row of which others leave less than this share follows from them.
+const DEPENDENT: f64 = 1e-10;
 /// A gap within this share of its size is good enough where iterations gain no more.
 const GOOD: f64 = 1e-13;
 
@@ -118,20 +122,21 @@ impl Projection {
         worst.map_or(Gap::default(), |(row, left)| Gap { left, row, failed: false })
     }
 
-    /// Changes velocities until the rates of `rows` are what they should be. `told` hears of the impulse of each row.
+    /// Changes velocities until the rates of `rows` are what they should be. `told` hears of the index and the impulse of each row.
+    /// Returns the index of a row whose rate the others do not allow.
     pub fn speed(
         &mut self,
         rows: &[Row],
         solver: &mut Solver,
         bodies: &mut Bodies,
-        mut told: impl FnMut(&Bodies, &Row, f64),
-    ) {
+        mut told: impl FnMut(&Bodies, usize, f64),
+    ) -> Option<usize> {
         for _ in 0..2 {
             self.values.clear();
             self.values.extend(rows.iter().map(|row| row.rate - row.velocity(bodies)));
             solver.solve(rows, bodies, unmeasured, &mut self.values);
-            for (row, &impulse) in rows.iter().zip(&self.values) {
-                told(bodies, row, impulse);
+            for (index, (row, &impulse)) in rows.iter().zip(&self.values).enumerate() {
+                told(bodies, index, impulse);
                 for side in row.sides.iter().flatten() {
                     let (by, turned) = (bodies.inverse_mass(side.body), bodies.inverse_inertia(side.body));
                     bodies.velocity[side.body] += side.force * (impulse * by);
@@ -139,6 +144,26 @@ impl Projection {
                 }
             }
         }
+        // Rows without a rate never contradict each other: to stand still suits all of them.
+        if rows.iter().all(|row| row.rate == 0.0) {
+            return None;
+        }
+        let fastest = rows.iter().map(|row| row.speeds(bodies)).fold(0.0, f64::max);
+        rows.iter().position(|row| (row.rate - row.velocity(bodies)).abs() > CONTRADICTS * fastest)
+    }
+}
+
+impl Projection {
+    /// The velocity along a row that one unit of impulse along it makes while `others` hold theirs, in m/s for each N s. Zero: the others
+    /// leave the row no motion of its own.
+    pub fn compliance(&mut self, row: &Row, others: &[Row], solver: &mut Solver, bodies: &Bodies) -> f64 {
+        self.values.clear();
+        self.values.extend(others.iter().map(|other| other.response(row, bodies)));
+        solver.solve(others, bodies, unmeasured, &mut self.values);
+        let own = row.response(row, bodies);
+        let back = others.iter().zip(&self.values).map(|(other, amount)| row.response(other, bodies) * amount);
+        let left = back.fold(own, |sum, term| sum - term);
+        if left > DEPENDENT * own { left } else { 0.0 }
     }
 }
 

@@ -63,8 +63,11 @@ pub struct Row {
     pub size: f64,
     /// The relative velocity that is held, in m/s or rad/s.
     pub rate: f64,
-    /// Whether its force is bounded: no impulse comes from it.
-    pub gives_way: bool,
+    /// The greatest force in N, or torque in N m, that it can give; infinite for joints and motors without a limit. A row with a bound
+    /// gives no impulse.
+    pub bound: f64,
+    /// Whether its forces on both sides do not balance, because other joints pass the rest on to the world: gears and racks.
+    pub grounded: bool,
 }
 
 impl Default for Row {
@@ -80,12 +83,32 @@ impl Default for Row {
             gap: 0.0,
             size: 0.0,
             rate: 0.0,
-            gives_way: false,
+            bound: f64::INFINITY,
+            grounded: false,
         }
     }
 }
 
 impl Row {
+    /// Whether its forces come from inside: they balance, on two bodies that move by forces.
+    pub fn is_inside(&self, bodies: &Bodies) -> bool {
+        !self.grounded && self.sides.iter().all(|side| side.is_some_and(|side| bodies.dynamic[side.body]))
+    }
+
+    /// Whether its force is bounded.
+    pub fn gives_way(&self) -> bool {
+        self.bound.is_finite()
+    }
+
+    /// The greatest speed that counts in its velocity, in m/s or rad/s: rounding is a share of it.
+    pub fn speeds(&self, bodies: &Bodies) -> f64 {
+        let of = |side: &Side| {
+            let turning = (side.lever * bodies.spin[side.body]).abs();
+            (side.direction.length() * bodies.velocity[side.body].length()).max(turning)
+        };
+        self.sides.iter().flatten().map(of).fold(self.rate.abs(), f64::max)
+    }
+
     /// The relative velocity along the row, in m/s or rad/s.
     pub fn velocity(&self, bodies: &Bodies) -> f64 {
         let of = |side: &Side| side.direction.dot(bodies.velocity[side.body]) + side.lever * bodies.spin[side.body];

@@ -43,7 +43,8 @@ impl Driven {
         let known = world.get_resource::<KnownJoints>().and_then(|known| known.named(&self.name));
         self.found = known.map(|known| (known.ends.clone(), known.law.clone()));
         let bodies = &world.resource::<State>().bodies;
-        if self.found.is_some() && self.motion(bodies).is_none() {
+        let rod = self.found.as_ref().is_some_and(|(_, law)| law.needs_distance());
+        if self.found.is_some() && (rod || self.motion(bodies).is_none()) {
             let message = format!("the joint `{}` leaves no motion free that could be driven", self.name);
             let error = crate::scene::SceneError::new(format!("{path}.of"), message)
                 .with_help("drive a hinge (`Revolute`) or a slide (`Prismatic`)");

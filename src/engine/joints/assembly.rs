@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 
 use super::model::Joint;
 use crate::scene::SceneError;
-use crate::tick::{LoadErrors, Notes, State};
+use crate::tick::{LoadErrors, Notes, State, Wrong};
 use crate::world::{Name, Position, Rotation, Spin, Velocity};
 use jostle_language::numbers::number;
 
@@ -20,7 +20,17 @@ pub(super) fn assemble(world: &mut World) {
     let before = state.bodies().position.clone();
     let turned = state.bodies().angle.clone();
     let moving: Vec<_> = state.bodies().velocity.iter().copied().zip(state.bodies().spin.iter().copied()).collect();
-    if !state.assemble() {
+    let assembled = state.assemble();
+    if let Err((Wrong::Contradiction, body)) = assembled {
+        let entity = body.map(|body| state.bodies().entity[body]);
+        let name = entity.and_then(|entity| world.get::<Name>(entity)).map(Name::to_string).unwrap_or_default();
+        let message = format!("motors and joints ask for different motions of `{name}`: no velocity suits them all");
+        let help = "remove one of the joints or motors that hold it, or give a motor a `limit`";
+        let error = SceneError::new("joints", message).with_help(help);
+        world.get_resource_or_init::<LoadErrors>().0.push(error);
+        return;
+    }
+    if assembled.is_err() {
         let open = |joint: &&Joint| joint.drift(state.bodies()).total_cmp(&CLOSED).is_gt();
         let path = state.models_of::<Joint>().find(open).map_or("joints", |joint| joint.path()).to_owned();
         let help = "move bodies or anchors nearer to where the joints meet, and see whether lengths fit";

@@ -58,7 +58,7 @@ impl Bounded {
 
     /// The row that holds the rate, while it is held.
     pub fn row(&self, pair: &Pair, along: &Along) -> Option<Row> {
-        let row = Row { rate: self.speed, gives_way: self.is_bounded(), ..pair.row(along, Kind::Velocity) };
+        let row = Row { rate: self.speed, bound: self.limit, ..pair.row(along, Kind::Velocity) };
         (self.mode == Mode::Holds).then_some(row)
     }
 

@@ -27,17 +27,37 @@ pub(super) fn check(of: &(String, String), outline: &Outline, report: &mut Repor
     }
 }
 
+/// What a coupling couples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Member {
+    Hinge,
+    Slide,
+}
+
+impl Member {
+    /// Whether a joint with this law is one.
+    fn is(self, law: &dyn Law) -> bool {
+        let free = if self == Self::Hinge { "angle" } else { "travel" };
+        law.freedom_name().0 == free && !law.needs_distance()
+    }
+
+    fn called(self) -> &'static str {
+        if self == Self::Hinge { "hinge (`Revolute`)" } else { "slide (`Prismatic`)" }
+    }
+}
+
 /// Adds the couplings of one kind: the names of two joints each, and the ratio of their rates.
 pub(super) fn install<E: Entry>(
     app: &mut App,
     outline: &Outline,
+    members: [Member; 2],
     couplings: impl Iterator<Item = ((String, String), f64)>,
 ) {
     super::close_at_start(app);
     let mentions = outline.entries(E::SECTION).iter().filter(|mention| mention.name == E::NAME);
     for ((of, ratio), mention) in couplings.zip(mentions) {
         let (path, kind) = (mention.path.clone(), E::NAME);
-        app.add_model(Coupling { of, ratio, path, kind, sides: None, offset: 0.0, row: None });
+        app.add_model(Coupling { of, ratio, path, kind, members, sides: None, offset: 0.0, row: None });
     }
 }
 
@@ -49,6 +69,7 @@ pub struct Coupling {
     ratio: f64,
     path: String,
     kind: &'static str,
+    members: [Member; 2],
     sides: Option<[Coupled; 2]>,
     offset: f64,
     /// The index of its row in the present evaluation.
@@ -59,7 +80,7 @@ impl Coupling {
     /// The row in the present state; `None` if a body is gone.
     fn held(&self, bodies: &Bodies) -> Option<Result<Row, usize>> {
         let [first, second] = self.sides.as_ref()?;
-        let mut row = Row { kind: Holds::Position, gap: -self.offset, ..Row::default() };
+        let mut row = Row { kind: Holds::Position, gap: -self.offset, grounded: true, ..Row::default() };
         let mut sides: Vec<Side> = Vec::with_capacity(4);
         for ((ends, law), factor) in [(first, -self.ratio), (second, 1.0)] {
             let pair = ends.pair(bodies)?;
@@ -122,21 +143,30 @@ impl Model for Coupling {
                 .map(|known| (known.ends.clone(), known.law.clone()))
         };
         let (Some(first), Some(second)) = (named(&self.of.0), named(&self.of.1)) else { return };
+        for (member, (name, (_, law))) in self.members.into_iter().zip([(&self.of.0, &first), (&self.of.1, &second)]) {
+            if !member.is(&**law) {
+                let [one, two] = self.members.map(Member::called);
+                let help = if one == two {
+                    "name two hinges (`Revolute`)".to_owned()
+                } else {
+                    format!("name a {one} first, then a {two}")
+                };
+                return self.refuse(world, format!("`{name}` is no {}", member.called()), &help);
+            }
+        }
         self.sides = Some([first, second]);
         let bodies = &world.resource::<State>().bodies;
         match self.held(bodies) {
             Some(Ok(row)) => self.offset = row.gap,
             Some(Err(count)) => {
-                let help = "let both joints have one body in common, or the world, as wheels on one frame have";
-                self.refuse(
-                    world,
-                    format!("the two joints move {count} bodies, more than two cannot be coupled yet"),
-                    help,
-                );
+                let help =
+                    "hold the frame of both joints to the world, or let it be a body that is fixed or has a path";
+                let message = format!("its joints move {count} bodies together: only two can be coupled so far");
+                self.refuse(world, message, help);
             }
             None => {
-                let help = "couple hinges (`Revolute`) and slides (`Prismatic`)";
-                self.refuse(world, "one of the joints leaves no motion free that could be coupled".to_owned(), help);
+                let help = "look at the bodies of both joints";
+                self.refuse(world, "one of the joints has lost a body".to_owned(), help);
             }
         }
     }

@@ -4,7 +4,7 @@ use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::coupling;
+use super::coupling::{self, Member};
 use crate::scene::units::Scalar;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
@@ -36,7 +36,7 @@ impl Entry for GearPair {
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         let couplings = entries.into_iter().map(|Written { value, .. }| (value.of, value.ratio.si()));
-        coupling::install::<Self>(app, outline, couplings);
+        coupling::install::<Self>(app, outline, [Member::Hinge, Member::Hinge], couplings);
     }
 }
 

@@ -8,7 +8,7 @@ use super::law::Law;
 use super::limit::{Arrival, Limit};
 use crate::constraints::Rows;
 use crate::scene::Report;
-use crate::scene::units::{Dimension, Quantity};
+use crate::scene::units::{Dimension, Quantity, Scalar};
 use crate::tick::{Blow, Indicator, State};
 use crate::world::Bodies;
 
@@ -34,6 +34,15 @@ pub(super) fn check_limits<D: Dimension>(limits: Option<&(Quantity<D>, Quantity<
     if report.finite("limits[0]", low) && report.finite("limits[1]", high) && low >= high {
         let message = format!("the lower limit, {low}, is not below the upper one, {high}");
         report.error("limits", message).help("give the lower limit first, such as `limits: (-0.5, 0.5)`");
+    }
+}
+
+/// Reports a restitution that is no share, or that has no limits to come back from.
+pub(super) fn check_restitution(restitution: Scalar, has_limits: bool, report: &mut Report) {
+    if report.between("restitution", restitution, 0.0, 1.0) && restitution.si() > 0.0 && !has_limits {
+        report
+            .error("restitution", "the joint has no limits to come back from")
+            .help("give it `limits`, or leave out `restitution`");
     }
 }
 

@@ -69,7 +69,7 @@ impl Entry for Revolute {
     fn check(&self, outline: &Outline, report: &mut Report) {
         model::check_ends(&self.a, &self.b, outline, report);
         parts::check_limits(self.limits.as_ref(), report);
-        report.between("restitution", self.restitution, 0.0, 1.0);
+        parts::check_restitution(self.restitution, self.limits.is_some(), report);
         report.positive_if_given("friction", self.friction);
         report.positive_if_given("break_force", self.break_force);
         Softness::check(self.softness, report);

@@ -201,10 +201,21 @@ impl Simulation {
             )));
         }
         if of.scene != scene {
-            return Err(Unfit("the snapshot is of another scene, or of this one before it was changed".to_owned()));
+            return Err(Unfit(
+                "the snapshot is of another scene, or of this one before it was changed, be it a comment".to_owned(),
+            ));
         }
         if of.plan != plan {
-            return Err(Unfit(format!("the snapshot's run goes by {}, this one by {plan}", of.plan)));
+            let words = |plan: &str| plan.split(" (").next().unwrap_or_default().to_owned();
+            let (theirs, own) = (words(&of.plan), words(&plan));
+            return Err(Unfit(if theirs == own {
+                format!(
+                    "both runs go by {own}, but with other steps inside them: a tolerance chooses these from the whole run, so give both \
+                     runs the same tolerance and duration"
+                )
+            } else {
+                format!("the snapshot's run goes by {theirs}, this one by {own}")
+            }));
         }
         if of.systems != systems {
             let (theirs, own) = (of.systems.join(", "), systems.join(", "));

@@ -53,6 +53,8 @@ pub enum Wrong {
         /// Whether a loop is near a dead point, where its bars are in line.
         dead: bool,
     },
+    /// Motors and joints ask for different motions of a body.
+    Contradiction,
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
     Pairs(usize),
     /// A system has changed the length of this packed list, or put another value into it that does not fit. Bodies were read from
@@ -119,6 +121,10 @@ impl std::fmt::Display for Failure {
                 };
                 write!(f, "a joint of `{body}` cannot be closed, {gap} m are left: {why},")?;
             }
+            Wrong::Contradiction => write!(
+                f,
+                "motors and joints ask for different motions of `{body}`: no velocity suits them all; give a motor a `limit`,"
+            )?,
             Wrong::Energy(Created { energy, put_in }) => {
                 write!(
                     f,

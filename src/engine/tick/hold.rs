@@ -37,7 +37,7 @@ impl FromOutside {
     fn add(&mut self, row: &Row, amount: f64, bodies: &Bodies) {
         let driven = if row.kind == Kind::Velocity { row.rate } else { 0.0 };
         self.work += amount * (row.powers(bodies)[2] + driven);
-        if is_inside(row, bodies) {
+        if row.is_inside(bodies) {
             return;
         }
         for side in row.sides.iter().flatten().filter(|side| bodies.dynamic[side.body]) {
@@ -62,6 +62,22 @@ pub enum Blow {
     Rebounds(Row),
     /// They become those that all rows allow. The energy counts as friction.
     Sticks,
+}
+
+/// A bounded row sticks if that takes no more of an impulse than so many times what its bound gives in a tick: in the tick before it
+/// gave its bound, and what drove it as much again at most.
+const MOST_TO_STICK: f64 = 2.0;
+
+/// A rate that differs by less than this share of the speeds from the one to be held is held already.
+const STUCK: f64 = 1e-12;
+
+/// Which rows velocities jump to.
+#[derive(Clone, Copy, Debug)]
+enum Jump<'a> {
+    /// Those without a bound, and these.
+    Stops(&'a [Row]),
+    /// All but these.
+    Sticks(&'a [Row]),
 }
 
 /// Rows that hold places only.
@@ -155,7 +171,14 @@ impl State {
             dead_points.look(time, pivot);
         }
         let mut outside = FromOutside::default();
-        projection.speed(rows, solver, bodies, |bodies, row, impulse| outside.add(row, impulse, bodies));
+        let refused = projection.speed(rows, solver, bodies, |bodies, row, impulse| {
+            outside.add(&rows[row], impulse, bodies);
+        });
+        if let Some(row) = refused {
+            let body = rows[row].sides.iter().flatten().map(|side| side.body).next_back();
+            let trouble = Trouble { body, entity: None, wrong: Wrong::Contradiction, tick: self.clock.ticks + 1, time };
+            self.progress.trouble.get_or_insert(trouble);
+        }
         outside
     }
 
@@ -165,8 +188,8 @@ impl State {
         self.project_with(time, None)
     }
 
-    /// The same; in a blow with rows that are part of it, and without those that give way.
-    fn project_with(&mut self, time: f64, blown: Option<&[Row]>) -> FromOutside {
+    /// The same, in a jump of velocities.
+    fn project_with(&mut self, time: f64, jump: Option<Jump>) -> FromOutside {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.projected);
         for hold_places in [true, false] {
@@ -177,9 +200,13 @@ impl State {
                 self.hold_places(&mut rows, time, Standing::Moves);
             }
         }
-        if let Some(blown) = blown {
-            rows.retain(|row| !row.gives_way);
-            blown.iter().for_each(|row| rows.add(*row));
+        match jump {
+            Some(Jump::Stops(more)) => {
+                rows.retain(|row| !row.gives_way());
+                more.iter().for_each(|row| rows.add(*row));
+            }
+            Some(Jump::Sticks(less)) => rows.retain(|row| !less.contains(row)),
+            None => {}
         }
         let outside = self.hold_velocities(&mut rows, time);
         self.projected = rows;
@@ -208,34 +235,61 @@ impl State {
         let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(*row) } else { None };
         let back: Vec<Row> = blows.iter().filter_map(back).collect();
         if blows.iter().any(|blow| *blow != Blow::Sticks) {
-            let lost = self.jump(time, Some(&back));
+            let lost = self.jump(time, Jump::Stops(&back));
             self.ledger.inelasticity.add(lost);
             self.tell_of_blow();
         }
         if sticks {
-            let lost = self.jump(time, None);
+            let slip = self.rows_that_slip(time);
+            let lost = self.jump(time, Jump::Sticks(&slip));
             self.ledger.friction.add(lost);
+            if !slip.is_empty() {
+                self.tell_of_blow();
+            }
         }
         self.change_rows();
     }
 
+    /// The rows with a bound that do not stick: alone among the rows without one they would need more of an impulse to hold their rates than
+    /// their bounds give in a tick. Where the rate of a joint changes its sign while the others move on, friction turns round.
+    fn rows_that_slip(&mut self, time: f64) -> Vec<Row> {
+        let most = MOST_TO_STICK * self.clock.dt;
+        let mut rows = Rows::default();
+        let Self { models, roles, bodies, projection, .. } = self;
+        find_rows(models, &roles.rows, (bodies, time), &mut rows);
+        let mut bounded: Vec<Row> = rows.all().iter().filter(|row| row.gives_way()).copied().collect();
+        rows.retain(|row| !row.gives_way());
+        let (others, solver) = rows.prepared(bodies);
+        bounded.retain(|row| {
+            let missing = (row.rate - row.velocity(bodies)).abs();
+            missing > STUCK * row.speeds(bodies)
+                && missing > most * row.bound * projection.compliance(row, others, solver, bodies)
+        });
+        bounded
+    }
+
     /// Velocities jump to those that rows allow. Returns the energy in J that this takes.
-    fn jump(&mut self, time: f64, back: Option<&[Row]>) -> f64 {
+    fn jump(&mut self, time: f64, jump: Jump) -> f64 {
         let kinetic = |bodies: &Bodies| (0..bodies.len()).map(|body| bodies.kinetic_energy(body)).sum::<f64>();
         let before = kinetic(&self.bodies);
-        let outside = self.project_with(time, back);
+        let outside = self.project_with(time, Some(jump));
         outside.book(&mut self.ledger);
         self.ledger.book_work(outside.work);
         before + outside.work - kinetic(&self.bodies)
     }
 
-    /// Before the first tick: brings the bodies of a scene onto its joints. Says whether that was possible.
-    pub(crate) fn assemble(&mut self) -> bool {
+    /// Before the first tick: brings the bodies of a scene onto its joints.
+    ///
+    /// # Errors
+    /// What makes that impossible, and the body where it shows.
+    pub(crate) fn assemble(&mut self) -> Result<(), (Wrong, Option<usize>)> {
         self.find_roles();
-        self.project_with(0.0, Some(&[]));
+        self.project_with(0.0, Some(Jump::Stops(&[])));
+        // The velocities of the scene may have been others: friction and motors look at those that there are now.
+        self.tell_of_blow();
         let trouble = self.progress.trouble.take();
         self.joint_drift = JointDrift::default();
-        trouble.is_none()
+        trouble.map_or(Ok(()), |trouble| Err((trouble.wrong, trouble.body)))
     }
 
     /// In the midst of a tick of `elapsed` seconds so far: places are brought back along the directions of the beginning, and velocities
@@ -264,7 +318,7 @@ impl State {
                     bodies.estimated_spin[side.body] += side.torque * turned;
                 }
             }
-            if !is_inside(row, bodies) {
+            if !row.is_inside(bodies) {
                 let force = |side: &Side| if bodies.dynamic[side.body] { side.force } else { DVec2::ZERO };
                 let force = row.sides.iter().flatten().map(force).fold(DVec2::ZERO, |sum, force| sum + force);
                 FromOutside { impulse: force * impulse, angular: about_origin * impulse, work: 0.0 }.book(ledger);
@@ -286,15 +340,10 @@ impl State {
     }
 }
 
-/// Whether both sides of a row move by forces.
-fn is_inside(row: &Row, bodies: &Bodies) -> bool {
-    row.sides.iter().all(|side| side.is_some_and(|side| bodies.dynamic[side.body]))
-}
-
 /// The torque about the origin of one unit of a row on the bodies that move by forces, where these were `elapsed` seconds before; zero for
 /// rows that hold such bodies to each other.
 fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
-    if is_inside(row, bodies) {
+    if row.is_inside(bodies) {
         return 0.0;
     }
     let of = |side: &Side| {

@@ -464,7 +464,7 @@ impl State {
         for index in indices {
             let (row, amount) = (rows.row(index), rows.force(index));
             balance.work += amount * row.powers(bodies)[2];
-            let inside = row.sides.iter().all(|side| side.is_some_and(|side| bodies.dynamic[side.body]));
+            let inside = row.is_inside(bodies);
             for side in row.sides.iter().flatten() {
                 let (force, torque) = (side.force * amount, side.torque * amount);
                 bodies.force[side.body] += force;

@@ -114,6 +114,10 @@ impl Evidence<'_> {
                 "use fewer bodies, keep them from falling into one place, take a finer tick if they go far in one";
             return format!("{ways}, or give those that are not to touch `collides: false`");
         }
+        if failure.wrong == Wrong::Contradiction {
+            return "give the motor a `limit`, move the limits of the joint that stops it, or leave out one of the two"
+                .to_owned();
+        }
         if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
             return "look at what the plugin does to the world".to_owned();
         }

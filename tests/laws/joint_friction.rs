@@ -1,0 +1,166 @@
+//! Laws of friction in linkages: it keeps to its bound where other joints and motors move the joint on.
+//!
+//! Friction in a joint takes its bound times the way of the joint as long as it moves. Where the rate of the joint changes its sign while
+//! the linkage goes on, at dead points, friction turns round: to stick there would take more than its bound. Reference values: closed
+//! forms, or one equation for the one angle that is free (Lagrange), integrated here by the classical Runge-Kutta method in steps of 1e-5
+//! s, whose error is below 1e-9. Tolerance: under methods from tick to tick friction turns at the end of a tick, so that it is wrong
+//! for one tick at each turn: the loss by the bound times the way of that tick, the angle by what passes within a tick.
+
+use jostle::scene::Source;
+use jostle::tick::Wrong;
+use jostle::{Simulation, SimulationExt};
+
+const METHODS: [&str; 4] = ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853"];
+const TICK: f64 = 1e-3;
+
+fn text(method: &str, scene: &str) -> Source {
+    let clock = format!("format: 1, clock: (duration: 1, tick: {TICK:?}, method: {method}), contacts: None");
+    Source::new("friction.ron", format!("Scene({clock}, {scene})"))
+}
+
+fn load(method: &str, scene: &str) -> Simulation {
+    Simulation::load(&text(method, scene)).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Radius of the crank in m, length of the rod in m, friction of the slide in N.
+const CRANK: f64 = 0.1;
+const ROD_SQUARED: f64 = 0.17;
+const FRICTION: f64 = 0.5;
+
+fn slider_crank(motor: &str) -> String {
+    format!(
+        "bodies: [(name: \"crank\", at: (0, {CRANK}), angle: \"90 deg\", spin: 6, mass: 1, inertia: 0.01, atoms: Disc(radius: 0.02)),
+            (name: \"piston\", at: (0.4, 0), mass: 1, atoms: Disc(radius: 0.05))],
+        joints: [Revolute(name: \"hub\", a: World, anchor_a: (0, 0), b: \"crank\", anchor_b: (-{CRANK}, 0)),
+            Distance(name: \"rod\", a: \"crank\", b: \"piston\"),
+            Prismatic(name: \"slide\", a: World, b: \"piston\", axis: (1, 0), friction: {FRICTION})], {motor}"
+    )
+}
+
+/// The place of the piston at an angle of the crank, its derivative and the second one: `r cos a + sqrt(l^2 - r^2 sin^2 a)`.
+fn piston(angle: f64) -> [f64; 3] {
+    let (sin, cos) = angle.sin_cos();
+    let rod = (ROD_SQUARED - (CRANK * sin).powi(2)).sqrt();
+    let slope = -CRANK * sin - CRANK * CRANK * sin * cos / rod;
+    let bend = -CRANK * cos
+        - CRANK * CRANK * (cos * cos - sin * sin) / rod
+        - CRANK.powi(4) * (sin * cos).powi(2) / rod.powi(3);
+    [CRANK * cos + rod, slope, bend]
+}
+
+/// Angle of the crank in rad and energy lost in J after one second: `(I + m r^2 + m x'^2) a'' + m x' x'' a'^2 = -f sign(x' a') x'`.
+fn truth() -> (f64, f64) {
+    let rates = |[angle, spin, _]: [f64; 3]| {
+        let [_, slope, bend] = piston(angle);
+        let friction = FRICTION * (slope * spin).signum();
+        let inertia = 0.01 + CRANK * CRANK + slope * slope;
+        [spin, (-slope * bend * spin * spin - friction * slope) / inertia, friction * slope * spin]
+    };
+    // The joints leave 0.01 x 6 N m s of momentum to 0.03 kg m2.
+    let mut state = [std::f64::consts::FRAC_PI_2, 2.0, 0.0];
+    let h = 1e-5;
+    for _ in 0..100_000 {
+        let plus = |rates: [f64; 3], share: f64| std::array::from_fn(|at| state[at] + share * h * rates[at]);
+        let first = rates(state);
+        let second = rates(plus(first, 0.5));
+        let third = rates(plus(second, 0.5));
+        let fourth = rates(plus(third, 1.0));
+        state = std::array::from_fn(|at| {
+            state[at] + h / 6.0 * (first[at] + 2.0 * second[at] + 2.0 * third[at] + fourth[at])
+        });
+    }
+    (state[0] - std::f64::consts::FRAC_PI_2, state[2])
+}
+
+#[test]
+fn a_linkage_runs_down_by_the_friction_of_its_slide() {
+    let (turned, lost) = truth();
+    for method in METHODS {
+        let mut simulation = load(method, &slider_crank(""));
+        let begin = simulation.bodies().angle[0];
+        simulation.run_to_end().expect("numbers stay finite");
+        let found = simulation.bodies().angle[0] - begin;
+        let energy = simulation.card().energy;
+        let staged = method == "RungeKutta4" || method == "Dop853";
+        let allowed = if staged { 1e-8 } else { 2.0 * TICK };
+        assert!((found - turned).abs() <= allowed, "{method}: {found} instead of {turned}");
+        let allowed = if staged { 1e-9 } else { FRICTION * 0.3 * TICK };
+        assert!((energy.friction - lost).abs() <= allowed, "{method}: {} J instead of {lost} J", energy.friction);
+    }
+}
+
+/// A motor turns the crank at 6 rad/s: the slide goes to and fro, and friction takes its bound times the way.
+#[test]
+fn a_motor_drives_a_slide_with_friction_through_its_dead_points() {
+    let way: f64 = (0..1_000_000)
+        .map(|step| 6e-6 * piston(std::f64::consts::FRAC_PI_2 + 6e-6 * (f64::from(step) + 0.5))[1].abs())
+        .sum();
+    for method in METHODS {
+        let mut simulation =
+            load(method, &slider_crank("controllers: [Motor(name: \"drive\", of: \"hub\", speed: 6)]"));
+        let begin = simulation.bodies().angle[0];
+        simulation.run_to_end().expect("numbers stay finite");
+        let (turned, energy) = (simulation.bodies().angle[0] - begin, simulation.card().energy);
+        // Chords of the circle on which the hub is held leave an angle of the square of a tick.
+        assert!((turned - 6.0).abs() < 1e-4, "{method}: {turned}");
+        let allowed = 2.0 * FRICTION * 0.65 * TICK;
+        assert!((energy.friction - FRICTION * way).abs() < allowed, "{method}: {} J of {way} m", energy.friction);
+        assert!(energy.residual.abs() < 1e-3, "{method}: {} J", energy.residual);
+    }
+}
+
+/// Two slides, a rod between them: the motor of one moves the other against its friction over one metre.
+#[test]
+fn a_motor_moves_a_slide_with_friction_through_a_rod() {
+    for method in METHODS {
+        let mut simulation = load(
+            method,
+            "bodies: [(name: \"p\", at: (0, 0), mass: 1, atoms: Disc(radius: 0.05)), (name: \"q\", at: (1, 0), mass: 1, atoms: Disc(radius: 0.05))],
+             joints: [Prismatic(name: \"s\", a: World, b: \"p\", axis: (1, 0)), Distance(a: \"p\", b: \"q\"),
+                Prismatic(name: \"f\", a: World, b: \"q\", axis: (1, 0), friction: 0.5)],
+             controllers: [Motor(name: \"m\", of: \"s\", speed: 1)]",
+        );
+        simulation.run_to_end().expect("numbers stay finite");
+        let energy = simulation.card().energy;
+        // A thousand ticks round once each.
+        assert!((energy.friction - 0.5).abs() < 1e-12 && (energy.work - 0.5).abs() < 1e-12, "{method}: {energy:?}");
+    }
+}
+
+const TWO_SLIDES: &str = "bodies: [(name: \"p\", at: (0, 0), mass: 1, atoms: Disc(radius: 0.05)), (name: \"q\", at: (1, 0), mass: 1, atoms: Disc(radius: 0.05))]";
+
+/// A motor without a limit drives one slide, and the other one comes to its limit: no motion suits both, and the run says so then.
+#[test]
+fn a_motor_that_jams_ends_the_run() {
+    let scene = format!(
+        "{TWO_SLIDES}, joints: [Prismatic(name: \"s\", a: World, b: \"p\", axis: (1, 0)), Distance(a: \"p\", b: \"q\"),
+            Prismatic(name: \"f\", a: World, b: \"q\", axis: (1, 0), limits: (-1, 0.3))],
+         controllers: [Motor(of: \"s\", speed: 1)]"
+    );
+    for method in METHODS {
+        let failure = load(method, &scene).run_to_end().expect_err("a jam");
+        assert_eq!(failure.wrong, Wrong::Contradiction, "{method}: {failure}");
+        assert!((failure.time - 0.3).abs() <= 2.0 * TICK, "{method}: {failure}");
+    }
+    // With a limit the motor stands.
+    let bounded = scene.replace("speed: 1)", "speed: 1, limit: 5)");
+    let mut simulation = load("VelocityVerlet", &bounded);
+    simulation.run_to_end().expect("the motor gives way");
+    assert!((simulation.bodies().position[1].x - 1.3).abs() < 1e-9, "{:?}", simulation.bodies().position);
+}
+
+/// Two motors of one joint that ask for different rates, and a motor on a body that is welded down.
+#[test]
+fn motors_that_contradict_each_other_are_refused() {
+    let wheel = "bodies: [(name: \"w\", at: (0, 0), mass: 1, inertia: 0.1, atoms: Disc(radius: 0.1))]";
+    let two = "joints: [Revolute(name: \"h\", a: World, b: \"w\")], controllers: [Motor(of: \"h\", speed: 1), Motor(of: \"h\", speed: 2)]";
+    let welded = "joints: [Revolute(name: \"h\", a: World, b: \"w\"), Weld(a: World, b: \"w\")], controllers: [Motor(of: \"h\", speed: 1)]";
+    for scene in [two, welded] {
+        let refused = Simulation::load(&text("VelocityVerlet", &format!("{wheel}, {scene}"))).err().expect("refused");
+        let told = refused.to_string();
+        assert!(told.contains("motors and joints ask for different motions of `w`"), "{told}");
+    }
+    let agreed = two.replace("speed: 2", "speed: 1");
+    let mut simulation = load("VelocityVerlet", &format!("{wheel}, {agreed}"));
+    simulation.run_to_end().expect("both ask for the same");
+}
