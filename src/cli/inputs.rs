@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::load::{EXAMPLE, Request};
 use super::target::is_directory;
+use crate::output::behind_links;
 use crate::simulation::Simulation;
 
 /// The files that a command has read.
@@ -39,21 +40,11 @@ impl Inputs {
     }
 }
 
-/// The most links that are followed to a file.
-const MOST_LINKS: usize = 40;
-
-/// Where a file would be written that is not there yet: its folder and links are followed.
+/// Where a file would be written that may not be there yet.
 fn destination(path: &Path) -> Option<PathBuf> {
-    let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let whole = std::fs::canonicalize(folder).ok()?.join(path.file_name()?);
-        match std::fs::read_link(&whole) {
-            Ok(link) => path = whole.parent()?.join(link),
-            Err(_) => return Some(whole),
-        }
-    }
-    None
+    let target = behind_links(path).ok()?;
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Some(std::fs::canonicalize(folder).ok()?.join(target.file_name()?))
 }
 
 /// Whether two paths lead to one file, also by links of any kind, and if it is not there yet.

@@ -8,6 +8,9 @@ use super::load::Request;
 use super::say::say;
 use crate::output::{OutputError, Target};
 
+/// Endings of films and pictures.
+const FILMS: [&str; 6] = ["gif", "apng", "mp4", "webm", "rgba", "png"];
+
 /// What the command line says about where films go.
 pub(super) struct Wish<'a> {
     /// `-o`.
@@ -113,6 +116,14 @@ impl Wish<'_> {
             return Err(message);
         }
         let directory = is_directory(path);
+        let ends_as_film =
+            path.extension().is_some_and(|ending| FILMS.iter().any(|film| ending.eq_ignore_ascii_case(film)));
+        if directory && ends_as_film && !ends_with_separator(path) {
+            let path = path.display();
+            return Err(format!(
+                "`{path}` is a directory: take another name for the film, or write pictures into it with `-o {path}/`"
+            ));
+        }
         let picture = !directory && path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         if let Some(flag) = self.still.filter(|_| !picture) {
             return Err(format!("{flag} makes one picture: write it to a .png instead of `{}`", path.display()));
@@ -161,5 +172,9 @@ fn is_special(path: &Path) -> Option<String> {
 
 /// Whether a path is, or is meant to be, a directory.
 pub(super) fn is_directory(path: &Path) -> bool {
-    path.is_dir() || path.as_os_str().to_string_lossy().ends_with(std::path::is_separator)
+    path.is_dir() || ends_with_separator(path)
+}
+
+fn ends_with_separator(path: &Path) -> bool {
+    path.as_os_str().to_string_lossy().ends_with(std::path::is_separator)
 }

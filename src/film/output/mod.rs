@@ -27,6 +27,7 @@ use part::PartFile;
 
 pub use self::png::{flat_picture, write_picture};
 pub use error::OutputError;
+pub use part::behind_links;
 pub use whole::{may_be_written, write_new, write_whole};
 
 use crate::raster::View;

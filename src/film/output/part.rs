@@ -247,8 +247,11 @@ pub(super) fn look_at(name: &Path) -> io::Result<()> {
     behind_links(name).and_then(|target| writable(&target)).map(|_| ())
 }
 
-/// The file that a name stands for: renaming would put a file in the place of a link.
-fn behind_links(name: &Path) -> io::Result<PathBuf> {
+/// The file that a name stands for, whether it is there or not: renaming would put a file in the place of a link.
+///
+/// # Errors
+/// If links lead in a circle, or a name that tells something else leads to a scene.
+pub fn behind_links(name: &Path) -> io::Result<PathBuf> {
     let mut target = name.to_path_buf();
     for _ in 0..MOST_LINKS {
         // A link may lead to a file that is still to be made.
