@@ -6,17 +6,23 @@ that no step is lucky by chance. The error of a problem is the greatest over cas
 A scene is a dictionary:
 
     gravity    (x, y) in m/s2
-    bodies     discs: at (m), velocity (m/s), spin (rad/s), radius (m), mass (kg), turns (False: cannot turn), inertia m r^2/2
+    bodies     discs: at (m), velocity (m/s), spin (rad/s), radius (m), mass (kg), turns (False: cannot turn), angle (rad),
+               inertia (kg m2; None: m r^2/2)
     material   friction and restitution of every contact of the scene (engines that combine two values get what gives these)
     floor      whether the half-plane y < 0 is solid
     drag       rate of linear drag in 1/s, all bodies
     spring     None, or stiffness (N/m) of a spring of 1 m between body 0 and the point (-1, 0); motion is along x
+    joints     hinges: bodies a (None: the world) and b, their anchors from the centres (m), in the frames of the bodies; servo None,
+               or target (rad), kp and kd of a torque kp (target - angle) - kd rate, of b less a. With joints nothing touches.
+               A body comes as b before it comes as a; where it comes as b again, the hinge closes a loop
 
 States are lists [x, y, angle, vx, vy, spin], one a body. Moments are multiples of 0.05 s: whole numbers of steps of 1/60 s.
 """
 
+import json
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Callable
 
 GRAVITY = 9.81  # m/s2
@@ -34,11 +40,12 @@ class Problem:
     kind: str  # what happens: it decides which settings are tried
 
 
-def disc(at, velocity=(0.0, 0.0), spin=0.0, radius=0.1, mass=1.0, turns=True):
-    return {"at": at, "velocity": velocity, "spin": spin, "radius": radius, "mass": mass, "turns": turns}
+def disc(at, velocity=(0.0, 0.0), spin=0.0, radius=0.1, mass=1.0, turns=True, angle=0.0, inertia=None):
+    body = {"at": at, "velocity": velocity, "spin": spin, "radius": radius, "mass": mass, "turns": turns}
+    return body | {"angle": angle, "inertia": inertia}
 
 
-def scene(bodies, gravity=(0.0, 0.0), friction=0.0, restitution=0.0, floor=False, drag=0.0, spring=None, **truth):
+def scene(bodies, gravity=(0.0, 0.0), friction=0.0, restitution=0.0, floor=False, drag=0.0, spring=None, joints=(), **truth):
     return {
         "bodies": bodies,
         "gravity": gravity,
@@ -46,6 +53,7 @@ def scene(bodies, gravity=(0.0, 0.0), friction=0.0, restitution=0.0, floor=False
         "floor": floor,
         "drag": drag,
         "spring": spring,
+        "joints": list(joints),
         "truth": truth,  # what the formula needs to know; engines do not look at it
     }
 
@@ -284,8 +292,130 @@ def on_floor(speed, turns, degrees=0.0):
     return scene(bodies, gravity=gravity, friction=MU, floor=True, degrees=degrees)
 
 
+# Joints
+
+TRUTHS = Path(__file__).parent / "joints.json"  # written by joints_truth.py
+
+
+def joint(a, anchor_a, b, anchor_b, servo=None):
+    return {"a": a, "anchor_a": anchor_a, "b": b, "anchor_b": anchor_b, "servo": servo}
+
+
+def hung(lengths, masses, angles, servos=()):
+    """Uniform rods, each hung on the one above, the first in the origin: bodies, joints and the lowest end.
+
+    Angles count from the downward vertical; at angle 0 the upper end of a rod is above its middle."""
+    bodies, joints, x, y = [], [], 0.0, 0.0
+    for place, (length, mass, angle) in enumerate(zip(lengths, masses, angles, strict=True)):
+        along = (length * math.sin(angle), -length * math.cos(angle))
+        middle = (x + along[0] / 2, y + along[1] / 2)
+        bodies.append(disc(middle, mass=mass, angle=angle, inertia=mass * length**2 / 12))
+        above = (place - 1, (0.0, -lengths[place - 1] / 2)) if place else (None, (0.0, 0.0))
+        joints.append(joint(*above, place, (0.0, length / 2), servos[place] if servos else None))
+        x, y = x + along[0], y + along[1]
+    return bodies, joints, (x, y)
+
+
+def mean(k):
+    """Arithmetic-geometric mean of 1 and sqrt(1 - k^2), with the ratios (a - b)/(a + b) that lead to it."""
+    a, b, ratios = 1.0, math.sqrt(1 - k * k), []
+    while not ratios or ratios[-1] > 1e-17:
+        a, b, ratios = (a + b) / 2, math.sqrt(a * b), [*ratios, (a - b) / (a + b)]
+    return a, ratios
+
+
+def elliptic_sine(u, k):
+    """Jacobi's sn of modulus k: Abramowitz and Stegun 16.4."""
+    limit, ratios = mean(k)
+    # Whole periods left out keep the digits.
+    phase = math.remainder(u * limit, 2 * math.pi) * 2 ** len(ratios)
+    for ratio in reversed(ratios):
+        phase = (phase + math.asin(ratio * math.sin(phase))) / 2
+    return math.sin(phase)
+
+
+# Three discs on a pin, as in the truth file J02: mass, place of the middle from the pin, inertia about the middle.
+CLUSTER, MIDDLE, CLUSTER_INERTIA = 3.2, (0.25, -0.071875), 0.18584375
+
+
+def compound_pendulum(case, time, states):
+    # sin(theta/2) = k cd(w t, k), w^2 = M g d/(I + M d^2), k = sin(theta0/2): any textbook (Jacobi). cd(u) = sn(u + K).
+    distance = math.hypot(*MIDDLE)
+    start = math.atan2(MIDDLE[0], -MIDDLE[1])
+    rate = math.sqrt(CLUSTER * GRAVITY * distance / (CLUSTER_INERTIA + CLUSTER * distance**2))
+    k = math.sin(start / 2)
+    quarter = math.pi / (2 * mean(k)[0])
+    return abs(states[0][2] - (2 * math.asin(k * elliptic_sine(rate * time + quarter, k)) - start))
+
+
+DOUBLE_TIMES = (1.0, 2.0, 3.0, 4.0, 5.0)  # s
+CHAIN = {"count": 10, "length": 0.2, "mass": 0.01, "ball": 10.0}  # m, kg
+CHAIN_START = 30.0  # degrees
+CHAIN_TIMES = (0.2, 0.6, 1.0, 2.0, 3.0, 4.0, 5.0)  # s
+TARGETS = (0.5, 0.8)  # rad
+KP, KD = 20.0, 5.0  # N m/rad, N m s/rad
+ARM_TIMES = (0.2, 0.4, 1.0, 2.0)  # s
+
+
+def lagrange(name):
+    """The greatest error of the angles of rods; of the arm that of the angles of its joints."""
+
+    def error(case, time, states):
+        truth = json.loads(TRUTHS.read_text())[name]
+        exact = truth["angles"][truth["samples"].index(time)]
+        off = [state[2] - angle for state, angle in zip(states, exact)]
+        if name == "two_link_arm":
+            off[1] -= off[0]
+        return max(abs(angle) for angle in off)
+
+    return error
+
+
+def double_pendulum():
+    bodies, joints, _ = hung((1.0, 1.0), (1.0, 1.0), (math.pi / 2, math.pi / 2))
+    return scene(bodies, gravity=(0.0, -GRAVITY), joints=joints)
+
+
+def chain_and_ball():
+    count, length = CHAIN["count"], CHAIN["length"]
+    bodies, joints, end = hung((length,) * count, (CHAIN["mass"],) * count, (math.radians(CHAIN_START),) * count)
+    # The last joint is in the middle of the ball, so that nothing turns it.
+    bodies.append(disc(end, mass=CHAIN["ball"]))
+    joints.append(joint(count - 1, (0.0, -length / 2), count, (0.0, 0.0)))
+    return scene(bodies, gravity=(0.0, -GRAVITY), joints=joints)
+
+
+def two_link_arm():
+    servos = [{"target": target, "kp": KP, "kd": KD} for target in TARGETS]
+    bodies, joints, _ = hung((0.5, 0.4), (1.0, 0.8), (0.0, 0.0), servos)
+    return scene(bodies, gravity=(0.0, -GRAVITY), joints=joints)
+
+
+LINKS, SPAN = 50, 1.4  # m; links of 0.04 m and 0.02 kg
+
+
+def catenary():
+    """Links in balance: tan phi = V/H, where V goes down by the weight of a link from each to the next; H by bisection."""
+    length, mass = 2.0 / LINKS, 1.0 / LINKS
+    pulls = [(i - (LINKS - 1) / 2) * mass * GRAVITY for i in range(LINKS)]
+    low, high = 0.0, 100.0
+    while (low + high) / 2 not in (low, high):
+        middle = (low + high) / 2
+        width = math.fsum(length * middle / math.hypot(middle, pull) for pull in pulls)
+        low, high = (middle, high) if width < SPAN else (low, middle)
+    # From the downward vertical: -pi/2 would point to the left, pi/2 to the right.
+    angles = [math.pi / 2 + math.atan2(pull, low) for pull in pulls]
+    bodies, joints, _ = hung((length,) * LINKS, (mass,) * LINKS, angles)
+    joints.append(joint(None, (SPAN, 0.0), LINKS - 1, (0.0, -length / 2)))
+    return scene(bodies, gravity=(0.0, -GRAVITY), joints=joints)
+
+
+def displacement(case, time, states):
+    return max(math.dist(state[:2], body["at"]) for state, body in zip(states, case["bodies"], strict=True))
+
+
 SEQUENCE = [0.0, 0.0, 0.0, 0.0, 1.0]
-SMOOTH, IMPACTS, SLIDING = "smooth", "impacts", "sliding"
+SMOOTH, IMPACTS, SLIDING, JOINTS = "smooth", "impacts", "sliding", "joints"
 
 ALL = [
     Problem("free_flight", "m", "parabola and spin", "textbook", (0.5, 1.0, 2.0, 3.0),
@@ -318,6 +448,18 @@ ALL = [
     Problem("incline", "m", "stays below the angle of friction, slides above it, turns when thrown uphill", "Coulomb 1785",
             (0.5, 1.0, 2.0), [on_floor(speed, False, degrees) for degrees, speed in
                               ((15.0, 0.0), (21.7, 0.0), (21.9, 0.0), (35.0, 0.0), (30.0, -4.0))], incline, SLIDING),
+    Problem("compound_pendulum", "rad", "a body on a pin swings for 20 s as an elliptic function", "Jacobi's elliptic functions",
+            (1.0, 3.0, 6.0, 10.0, 15.0, 20.0),
+            [scene([disc(MIDDLE, mass=CLUSTER, inertia=CLUSTER_INERTIA)], gravity=(0.0, -GRAVITY),
+                   joints=[joint(None, (0.0, 0.0), 0, (-MIDDLE[0], -MIDDLE[1]))])], compound_pendulum, JOINTS),
+    Problem("double_pendulum", "rad", "two rods, let go level", "Lagrange's equations", DOUBLE_TIMES, [double_pendulum()],
+            lagrange("double_pendulum"), JOINTS),
+    Problem("chain_and_ball", "rad", "ten links swing with a ball of a thousand times the mass of a link", "Lagrange's equations",
+            CHAIN_TIMES, [chain_and_ball()], lagrange("chain_and_ball"), JOINTS),
+    Problem("catenary", "m", "fifty links between two pins stay where forces are in balance", "statics", (1.0, 2.0), [catenary()],
+            displacement, JOINTS),
+    Problem("two_link_arm", "rad", "a controller on each joint moves an arm", "Lagrange's equations", ARM_TIMES, [two_link_arm()],
+            lagrange("two_link_arm"), JOINTS),
 ]
 
 

@@ -22,12 +22,20 @@ def versions() -> dict[str, str]:
     return found
 
 
+def inertia_of(disc):
+    return disc["mass"] * disc["radius"] ** 2 / 2 if disc["inertia"] is None else disc["inertia"]
+
+
 class Pymunk:
     """Chipmunk through pymunk, in double precision."""
 
     DEFAULTS = {
         "iterations": None, "collision_slop": None, "collision_bias": None, "collision_persistence": None,
         "sleep_time": None, "spring_joint": True,
+        # Servos as damped springs of the engine, or as torques of the caller.
+        "servo_joint": True,
+        # Share of the error of a joint that is left after a second.
+        "joint_bias": None,
     }
 
     def __init__(self, scene, step, settings):
@@ -51,15 +59,30 @@ class Pymunk:
             shapes.append(pymunk.Poly(space.static_body, [(-100, -2), (100, -2), (100, 0), (-100, 0)]))
         self.discs = []
         for disc in scene["bodies"]:
-            moment = disc["mass"] * disc["radius"] ** 2 / 2 if disc["turns"] else math.inf
+            moment = inertia_of(disc) if disc["turns"] else math.inf
             body = pymunk.Body(disc["mass"], moment)
             body.position, body.velocity, body.angular_velocity = disc["at"], disc["velocity"], disc["spin"]
+            body.angle = disc["angle"]
             self.discs.append(body)
-            shapes += [body, pymunk.Circle(body, disc["radius"])]
+            shapes += [body] if scene["joints"] else [body, pymunk.Circle(body, disc["radius"])]
         for shape in shapes:
             if isinstance(shape, pymunk.Shape):
                 shape.friction, shape.elasticity = material["friction"], material["restitution"]
         space.add(*shapes)
+        self.servos = []
+        for joint in scene["joints"]:
+            a = space.static_body if joint["a"] is None else self.discs[joint["a"]]
+            b, servo = self.discs[joint["b"]], joint["servo"]
+            pivot = pymunk.PivotJoint(a, b, joint["anchor_a"], joint["anchor_b"])
+            pivot.collide_bodies = False
+            if settings["joint_bias"] is not None:
+                pivot.error_bias = settings["joint_bias"]
+            space.add(pivot)
+            if servo and settings["servo_joint"]:
+                # Its angle is that of a less that of b.
+                space.add(pymunk.DampedRotarySpring(a, b, -servo["target"], servo["kp"], servo["kd"]))
+            elif servo:
+                self.servos.append((a, b, servo["target"], servo["kp"], servo["kd"]))
         self.pull = None
         if scene["spring"] is not None:
             if settings["spring_joint"]:
@@ -73,6 +96,15 @@ class Pymunk:
             for _ in range(steps):
                 body.force = (-self.pull * body.position.x, 0)
                 step(self.step)
+            return
+        if self.servos:
+            for _ in range(steps):
+                for a, b, target, kp, kd in self.servos:
+                    torque = kp * (target - b.angle + a.angle) - kd * (b.angular_velocity - a.angular_velocity)
+                    b.torque += torque
+                    if a is not self.space.static_body:
+                        a.torque -= torque
+                self.space.step(self.step)
             return
         # The C function itself: the method of pymunk adds callbacks that nothing here needs.
         from pymunk._chipmunk_cffi import lib
@@ -113,6 +145,10 @@ class Mujoco:
         # Steps in which friction of such contacts stops slip (`solreffriction`); None: as `solref`.
         "friction_steps": None,
         "spring_joint": True,
+        # Servos as actuators of the engine, or as torques of the caller.
+        "servo_joint": True,
+        # Time constant, in steps, of what closes a loop; None: as it is, 0.02 s.
+        "closure_steps": None,
     }
 
     def __init__(self, scene, step, settings):
@@ -135,7 +171,7 @@ class Mujoco:
             stiff = f'solref="{-rate * rate!r} {-damping!r}" solimp="0.9999 0.9999 0.001 0.5 2"'
         bodies = ""
         for place, disc in enumerate(scene["bodies"]):
-            mass, inertia = disc["mass"], disc["mass"] * disc["radius"] ** 2 / 2
+            mass, inertia = disc["mass"], inertia_of(disc)
             hinge = '<joint type="hinge" axis="0 0 1"/>' if disc["turns"] else ""
             spring = ""
             if scene["spring"] is not None and settings["spring_joint"]:
@@ -167,7 +203,8 @@ class Mujoco:
                 self.data.qvel[column + 2] = disc["spin"]
 
     def advance(self, steps):
-        self.library.mj_step(self.model, self.data, nstep=steps)
+        if steps:
+            self.library.mj_step(self.model, self.data, nstep=steps)
         if any(warning.number for warning in self.data.warning):
             kinds = [self.library.mjtWarning(i).name for i, warning in enumerate(self.data.warning) if warning.number]
             raise ArithmeticError(f"warned of {', '.join(kinds)}")
@@ -181,6 +218,90 @@ class Mujoco:
         return found
 
 
+class MujocoJoints(Mujoco):
+    """Hinges in generalised coordinates: each body stands in that which holds it. What closes a loop is a constraint."""
+
+    def __init__(self, scene, step, settings):
+        import mujoco
+
+        self.library = mujoco
+        option = f'timestep="{step!r}" gravity="{scene["gravity"][0]!r} {scene["gravity"][1]!r} 0"'
+        for name in ("integrator", "iterations", "tolerance"):
+            if settings[name] is not None:
+                option += f' {name}="{settings[name]}"'
+        self.discs = scene["bodies"]
+        self.servos, self.above = [], {}
+        texts, actuators, closures = {}, "", ""
+        soft = ""
+        if settings["closure_steps"] is not None:
+            soft = f'solref="{settings["closure_steps"] * step!r} 1" solimp="0.9999 0.9999 0.001 0.5 2"'
+        for joint in scene["joints"]:
+            b = joint["b"]
+            # All frames begin unturned: anchors turn by the angle of the body.
+            x, y = turned(joint["anchor_b"], self.discs[b]["angle"])
+            if b in self.above:
+                closures += f'<connect body1="disc{b}" anchor="{x!r} {y!r} 0" {soft}/>'
+                continue
+            disc, a = self.discs[b], joint["a"]
+            upper = (0.0, 0.0) if a is None else self.discs[a]["at"]
+            inertia = inertia_of(disc)
+            texts[b] = f"""<body name="disc{b}" pos="{disc["at"][0] - upper[0]!r} {disc["at"][1] - upper[1]!r} 0">
+                <inertial pos="0 0 0" mass="{disc["mass"]!r}" diaginertia="{inertia!r} {inertia!r} {inertia!r}"/>
+                <joint name="joint{b}" type="hinge" axis="0 0 1" pos="{x!r} {y!r} 0"/>"""
+            self.above[b] = a
+            if joint["servo"]:
+                servo = joint["servo"]
+                start = disc["angle"] - (0.0 if a is None else self.discs[a]["angle"])
+                self.servos.append((b, servo["target"] - start, servo["kp"], servo["kd"]))
+                actuators += f'<position joint="joint{b}" kp="{servo["kp"]!r}" kv="{servo["kd"]!r}"/>'
+        bodies = "".join(texts[b] for b in self.above) + "</body>" * len(self.above)  # one chain
+        if not settings["servo_joint"]:
+            actuators = ""
+        self.model = mujoco.MjModel.from_xml_string(
+            f"<mujoco><option {option}/><worldbody>{bodies}</worldbody><equality>{closures}</equality>"
+            f"<actuator>{actuators}</actuator></mujoco>"
+        )
+        self.data = mujoco.MjData(self.model)
+        if actuators:
+            self.data.ctrl[:] = [target for _, target, _, _ in self.servos]
+            self.servos = []
+
+    def advance(self, steps):
+        if self.servos:
+            q, v, torque = self.data.qpos, self.data.qvel, self.data.qfrc_applied
+            for _ in range(steps):
+                for joint, target, kp, kd in self.servos:
+                    torque[joint] = kp * (target - q[joint]) - kd * v[joint]
+                self.library.mj_step(self.model, self.data)
+            steps = 0
+        super().advance(steps)
+
+    def states(self):
+        # A step ends with new coordinates, but places of before.
+        self.library.mj_kinematics(self.model, self.data)
+        self.library.mj_comPos(self.model, self.data)
+        self.library.mj_comVel(self.model, self.data)
+        found, angles = [], {}
+        for b, a in self.above.items():
+            angles[b] = angles.get(a, 0.0) + float(self.data.qpos[b])
+            velocity = self._velocity(b + 1)
+            x, y = (float(number) for number in self.data.xpos[b + 1][:2])
+            found.append([x, y, self.discs[b]["angle"] + angles[b], velocity[3], velocity[4], velocity[2]])
+        return found
+
+    def _velocity(self, body):
+        import numpy
+
+        six = numpy.zeros(6)
+        self.library.mj_objectVelocity(self.model, self.data, self.library.mjtObj.mjOBJ_BODY, body, six, 0)
+        return [float(number) for number in six]
+
+
+def turned(vector, angle):
+    x, y = vector
+    return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
+
+
 ENGINES = {"pymunk": Pymunk, "mujoco": Mujoco}
 
 
@@ -190,6 +311,8 @@ def run(job: dict) -> dict:
     if unknown:
         raise SystemExit(f"{job['engine']} has no setting {', '.join(sorted(unknown))}; there are {', '.join(engine.DEFAULTS)}")
     settings = engine.DEFAULTS | job["settings"]
+    if engine is Mujoco and job["scene"]["joints"]:
+        engine = MujocoJoints
     best = math.inf
     for _ in range(job["repeats"]):
         try:

@@ -2,7 +2,7 @@
 
 use boxdd_sys::ffi::*;
 
-use crate::job::{Job, State};
+use crate::job::{Job, Servo, State};
 
 pub struct World {
     world: b2WorldId,
@@ -11,6 +11,8 @@ pub struct World {
     substeps: i32,
     /// Stiffness of the spring in N/m, where it is a force of ours.
     pull: Option<f32>,
+    /// Servos that are torques of ours, with both bodies.
+    servos: Vec<(Option<b2BodyId>, b2BodyId, Servo)>,
     /// Angles are told within a turn: here they go on.
     turned: Vec<(f64, f64)>,
 }
@@ -65,13 +67,16 @@ pub fn world(job: &Job) -> World {
             let mut body = b2DefaultBodyDef();
             body.type_ = b2BodyType_b2_dynamicBody;
             body.position = vector(disc.at);
+            body.rotation = b2Rot { c: disc.angle.cos() as f32, s: disc.angle.sin() as f32 };
             body.linearVelocity = vector(disc.velocity);
             body.angularVelocity = disc.spin as f32;
             body.linearDamping = scene.drag as f32;
             body.motionLocks.angularZ = !disc.turns;
             let id = b2CreateBody(world, &body);
-            let circle = b2Circle { center: vector([0.0, 0.0]), radius: disc.radius as f32 };
-            b2CreateCircleShape(id, &shape, &circle);
+            if scene.joints.is_empty() {
+                let circle = b2Circle { center: vector([0.0, 0.0]), radius: disc.radius as f32 };
+                b2CreateCircleShape(id, &shape, &circle);
+            }
             let inertia = if disc.turns { disc.inertia() } else { 0.0 };
             let mass =
                 b2MassData { mass: disc.mass as f32, center: vector([0.0, 0.0]), rotationalInertia: inertia as f32 };
@@ -94,8 +99,38 @@ pub fn world(job: &Job) -> World {
                 pull = Some(stiffness as f32);
             }
         }
-        let turned = vec![(0.0, 0.0); discs.len()];
-        World { world, discs, step: job.step as f32, substeps: settings.substeps as i32, pull, turned }
+        let mut servos = Vec::new();
+        for joint in &scene.joints {
+            let (a, b) = (joint.a.map(|place| discs[place]), discs[joint.b]);
+            let mut hinge = b2DefaultRevoluteJointDef();
+            hinge.base.bodyIdA = a.unwrap_or(ground);
+            hinge.base.bodyIdB = b;
+            hinge.base.localFrameA.p = vector(joint.anchor_a);
+            hinge.base.localFrameB.p = vector(joint.anchor_b);
+            if let Some(hertz) = settings.joint_hertz {
+                hinge.base.constraintHertz = hertz as f32;
+            }
+            if let Some(ratio) = settings.joint_damping {
+                hinge.base.constraintDampingRatio = ratio as f32;
+            }
+            if let Some(servo) = joint.servo {
+                if settings.servo_joint {
+                    // Its stiffness is told as a frequency of the inertia that the joint has without its hinge.
+                    let inverse = |place: usize| 1.0 / scene.bodies[place].inertia();
+                    let inertia = 1.0 / (inverse(joint.b) + joint.a.map_or(0.0, inverse));
+                    let rate = (servo.kp / inertia).sqrt();
+                    hinge.enableSpring = true;
+                    hinge.targetAngle = servo.target as f32;
+                    hinge.hertz = (rate / std::f64::consts::TAU) as f32;
+                    hinge.dampingRatio = (servo.kd / (2.0 * inertia * rate)) as f32;
+                } else {
+                    servos.push((a, b, servo));
+                }
+            }
+            b2CreateRevoluteJoint(world, &hinge);
+        }
+        let turned = scene.bodies.iter().map(|disc| (disc.angle, disc.angle)).collect();
+        World { world, discs, step: job.step as f32, substeps: settings.substeps as i32, pull, servos, turned }
     }
 }
 
@@ -106,6 +141,19 @@ impl crate::job::World for World {
             if let Some(stiffness) = self.pull {
                 let x = b2Body_GetPosition(self.discs[0]).x;
                 b2Body_ApplyForceToCenter(self.discs[0], b2Vec2 { x: -stiffness * x, y: 0.0 }, true);
+            }
+            for &(a, b, servo) in &self.servos {
+                let motion = |body| {
+                    let rotation = b2Body_GetRotation(body);
+                    (rotation.s.atan2(rotation.c), b2Body_GetAngularVelocity(body))
+                };
+                let (angle, rate) = motion(b);
+                let (angle_a, rate_a) = a.map_or((0.0, 0.0), motion);
+                let torque = servo.kp as f32 * (servo.target as f32 - (angle - angle_a)) - servo.kd as f32 * (rate - rate_a);
+                b2Body_ApplyTorque(b, torque, true);
+                if let Some(a) = a {
+                    b2Body_ApplyTorque(a, -torque, true);
+                }
             }
             b2World_Step(self.world, self.step, self.substeps);
         }

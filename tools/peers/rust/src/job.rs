@@ -42,6 +42,14 @@ pub struct Settings {
     pub warm_start: bool,
     /// The spring as a joint of the engine, or as a force that the caller applies before each step.
     pub spring_joint: bool,
+    /// The same of servos: a spring of the joint, or a torque of the caller.
+    pub servo_joint: bool,
+    /// Rapier: hinges in reduced coordinates. A hinge that closes a loop stays an impulse joint.
+    pub multibody: bool,
+    /// Box2D: `constraintHertz` of hinges.
+    pub joint_hertz: Option<f64>,
+    /// Box2D: `constraintDampingRatio` of hinges. Rapier: damping of hinges in reduced coordinates, N m s/rad; it has some of its own.
+    pub joint_damping: Option<f64>,
 }
 
 impl Default for Settings {
@@ -60,6 +68,10 @@ impl Default for Settings {
             iterations: None,
             warm_start: true,
             spring_joint: true,
+            servo_joint: true,
+            multibody: false,
+            joint_hertz: None,
+            joint_damping: None,
         }
     }
 }
@@ -72,6 +84,25 @@ pub struct Scene {
     pub floor: bool,
     pub drag: f64,
     pub spring: Option<f64>,
+    pub joints: Vec<Joint>,
+}
+
+/// A hinge. Anchors count from the centres of bodies; without `a` it holds a place of the world.
+#[derive(Deserialize)]
+pub struct Joint {
+    pub a: Option<usize>,
+    pub anchor_a: [f64; 2],
+    pub b: usize,
+    pub anchor_b: [f64; 2],
+    pub servo: Option<Servo>,
+}
+
+/// The torque `kp (target - angle) - kd rate` on `b`, the opposite on `a`; the angle is that of `b` less that of `a`.
+#[derive(Clone, Copy, Deserialize)]
+pub struct Servo {
+    pub target: f64,
+    pub kp: f64,
+    pub kd: f64,
 }
 
 #[derive(Deserialize)]
@@ -82,11 +113,14 @@ pub struct Disc {
     pub radius: f64,
     pub mass: f64,
     pub turns: bool,
+    pub angle: f64,
+    /// None: that of a disc.
+    pub inertia: Option<f64>,
 }
 
 impl Disc {
     pub fn inertia(&self) -> f64 {
-        self.mass * self.radius * self.radius / 2.0
+        self.inertia.unwrap_or(self.mass * self.radius * self.radius / 2.0)
     }
 }
 

@@ -6,13 +6,15 @@ macro_rules! rapier {
             use $crate_name::na::Unit;
             use $crate_name::prelude::*;
 
-            use crate::job::{Job, State};
+            use crate::job::{Job, Servo, State};
 
             pub struct World {
                 world: PhysicsWorld,
                 discs: Vec<RigidBodyHandle>,
                 /// Stiffness of the spring in N/m, where it is a force of ours.
                 pull: Option<$real>,
+                /// Servos that are torques of ours, with the places of both bodies.
+                servos: Vec<(Option<RigidBodyHandle>, RigidBodyHandle, Servo)>,
                 /// Angles are told within a turn: here they go on.
                 turned: Vec<(f64, f64)>,
             }
@@ -61,6 +63,7 @@ macro_rules! rapier {
                     let mass = MassProperties::new(Vector::new(0.0, 0.0), disc.mass as $real, disc.inertia() as $real);
                     let mut body = RigidBodyBuilder::dynamic()
                         .translation(vector(disc.at))
+                        .rotation(disc.angle as $real)
                         .linvel(vector(disc.velocity))
                         .angvel(disc.spin as $real)
                         .linear_damping(scene.drag as $real)
@@ -70,8 +73,10 @@ macro_rules! rapier {
                         body = body.lock_rotations();
                     }
                     let handle = world.bodies.insert(body);
-                    let collider = material(ColliderBuilder::ball(disc.radius as $real).density(0.0));
-                    world.colliders.insert_with_parent(collider, handle, &mut world.bodies);
+                    if scene.joints.is_empty() {
+                        let collider = material(ColliderBuilder::ball(disc.radius as $real).density(0.0));
+                        world.colliders.insert_with_parent(collider, handle, &mut world.bodies);
+                    }
                     discs.push(handle);
                 }
                 let mut pull = None;
@@ -84,8 +89,51 @@ macro_rules! rapier {
                         pull = Some(stiffness as $real);
                     }
                 }
-                let turned = vec![(0.0, 0.0); discs.len()];
-                World { world, discs, pull, turned }
+                let ground = (!scene.joints.is_empty()).then(|| world.bodies.insert(RigidBodyBuilder::fixed()));
+                let mut servos = Vec::new();
+                let mut held = vec![false; discs.len()];
+                let mut reduced = None;
+                let mut coordinates = Vec::new();
+                for joint in &scene.joints {
+                    let (a, b) = (joint.a.map(|place| discs[place]), discs[joint.b]);
+                    let mut hinge = RevoluteJointBuilder::new()
+                        .local_anchor1(vector(joint.anchor_a))
+                        .local_anchor2(vector(joint.anchor_b))
+                        .contacts_enabled(false);
+                    if let Some(servo) = joint.servo {
+                        if settings.servo_joint {
+                            hinge = hinge.motor_model(MotorModel::ForceBased).motor_position(
+                                servo.target as $real,
+                                servo.kp as $real,
+                                servo.kd as $real,
+                            );
+                        } else {
+                            servos.push((a, b, servo));
+                        }
+                    }
+                    let upper = a.or(ground).expect("there is a ground where there are joints");
+                    let closes = std::mem::replace(&mut held[joint.b], true);
+                    if settings.multibody && !closes {
+                        reduced = world.multibody_joints.insert(upper, b, hinge, true);
+                        let angle_a = joint.a.map_or(0.0, |a| scene.bodies[a].angle);
+                        coordinates.push((scene.bodies[joint.b].angle - angle_a) as $real);
+                    } else {
+                        world.impulse_joints.insert(upper, b, hinge, true);
+                    }
+                }
+                if let Some((multibody, _)) = reduced.and_then(|handle| world.multibody_joints.get_mut(handle)) {
+                    // Its coordinates begin at 0, whatever the poses of bodies are; those of the ground come first.
+                    let mut moves = vec![0.0; multibody.ndofs() - coordinates.len()];
+                    moves.extend(coordinates);
+                    multibody.apply_displacements(&moves);
+                    multibody.forward_kinematics(&world.bodies, true);
+                    multibody.update_rigid_bodies(&mut world.bodies, true);
+                    if let Some(damping) = settings.joint_damping {
+                        multibody.damping_mut().fill(damping as $real);
+                    }
+                }
+                let turned = scene.bodies.iter().map(|disc| (disc.angle, disc.angle)).collect();
+                World { world, discs, pull, servos, turned }
             }
 
             impl crate::job::World for World {
@@ -95,6 +143,20 @@ macro_rules! rapier {
                         let force = Vector::new(-stiffness * body.translation().x, 0.0);
                         body.reset_forces(true);
                         body.add_force(force, true);
+                    }
+                    for &(a, b, servo) in &self.servos {
+                        let bodies = &mut self.world.bodies;
+                        let motion = |body: &RigidBody| (body.rotation().angle(), body.angvel());
+                        let (angle, rate) = motion(&bodies[b]);
+                        let (angle_a, rate_a) = a.map_or((0.0, 0.0), |a| motion(&bodies[a]));
+                        let torque = servo.kp as $real * (servo.target as $real - (angle - angle_a))
+                            - servo.kd as $real * (rate - rate_a);
+                        // Torques stay until they are reset; a body comes as `b` before it comes as `a`.
+                        bodies[b].reset_torques(true);
+                        bodies[b].add_torque(torque, true);
+                        if let Some(a) = a {
+                            bodies[a].add_torque(-torque, true);
+                        }
                     }
                     self.world.step();
                 }
