@@ -149,7 +149,8 @@ impl crate::job::World for World {
                 };
                 let (angle, rate) = motion(b);
                 let (angle_a, rate_a) = a.map_or((0.0, 0.0), motion);
-                let torque = servo.kp as f32 * (servo.target as f32 - (angle - angle_a)) - servo.kd as f32 * (rate - rate_a);
+                let torque =
+                    servo.kp as f32 * (servo.target as f32 - (angle - angle_a)) - servo.kd as f32 * (rate - rate_a);
                 b2Body_ApplyTorque(b, torque, true);
                 if let Some(a) = a {
                     b2Body_ApplyTorque(a, -torque, true);
