@@ -225,6 +225,8 @@ class MujocoJoints(Mujoco):
         import mujoco
 
         self.library = mujoco
+        # Warnings are counted in the data; without this they also go to a file in the working directory.
+        mujoco.set_mju_user_warning(lambda text: None)
         option = f'timestep="{step!r}" gravity="{scene["gravity"][0]!r} {scene["gravity"][1]!r} 0"'
         for name in ("integrator", "iterations", "tolerance"):
             if settings[name] is not None:
