@@ -53,12 +53,12 @@ pub struct Limit {
 }
 
 /// What a joint does that reaches its limit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Arrival {
     /// It stays there.
     Stays,
     /// It goes back, with the velocity of this row.
-    Rebounds(Row),
+    Rebounds(Box<Row>),
 }
 
 impl Limit {
@@ -142,7 +142,7 @@ impl Limit {
         let back = self.restitution * rate.abs();
         if back > STAYS * self.fastest {
             let row = Row { rate: side.sign() * back, ..pair.row(&freedom.along, Kind::Position) };
-            return Some(Arrival::Rebounds(row));
+            return Some(Arrival::Rebounds(Box::new(row)));
         }
         (self.at, self.force, self.greatest) = (Some(side), 0.0, 0.0);
         Some(Arrival::Stays)

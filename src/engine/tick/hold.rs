@@ -54,12 +54,12 @@ impl FromOutside {
 }
 
 /// A jump of velocities.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Blow {
     /// They become those that all joints allow, but for rows that give way. The energy counts as inelasticity.
     Stops,
     /// The same with a row whose rate is part of that, without force from then on.
-    Rebounds(Row),
+    Rebounds(Box<Row>),
     /// They become those that all rows allow. The energy counts as friction.
     Sticks,
 }
@@ -232,7 +232,7 @@ impl State {
         self.bodies.catch_up();
         let blows = std::mem::take(&mut self.blows);
         let sticks = blows.contains(&Blow::Sticks);
-        let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(*row) } else { None };
+        let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(**row) } else { None };
         let back: Vec<Row> = blows.iter().filter_map(back).collect();
         if blows.iter().any(|blow| *blow != Blow::Sticks) {
             let lost = self.jump(time, Jump::Stops(&back));
