@@ -118,7 +118,7 @@ impl Wish<'_> {
         let directory = is_directory(path);
         let ends_as_film =
             path.extension().is_some_and(|ending| FILMS.iter().any(|film| ending.eq_ignore_ascii_case(film)));
-        if directory && ends_as_film && !ends_with_separator(path) {
+        if directory && ends_as_film && self.output == Some(path) && !ends_with_separator(path) {
             let path = path.display();
             return Err(format!(
                 "`{path}` is a directory: take another name for the film, or write pictures into it with `-o {path}/`"

@@ -150,3 +150,20 @@ fn gears_and_racks_couple_what_they_drive() {
         }
     }
 }
+
+/// Units say what is meant: a slide is driven in metres a second and by newtons, a hinge in turns a minute and by newton metres. A motor with
+/// a limit pushes with its force: `v = F t/m` until its speed is reached.
+#[test]
+fn motors_take_the_units_of_their_joints() {
+    let scene = "bodies: [(name: \"bar\", at: (0, 0), mass: 2, atoms: Disc(radius: 0.1)),
+            (name: \"wheel\", at: (0, 1), mass: 1, inertia: 0.5, atoms: Disc(radius: 0.1))],
+         joints: [Prismatic(name: \"rail\", a: World, b: \"bar\", axis: (1, 0)), Revolute(name: \"hub\", a: World, b: \"wheel\")],
+         controllers: [Motor(of: \"rail\", speed: \"90 cm/s\", limit: \"0.001 kN\"), Motor(of: \"hub\", speed: \"30 rpm\", limit: \"1 N m\")]";
+    let mut simulation = load("Dop853", 0.01, scene);
+    run_to(&mut simulation, 1.0);
+    let bodies = simulation.bodies();
+    demand(&[bodies.velocity[0].x, bodies.spin[1]], &[0.5, 2.0], 1e-12, "on the way");
+    run_to(&mut simulation, 3.0);
+    let bodies = simulation.bodies();
+    demand(&[bodies.velocity[0].x, bodies.spin[1]], &[0.9, std::f64::consts::PI], 1e-12, "at speed");
+}

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::driven::{self, Driven};
 use super::output::{self, Output};
 use super::target::Target;
+use crate::scene::units::dimension::{OfForce, OfTorque};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, ForceOn, Model, State, SteadySpring, TickAppExt};
@@ -21,7 +22,7 @@ struct Actuator {
     /// The joint.
     of: String,
     /// Torque in N m on `b`, counter-clockwise; of a slide the force in N along its axis.
-    force: Target,
+    force: Target<OfTorque, OfForce>,
 }
 
 impl Entry for Actuator {
@@ -45,7 +46,11 @@ impl Entry for Actuator {
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
             let output = Output::named(value.name, path);
-            app.add_model(ActuatorForce { output, driven: Driven::named(value.of), force: value.force });
+            app.add_model(ActuatorForce {
+                output,
+                driven: Driven::named(value.of).given("force", value.force.said()),
+                force: value.force,
+            });
         }
     }
 }
@@ -57,7 +62,7 @@ pub(super) fn plugin(app: &mut App) {
 struct ActuatorForce {
     output: Output,
     driven: Driven,
-    force: Target,
+    force: Target<OfTorque, OfForce>,
 }
 
 impl Model for ActuatorForce {

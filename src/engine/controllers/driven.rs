@@ -8,13 +8,23 @@ use glam::DVec2;
 use crate::joints::KnownJoints;
 use crate::joints::ends::{Along, End, Ends, Pair};
 use crate::joints::law::Law;
-use crate::scene::{Kind, Outline, Report};
+use crate::scene::units::dimension::{OfForce, OfSpeed, OfSpin, OfTorque};
+use crate::scene::units::{Either, Said};
+use crate::scene::{Kind, Outline, Report, SceneError};
 use crate::tick::{ForceOn, ForcePart, LoadErrors, State};
 use crate::world::Bodies;
+
+/// A rate that is driven: a spin of a hinge, a speed of a slide.
+pub(super) type DrivenSpeed = Either<OfSpin, OfSpeed>;
+
+/// What drives: a torque in a hinge, a force in a slide.
+pub(super) type DrivenForce = Either<OfTorque, OfForce>;
 
 /// The joint of a controller: what it leaves free is driven.
 pub(super) struct Driven {
     name: String,
+    /// Fields of the controller whose units say that it is a hinge (first) or a slide (second).
+    given: Vec<(&'static str, Said)>,
     found: Option<(Ends, Arc<dyn Law>)>,
 }
 
@@ -35,7 +45,13 @@ pub(super) fn check(of: &str, outline: &Outline, report: &mut Report) {
 
 impl Driven {
     pub fn named(name: String) -> Self {
-        Self { name, found: None }
+        Self { name, given: Vec::new(), found: None }
+    }
+
+    /// The unit of a field says whether the joint is a hinge or a slide.
+    pub fn given(mut self, field: &'static str, said: Option<Said>) -> Self {
+        self.given.extend(said.map(|said| (field, said)));
+        self
     }
 
     /// Finds the joint, when all joints of the scene have begun. `path` is where the controller stands in the scene.
@@ -46,9 +62,27 @@ impl Driven {
         let rod = self.found.as_ref().is_some_and(|(_, law)| law.needs_distance());
         if self.found.is_some() && (rod || self.motion(bodies).is_none()) {
             let message = format!("the joint `{}` leaves no motion free that could be driven", self.name);
-            let error = crate::scene::SceneError::new(format!("{path}.of"), message)
+            let error = SceneError::new(format!("{path}.of"), message)
                 .with_help("drive a hinge (`Revolute`) or a slide (`Prismatic`)");
             world.get_resource_or_init::<LoadErrors>().0.push(error);
+            return;
+        }
+        let Some((_, law)) = &self.found else { return };
+        let turns = law.freedom_name().0 == "angle";
+        let (is, example) = if turns {
+            ("a hinge, which turns", "give a unit of turning, such as rad, rpm or N m, or a number without a unit")
+        } else {
+            (
+                "a slide, which moves along a line",
+                "give a unit of a line, such as m, m/s or N, or a number without a unit",
+            )
+        };
+        for (field, said) in &self.given {
+            if turns != (*said == Said::First) {
+                let message = format!("the unit does not fit: `{}` is {is}", self.name);
+                let error = SceneError::new(format!("{path}.{field}"), message).with_help(example);
+                world.get_resource_or_init::<LoadErrors>().0.push(error);
+            }
         }
     }
 
@@ -57,8 +91,8 @@ impl Driven {
         let known = world.get_resource::<KnownJoints>().and_then(|known| known.named(&self.name));
         if known.is_some_and(|known| known.limited) {
             let message = format!("the motor of `{}` may give any torque, and the joint has limits", self.name);
-            let error = crate::scene::SceneError::new(path.to_owned(), message)
-                .with_help("give the motor its greatest torque: `limit: 10`");
+            let error =
+                SceneError::new(path.to_owned(), message).with_help("give the motor its greatest torque: `limit: 10`");
             world.get_resource_or_init::<LoadErrors>().0.push(error);
         }
     }

@@ -6,11 +6,10 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::driven::{self, Driven};
+use super::driven::{self, Driven, DrivenForce, DrivenSpeed};
 use super::output::{self, Output};
 use crate::constraints::Rows;
 use crate::joints::bounded::Bounded;
-use crate::scene::units::{Scalar, Spin};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
@@ -24,10 +23,11 @@ struct Motor {
     name: Option<String>,
     /// The joint.
     of: String,
-    /// In rad/s or with a unit such as "30 rpm"; of a slide in m/s, without unit. Without `limit` the scene begins at this rate.
-    speed: Spin,
+    /// In rad/s or with a unit such as "30 rpm"; of a slide in m/s or with a unit such as "20 cm/s". Without `limit` the scene begins at
+    /// this rate.
+    speed: DrivenSpeed,
     /// The greatest torque in N m, of a slide force in N. Above zero. Default: none.
-    limit: Option<Scalar>,
+    limit: Option<DrivenForce>,
 }
 
 impl Entry for Motor {
@@ -53,8 +53,10 @@ impl Entry for Motor {
         for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
             app.add_model(MotorRow {
                 output: Output::named(value.name, path),
-                driven: Driven::named(value.of),
-                held: Bounded::new(value.speed.si(), value.limit.map_or(f64::INFINITY, Scalar::si)),
+                driven: Driven::named(value.of)
+                    .given("speed", value.speed.said())
+                    .given("limit", value.limit.and_then(DrivenForce::said)),
+                held: Bounded::new(value.speed.si(), value.limit.map_or(f64::INFINITY, DrivenForce::si)),
                 row: None,
             });
         }

@@ -8,9 +8,10 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::driven::{self, Driven, Motion};
+use super::driven::{self, Driven, DrivenForce, Motion};
 use super::output::{self, Output};
 use super::target::Target;
+use crate::scene::units::dimension::{OfAngle, OfLength};
 use crate::scene::units::{Rate, Scalar};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
@@ -26,8 +27,8 @@ struct Servo {
     name: Option<String>,
     /// The joint.
     of: String,
-    /// The angle in rad or with a unit; of a slide the travel in metres.
-    target: Target,
+    /// The angle in rad or with a unit; of a slide the travel in metres, likewise.
+    target: Target<OfAngle, OfLength>,
     /// In N m/rad; of a slide in N/m. Not negative.
     kp: Scalar,
     /// In N m/(rad s); of a slide in N/(m s). Not negative. Default: 0.
@@ -37,7 +38,7 @@ struct Servo {
     #[serde(default)]
     kd: Scalar,
     /// The greatest torque in N m, of a slide force in N. Above zero. Default: none.
-    limit: Option<Scalar>,
+    limit: Option<DrivenForce>,
     /// How often it computes its output, which it holds in between, in Hz. Above zero. Default: all the time.
     rate: Option<Rate>,
 }
@@ -69,10 +70,12 @@ impl Entry for Servo {
         for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
             app.add_model(ServoForce {
                 output: Output::named(value.name, path),
-                driven: Driven::named(value.of),
+                driven: Driven::named(value.of)
+                    .given("target", value.target.said())
+                    .given("limit", value.limit.and_then(DrivenForce::said)),
                 target: value.target,
                 gains: [value.kp, value.ki, value.kd].map(Scalar::si),
-                limit: value.limit.map_or(f64::INFINITY, Scalar::si),
+                limit: value.limit.map_or(f64::INFINITY, DrivenForce::si),
                 period: value.rate.map(|rate| 1.0 / rate.si()),
                 integral: 0.0,
                 held: 0.0,
@@ -89,7 +92,7 @@ pub(super) fn plugin(app: &mut App) {
 struct ServoForce {
     output: Output,
     driven: Driven,
-    target: Target,
+    target: Target<OfAngle, OfLength>,
     gains: [f64; 3],
     limit: f64,
     /// Seconds between two outputs, if it computes them at a rate of its own.

@@ -3,21 +3,28 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
 use std::borrow::Cow;
+use std::marker::PhantomData;
 
 use crate::forces::drive::Course;
 use crate::scene::read_value;
-use crate::scene::units::Angle;
+use crate::scene::units::{Dimension, Either, Said, plain_name};
 
-/// A number, or a course in time. Angles in rad or with a unit; of a slide metres, forces in newtons, without unit.
+/// A number with the unit of one of two dimensions or without one, or a course in time in SI units.
+pub struct Target<A, B> {
+    value: Value,
+    said: Option<Said>,
+    dimensions: PhantomData<fn() -> (A, B)>,
+}
+
 #[derive(Clone, Debug, PartialEq)]
-pub enum Target {
+enum Value {
     /// The same always.
     Constant(f64),
     /// A course in time.
     Course(Course),
 }
 
-impl<'de> Deserialize<'de> for Target {
+impl<'de, A: Dimension, B: Dimension> Deserialize<'de> for Target<A, B> {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         let written = Box::<ron::value::RawValue>::deserialize(reader)?;
         let text = written.trim().get_ron();
@@ -25,17 +32,24 @@ impl<'de> Deserialize<'de> for Target {
         let course = course.or_else(|| text.starts_with(char::is_alphabetic).then(|| text.to_owned()));
         match course {
             Some(course) => {
-                read_value(&course).map(Self::Course).map_err(de::Error::custom)
+                let value = read_value(&course).map(Value::Course).map_err(de::Error::custom)?;
+                Ok(Self { value, said: None, dimensions: PhantomData })
             }
-            None => ron::from_str::<Angle>(text).map(|angle| Self::Constant(angle.si())).map_err(|_| {
-                let expected = "expected a number, an angle such as \"40 deg\", `Course([(0, 0), (1, 0.5)])` or `Sine(frequency: 2)`";
-                de::Error::custom(format!("{expected}, found {text}"))
-            }),
+            None => match ron::from_str::<Either<A, B>>(text) {
+                Ok(either) => {
+                    Ok(Self { value: Value::Constant(either.si()), said: either.said(), dimensions: PhantomData })
+                }
+                Err(_) => {
+                    let (first, second) = (A::NAME, A::EXAMPLE);
+                    let courses = "`Course([(0, 0), (1, 0.5)])` or `Sine(frequency: 2)`";
+                    Err(de::Error::custom(format!("expected {first} such as {second}, {courses}, found {text}")))
+                }
+            },
         }
     }
 }
 
-impl JsonSchema for Target {
+impl<A: Dimension, B: Dimension> JsonSchema for Target<A, B> {
     fn inline_schema() -> bool {
         true
     }
@@ -45,32 +59,38 @@ impl JsonSchema for Target {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "x-value": "number, angle such as \"40 deg\", Course([(time, value), ..]) or Sine(..)" })
+        let (first, second) = (plain_name::<A>(), plain_name::<B>());
+        json_schema!({ "x-value": format!("{first} or {second}, Course([(time, value), ..]) or Sine(..)") })
     }
 }
 
-impl Target {
+impl<A, B> Target<A, B> {
+    /// The dimension of its unit; `None` without one.
+    pub fn said(&self) -> Option<Said> {
+        self.said
+    }
+
     /// Reports a course that cannot be.
     pub fn check(&self, path: &str, report: &mut crate::scene::Report) {
-        match self {
-            Self::Constant(value) => _ = report.finite(path, *value),
-            Self::Course(course) => report.within(path, |report| course.check(report)),
+        match &self.value {
+            Value::Constant(value) => _ = report.finite(path, *value),
+            Value::Course(course) => report.within(path, |report| course.check(report)),
         }
     }
 
     /// The value at `time` seconds, and its rate per second.
     pub fn at(&self, time: f64) -> (f64, f64) {
-        match self {
-            Self::Constant(value) => (*value, 0.0),
-            Self::Course(course) => (course.at(time), course.rate(time)),
+        match &self.value {
+            Value::Constant(value) => (*value, 0.0),
+            Value::Course(course) => (course.at(time), course.rate(time)),
         }
     }
 
     /// The first time after `time` seconds at which it has a kink; infinity if there is none.
     pub fn next_point(&self, time: f64) -> f64 {
-        match self {
-            Self::Constant(_) => f64::INFINITY,
-            Self::Course(course) => course.next_point(time),
+        match &self.value {
+            Value::Constant(_) => f64::INFINITY,
+            Value::Course(course) => course.next_point(time),
         }
     }
 }

@@ -8,18 +8,12 @@ use std::borrow::Cow;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use crate::units::{Dimension, Pair, Quantity, unit_of};
+use crate::units::{Dimension, Pair, Quantity, plain_name, unit_of};
 use crate::values::{Elsewhere, Names, OrderedMap, WholeNumber, Word};
 
 /// `a moment of inertia` as `moment_of_inertia`.
 fn identifier<D: Dimension>() -> String {
     plain_name::<D>().replace(' ', "_")
-}
-
-/// The name of a dimension without its article.
-fn plain_name<D: Dimension>() -> &'static str {
-    let name = D::NAME.split_once(' ').map_or(D::NAME, |(_, name)| name);
-    if name == "plain number" { "number" } else { name }
 }
 
 /// Written as a bare number in SI units.

@@ -19,6 +19,7 @@
 //! assert_eq!(stiffness.si(), 3.0);
 //! ```
 
+mod either;
 mod read;
 mod table;
 
@@ -27,6 +28,7 @@ use std::marker::PhantomData;
 
 use glam::DVec2;
 
+pub use either::{Either, Said};
 pub use read::parse_si;
 pub(crate) use read::{base_units, is_quantity, is_unit, name_of, number_length, value_in};
 
@@ -61,6 +63,12 @@ pub trait Dimension: Send + Sync + 'static {
 pub struct Quantity<D> {
     si: f64,
     dimension: PhantomData<fn() -> D>,
+}
+
+/// The name of a dimension without its article.
+pub fn plain_name<D: Dimension>() -> &'static str {
+    let name = D::NAME.split_once(' ').map_or(D::NAME, |(_, name)| name);
+    if name == "plain number" { "number" } else { name }
 }
 
 impl<D> Quantity<D> {
