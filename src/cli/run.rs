@@ -16,7 +16,7 @@ use super::result::{self, Detail, Ran};
 use super::save::{Saves, SnapshotFlags, Trouble};
 use super::say::say;
 use super::side_by_side::all_cores;
-use super::target::{is_directory, takes_no_file};
+use super::target::{ends_as_picture, is_directory, takes_no_file};
 use super::wall_clock::WallClock;
 use crate::cli::author;
 use crate::output::OutputError;
@@ -164,20 +164,16 @@ impl Run {
     }
 }
 
-/// Endings of what `render` writes.
-const PICTURES: [&str; 6] = ["gif", "png", "apng", "mp4", "webm", "rgba"];
-
 /// What speaks against writing channels to a path.
 fn objection(request: Request, path: &Path) -> Option<String> {
     let name = path.display();
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     if path.as_os_str().is_empty() {
         Some("-o needs the name of a file, such as channels.csv".to_owned())
     } else if request.is_at(path) {
         Some(format!("`{name}` is the scene itself: write the channels to another file, such as channels.csv"))
     } else if is_directory(path) {
         Some(format!("`{name}` is a directory: name a file in it, such as `{}`", path.join("channels.csv").display()))
-    } else if ending.as_deref().is_some_and(|ending| PICTURES.contains(&ending)) {
+    } else if ends_as_picture(path) {
         Some(format!("`run` writes comma-separated values, not `{name}`: use `jostle render` for pictures"))
     } else {
         takes_no_file(path)

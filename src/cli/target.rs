@@ -8,8 +8,13 @@ use super::load::Request;
 use super::say::say;
 use crate::output::{OutputError, Target};
 
-/// Endings of films and pictures.
-const FILMS: [&str; 6] = ["gif", "apng", "mp4", "webm", "rgba", "png"];
+/// Endings of what `render` writes.
+const PICTURES: [&str; 6] = ["gif", "png", "apng", "mp4", "webm", "rgba"];
+
+/// Whether a path ends as a film or a picture does.
+pub(super) fn ends_as_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| PICTURES.iter().any(|picture| ending.eq_ignore_ascii_case(picture)))
+}
 
 /// What the command line says about where films go.
 pub(super) struct Wish<'a> {
@@ -116,9 +121,7 @@ impl Wish<'_> {
             return Err(message);
         }
         let directory = is_directory(path);
-        let ends_as_film =
-            path.extension().is_some_and(|ending| FILMS.iter().any(|film| ending.eq_ignore_ascii_case(film)));
-        if directory && ends_as_film && self.output == Some(path) && !ends_with_separator(path) {
+        if directory && ends_as_picture(path) && self.output == Some(path) && !ends_with_separator(path) {
             let path = path.display();
             return Err(format!(
                 "`{path}` is a directory: take another name for the film, or write pictures into it with `-o {path}/`"

@@ -295,7 +295,7 @@ impl fmt::Display for Card {
         row("work of drives", parts(&[("", energy.work)]))?;
         row(
             "energy residual",
-            format!("{} J, {} of what went round", number(energy.residual), percent(self.energy_error())),
+            format!("{} J, {} of the energy that changed form", number(energy.residual), percent(self.energy_error())),
         )?;
         let [x, y] = self.momentum_residual;
         row(

@@ -101,11 +101,13 @@ fn a_motor_drives_a_slide_with_friction_through_its_dead_points() {
         let begin = simulation.bodies().angle[0];
         simulation.run_to_end().expect("numbers stay finite");
         let (turned, energy) = (simulation.bodies().angle[0] - begin, simulation.card().energy);
-        // Chords of the circle on which the hub is held leave an angle of the square of a tick.
-        assert!((turned - 6.0).abs() < 1e-4, "{method}: {turned}");
+        // The hub goes along chords of its circle: of the angle the square of what passes in a tick is missing at most.
+        let passes = 6.0 * TICK;
+        assert!((turned - 6.0).abs() < 6.0 * passes * passes, "{method}: {turned}");
         let allowed = 2.0 * FRICTION * 0.65 * TICK;
         assert!((energy.friction - FRICTION * way).abs() < allowed, "{method}: {} J of {way} m", energy.friction);
-        assert!(energy.residual.abs() < 1e-3, "{method}: {} J", energy.residual);
+        // Of order 1 under semi-implicit Euler: what passes in a tick, of the greatest kinetic energy, 0.55 J.
+        assert!(energy.residual.abs() < 0.55 * passes, "{method}: {} J", energy.residual);
     }
 }
 

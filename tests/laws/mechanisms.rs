@@ -166,6 +166,15 @@ fn accounts_of_mechanisms_close_under_dop853() {
     }
 }
 
+/// A scene with contacts and no joint has no such note.
+#[test]
+fn contacts_alone_are_not_called_joints() {
+    let problem = &problems::elastic_bounce::PROBLEM;
+    let setting = Setting { method: "Symplectic4", tick: problem.tick, ..Setting::default() };
+    let notes = problem.load(&setting).expect("a scene").notes().to_vec();
+    assert!(!notes.iter().any(|note| note.contains("joints")), "{notes:?}");
+}
+
 /// Methods that are symplectic on free bodies, but project states onto joints, say so on the card.
 #[test]
 fn methods_that_project_say_that_they_are_not_symplectic() {

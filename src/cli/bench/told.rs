@@ -93,7 +93,7 @@ pub(super) fn table(rows: &[Row]) -> String {
     }
     text.push_str("\nWhat came out:\n");
     text.push_str(&aligned(
-        &["scene", "ticks", "tick in s", "energy residual in J", "of what went round", "state hash"],
+        &["scene", "ticks", "tick in s", "energy residual in J", "share of the energy", "state hash"],
         rows.iter().map(|row| {
             let Measured { ticks_in_all, tick, residual, residual_share, hash, .. } = &row.measured;
             let share = format!("{residual_share:.0e}");

@@ -151,9 +151,7 @@ impl Projection {
         let fastest = rows.iter().map(|row| row.speeds(bodies)).fold(0.0, f64::max);
         rows.iter().position(|row| (row.rate - row.velocity(bodies)).abs() > CONTRADICTS * fastest)
     }
-}
 
-impl Projection {
     /// The velocity along a row that one unit of impulse along it makes while `others` hold theirs, in m/s for each N s. Zero: the others
     /// leave the row no motion of its own.
     pub fn compliance(&mut self, row: &Row, others: &[Row], solver: &mut Solver, bodies: &Bodies) -> f64 {

@@ -7,6 +7,7 @@ use crate::integrate::ChosenMethod;
 use crate::integrate::ClockSection;
 use crate::integrate::clock::EventTiming;
 use crate::integrate::{Allowance, Description, Detail, MOST_STEPS, Methods, Pace};
+use crate::joints::Joint;
 use crate::record::sections::FilmSection;
 use crate::scene::SceneError;
 use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
@@ -308,7 +309,8 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
     if located && state.contact_law().is_some() {
         notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
     }
-    if method.symplectic && (located || method.whole_ticks.is_none()) && state.models().any(|model| model.has_rows()) {
+    let projects = located || method.whole_ticks.is_none();
+    if method.symplectic && projects && state.models_of::<Joint>().next().is_some() {
         let name = method.name;
         notes.push(format!(
             "{name} brings states back onto the joints behind each step: it keeps its order, but is not symplectic here"

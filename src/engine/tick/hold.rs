@@ -76,8 +76,8 @@ const STUCK: f64 = 1e-12;
 enum Jump<'a> {
     /// Those without a bound, and these.
     Stops(&'a [Row]),
-    /// All but these.
-    Sticks(&'a [Row]),
+    /// All but those with these indices.
+    Sticks(&'a [usize]),
 }
 
 /// Rows that hold places only.
@@ -205,7 +205,10 @@ impl State {
                 rows.retain(|row| !row.gives_way());
                 more.iter().for_each(|row| rows.add(*row));
             }
-            Some(Jump::Sticks(less)) => rows.retain(|row| !less.contains(row)),
+            Some(Jump::Sticks(less)) => {
+                let mut indices = 0..;
+                rows.retain(|_| indices.next().is_some_and(|index| !less.contains(&index)));
+            }
             None => {}
         }
         let outside = self.hold_velocities(&mut rows, time);
@@ -250,22 +253,23 @@ impl State {
         self.change_rows();
     }
 
-    /// The rows with a bound that do not stick: alone among the rows without one they would need more of an impulse to hold their rates than
+    /// The indices of the rows with a bound that do not stick: alone among the rows without one they would need more of an impulse to hold their rates than
     /// their bounds give in a tick. Where the rate of a joint changes its sign while the others move on, friction turns round.
-    fn rows_that_slip(&mut self, time: f64) -> Vec<Row> {
+    fn rows_that_slip(&mut self, time: f64) -> Vec<usize> {
         let most = MOST_TO_STICK * self.clock.dt;
         let mut rows = Rows::default();
         let Self { models, roles, bodies, projection, .. } = self;
         find_rows(models, &roles.rows, (bodies, time), &mut rows);
-        let mut bounded: Vec<Row> = rows.all().iter().filter(|row| row.gives_way()).copied().collect();
+        let all = rows.all().iter().copied().enumerate();
+        let bounded: Vec<(usize, Row)> = all.filter(|(_, row)| row.gives_way()).collect();
         rows.retain(|row| !row.gives_way());
         let (others, solver) = rows.prepared(bodies);
-        bounded.retain(|row| {
+        let slips = |(_, row): &(usize, Row)| {
             let missing = (row.rate - row.velocity(bodies)).abs();
             missing > STUCK * row.speeds(bodies)
                 && missing > most * row.bound * projection.compliance(row, others, solver, bodies)
-        });
-        bounded
+        };
+        bounded.into_iter().filter(slips).map(|(index, _)| index).collect()
     }
 
     /// Velocities jump to those that rows allow. Returns the energy in J that this takes.

@@ -21,7 +21,7 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     let (a, b) = (evidence.name(overlap.between.0), evidence.name(overlap.between.1));
     let what = format!(
         "`{a}` and `{b}` overlap at the start by {} of the smaller radius, and contacts hold {} J there that nothing in the scene \
-         put in, {} of what went round",
+         put in, {} of the energy that changed form",
         percent(overlap.share),
         number(begin.elastic),
         percent(share)
