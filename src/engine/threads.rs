@@ -55,6 +55,7 @@ impl Threads {
     ///
     /// # Panics
     /// When `work` does.
+    #[inline]
     pub fn each<Part: Send>(&self, parts: Vec<Part>, work: impl Fn(Part) + Sync) {
         let Some(others) = self.others().filter(|_| parts.len() > 1) else {
             return parts.into_iter().for_each(work);
