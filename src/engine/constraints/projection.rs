@@ -187,6 +187,18 @@ impl Bodies {
         self.velocity[body] == DVec2::ZERO && self.spin[body] == 0.0
     }
 
+    /// All bodies that move by forces go on with their velocities for `length` seconds.
+    pub(crate) fn coast(&mut self, length: f64) {
+        for body in 0..self.len() {
+            if self.dynamic[body] {
+                let (by, turn) = (self.velocity[body] * length, self.spin[body] * length);
+                self.position[body] += by;
+                self.angle[body] += turn;
+            }
+        }
+        (self.posed, self.recorded) = (false, false);
+    }
+
     /// Moves a body beside its velocity. The displacement since the last accepted state follows.
     fn displace(&mut self, body: usize, by: DVec2, turn: f64) {
         self.position[body] += by;

@@ -91,6 +91,11 @@ impl Rows {
         self.rows.iter().all(|row| row.kind == Kind::Position)
     }
 
+    /// Rows have no acceleration of their own: forces are those that keep velocities on them in a kick.
+    pub fn leave_out_turning(&mut self) {
+        self.rows.iter_mut().for_each(|row| row.inertial = 0.0);
+    }
+
     /// Forgets the rows for which `keep` says no.
     pub fn retain(&mut self, keep: impl FnMut(&Row) -> bool) {
         self.rows.retain(keep);

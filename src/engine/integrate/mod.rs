@@ -39,6 +39,8 @@ pub struct Description {
     pub order: u32,
     /// Whether it is symplectic, or keeps quadratic invariants such as angular momentum all the same.
     pub symplectic: bool,
+    /// Whether it is made of kicks and drifts, of which the drifts follow joints.
+    pub drifts: bool,
     /// Largest stable product of tick and angular frequency; zero: none is stable.
     pub stability_limit: f64,
     /// Largest stable product of tick and damping over mass, without a spring.
@@ -96,6 +98,7 @@ const METHODS: [Description; 7] = [
         name: "ExplicitEuler",
         order: 1,
         symplectic: false,
+        drifts: false,
         stability_limit: 0.0,
         damping_limit: 2.0,
         whole_ticks: None,
@@ -107,6 +110,7 @@ const METHODS: [Description; 7] = [
         name: "RungeKutta4",
         order: 4,
         symplectic: false,
+        drifts: false,
         stability_limit: 2.828_427_124_746_19,
         damping_limit: 2.785_293_563_405_282,
         whole_ticks: None,
@@ -116,6 +120,7 @@ const METHODS: [Description; 7] = [
         name: "Dop853",
         order: 8,
         symplectic: false,
+        drifts: false,
         stability_limit: 5.96,
         damping_limit: 6.39,
         whole_ticks: None,
@@ -125,6 +130,7 @@ const METHODS: [Description; 7] = [
         name: "ImplicitMidpoint",
         order: 2,
         symplectic: true,
+        drifts: false,
         stability_limit: f64::INFINITY,
         damping_limit: f64::INFINITY,
         whole_ticks: None,
@@ -134,6 +140,7 @@ const METHODS: [Description; 7] = [
         name: "Symplectic4",
         order: 4,
         symplectic: true,
+        drifts: true,
         stability_limit: 3.13,
         damping_limit: 5.4,
         whole_ticks: None,

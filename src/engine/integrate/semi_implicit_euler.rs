@@ -15,6 +15,7 @@ pub(super) const DESCRIPTION: Description = Description {
     name: "SemiImplicitEuler",
     order: 1,
     symplectic: true,
+    drifts: true,
     stability_limit: 2.0,
     damping_limit: 2.0,
     whole_ticks: Some(|| Method(Box::new(SemiImplicitEuler))),

@@ -19,6 +19,7 @@ pub(super) const DESCRIPTION: Description = Description {
     name: "VelocityVerlet",
     order: 2,
     symplectic: true,
+    drifts: true,
     stability_limit: 2.0,
     damping_limit: 1.0,
     whole_ticks: Some(|| Method(Box::new(VelocityVerlet))),

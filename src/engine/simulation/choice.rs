@@ -309,8 +309,9 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
     if located && state.contact_law().is_some() {
         notes.push("events located: forces jump at the moment itself, inside ticks".to_owned());
     }
-    let projects = located || method.whole_ticks.is_none();
-    if method.symplectic && projects && state.models_of::<Joint>().next().is_some() {
+    let moved = !state.bodies().prescribed.motions.is_empty();
+    let follows = method.drifts && (!moved || (!located && method.whole_ticks.is_some()));
+    if method.symplectic && !follows && state.models_of::<Joint>().next().is_some() {
         let name = method.name;
         notes.push(format!(
             "{name} brings states back onto the joints behind each step: it keeps its order, but is not symplectic here"

@@ -46,6 +46,9 @@ pub struct Evaluation {
     pub stale: bool,
     /// Whether joints hold something else than in this evaluation: the state is evaluated again before the next step.
     pub other_rows: bool,
+    /// Only joints' part of a kick is asked for: without the accelerations by which they turn velocities as bodies move on.
+    #[serde(skip)]
+    pub(crate) kick: bool,
     /// The state that was evaluated last is evaluated once more, with those awake that were left out.
     pub(crate) again: bool,
 }

@@ -196,14 +196,23 @@ impl Tick<'_> {
     /// Evaluates the forces of the state as it stands, at `time` seconds, as one of many of a step: nothing goes on by
     /// it but the rates.
     pub fn evaluate_stage(&mut self, time: f64) {
+        self.evaluate_as(Evaluation { time, ..Evaluation::default() });
+    }
+
+    /// The same for a kick.
+    pub(super) fn evaluate_kick(&mut self, time: f64) {
+        self.evaluate_as(Evaluation { time, kick: true, ..Evaluation::default() });
+    }
+
+    fn evaluate_as(&mut self, evaluation: Evaluation) {
         let begin = self.begin;
         let bodies = self.packed();
         bodies.wake_all();
         if !bodies.prescribed.motions.is_empty() {
-            bodies.prescribe(begin, time);
+            bodies.prescribe(begin, evaluation.time);
         }
         bodies.pose();
-        self.run_evaluation(Evaluation { time, ..Evaluation::default() });
+        self.run_evaluation(evaluation);
     }
 
     /// A state that others have made: candidate lists are renewed, and models choose the modes in which it begins.

@@ -34,6 +34,7 @@ pub struct WorldFlow<'t, 'w> {
     dimension: usize,
     velocity_dependent: bool,
     watched: bool,
+    held: bool,
 }
 
 impl<'t, 'w> WorldFlow<'t, 'w> {
@@ -46,8 +47,11 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let own = blocks.iter().sum();
         let others = tick.state.ledger.accounts.len();
         let dimension = 6 * dynamic.len() + own + others + ACCOUNTS;
-        let (velocity_dependent, watched) = (tick.velocity_dependent, tick.state.has_events());
-        Self { tick, dynamic, blocks, own, others, dimension, velocity_dependent, watched }
+        let watched = tick.state.has_events();
+        let held = tick.state.is_only_held();
+        let velocity_dependent =
+            if held { tick.state.depends_on_velocity_beside_joints() } else { tick.velocity_dependent };
+        Self { tick, dynamic, blocks, own, others, dimension, velocity_dependent, watched, held }
     }
 
     /// Places of the accounts in a state.
@@ -187,7 +191,13 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         if !self.tick.has_joints() {
             return false;
         }
-        let FromOutside { impulse, angular, .. } = self.tick.project(time);
+        let outside = self.tick.project(time);
+        self.follow(outside, change, state);
+        true
+    }
+
+    /// `change` and `state` follow the bodies, which have been brought back onto joints with an impulse from outside.
+    fn follow(&self, FromOutside { impulse, angular, .. }: FromOutside, change: &mut [f64], state: &mut [f64]) {
         let bodies = &self.tick.state.bodies;
         let coordinates = 3 * self.dynamic.len();
         let mut set = |place: usize, held: f64| {
@@ -203,7 +213,6 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         }
         let impulses = self.dimension - IMPULSES;
         change[impulses..].iter_mut().zip([impulse.x, impulse.y, angular]).for_each(|(sum, more)| *sum += more);
-        true
     }
 
     /// Books what a step has added to the accounts.
@@ -249,5 +258,25 @@ impl Flow for WorldFlow<'_, '_> {
         self.write(state);
         self.tick.evaluate_stage(time);
         self.read_rates(rates);
+    }
+
+    fn is_held(&self) -> bool {
+        self.held
+    }
+
+    fn kick_rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        self.write(state);
+        self.tick.evaluate_kick(time);
+        self.read_rates(rates);
+    }
+
+    fn drift(&mut self, time: f64, length: f64, state: &mut [f64], change: &mut [f64]) {
+        if length == 0.0 {
+            return;
+        }
+        self.write(state);
+        self.tick.bodies();
+        let outside = self.tick.state.slide(time, length, self.velocity_dependent || self.watched);
+        self.follow(outside, change, state);
     }
 }

@@ -46,6 +46,12 @@ impl FromOutside {
         }
     }
 
+    fn include(&mut self, other: Self) {
+        self.impulse += other.impulse;
+        self.angular += other.angular;
+        self.work += other.work;
+    }
+
     fn book(&self, ledger: &mut Ledger) {
         ledger.impulse[0].add(self.impulse.x);
         ledger.impulse[1].add(self.impulse.y);
@@ -120,6 +126,11 @@ impl State {
         !self.bodies.jointed.is_empty()
     }
 
+    /// Whether joints hold places and nothing else is held, and no body moves as prescribed.
+    pub(super) fn is_only_held(&self) -> bool {
+        self.has_joints() && self.rows.all_in_place() && self.bodies.prescribed.motions.is_empty()
+    }
+
     /// Moves bodies along the directions of `along`, rows that hold places, until no joint has a gap.
     fn hold_places(&mut self, along: &mut Rows, time: f64, stay: Standing) {
         let Self { models, roles, bodies, projection, .. } = self;
@@ -163,13 +174,17 @@ impl State {
         roles.rows.iter().copied().find(|place| adds(place)).unwrap_or_default()
     }
 
+    /// Sees whether a loop has passed a dead point.
+    fn look_for_dead_points(&mut self, rows: &mut Rows, time: f64) {
+        if let Some(pivot) = rows.prepared(&self.bodies).1.least_pivot() {
+            self.dead_points.look(time, pivot);
+        }
+    }
+
     /// Changes velocities until those that `rows` hold are what they should be. Returns the impulse from outside.
     fn hold_velocities(&mut self, rows: &mut Rows, time: f64) -> FromOutside {
-        let Self { bodies, projection, dead_points, .. } = self;
+        let Self { bodies, projection, .. } = self;
         let (rows, solver) = rows.prepared(bodies);
-        if let Some(pivot) = solver.least_pivot() {
-            dead_points.look(time, pivot);
-        }
         let mut outside = FromOutside::default();
         let refused = projection.speed(rows, solver, bodies, |bodies, row, impulse| {
             outside.add(&rows[row], impulse, bodies);
@@ -211,6 +226,7 @@ impl State {
             }
             None => {}
         }
+        self.look_for_dead_points(&mut rows, time);
         let outside = self.hold_velocities(&mut rows, time);
         self.projected = rows;
         self.turn_to(Part::Integrate);
@@ -305,11 +321,50 @@ impl State {
             keep_places(&mut rows);
         }
         // Where the directions were found: bodies have moved since.
+        self.note_levers(&rows, elapsed);
+        self.hold_places(&mut rows, time, Standing::Stays);
+        self.follow_places(&rows, elapsed).book(&mut self.ledger);
+        self.rows = rows;
+        self.turn_to(Part::Integrate);
+    }
+
+    /// Bodies move for `length` seconds from where they stand, and are brought back onto joints along the directions in which these
+    /// pushed; velocities follow. `settled`: velocities are brought onto joints as well. Returns the impulse from outside.
+    pub(super) fn slide(&mut self, time: f64, length: f64, settled: bool) -> FromOutside {
+        self.turn_to(Part::Constraints);
+        let mut rows = std::mem::take(&mut self.projected);
+        self.find_places(&mut rows, time);
+        self.note_levers(&rows, 0.0);
+        self.bodies.coast(length);
+        self.hold_places(&mut rows, time + length, Standing::Moves);
+        let mut outside = self.follow_places(&rows, length);
+        if settled {
+            self.find_places(&mut rows, time + length);
+            outside.include(self.hold_velocities(&mut rows, time + length));
+        }
+        self.projected = rows;
+        self.turn_to(Part::Integrate);
+        outside
+    }
+
+    /// The rows that hold places, of the present state.
+    fn find_places(&mut self, rows: &mut Rows, time: f64) {
+        rows.clear();
+        find_rows(&mut self.models, &self.roles.rows, (&self.bodies, time), rows);
+        keep_places(rows);
+    }
+
+    /// Notes the lever of each row about the origin, where its bodies were `elapsed` seconds before.
+    fn note_levers(&mut self, rows: &Rows, elapsed: f64) {
         let Self { bodies, projection, .. } = self;
         projection.noted.clear();
         projection.noted.extend(rows.all().iter().map(|row| about_origin(row, bodies, elapsed)));
-        self.hold_places(&mut rows, time, Standing::Stays);
-        let Self { bodies, projection, ledger, .. } = self;
+    }
+
+    /// Velocities follow places that were brought back onto `rows` after a drift of `elapsed` seconds. Returns the impulse from outside.
+    fn follow_places(&mut self, rows: &Rows, elapsed: f64) -> FromOutside {
+        let Self { bodies, projection, .. } = self;
+        let mut outside = FromOutside::default();
         for ((row, &sum), about_origin) in rows.all().iter().zip(projection.sums()).zip(&projection.noted) {
             let impulse = sum / elapsed;
             for side in row.sides.iter().flatten() {
@@ -325,17 +380,17 @@ impl State {
             if !row.is_inside(bodies) {
                 let force = |side: &Side| if bodies.dynamic[side.body] { side.force } else { DVec2::ZERO };
                 let force = row.sides.iter().flatten().map(force).fold(DVec2::ZERO, |sum, force| sum + force);
-                FromOutside { impulse: force * impulse, angular: about_origin * impulse, work: 0.0 }.book(ledger);
+                outside.include(FromOutside { impulse: force * impulse, angular: about_origin * impulse, work: 0.0 });
             }
         }
-        self.rows = rows;
-        self.turn_to(Part::Integrate);
+        outside
     }
 
     /// At the end of a tick: velocities are brought back onto the joints.
     pub(super) fn hold_at_end(&mut self) {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.rows);
+        self.look_for_dead_points(&mut rows, self.evaluation.time);
         let outside = self.hold_velocities(&mut rows, self.evaluation.time);
         outside.book(&mut self.ledger);
         rows.still(&mut self.bodies, self.clock.dt);

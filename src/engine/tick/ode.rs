@@ -19,6 +19,31 @@ pub trait Flow {
     /// The rates of `state` at `time` seconds; both have [`Flow::dimension`] numbers.
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]);
 
+    /// Whether joints hold coordinates, and nothing else: kicks and drifts then stay on what they hold.
+    fn is_held(&self) -> bool {
+        false
+    }
+
+    /// The rates of a kick: those of `state`, without the accelerations by which joints turn velocities as coordinates move on. Those are
+    /// part of drifts.
+    fn kick_rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        self.rates(time, state, rates);
+    }
+
+    /// A drift from `time` over `length` seconds, negative ones too: coordinates move by velocities and are brought back onto joints along
+    /// the directions in which these pushed, and velocities follow. It is the step of RATTLE without a force, which is symplectic and
+    /// symmetric in time (Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section VII.1.4). `state` is
+    /// the one of the beginning; the change since the step began grows with it.
+    fn drift(&mut self, time: f64, length: f64, state: &mut [f64], change: &mut [f64]) {
+        let _ = time;
+        let coordinates = self.coordinates();
+        for place in 0..coordinates {
+            let by = length * state[place + coordinates];
+            change[place] += by;
+            state[place] += by;
+        }
+    }
+
     /// How many numbers at the end of a state are accounts of what makes the velocities change, on which no rate depends: they
     /// are advanced as velocities are, so that both agree to rounding.
     fn accounts(&self) -> usize {

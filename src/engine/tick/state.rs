@@ -81,6 +81,8 @@ pub(super) struct Roles {
     others: usize,
     velocity_dependent: bool,
     velocity_forces: bool,
+    /// Whether forces depend on velocities where rows of joints do not.
+    velocity_beside_joints: bool,
     changing_forces: bool,
     flies: bool,
     /// [`Progress::version`] for which all of this was found out.
@@ -108,6 +110,10 @@ impl Roles {
             accounts: Vec::new(),
             others,
             velocity_dependent: depends(models, &[Dependence::Velocity]),
+            velocity_beside_joints: models
+                .iter()
+                .filter(|model| !model.has_rows() || model.contact_law().is_some())
+                .any(|model| model.dependence() == Dependence::Velocity),
             velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
             changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
             flies: models.iter().all(|model| model.flies()),
@@ -167,6 +173,9 @@ impl State {
     pub(super) fn solve_constraints(&mut self) {
         if !self.roles.rows.is_empty() {
             self.add_joint_rows();
+            if self.evaluation.kick {
+                self.rows.leave_out_turning();
+            }
         }
         if self.rows.is_empty() {
             return;
@@ -350,6 +359,11 @@ impl State {
         state.models = models;
         state.progress.version += 1;
         state.find_roles();
+    }
+
+    /// Whether some force depends on velocities, if those of joints are left out.
+    pub(super) fn depends_on_velocity_beside_joints(&self) -> bool {
+        self.force_systems > 0 || self.roles.velocity_beside_joints
     }
 
     /// Whether some force depends on velocities.

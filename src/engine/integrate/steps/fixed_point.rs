@@ -10,8 +10,6 @@
 use std::ops::Range;
 
 use super::settling::{LIMIT, Settling};
-use crate::tick::Flow;
-
 /// Working memory of the iteration.
 #[derive(Default)]
 pub(super) struct FixedPoint {
@@ -21,12 +19,11 @@ pub(super) struct FixedPoint {
 }
 
 impl FixedPoint {
-    /// Finds the numbers at `places` of `state`, with their `rates`, which are the first guess. `middle` says where a number is
+    /// Finds the numbers at `places` of `state`, with their `rates`, which are the first guess and come from `evaluate`. `middle` says where a number is
     /// for its rate.
     pub(super) fn find(
         &mut self,
-        flow: &mut dyn Flow,
-        time: f64,
+        mut evaluate: impl FnMut(&[f64], &mut [f64]),
         places: Range<usize>,
         middle: impl Fn(usize, f64) -> f64,
         state: &mut [f64],
@@ -39,7 +36,7 @@ impl FixedPoint {
         }
         let mut settling = Settling::default();
         for number in 0..LIMIT {
-            flow.rates(time, state, rates);
+            evaluate(state, rates);
             let arrived = settling.arrived(places.clone().map(|place| {
                 let image = middle(place, rates[place]);
                 (image - state[place], image)
@@ -68,6 +65,7 @@ impl FixedPoint {
 mod tests {
     use super::super::problems::{Counted, Motion, OSCILLATOR};
     use super::*;
+    use crate::tick::Flow;
 
     /// Ten numbers that are damped, by up to half of themselves over half the step, and turned into each other.
     const DAMPED: Motion = Motion {
@@ -93,7 +91,8 @@ mod tests {
         let (mut state, mut rates) = (base.clone(), vec![0.0; 10]);
         let mut flow = Counted { motion: DAMPED, evaluations: 0 };
         let middle = |place: usize, rate: f64| base[place] + rate;
-        FixedPoint::default().find(&mut flow, 0.0, 0..10, middle, &mut state, &mut rates);
+        let evaluate = |state: &[f64], rates: &mut [f64]| flow.rates(0.0, state, rates);
+        FixedPoint::default().find(evaluate, 0..10, middle, &mut state, &mut rates);
         for (place, number) in state.iter().enumerate() {
             let off = (middle(place, rates[place]) - number).abs();
             assert!(off <= 2.0 * f64::EPSILON * 4.0, "{place}: {off:e}");

@@ -60,7 +60,8 @@ impl Midpoint {
         if own.is_empty() {
             flow.rates(time, state, rates);
         } else {
-            fixed_point.find(flow, time, own, middle, state, rates);
+            let evaluate = |state: &[f64], rates: &mut [f64]| flow.rates(time, state, rates);
+            fixed_point.find(evaluate, own, middle, state, rates);
         }
     }
 }

@@ -4,7 +4,9 @@
 //! (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section I.1.2; de Vogelaere 1956). One
 //! evaluation per step, which is that of the beginning; one more if there are states of models.
 //!
-//! Those, `z' = z + h r(t, q, v', z)`, see the new velocities: the elongation of a spring is a coordinate in other words, and
+//! Where joints hold coordinates the second half is a drift along them ([`Flow::drift`]), as in RATTLE.
+//!
+//! States of models, `z' = z + h r(t, q, v', z)`, see the new velocities: the elongation of a spring is a coordinate in other words, and
 //! has to be advanced as coordinates are. With the rates of the beginning its oscillation would be that of explicit Euler,
 //! which gains energy with each step.
 
@@ -22,26 +24,34 @@ impl OneStep for SemiImplicitEuler {
     fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
         let velocities = flow.velocities();
         let coordinates = velocities.start;
-        for place in velocities.clone() {
-            change[place] = length * start.rates[place];
-            change[place - coordinates] = length * (start.state[place] + change[place]);
-        }
         let own = velocities.end..flow.dimension() - flow.accounts();
-        for (change, rate) in change[own.end..].iter_mut().zip(&start.rates[own.end..]) {
-            *change = length * rate;
+        for place in velocities.clone().chain(own.end..change.len()) {
+            change[place] = length * start.rates[place];
         }
-        if own.is_empty() {
+        let held = flow.is_held();
+        if !held {
+            for place in 0..coordinates {
+                change[place] = length * (start.state[place + coordinates] + change[place + coordinates]);
+            }
+        }
+        if own.is_empty() && !held {
             return;
         }
-        self.rates.resize(start.state.len(), 0.0);
         self.state.clear();
         self.state.extend_from_slice(start.state);
         for place in velocities {
             self.state[place] += change[place];
         }
-        flow.rates(start.time, &self.state, &mut self.rates);
-        for place in own {
-            change[place] = length * self.rates[place];
+        if !own.is_empty() {
+            self.rates.resize(start.state.len(), 0.0);
+            flow.rates(start.time, &self.state, &mut self.rates);
+            for place in own {
+                change[place] = length * self.rates[place];
+            }
+        }
+        if held {
+            change[..coordinates].fill(0.0);
+            flow.drift(start.time, length, &mut self.state, change);
         }
     }
 }

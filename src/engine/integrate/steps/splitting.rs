@@ -8,6 +8,9 @@
 //! midpoint rules, iterated to rounding (`fixed_point.rs`). Kicks of accelerations without velocities take one evaluation,
 //! and none where neither time nor place has changed.
 //!
+//! Where joints hold coordinates, drifts follow them ([`Flow::drift`]), so that a palindrome is symmetric and symplectic on what joints
+//! hold, as RATTLE is. Kicks go along joints.
+//!
 //! Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, sections II.3 to II.5.
 
 use std::ops::Range;
@@ -34,6 +37,7 @@ pub(super) struct Making<'a> {
     velocities: Range<usize>,
     accounts: Range<usize>,
     velocity_dependent: bool,
+    held: bool,
     /// Whether the rates in working memory are those of the present time and place.
     fresh: bool,
 }
@@ -52,9 +56,10 @@ impl Splitting {
         self.rates.extend_from_slice(start.rates);
         change.fill(0.0);
         let (velocities, velocity_dependent) = (flow.velocities(), flow.velocity_dependent());
+        let held = flow.is_held();
         let accounts = change.len() - flow.accounts()..change.len();
         let time = start.time;
-        Making { flow, start, change, work: self, time, velocities, accounts, velocity_dependent, fresh: true }
+        Making { flow, start, change, work: self, time, velocities, accounts, velocity_dependent, held, fresh: true }
     }
 }
 
@@ -62,7 +67,7 @@ impl Making<'_> {
     /// Velocities by accelerations.
     pub(super) fn kick(&mut self, length: f64) {
         if self.velocity_dependent {
-            self.settle(self.velocities.clone(), length);
+            self.settle(self.velocities.clone(), length, self.held);
             return self.add(self.accounts.clone(), length);
         }
         if !self.fresh {
@@ -76,6 +81,12 @@ impl Making<'_> {
     /// Coordinates by velocities, and time.
     pub(super) fn drift(&mut self, length: f64) {
         let coordinates = self.velocities.start;
+        if self.held {
+            self.flow.drift(self.time, length, &mut self.work.state, self.change);
+            self.time += length;
+            self.fresh = false;
+            return;
+        }
         for place in 0..coordinates {
             let velocity = self.start.state[place + coordinates] + self.change[place + coordinates];
             self.change[place] += length * velocity;
@@ -89,17 +100,22 @@ impl Making<'_> {
     pub(super) fn own(&mut self, length: f64) {
         let own = self.velocities.end..self.accounts.start;
         if !own.is_empty() {
-            self.settle(own, length);
+            self.settle(own, length, false);
             self.fresh = false;
         }
     }
 
-    /// Numbers by their rates at the middle of their own change. The rates at hand are the first guess.
-    fn settle(&mut self, places: Range<usize>, length: f64) {
+    /// Numbers by their rates at the middle of their own change, those of a kick along joints or not. The rates at hand are the first guess.
+    fn settle(&mut self, places: Range<usize>, length: f64, kick: bool) {
         let Splitting { state, rates, fixed_point } = &mut *self.work;
         let (start, change) = (self.start.state, &*self.change);
         let middle = |place: usize, rate: f64| start[place] + (change[place] + length / 2.0 * rate);
-        fixed_point.find(self.flow, self.time, places.clone(), middle, state, rates);
+        let (flow, time) = (&mut *self.flow, self.time);
+        let evaluate = |state: &[f64], rates: &mut [f64]| match kick {
+            true => flow.kick_rates(time, state, rates),
+            false => flow.rates(time, state, rates),
+        };
+        fixed_point.find(evaluate, places.clone(), middle, state, rates);
         self.add(places, length);
     }
 
