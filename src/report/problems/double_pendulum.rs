@@ -35,9 +35,9 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 2.911e2),
     Constant::per_tick("SemiImplicitEuler", 1, 2.858e0),
-    Constant::located("SemiImplicitEuler", 1, 1.740e2),
+    Constant::located("SemiImplicitEuler", 1, 2.855e0),
     Constant::per_tick("VelocityVerlet", 2, 2.583e1),
-    Constant::located("VelocityVerlet", 2, 1.752e1),
+    Constant::located("VelocityVerlet", 2, 8.166e0),
     Constant::located("RungeKutta4", 4, 2.383e2),
     Constant::located("ImplicitMidpoint", 2, 2.068e1),
 ];

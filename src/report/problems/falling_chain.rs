@@ -29,9 +29,9 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 1.312e2),
     Constant::per_tick("SemiImplicitEuler", 1, 1.227e1),
-    Constant::located("SemiImplicitEuler", 1, 8.498e1),
+    Constant::located("SemiImplicitEuler", 1, 1.227e1),
     Constant::per_tick("VelocityVerlet", 2, 2.497e2),
-    Constant::located("VelocityVerlet", 2, 2.323e2),
+    Constant::located("VelocityVerlet", 2, 7.517e1),
     Constant::located("RungeKutta4", 4, 1.265e5),
     Constant::located("ImplicitMidpoint", 2, 2.543e2),
 ];

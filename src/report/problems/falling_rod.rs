@@ -29,9 +29,10 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 8.536e0),
     Constant::per_tick("SemiImplicitEuler", 1, 2.706e0),
-    Constant::located("SemiImplicitEuler", 1, 3.347e0),
+    Constant::located("SemiImplicitEuler", 1, 2.706e0),
     Constant::per_tick("VelocityVerlet", 2, 1.354e-1),
-    Constant::located("VelocityVerlet", 2, 1.268e0),
+    Constant::located("VelocityVerlet", 2, 1.824e0),
+    Constant::located("Symplectic4", 4, 1.269e-1),
     Constant::located("RungeKutta4", 4, 6.340e0),
     Constant::located("ImplicitMidpoint", 2, 4.968e0),
 ];

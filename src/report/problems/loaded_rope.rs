@@ -32,7 +32,7 @@ const CONSTANTS: &[Constant] = &[
     Constant::per_tick("SemiImplicitEuler", 1, 2.571e-1),
     Constant::located("SemiImplicitEuler", 1, 2.519e-1),
     Constant::per_tick("VelocityVerlet", 2, 1.133e2),
-    Constant::located("VelocityVerlet", 2, 1.133e2),
+    Constant::located("VelocityVerlet", 2, 1.091e2),
     Constant::located("RungeKutta4", 4, 7.482e7),
     Constant::located("ImplicitMidpoint", 2, 2.159e2),
     Constant::located("Symplectic4", 4, 1.234e5),

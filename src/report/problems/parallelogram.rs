@@ -33,12 +33,12 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 2.016e1),
     Constant::per_tick("SemiImplicitEuler", 1, 1.643e0),
-    Constant::located("SemiImplicitEuler", 1, 6.560e0),
+    Constant::located("SemiImplicitEuler", 1, 1.642e0),
     Constant::per_tick("VelocityVerlet", 2, 5.762e0),
-    Constant::located("VelocityVerlet", 2, 3.965e0),
+    Constant::located("VelocityVerlet", 2, 3.071e0),
     Constant::located("RungeKutta4", 4, 4.292e0),
     Constant::located("ImplicitMidpoint", 2, 4.323e0),
-    Constant::located("Symplectic4", 4, 1.316e-1),
+    Constant::located("Symplectic4", 4, 2.038e-1),
 ];
 
 /// The reference values.

@@ -31,9 +31,9 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 1.481e2),
     Constant::per_tick("SemiImplicitEuler", 1, 2.125e0),
-    Constant::located("SemiImplicitEuler", 1, 7.214e1),
+    Constant::located("SemiImplicitEuler", 1, 2.125e0),
     Constant::per_tick("VelocityVerlet", 2, 1.724e1),
-    Constant::located("VelocityVerlet", 2, 1.038e1),
+    Constant::located("VelocityVerlet", 2, 6.894e0),
     Constant::located("ImplicitMidpoint", 2, 6.890e0),
 ];
 

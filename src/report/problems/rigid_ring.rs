@@ -34,9 +34,9 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 8.918e1),
     Constant::per_tick("SemiImplicitEuler", 1, 9.980e0),
-    Constant::located("SemiImplicitEuler", 1, 8.924e1),
+    Constant::located("SemiImplicitEuler", 1, 9.977e0),
     Constant::per_tick("VelocityVerlet", 2, 6.702e1),
-    Constant::located("VelocityVerlet", 2, 6.684e1),
+    Constant::located("VelocityVerlet", 2, 1.676e1),
     Constant::located("ImplicitMidpoint", 2, 3.351e1),
 ];
 

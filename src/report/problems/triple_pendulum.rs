@@ -31,9 +31,9 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 6.106e2),
     Constant::per_tick("SemiImplicitEuler", 1, 1.318e0),
-    Constant::located("SemiImplicitEuler", 1, 4.428e2),
+    Constant::located("SemiImplicitEuler", 1, 1.316e0),
     Constant::per_tick("VelocityVerlet", 2, 6.274e1),
-    Constant::located("VelocityVerlet", 2, 2.968e1),
+    Constant::located("VelocityVerlet", 2, 9.558e0),
     Constant::located("RungeKutta4", 4, 8.662e3),
     Constant::located("ImplicitMidpoint", 2, 1.345e2),
 ];

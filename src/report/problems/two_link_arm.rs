@@ -28,9 +28,9 @@ pub const PROBLEM: Problem = Problem {
 const CONSTANTS: &[Constant] = &[
     Constant::located("ExplicitEuler", 1, 5.969e1),
     Constant::per_tick("SemiImplicitEuler", 1, 3.186e0),
-    Constant::located("SemiImplicitEuler", 1, 1.143e1),
+    Constant::located("SemiImplicitEuler", 1, 3.186e0),
     Constant::per_tick("VelocityVerlet", 2, 2.115e1),
-    Constant::located("VelocityVerlet", 2, 1.690e1),
+    Constant::located("VelocityVerlet", 2, 1.171e1),
     Constant::located("ImplicitMidpoint", 2, 2.425e1),
 ];
 
