@@ -34,7 +34,7 @@ pub struct BodyLook {
     pub fixed: bool,
 }
 
-/// How one wall looks: the half-plane behind the line through two points.
+/// How one wall looks: the half-plane behind the line through two points, or the strip about the line between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallLook {
     /// The wall's name in the scene.
@@ -43,6 +43,8 @@ pub struct WallLook {
     pub left: DVec2,
     /// Seen from the open side, the right point, in metres.
     pub right: DVec2,
+    /// Thickness in metres of a strip with round ends; `None`: a half-plane.
+    pub thickness: Option<f64>,
     /// The colour its material asks for; see [`BodyLook::color`].
     pub color: Option<String>,
 }

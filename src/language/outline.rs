@@ -81,6 +81,15 @@ pub enum Obstacle {
         /// Its radius, in m.
         radius: f64,
     },
+    /// The strip with round ends about the line between two points.
+    Strip {
+        /// One end of its middle line, in m.
+        from: DVec2,
+        /// The other end, in m.
+        to: DVec2,
+        /// Half its thickness, in m.
+        radius: f64,
+    },
     /// The half-plane behind the line through two points.
     Wall {
         /// Seen from the open side, the left point, in m.

@@ -51,6 +51,7 @@ mod stability;
 mod standing;
 mod sticking;
 mod stiff;
+mod strips;
 mod tolerance;
 mod uniform_motion;
 mod unlocated;

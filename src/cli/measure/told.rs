@@ -48,6 +48,7 @@ fn note(setting: &Setting) -> String {
         Outcome::Unknown => Some("reaches its end, its error is unknown".to_owned()),
         Outcome::Failed(failure) => {
             let what = match failure.wrong {
+                Wrong::Crossed(_) => format!("`{}` passes through the wall `{}`", failure.body, failure.other),
                 Wrong::NotFinite(quantity) => {
                     format!("the {quantity} of `{}` is no longer a finite number", failure.body)
                 }

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::{AtomPair, WallPair};
 use crate::constraints::islands::Link;
-use crate::world::Bodies;
+use crate::world::{Bodies, NearestPoint};
 use serde::{Deserialize, Serialize};
 
 /// How two sides share their overlap: each gives way by its share, the softer one more. Both shares sum up to one.
@@ -123,7 +123,7 @@ pub(crate) struct PairGeometry {
     pub pair: Pair,
     /// Overlap in metres; negative: the gap.
     pub overlap: f64,
-    /// Distance of the centres in metres; infinite for a wall.
+    /// Distance of the centres in metres; infinite for the flat side of a wall.
     pub distance: f64,
     /// Velocity of the centre of side B seen from that of side A, or from the surface of the wall, in m/s.
     pub velocity: DVec2,
@@ -148,14 +148,14 @@ impl PairGeometry {
 
     pub fn wall(bodies: &Bodies, index: usize, WallPair { wall, atom }: WallPair) -> Self {
         let (packed, end) = (bodies.walls[wall as usize], End::of(bodies, atom));
-        let height = (bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
+        let NearestPoint { height, normal, distance } = packed.nearest(bodies.atom_place(atom as usize));
         let belt = bodies.belts.get(wall as usize).copied().unwrap_or(DVec2::ZERO);
         Self {
             overlap: end.radius - height,
-            distance: f64::INFINITY,
+            distance,
             velocity: end.velocity(bodies) - belt,
             spins: (0.0, bodies.spin[end.body]),
-            pair: Pair { index: index as u32, normal: packed.normal, a: SideA::Wall(wall), b: end },
+            pair: Pair { index: index as u32, normal, a: SideA::Wall(wall), b: end },
         }
     }
 

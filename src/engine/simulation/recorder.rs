@@ -112,8 +112,8 @@ fn cast_of(simulation: &Simulation) -> Cast {
     };
     let wall = |packed: &crate::world::PackedWall| {
         let wall = world.get::<Wall>(packed.entity)?;
-        let (left, right) = (wall.left, wall.right);
-        Some(WallLook { name: name(packed.entity), left, right, color: color(wall.material) })
+        let Wall { left, right, thickness, .. } = *wall;
+        Some(WallLook { name: name(packed.entity), left, right, thickness, color: color(wall.material) })
     };
     Cast {
         title: simulation.header().title.clone().unwrap_or_default(),

@@ -11,6 +11,8 @@ use crate::scene::number;
 pub struct Failure {
     /// Name of the first body that went wrong, or of the one that has most of the energy.
     pub body: String,
+    /// Name of the other thing that is part of it; empty if there is none.
+    pub other: String,
     /// What is wrong.
     pub wrong: Wrong,
     /// The tick that made it.
@@ -53,6 +55,8 @@ pub enum Wrong {
         /// Whether a loop is near a dead point, where its bars are in line.
         dead: bool,
     },
+    /// The centre of an atom has passed the middle line of the wall with this entity.
+    Crossed(Entity),
     /// Motors and joints ask for different motions of a body.
     Contradiction,
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
@@ -76,13 +80,13 @@ impl Wrong {
 impl Failure {
     /// Something is gone without which there are no ticks, nor a time.
     pub(super) fn gone(name: &'static str) -> Self {
-        Self { body: String::new(), wrong: Wrong::Gone(name), tick: 0, time: 0.0 }
+        Self { body: String::new(), other: String::new(), wrong: Wrong::Gone(name), tick: 0, time: 0.0 }
     }
 }
 
 impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let Self { body, wrong, tick, time } = self;
+        let Self { body, other, wrong, tick, time } = self;
         match wrong {
             Wrong::Gone(name) => {
                 return write!(
@@ -121,6 +125,11 @@ impl std::fmt::Display for Failure {
                 };
                 write!(f, "a joint of `{body}` cannot be closed, {gap} m are left: {why},")?;
             }
+            Wrong::Crossed(_) => write!(
+                f,
+                "`{body}` has passed through the wall `{other}`: its contact is too soft for that speed, or the tick too long; give it more \
+                 `stiffness`, or a shorter `tick`,"
+            )?,
             Wrong::Contradiction => write!(
                 f,
                 "motors and joints ask for different motions of `{body}`: no velocity suits them all; give a motor a `limit`,"

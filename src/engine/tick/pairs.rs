@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::world::Bodies;
+use crate::world::{Bodies, NearestPoint};
 use serde::{Deserialize, Serialize};
 
 /// Marks a pair that was not in the list before.
@@ -40,6 +40,14 @@ pub struct WallPair {
     pub wall: u32,
     /// Place of the atom.
     pub atom: u32,
+}
+
+impl WallPair {
+    /// The wall as the centre of the atom sees it.
+    #[inline(always)]
+    pub fn nearest(self, bodies: &Bodies) -> NearestPoint {
+        bodies.walls[self.wall as usize].nearest(bodies.atom_place(self.atom as usize))
+    }
 }
 
 /// Who may touch whom, in canonical order.

@@ -172,9 +172,10 @@ impl Trouble {
     pub(super) fn named(self, world: &World) -> Failure {
         let placed = || world.resource::<State>().bodies.entity.get(self.body?).copied();
         let entity = self.entity.or_else(placed);
-        let name = entity.and_then(|entity| world.get::<Name>(entity));
-        let body = name.map(Name::to_string).unwrap_or_default();
-        Failure { body, wrong: self.wrong, tick: self.tick, time: self.time }
+        let name = |entity: Option<Entity>| world.get::<Name>(entity?).map(Name::to_string);
+        let body = name(entity).unwrap_or_default();
+        let other = if let Wrong::Crossed(wall) = self.wrong { name(Some(wall)) } else { None };
+        Failure { body, other: other.unwrap_or_default(), wrong: self.wrong, tick: self.tick, time: self.time }
     }
 }
 

@@ -3,7 +3,8 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::packed::{Bodies, PackedWall};
+use super::packed::Bodies;
+use super::wall::PackedWall;
 use super::{Body, Mass, Position, Rotation, Spin, Velocity};
 use jostle_simd::BLOCK;
 
@@ -51,6 +52,7 @@ impl Bodies {
             entity: Entity::PLACEHOLDER,
             point: DVec2::ZERO,
             normal: DVec2::Y,
+            ends: None,
             material: super::MaterialIndex::default(),
         };
         resize!(walls, no_wall, walls);

@@ -15,25 +15,11 @@ use super::flight::Flights;
 use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
 use super::lone::{Surface, Surfaces};
-use super::material::MaterialIndex;
 use super::motion::Travel;
-use super::wall::Wall;
+use super::wall::{PackedWall, Wall};
 use crate::threads::Threads;
 use jostle_simd::{BLOCK, Lanes, Level, Record};
 use serde::{Deserialize, Serialize};
-
-/// A wall as contacts see it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PackedWall {
-    /// The wall's entity.
-    pub entity: Entity,
-    /// A point on the line, in metres.
-    pub point: DVec2,
-    /// Unit normal towards the open side.
-    pub normal: DVec2,
-    /// What it is made of.
-    pub material: MaterialIndex,
-}
 
 /// How it is known how far bodies moved since the last accepted state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -524,7 +510,13 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
     }
     bodies.walls = walls
         .into_iter()
-        .map(|(entity, wall)| PackedWall { entity, point: wall.left, normal: wall.normal(), material: wall.material })
+        .map(|(entity, wall)| PackedWall {
+            entity,
+            point: wall.left,
+            normal: wall.normal(),
+            ends: wall.ends(),
+            material: wall.material,
+        })
         .collect();
     bodies.count_all();
     bodies

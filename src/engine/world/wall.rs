@@ -1,12 +1,14 @@
-//! A wall: the half-plane behind a line, infinitely stiff, one-sided.
+//! A wall, infinitely stiff: the half-plane behind a line, one-sided; or a strip with two ends, hit from both sides.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 use super::body::mark_changed;
 use super::material::MaterialIndex;
 
-/// A half-plane through two points. Seen from the open side `left` is on the left.
+/// A half-plane through two points. Seen from the open side `left` is on the left. With a thickness it is the strip about the line from
+/// `left` to `right` instead, with round ends.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Wall {
@@ -16,6 +18,8 @@ pub struct Wall {
     pub left: DVec2,
     /// The right point in metres.
     pub right: DVec2,
+    /// Thickness of a strip in metres, zero or more; `None`: a half-plane.
+    pub thickness: Option<f64>,
     /// What it is made of.
     pub material: MaterialIndex,
     /// Velocity of its surface in m/s, along the wall: a belt. Zero: it stands.
@@ -30,6 +34,85 @@ impl Wall {
         let along = self.right - self.left;
         DVec2::new(along.y, -along.x).normalize()
     }
+
+    /// Its two ends, if it has them.
+    pub(super) fn ends(&self) -> Option<Ends> {
+        let half = 0.5 * self.thickness?;
+        Some(Ends { length: (self.right - self.left).length(), half })
+    }
+}
+
+/// Where a wall has ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ends {
+    /// Length of its middle line in metres, from its point along the normal turned counter-clockwise.
+    pub length: f64,
+    /// Half its thickness in metres.
+    pub half: f64,
+}
+
+/// A wall as contacts see it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PackedWall {
+    /// The wall's entity.
+    pub entity: Entity,
+    /// A point on the line, in metres: the left end if it has ends.
+    pub point: DVec2,
+    /// Unit normal towards the open side.
+    pub normal: DVec2,
+    /// Its ends, if it has them: it is open on both sides then.
+    pub ends: Option<Ends>,
+    /// What it is made of.
+    pub material: MaterialIndex,
+}
+
+/// The nearest point of the surface of a wall, as seen from a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestPoint {
+    /// Distance from the surface in metres, negative inside.
+    pub height: f64,
+    /// Unit normal of the surface at its nearest point, towards the viewer.
+    pub normal: DVec2,
+    /// Distance in metres from the centre of the round end that is nearest; infinite where the surface is flat.
+    pub distance: f64,
+}
+
+impl PackedWall {
+    /// The nearest point of its surface.
+    #[inline(always)]
+    pub fn nearest(&self, at: DVec2) -> NearestPoint {
+        let from = at - self.point;
+        match self.ends {
+            None => NearestPoint { height: from.dot(self.normal), normal: self.normal, distance: f64::INFINITY },
+            Some(ends) => self.nearest_of_strip(from, ends),
+        }
+    }
+
+    /// The same for a place from the left end.
+    fn nearest_of_strip(&self, from: DVec2, Ends { length, half }: Ends) -> NearestPoint {
+        let along = self.normal.perp();
+        let way = from.dot(along);
+        let end = way.clamp(0.0, length);
+        if end == way {
+            let height = from.dot(self.normal);
+            let normal = if height < 0.0 { -self.normal } else { self.normal };
+            return NearestPoint { height: height.abs() - half, normal, distance: f64::INFINITY };
+        }
+        let apart = from - along * end;
+        let distance = apart.length();
+        NearestPoint { height: distance - half, normal: apart / distance, distance }
+    }
+
+    /// Whether a point that went straight from one place to another has crossed the middle line of a wall with ends.
+    pub fn is_crossed(&self, before: DVec2, now: DVec2) -> bool {
+        let Some(Ends { length, .. }) = self.ends else { return false };
+        let heights = [before, now].map(|at| (at - self.point).dot(self.normal));
+        if (heights[0] < 0.0) == (heights[1] < 0.0) {
+            return false;
+        }
+        let crossing = before + (now - before) * (heights[0] / (heights[0] - heights[1]));
+        (0.0..=length).contains(&(crossing - self.point).dot(self.normal.perp()))
+    }
 }
 
 #[cfg(test)]
@@ -39,11 +122,47 @@ mod tests {
     #[test]
     fn the_open_side_is_where_left_is_left() {
         let material = MaterialIndex::default();
-        let wall = |left, right| Wall { key: 0, left, right, material, surface_velocity: DVec2::ZERO };
+        let wall = |left, right| Wall { key: 0, left, right, thickness: None, material, surface_velocity: DVec2::ZERO };
         let normal = |l: (f64, f64), r: (f64, f64)| wall(DVec2::new(l.0, l.1), DVec2::new(r.0, r.1)).normal();
         assert_eq!(normal((6.0, 0.0), (0.0, 0.0)), DVec2::Y);
         assert_eq!(normal((0.0, 6.0), (1.0, 6.0)), DVec2::NEG_Y);
         assert_eq!(normal((0.0, 0.0), (0.0, 1.0)), DVec2::X);
         assert_eq!(normal((6.0, 1.0), (6.0, 0.0)), DVec2::NEG_X);
+    }
+
+    /// Law: the nearest point of a strip is on its face, or on the circle about an end; heights agree where both meet. Tolerance: roundings
+    /// of numbers near 1.
+    #[test]
+    fn a_strip_has_two_faces_and_two_round_ends() {
+        let wall = Wall {
+            key: 0,
+            left: DVec2::new(2.0, 0.0),
+            right: DVec2::ZERO,
+            thickness: Some(0.2),
+            material: MaterialIndex::default(),
+            surface_velocity: DVec2::ZERO,
+        };
+        let packed = PackedWall {
+            entity: Entity::PLACEHOLDER,
+            point: wall.left,
+            normal: wall.normal(),
+            ends: wall.ends(),
+            material: wall.material,
+        };
+        for (at, height, normal, distance) in [
+            ((1.0, 0.5), 0.4, (0.0, 1.0), f64::INFINITY),
+            ((1.0, -0.5), 0.4, (0.0, -1.0), f64::INFINITY),
+            ((2.3, 0.4), 0.4, (0.6, 0.8), 0.5),
+            ((-0.4, -0.3), 0.4, (-0.8, -0.6), 0.5),
+            ((2.0, 0.5), 0.4, (0.0, 1.0), f64::INFINITY),
+        ] {
+            let found = packed.nearest(at.into());
+            assert!((found.height - height).abs() < 1e-15, "{at:?}: {found:?}");
+            assert!((found.normal - DVec2::from(normal)).length() < 1e-15, "{at:?}: {found:?}");
+            assert!(found.distance == distance || (found.distance - distance).abs() < 1e-15, "{at:?}: {found:?}");
+        }
+        let crossed = |a: (f64, f64), b: (f64, f64)| packed.is_crossed(a.into(), b.into());
+        assert!(crossed((1.0, 0.5), (1.2, -0.5)) && crossed((1.0, -0.5), (1.0, 0.5)));
+        assert!(!crossed((3.0, 0.5), (3.0, -0.5)) && !crossed((1.0, 0.5), (1.5, 0.1)));
     }
 }

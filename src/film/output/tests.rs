@@ -56,7 +56,13 @@ fn frames(count: usize) -> Vec<Frame> {
         body("block", block, false),
         body("ball", vec![disc(0.0, 0.0, 0.3)], false),
     ];
-    let floor = WallLook { name: "floor".to_owned(), left: DVec2::new(4.0, 0.0), right: DVec2::ZERO, color: None };
+    let floor = WallLook {
+        name: "floor".to_owned(),
+        left: DVec2::new(4.0, 0.0),
+        right: DVec2::ZERO,
+        thickness: None,
+        color: None,
+    };
     let cast = Arc::new(Cast { title: "Test".to_owned(), bodies, walls: vec![floor] });
     let frame = |place: usize| {
         let time = 0.04 * place as f64;

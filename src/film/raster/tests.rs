@@ -19,6 +19,7 @@ fn frame() -> Frame {
         name: "floor".to_owned(),
         left: DVec2::new(6.0, 0.0),
         right: DVec2::ZERO,
+        thickness: None,
         color: Some("blue".into()),
     };
     let cast =

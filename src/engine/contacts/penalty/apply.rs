@@ -26,7 +26,7 @@ use crate::contacts::geometry::{End, Shares, arms};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
 use crate::contacts::{ContactPoint, Other};
 use crate::tick::{Balance, Evaluation, Ledger};
-use crate::world::{Bodies, Materials};
+use crate::world::{Bodies, Materials, NearestPoint};
 use jostle_simd::BLOCK;
 use serde::{Deserialize, Serialize};
 
@@ -300,7 +300,7 @@ fn follow_walls<N: NormalForce>(
             let WallPair { wall, atom } = pairs[lane];
             let (packed, passing) = (&sink.bodies.walls[wall as usize], sink.bodies.passing(atom as usize));
             let at = passing.map_or_else(|| sink.bodies.atom_place(atom as usize), |passing| passing.position);
-            let apart = (at - packed.point).dot(packed.normal) - sink.bodies.atom_radius[atom as usize];
+            let apart = packed.nearest(at).height - sink.bodies.atom_radius[atom as usize];
             let place = BLOCK * block + lane;
             if apart >= 0.0 && !list.is_touching(place) {
                 gap = gap.min(apart);
@@ -328,10 +328,9 @@ fn follow_wall<N: NormalForce>(
 ) {
     let packed = sink.bodies.walls[wall as usize];
     let end = End::of(sink.bodies, atom);
-    let height = (sink.bodies.atom_place(atom as usize) - packed.point).dot(packed.normal);
+    let NearestPoint { height, normal, distance } = packed.nearest(sink.bodies.atom_place(atom as usize));
     let mut contact = list.get(place);
     let law = laws.get(contact.law);
-    let normal = packed.normal;
     let (mut displacement, turn) = end.displacement(sink.bodies);
     if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
         displacement -= belt * elapsed;
@@ -342,7 +341,7 @@ fn follow_wall<N: NormalForce>(
         overlap: end.radius - height,
         approach,
         displacement: (displacement.x, displacement.y),
-        swing: 0.0,
+        swing: if distance < f64::INFINITY { normal.perp_dot(displacement) / distance } else { 0.0 },
         rolled_a: (0.0, 0.0),
         rolled_b: (end.radius, turn),
     };
@@ -415,7 +414,7 @@ impl PenaltyContacts {
         self.walls.touching().map(|place| {
             let (pair, contact) = (pairs.walls[place], self.walls.get(place));
             let (law, end) = (self.laws.get(contact.law), End::of(bodies, pair.atom));
-            let normal = bodies.walls[pair.wall as usize].normal;
+            let normal = pair.nearest(bodies).normal;
             let arm = end.arm - normal * (end.radius - contact.overlap);
             let force = contact.force(law, normal);
             let point = bodies.position[end.body] + arm;

@@ -162,8 +162,8 @@ impl PenaltyContacts {
             Spring { a, b, normal, stiffness: (stiffness, across), damped, turning }
         });
         let walls = self.walls.touching().map(move |place| {
-            let WallPair { atom, wall } = pairs.walls[place];
-            let normal = bodies.walls[wall as usize].normal;
+            let WallPair { atom, .. } = pairs.walls[place];
+            let normal = pairs.walls[place].nearest(bodies).normal;
             let end = End::of(bodies, atom);
             let contact = self.walls.get(place);
             let arm = end.arm - normal * (end.radius - contact.overlap);

@@ -83,7 +83,7 @@ pub(super) fn choose<N: NormalForce>(
         let WallPair { wall, atom } = pairs.walls[place as usize];
         let end = End::of(choice.sink.bodies, atom);
         if !choice.stands(end.body) {
-            let normal = choice.sink.bodies.walls[wall as usize].normal;
+            let normal = pairs.walls[place as usize].nearest(choice.sink.bodies).normal;
             choice.first_look::<N>(Pair { index: place, normal, a: SideA::Wall(wall), b: end }, cases, moved);
         }
     }
@@ -226,7 +226,8 @@ impl Choice<'_> {
         held.extend(self.contacts.walls.awake_held().map(|place| place as u32));
         for &place in &*held {
             let WallPair { wall, atom } = pairs.walls[place as usize];
-            let (end, normal) = (End::of(self.sink.bodies, atom), self.sink.bodies.walls[wall as usize].normal);
+            let normal = pairs.walls[place as usize].nearest(self.sink.bodies).normal;
+            let end = End::of(self.sink.bodies, atom);
             if !self.stands(end.body) {
                 self.sink.bodies.catch_up();
                 let approach = approach(self.sink.bodies, None, &end, normal);

@@ -59,7 +59,7 @@ impl Overlaps {
         let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
         let looked_at = if touching.is_empty() { 0 } else { MOST_LOOKS / touching.len() };
         for (place, wall) in bodies.walls.iter().enumerate().take(looked_at) {
-            let height = |at: DVec2| (at - wall.point).dot(wall.normal);
+            let height = |at: DVec2| wall.nearest(at).height;
             let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
             for atom in near.flat_map(|&body| bodies.atoms_of(body)) {
                 let radius = bodies.atom_radius[atom];

@@ -9,6 +9,7 @@
 
 mod at_start;
 mod cells;
+mod crossing;
 mod identity;
 mod still;
 mod sweep;
@@ -16,6 +17,7 @@ mod sweep;
 pub use at_start::OverlapAtStart;
 
 use bevy_app::App;
+use bevy_ecs::world::World;
 
 use self::cells::Sorted;
 use self::identity::Identities;
@@ -49,7 +51,10 @@ pub fn plugin(app: &mut App) {
     state.bounds = Some(Bounds::default());
     state.pairs = Some(CandidatePairs::default());
     app.add_model(PairSearch::default());
-    app.world_mut().get_resource_or_init::<AfterLoad>().0.push(at_start::note_overlaps);
+    app.world_mut()
+        .get_resource_or_init::<AfterLoad>()
+        .0
+        .extend([at_start::note_overlaps as fn(&mut World), crossing::watch]);
 }
 
 /// Moves nothing by itself.
@@ -247,13 +252,11 @@ fn each_wall_pair(
 ) {
     for (place, wall) in bodies.walls.iter().enumerate() {
         for body in among.clone().filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
-            let height = (bodies.position[body] - wall.point).dot(wall.normal);
-            if height > bodies.extent(body) + margin {
+            if wall.nearest(bodies.position[body]).height > bodies.extent(body) + margin {
                 continue;
             }
             for atom in bodies.atoms_of(body) {
-                let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
-                if height < bodies.atom_radius[atom] + margin {
+                if wall.nearest(bodies.atom_place(atom)).height < bodies.atom_radius[atom] + margin {
                     see(WallPair { wall: place as u32, atom: atom as u32 });
                 }
             }

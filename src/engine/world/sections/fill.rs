@@ -232,6 +232,8 @@ struct Grid {
     last: Vec<u32>,
     /// What concerns every cell: two points each.
     walls: Vec<(DVec2, DVec2)>,
+    /// And strips: both ends and half the thickness each.
+    strips: Vec<(DVec2, DVec2, f64)>,
 }
 
 /// No bunch.
@@ -256,8 +258,8 @@ impl Grid {
         let (columns, rows) = (count(size.x), count(size.y));
         let cell = size / DVec2::new(columns as f64, rows as f64);
         let last = vec![NONE; columns * rows];
-        let (near, walls) = Default::default();
-        Self { low, high, cell, columns, rows, radius, gap, near, last, walls }
+        let (near, walls, strips) = Default::default();
+        Self { low, high, cell, columns, rows, radius, gap, near, last, walls, strips }
     }
 
     fn column_and_row(&self, at: DVec2) -> (usize, usize) {
@@ -269,6 +271,7 @@ impl Grid {
         let (center, radius) = match obstacle {
             Obstacle::Disc { center, radius } => (center, radius),
             Obstacle::Wall { left, right } => return self.walls.push((left, right)),
+            Obstacle::Strip { from, to, radius } => return self.strips.push((from, to, radius)),
         };
         let reach = radius + self.radius + self.gap;
         let (low, high) = (center - reach, center + reach);
@@ -300,7 +303,14 @@ impl Grid {
             // A wall without length is reported by its own check; here it stops nobody.
             along.perp().dot(at - right) >= self.radius * along.length()
         };
+        let clear_of_strip = |&(from, to, radius): &(DVec2, DVec2, f64)| {
+            let along = to - from;
+            let share = ((at - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            // The same for a strip without length: its share is no number.
+            !((from + along * share).distance(at) < radius + self.radius)
+        };
         self.walls.iter().all(clear_of_wall)
+            && self.strips.iter().all(clear_of_strip)
             && self
                 .discs_of(row * self.columns + column)
                 .all(|(center, radius)| center.distance(at) >= radius + self.radius + self.gap)

@@ -46,9 +46,9 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
         let mut next = world.get_resource_or_init::<NextKey>();
         let key = next.wall;
         next.wall += 1;
-        let (left, right) = (wall.left.si(), wall.right.si());
+        let ([left, right], thickness) = (wall.line(), wall.thickness());
         let surface_velocity = wall.belt();
-        world.spawn((Wall { key, left, right, material, surface_velocity }, Name::from(wall.name)));
+        world.spawn((Wall { key, left, right, thickness, material, surface_velocity }, Name::from(wall.name)));
     }
 }
 

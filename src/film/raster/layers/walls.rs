@@ -1,4 +1,4 @@
-//! Walls: everything behind them is ground, with a band along the border of the open room.
+//! Walls: everything behind a half-plane is ground, with a band along the border of the open room. Strips are drawn as they are.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -43,6 +43,7 @@ pub(in crate::raster) fn draw(
     band: f32,
     line: f32,
 ) {
+    draw_strips(pixmap, walls, camera, theme, line);
     let planes = half_planes(walls, camera, theme, line);
     if planes.is_empty() {
         return;
@@ -62,6 +63,38 @@ pub(in crate::raster) fn draw(
             } else {
                 fill(pixel, ink.fill);
                 blend(pixel, theme.ground, (depth - band + 0.5).min(1.0));
+            }
+        }
+    }
+}
+
+/// Draws walls with ends: at least a line wide, as a strip without thickness would not be seen.
+fn draw_strips(pixmap: &mut Pixmap, walls: &[WallLook], camera: &Camera, theme: &Theme, line: f32) {
+    let strips: Vec<_> = walls.iter().filter_map(|wall| Some((wall, wall.thickness?))).collect();
+    if strips.is_empty() {
+        return;
+    }
+    let mut canvas = Canvas::new(pixmap);
+    let size = (canvas.width() as f64, canvas.height() as f64);
+    for (wall, thickness) in strips {
+        let (from, to) = (camera.to_picture(wall.left), camera.to_picture(wall.right));
+        let half = (0.5 * thickness * camera.pixels_per_meter()).max(0.75 * f64::from(line));
+        let fill = wall.color.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.wall);
+        let ink = Ink { fill, outline: theme.outline.of(fill), width: line };
+        let along = to - from;
+        let (low, high) = (from.min(to) - half - 1.0, from.max(to) + half + 1.0);
+        let range =
+            |low: f64, high: f64, size: f64| low.clamp(0.0, size) as usize..high.ceil().clamp(0.0, size) as usize;
+        for row in range(low.y, high.y, size.1) {
+            let pixels = canvas.row(row);
+            for column in range(low.x, high.x, size.0) {
+                let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) - from;
+                let share = (place.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                let height = place.distance(along * share) - half;
+                if height < 0.5 {
+                    let (color, coverage) = ink.at(height as f32);
+                    blend(&mut pixels[4 * column..4 * column + 4], color, coverage);
+                }
             }
         }
     }
@@ -87,7 +120,7 @@ fn half_planes(walls: &[WallLook], camera: &Camera, theme: &Theme, line: f32) ->
         let ink = Ink { fill, outline: theme.outline.of(fill), width: line };
         Some(HalfPlane { point: camera.to_picture(wall.left), normal: DVec2::new(normal.x, -normal.y), ink })
     };
-    walls.iter().filter_map(plane).collect()
+    walls.iter().filter(|wall| wall.thickness.is_none()).filter_map(plane).collect()
 }
 
 /// What is left of a convex polygon on the open side.
@@ -112,7 +145,7 @@ mod tests {
     use jostle_frames::frame::Rgb;
 
     fn wall(left: (f64, f64), right: (f64, f64)) -> WallLook {
-        WallLook { name: String::new(), left: left.into(), right: right.into(), color: None }
+        WallLook { name: String::new(), left: left.into(), right: right.into(), thickness: None, color: None }
     }
 
     fn box_of_six() -> Vec<WallLook> {
