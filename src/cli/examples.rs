@@ -17,6 +17,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("incline", include_str!("../../scenes/incline.ron")),
     ("kepler", include_str!("../../scenes/kepler.ron")),
     ("marble_mills", include_str!("../../scenes/marble_mills.ron")),
+    ("marble_run", include_str!("../../scenes/marble_run.ron")),
     ("newtons_cradle", include_str!("../../scenes/newtons_cradle.ron")),
     ("pendulums", include_str!("../../scenes/pendulums.ron")),
     ("plinko", include_str!("../../scenes/plinko.ron")),

@@ -16,16 +16,16 @@ use crate::world::{material, sections};
 pub struct WallEntry {
     /// The name, for sensors and messages.
     pub name: String,
-    /// Of a half-plane: seen from the open side, the point to the left, in m.
+    /// Of a half-plane: seen from the open side, the point to the left, in m. Default: none, for a strip.
     #[serde(default)]
     pub left: Option<Position>,
-    /// Of a half-plane: seen from the open side, the point to the right, in m.
+    /// Of a half-plane: seen from the open side, the point to the right, in m. Default: none, for a strip.
     #[serde(default)]
     pub right: Option<Position>,
-    /// Of a strip: where its middle line begins, in m. A strip is hit from both sides.
+    /// Of a strip: where its middle line begins, in m. A strip is hit from both sides. Default: none, for a half-plane.
     #[serde(default)]
     pub from: Option<Position>,
-    /// Of a strip: where its middle line ends, in m.
+    /// Of a strip: where its middle line ends, in m. Default: none, for a half-plane.
     #[serde(default)]
     pub to: Option<Position>,
     /// Of a strip: its thickness, in m; ends are round. Default: 0.
