@@ -11,6 +11,7 @@ mod force;
 mod joint;
 mod motor;
 mod overlap;
+mod period;
 mod pose;
 mod velocity;
 
@@ -156,7 +157,8 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Rep
         Word(name.to_owned()).check(outline, CHANNELS, path, report);
     } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report) {
         let named = |kind: &Kind| [Kind::WALL, Kind::BODY].contains(kind) || outline.count(*kind) > 0;
-        let owners: Vec<Kind> = [Kind::WALL, Kind::BODY, Kind::JOINT, CONTROLLER].into_iter().filter(named).collect();
+        let owners: Vec<Kind> =
+            [Kind::WALL, Kind::BODY, Kind::JOINT, CONTROLLER, Kind::SENSOR].into_iter().filter(named).collect();
         outline.require_any(&owners, owner, path, report);
     }
 }
@@ -302,4 +304,5 @@ pub fn plugin(app: &mut App) {
     contacts::plugin(app);
     joint::plugin(app);
     motor::plugin(app);
+    period::plugin(app);
 }

@@ -306,8 +306,9 @@ impl Grid {
         let clear_of_strip = |&(from, to, radius): &(DVec2, DVec2, f64)| {
             let along = to - from;
             let share = ((at - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            // The same for a strip without length: its share is no number.
-            !((from + along * share).distance(at) < radius + self.radius)
+            let gap = (from + along * share).distance(at);
+            // A strip without length is reported by its own check, too; its share is no number.
+            gap.is_nan() || gap >= radius + self.radius
         };
         self.walls.iter().all(clear_of_wall)
             && self.strips.iter().all(clear_of_strip)
