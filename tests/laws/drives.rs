@@ -167,3 +167,37 @@ fn motors_take_the_units_of_their_joints() {
     let bodies = simulation.bodies();
     demand(&[bodies.velocity[0].x, bodies.spin[1]], &[0.9, std::f64::consts::PI], 1e-12, "at speed");
 }
+
+/// Law: between samples a sampled controller holds its output, so each period is an exact constant acceleration, however long steps are
+/// (Astrom, Wittenmark, Computer-Controlled Systems, section 3.2). Under a tolerance and in a reference run steps go beyond ticks, but not
+/// beyond a sample. Tolerance: that of the run for places, and ten times that of speeds of some rad/s.
+#[test]
+fn samples_of_a_servo_are_taken_by_steps_of_any_length() {
+    let (inertia, kp, kd, period) = (0.2, 5.0, 0.6, 0.05);
+    let (mut angle, mut spin) = (0.0_f64, 0.0_f64);
+    for _ in 0..40 {
+        let acceleration = (kp * (1.0 - angle) - kd * spin) / inertia;
+        angle += period * (spin + 0.5 * period * acceleration);
+        spin += period * acceleration;
+    }
+    for (clock, bound) in [
+        ("tolerance: 1e-2", 1e-2),
+        ("tolerance: 1e-4", 1e-4),
+        ("tolerance: 1e-8", 1e-8),
+        ("method: Reference", 1e-10),
+        ("tick: 0.02, method: Dop853", 1e-13),
+    ] {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 2, {clock}),
+            bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: {inertia:?}, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, anchor_a: (0, 0), b: \"b\")],
+            controllers: [Servo(of: \"hip\", target: 1, kp: {kp:?}, kd: {kd:?}, rate: {:?})])",
+            1.0 / period
+        );
+        let mut simulation = Simulation::load_with(&Source::new("servo.ron", scene), &Overrides::default(), |_| {})
+            .unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_end().unwrap();
+        let bodies = simulation.bodies();
+        demand(&[bodies.angle[0], 0.1 * bodies.spin[0]], &[angle, 0.1 * spin], bound, clock);
+    }
+}

@@ -110,3 +110,29 @@ fn the_observed_order_is_that_of_the_method() {
         assert!((observed - order).abs() < 0.5, "{method}: {observed}");
     }
 }
+
+/// Law: a limit, a rope and a break that are seen at the ends of ticks make an error of order 1, which depends on where in a tick they fall.
+/// The estimate knows of it wherever that is. Source: free fall onto a limit with restitution `e`, `y = e v (1 - t) - g (1 - t)^2/2` behind
+/// the blow at `t = v/g`. Tolerance: a factor of 3 below, as for all estimates; the velocity of the blow is that of the end of its tick.
+#[test]
+fn limits_between_ticks_are_in_the_estimate() {
+    for height in [2.511_821_624_700_256_7_f64, 2.4, 1.9, 1.37, 3.1, 2.05] {
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 1, tick: \"1 ms\", method: VelocityVerlet), gravity: (0, -10), contacts: None,
+            bodies: [(name: \"p\", at: (0, {height:?}), mass: 1, atoms: Disc(radius: 0.05))],
+            joints: [Prismatic(a: World, anchor_a: (0, 0), b: \"p\", axis: (0, 1), limits: (0, 5), restitution: 0.6)])"
+        );
+        let source = Source::new("limit.ron", &text);
+        let mut simulation = Simulation::load_with(&source, &Overrides::default(), |_| {}).unwrap();
+        simulation.run_to_end().unwrap();
+        let blow = (0.2 * height).sqrt();
+        let exact = 0.6 * 10.0 * blow * (1.0 - blow) - 5.0 * (1.0 - blow) * (1.0 - blow);
+        let error = (simulation.bodies().position[0].y - exact).abs();
+        let stated = estimated(&text, Wanted::default())
+            .error
+            .and_then(|error| error.position.discretisation)
+            .unwrap_or_default();
+        println!("{height}: {error:.1e} m, {stated:.1e} m stated");
+        assert!(3.0 * stated >= error, "{height}: {error:e} m, {stated:e} m stated");
+    }
+}

@@ -166,3 +166,48 @@ fn motors_that_contradict_each_other_are_refused() {
     let mut simulation = load("VelocityVerlet", &format!("{wheel}, {agreed}"));
     simulation.run_to_end().expect("both ask for the same");
 }
+
+/// Law: with `events: PerTick` friction turns round, motors come off their limit and joints break at the ends of ticks, under methods with
+/// stages too. Scenes: a block on a spring with friction, which loses `2 F/k` of its amplitude in each half swing and stops after 17 of
+/// them at 0.02 m; a motor with a limit and friction, which reaches its speed after 1.667 s; a rod that breaks at 20 N, after `T = 3 m g
+/// sin a`, by 0.394 s. Tolerance: one tick for each event, times what goes on in it: the speed of 10 m/s, or an acceleration of 6 rad/s2.
+#[test]
+fn joints_switch_at_ticks_under_all_methods() {
+    for method in ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853", "Symplectic4", "ImplicitMidpoint"] {
+        let run = |duration: f64, gravity: f64, scene: &str| {
+            let clock = format!("duration: {duration:?}, tick: {TICK:?}, method: {method}, events: PerTick");
+            let text =
+                format!("Scene(format: 1, clock: ({clock}), gravity: (0, {gravity:?}), contacts: None, {scene})");
+            let mut simulation =
+                Simulation::load(&Source::new("per_tick.ron", text)).unwrap_or_else(|errors| panic!("{errors}"));
+            simulation.run_to_end().unwrap();
+            simulation
+        };
+        let block = run(
+            7.0,
+            0.0,
+            "bodies: [(name: \"block\", at: (1, 0), mass: 1, atoms: Disc(radius: 0.1))],
+            joints: [Prismatic(a: World, anchor_a: (0, 0), b: \"block\", axis: (1, 0), friction: \"3 N\")],
+            forces: [Spring(a: \"block\", b: World, stiffness: 100, length: 0)]",
+        );
+        let (at, lost) = (block.bodies().position[0].x, block.card().energy.friction);
+        assert!((at.abs() - 0.02).abs() < 17.0 * 10.0 * TICK * 0.06, "{method}: stops at {at} m");
+        assert!((lost - 49.98).abs() < 17.0 * 10.0 * TICK * 3.0, "{method}: {lost} J");
+        let wheel = run(
+            3.0,
+            0.0,
+            "bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hub\", a: World, anchor_a: (0, 0), b: \"b\", friction: \"0.5 N m\")],
+            forces: [Torque(of: \"b\", value: -0.3)], controllers: [Motor(of: \"hub\", speed: 10, limit: 2)]",
+        );
+        assert!((wheel.bodies().spin[0] - 10.0).abs() < 1e-9, "{method}: {} rad/s", wheel.bodies().spin[0]);
+        let rod = run(
+            1.0,
+            -9.81,
+            "bodies: [(name: \"b\", at: (1, 0), mass: 1, inertia: 0.1, atoms: Disc(radius: 0.1))],
+            joints: [Distance(a: World, anchor_a: (0, 0), b: \"b\", break_force: 20)]",
+        );
+        let note = rod.card().notes.iter().any(|note| note.contains("broke"));
+        assert!(note && rod.bodies().position[0].length() > 1.5, "{method}: {:?}", rod.card().notes);
+    }
+}

@@ -108,7 +108,7 @@ impl Model for MotorRow {
     /// Between ticks the torque of the last evaluation decides, and the rate that is reached.
     fn begin_step(&mut self, state: &mut State) {
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        if !state.evaluation().style.is_staged() && self.held.follow(&motion.pair, &motion.along) {
+        if state.evaluation().style != Style::Frozen && self.held.follow(&motion.pair, &motion.along) {
             state.change_rows();
         }
     }

@@ -103,6 +103,11 @@ struct ServoForce {
     next: f64,
 }
 
+/// The next sample in s after a time; a sample within rounding of it is over.
+fn sample_after(time: f64, period: f64) -> f64 {
+    period * ((time / period + 1e-9).floor() + 1.0)
+}
+
 impl ServoForce {
     fn wanted(&self, motion: &Motion, time: f64) -> f64 {
         let [kp, ki, kd] = self.gains;
@@ -133,7 +138,8 @@ impl Model for ServoForce {
     }
 
     fn next_edge(&self, time: f64) -> f64 {
-        let sample = if self.period.is_some() && self.next > time { self.next } else { f64::INFINITY };
+        // A step is planned before its sample is taken: that of this moment counts as taken.
+        let sample = self.period.map_or(f64::INFINITY, |period| sample_after(time, period));
         self.target.next_point(time).min(sample)
     }
 
@@ -150,7 +156,7 @@ impl Model for ServoForce {
         {
             let before = self.held;
             self.held = self.wanted(&motion, span.begin);
-            self.next = period * ((span.begin / period + 1e-9).floor() + 1.0);
+            self.next = sample_after(span.begin, period);
             // The forces of the state were those of the output before.
             if staged {
                 state.evaluation.stale = true;

@@ -90,4 +90,7 @@ pub fn plugin(app: &mut App) {
         .add_plugins(rope::plugin)
         .add_plugins(gear_pair::plugin)
         .add_plugins(rack::plugin);
+    for name in ["Wheel", "Ratchet", "Pulley", "Slot"] {
+        app.reserve_entry("joints", name);
+    }
 }

@@ -9,7 +9,7 @@ use super::limit::{Arrival, Limit};
 use crate::constraints::Rows;
 use crate::scene::Report;
 use crate::scene::units::{Dimension, Quantity, Scalar};
-use crate::tick::{Blow, Indicator, State};
+use crate::tick::{Blow, Indicator, State, Style};
 use crate::world::Bodies;
 
 /// What the scene asks for, in SI units.
@@ -131,14 +131,14 @@ impl Parts {
     /// Before a step. Says whether a mode is another one; the joint has broken if [`Parts::broken`] says so.
     pub fn begin_step(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &mut State) -> bool {
         let now = state.span().begin;
-        let staged = state.evaluation().style.is_staged();
-        if !staged && self.breaks(force, now) {
+        let located = state.evaluation().style == Style::Frozen;
+        if !located && self.breaks(force, now) {
             return true;
         }
         let Some(freedom) = law.freedom(pair) else { return false };
         let mut changed = false;
         if let Some(limit) = &mut self.limit {
-            changed |= !staged && limit.follow();
+            changed |= !located && limit.follow();
             match limit.begin_step(pair, &freedom) {
                 Some(Arrival::Stays) => state.strike(Blow::Stops),
                 Some(Arrival::Rebounds(row)) => state.strike(Blow::Rebounds(row)),
@@ -146,7 +146,7 @@ impl Parts {
             }
         }
         if let Some(friction) = &mut self.friction
-            && !staged
+            && !located
             && friction.follow(pair, &freedom.along)
         {
             changed = true;

@@ -42,7 +42,7 @@ struct Prismatic {
     #[serde(default)]
     restitution: Scalar,
     /// The greatest friction, in N: below it the joint sticks. Above zero. Default: none.
-    friction: Option<Scalar>,
+    friction: Option<Force>,
     /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
@@ -97,7 +97,7 @@ impl Entry for Prismatic {
                 asked: Asked {
                     limits: value.limits.map(|(low, high)| [low.si(), high.si()]),
                     restitution: value.restitution.si(),
-                    friction: value.friction.map(Scalar::si),
+                    friction: value.friction.map(Force::si),
                     break_force: value.break_force.map(Force::si),
                     softness: value.softness.map(Softness::si),
                 },

@@ -13,7 +13,7 @@ use super::model::{self, Absent, Setup};
 use super::parts::{self, Asked};
 use super::soft::Softness;
 use crate::forces::link::Partner;
-use crate::scene::units::{Angle, Force, Position, Scalar};
+use crate::scene::units::{Angle, Force, Position, Scalar, Torque};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
 /// A hinge: `anchor_a` of `a` and `anchor_b` of `b` stay in one place, and the bodies turn about it. Its angle is that of `b` minus that
@@ -38,7 +38,7 @@ struct Revolute {
     #[serde(default)]
     restitution: Scalar,
     /// The greatest friction, in N m: below it the joint sticks. Above zero. Default: none.
-    friction: Option<Scalar>,
+    friction: Option<Torque>,
     /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
@@ -89,7 +89,7 @@ impl Entry for Revolute {
                 asked: Asked {
                     limits: value.limits.map(|(low, high)| [low.si(), high.si()]),
                     restitution: value.restitution.si(),
-                    friction: value.friction.map(Scalar::si),
+                    friction: value.friction.map(Torque::si),
                     break_force: value.break_force.map(Force::si),
                     softness: value.softness.map(Softness::si),
                 },

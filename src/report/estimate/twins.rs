@@ -83,7 +83,8 @@ fn cycle(ticks: u64) -> u32 {
 /// hardly a tick of the run ends with one of both.
 pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
     let world = simulation.unpublished_world();
-    let per_tick = world.resource::<State>().contact_law().is_some() && !ChosenMethod::locates(world);
+    let touches = world.resource::<State>().contact_law().is_some() && !ChosenMethod::locates(world);
+    let per_tick = touches || switches_at_ticks(simulation);
     match if per_tick { cycle(simulation.ticks()) } else { 1 } {
         1 => [1, 1],
         few @ 2..4 => [few, few + 1],
@@ -91,11 +92,23 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
     }
 }
 
+/// Whether something else than contacts may change at the end of a tick: a limit that is hit, a rope that becomes taut, a joint that breaks,
+/// friction that sticks.
+fn switches_at_ticks(simulation: &Simulation) -> bool {
+    let world = simulation.unpublished_world();
+    let mut models = world.resource::<State>().models();
+    !ChosenMethod::locates(world) && models.any(|model| model.has_modes() && model.contact_law().is_none())
+}
+
 /// The twins that tell the error of a run that is over.
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.unpublished_world();
     let located = ChosenMethod::locates(world);
-    let jumped = if located { world.resource::<State>().located().count > 0 } else { touches(simulation) };
+    let jumped = if located {
+        world.resource::<State>().located().count > 0
+    } else {
+        touches(simulation) || switches_at_ticks(simulation)
+    };
     match (jumped, located) {
         (false, _) => vec![Finer::HALF],
         // The same ticks, and so the same steps from event to event, in halves; and others.
