@@ -124,3 +124,19 @@ fn the_period_of_a_pendulum_is_measured() {
         assert!(read(method, 100, scene, "swing.period").is_nan());
     }
 }
+
+/// Law: the clearance of discs is the distance of their centres less both radii; from a strip, that from its nearest point. Scene: a body of
+/// two discs beside a ball, above the end of a shelf and a floor. Tolerance: rounding.
+#[test]
+fn the_clearance_is_that_of_the_nearest_atoms() {
+    let scene = "walls: [(name: \"floor\", left: (9, -1), right: (-9, -1)), (name: \"shelf\", from: (-2, -0.5), to: (-0.4, -0.5), thickness: 0.2)],
+        bodies: [(name: \"pair\", at: (0, 0), fixed: true, atoms: List([(at: (-0.1, 0), radius: 0.1), (at: (0.1, 0), radius: 0.1)])),
+                 (name: \"ball\", at: (0.4, 0.4), fixed: true, atoms: Disc(radius: 0.2))],
+        sensors: [Clearance(name: \"gap\", a: \"pair\", b: \"ball\"), Clearance(name: \"height\", a: \"pair\", b: \"floor\"),
+                  Clearance(name: \"edge\", a: \"pair\", b: \"shelf\")]";
+    let edge = 0.3_f64.hypot(0.5) - 0.1 - 0.1;
+    for (name, exact) in [("gap", 0.5 - 0.3), ("height", 0.9), ("edge", edge)] {
+        let found = read("VelocityVerlet", 0, scene, &format!("{name}.clearance"));
+        assert!((found - exact).abs() < 1e-15, "{name}: {found} instead of {exact}");
+    }
+}

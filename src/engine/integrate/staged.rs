@@ -277,7 +277,9 @@ impl Staged {
         let length = until - from;
         let controlled = self.control.is_some();
         let mut known = if controlled { Known::Whole } else { Known::Nothing };
+        let noted = flow.tick.noted();
         let mut reach = |flow: &mut WorldFlow, share: f64, told: &mut Vec<Indicator>| {
+            flow.tick.forget_trial(noted);
             match known {
                 Known::Whole if share == 1.0 => {}
                 Known::Whole | Known::Inside => {

@@ -4,6 +4,7 @@
 //! also be asked for by its name alone ([`find`]): expectations do that.
 
 mod acceleration;
+mod clearance;
 mod contact_force;
 mod contacts;
 pub(crate) mod energy;
@@ -305,4 +306,5 @@ pub fn plugin(app: &mut App) {
     joint::plugin(app);
     motor::plugin(app);
     period::plugin(app);
+    clearance::plugin(app);
 }

@@ -412,7 +412,24 @@ fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
     row.sides.iter().flatten().filter(|side| bodies.dynamic[side.body]).map(of).fold(0.0, |sum, term| sum + term)
 }
 
+/// What was noted of joints before a trial of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Noted {
+    drift: JointDrift,
+    trouble: Option<Trouble>,
+}
+
 impl Tick<'_> {
+    /// What is noted of joints so far: trials of a step may end where no joint can be closed, and are not taken.
+    pub fn noted(&self) -> Noted {
+        Noted { drift: self.state.joint_drift, trouble: self.state.progress.trouble }
+    }
+
+    /// The last trial is not taken: what it noted of joints is forgotten.
+    pub fn forget_trial(&mut self, noted: Noted) {
+        (self.state.joint_drift, self.state.progress.trouble) = (noted.drift, noted.trouble);
+    }
+
     /// Whether joints hold something.
     pub fn has_joints(&self) -> bool {
         self.state.has_joints()

@@ -74,7 +74,7 @@ pub use failure::{Failure, Wrong};
 pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
-pub use hold::{Blow, FromOutside, JointDrift};
+pub use hold::{Blow, FromOutside, JointDrift, Noted};
 pub use method::{Integrator, Method};
 pub use model::{
     Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
