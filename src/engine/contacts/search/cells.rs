@@ -20,7 +20,8 @@ const FEWEST: usize = 4096;
 const LARGE: f64 = 2.0;
 /// The share of atoms that counts as most.
 const MOST: f64 = 0.75;
-/// Fine cells along a side, at most: with more, rounding could put what is near two cells away.
+/// Fine cells along a side, at most: with more, rounding could put what is near two cells away. What is farther from the middle of all is
+/// in the first or in the last of them.
 const LONGEST: f64 = 1e7;
 /// Cells per atom, at most.
 const CELLS_PER_ATOM: f64 = 4.0;
@@ -217,6 +218,13 @@ fn usual_reach(all: &[Entry]) -> f64 {
     *reaches.select_nth_unstable_by(most, f64::total_cmp).1
 }
 
+/// The place in the middle of all: where most are, if some are far away.
+fn median(all: &[Entry], place: fn(&Entry) -> f64) -> f64 {
+    let mut places: Vec<f64> = all.iter().map(place).collect();
+    let middle = places.len() / 2;
+    *places.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
 #[inline]
 fn are_near(a: &Entry, b: &Entry) -> bool {
     let reach = a.reach + b.reach;
@@ -229,6 +237,8 @@ struct Axis {
     low: f64,
     /// Fine cells per metre.
     per_meter: f64,
+    /// The last fine cell: what lies beyond is in it.
+    last: u64,
     /// Fine cells in which something lies, from low to high, each with its number among those that are kept: of what lies empty
     /// between two of them one is kept. Empty: all are kept.
     taken: Vec<(u64, u64)>,
@@ -239,8 +249,8 @@ struct Axis {
 
 impl Axis {
     fn fine(&self, place: f64) -> u64 {
-        // What is below becomes the first.
-        ((place - self.low) * self.per_meter) as u64
+        // Below all is the first.
+        (((place - self.low) * self.per_meter) as u64).min(self.last)
     }
 
     /// The cell of a place. Places nearer than the width of a fine cell are in one cell or in neighbours.
@@ -298,14 +308,20 @@ impl Cells {
         let (low, high, reach) = all.iter().fold(none, |(low, high, reach), entry| {
             (low.min(entry.center), high.max(entry.center), reach.max(entry.reach))
         });
-        let size = if all.is_empty() { DVec2::ZERO } else { high - low };
         // A little wider, so that rounding never puts what is near two cells away.
-        let width = (2.000_000_01 * reach).max(size.max_element() / LONGEST).max(f64::MIN_POSITIVE);
-        let axis = |low: f64, length: f64| {
-            let per_meter = 1.0 / width;
-            Axis { low, per_meter, taken: Vec::new(), merged: 1, count: (length * per_meter) as usize + 1 }
+        let width = (2.000_000_01 * reach).max(f64::MIN_POSITIVE);
+        let axis = |low: f64, high: f64, place: fn(&Entry) -> f64| {
+            let longest = LONGEST * width;
+            let (low, length) = match all {
+                [] => (0.0, 0.0),
+                all if high - low > longest => (median(all, place) - 0.5 * longest, longest),
+                _ => (low, high - low),
+            };
+            let (per_meter, last) = (1.0 / width, (length / width) as u64);
+            Axis { low, per_meter, last, taken: Vec::new(), merged: 1, count: last as usize + 1 }
         };
-        let (mut columns, mut rows) = (axis(low.x, size.x), axis(low.y, size.y));
+        let mut columns = axis(low.x, high.x, |entry| entry.center.x);
+        let mut rows = axis(low.y, high.y, |entry| entry.center.y);
         let most = CELLS_PER_ATOM * all.len().max(1) as f64;
         let cells = |columns: &Axis, rows: &Axis| columns.count as f64 * rows.count as f64;
         if cells(&columns, &rows) > WASTE * most {
@@ -483,6 +499,8 @@ pub(super) mod tests {
             ("one crowd", crowd(DVec2::ZERO).collect::<Vec<_>>()),
             ("and a body far away", crowd(DVec2::ZERO).chain(crowd(far).take(1)).collect()),
             ("two crowds", crowd(DVec2::ZERO).chain(crowd(far)).collect()),
+            ("and a body beyond all", crowd(DVec2::ZERO).chain(crowd(1e12 * far).take(1)).collect()),
+            ("and one as far as numbers go", crowd(DVec2::ZERO).chain(crowd(1e303 * far).take(1)).collect()),
         ] {
             let cells = Cells::of(&all);
             let most = cells.first.windows(2).map(|pair| pair[1] - pair[0]).max();
