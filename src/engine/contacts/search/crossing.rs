@@ -1,7 +1,7 @@
 //! Atoms that pass through walls with ends: the run ends, with both names.
 //!
-//! Such a wall is open on both sides, so an atom whose centre has passed the middle line would be pushed out on the other side. Contacts
-//! that are too soft let that happen, and ticks in which a small atom goes farther than it is wide. Nobody would see it in a film.
+//! Such a wall is open on both sides, so an atom whose centre has passed the middle line would be pushed out on the other side. Soft
+//! contacts let that happen, and ticks in which a small atom goes farther than it is wide. A film would not show it.
 
 use bevy_ecs::world::World;
 use glam::DVec2;
