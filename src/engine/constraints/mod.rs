@@ -5,6 +5,7 @@
 //! | `rows.rs` | held relative accelerations and velocities, exactly, for methods with stages |
 //! | `redundant.rs` | which forces are taken where rows depend on each other |
 //! | `solver.rs` | the same for joints, by sparse factors (`block_cholesky.rs`) |
+//! | `borders.rs` | held contacts beside those factors |
 //! | `projection.rs` | places and velocities brought back onto what joints hold |
 //! | `rest_solver/` | which bounded forces bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | which links act on each other |
@@ -13,6 +14,7 @@
 //! takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).
 
 mod block_cholesky;
+mod borders;
 mod dead_point;
 pub mod islands;
 mod projection;

@@ -1,10 +1,12 @@
-//! Solves `J M^-1 F x = right` for all rows of a list: islands of joints by sparse factors, islands with held contacts densely.
+//! Solves `J M^-1 F x = right` for all rows of a list: joints by sparse factors, small islands with held contacts densely, large ones
+//! with the contacts as a border of the joints (`borders.rs`).
 //!
 //! Rows of joints have `F = J^T`, so that their matrix is symmetric and never negative. Where it is singular, because rows depend on each
 //! other, it is factored with a share of its diagonal added, and the answer is refined until the rows are satisfied: it tends to the
 //! solution of least norm, each unknown measured by its diagonal (proximal iteration, Rockafellar 1976).
 
 use super::block_cholesky::BlockCholesky;
+use super::borders::Borders;
 use super::islands::{Islands, Link, find};
 use super::redundant::{self, Share};
 use super::row::{Kind, Row};
@@ -17,6 +19,9 @@ const SHARE: f64 = 1e-10;
 const MOST_REFINEMENTS: usize = 40;
 /// An answer is good when no row is off by more than this share of the greatest number of the right side.
 const ROUNDING: f64 = 1e-15;
+
+/// An island with held contacts and no more rows of joints than this is solved densely, which takes less time there.
+const MOST_DENSE: usize = 32;
 
 /// Marks the side of a row that no force moves.
 const NONE: u32 = u32::MAX;
@@ -51,12 +56,14 @@ impl Link for Linked {
 pub struct Solver {
     /// The topology for which the structure was found.
     ends: Vec<Ends>,
-    /// Rows of islands without held contacts, in the order of the unknowns of the factor.
+    /// Rows of joints outside the dense islands, in the order of the unknowns of the factor.
     sparse: Vec<usize>,
     factor: BlockCholesky,
     /// Two rows and where their entry stands.
     entries: Vec<(u32, u32, u32)>,
-    /// Rows of each island with held contacts, and the matrices of those, one behind the other.
+    /// Held contacts beside the factor.
+    borders: Borders,
+    /// Rows of each other island with held contacts, and the matrices of those, one behind the other.
     dense: Vec<Vec<usize>>,
     matrix: Vec<f64>,
     /// Whether sparse rows depend on each other.
@@ -75,8 +82,24 @@ impl Solver {
     pub fn prepare(&mut self, rows: &[Row], bodies: &Bodies) {
         let same = rows.len() == self.ends.len() && rows.iter().zip(&self.ends).all(|(row, e)| ends(row, bodies) == *e);
         if !same {
-            self.find_structure(rows, bodies);
+            self.find_structure(rows, bodies, MOST_DENSE);
         }
+        self.factor_joints(rows, bodies);
+        if self.dependent && !self.borders.is_empty() {
+            // Which of many answers is taken, all rows of an island decide together.
+            self.find_structure(rows, bodies, usize::MAX);
+            self.factor_joints(rows, bodies);
+        }
+        self.borders.prepare(rows, &self.sparse, &self.factor, bodies);
+        self.matrix.clear();
+        for island in &self.dense {
+            for &row in island {
+                self.matrix.extend(island.iter().map(|other| rows[row].response(&rows[*other], bodies)));
+            }
+        }
+    }
+
+    fn factor_joints(&mut self, rows: &[Row], bodies: &Bodies) {
         // More rows than the bodies have freedoms depend on each other, whatever their directions.
         self.dependent = self.sparse.len() > 3 * self.moved.len();
         if !self.dependent {
@@ -86,12 +109,6 @@ impl Solver {
         if self.dependent {
             self.fill(rows, bodies);
             self.factor.factor(SHARE);
-        }
-        self.matrix.clear();
-        for island in &self.dense {
-            for &row in island {
-                self.matrix.extend(island.iter().map(|other| rows[row].response(&rows[*other], bodies)));
-            }
         }
     }
 
@@ -113,7 +130,8 @@ impl Solver {
         }
     }
 
-    fn find_structure(&mut self, rows: &[Row], bodies: &Bodies) {
+    /// Islands with held contacts and at most `most_dense` rows of joints are solved densely.
+    fn find_structure(&mut self, rows: &[Row], bodies: &Bodies, most_dense: usize) {
         self.ends.clear();
         self.ends.extend(rows.iter().map(|row| ends(row, bodies)));
         let mut links: Vec<Linked> = rows
@@ -127,17 +145,36 @@ impl Solver {
         let mut islands = Islands::default();
         islands.sort::<_, Linked>(&mut links, &mut [], bodies);
         (self.dense, self.sparse) = (Vec::new(), Vec::new());
+        let mut borders = Vec::new();
         for island in links.chunk_by(|a, b| islands.of(a, bodies) == islands.of(b, bodies)) {
             let mut island: Vec<usize> = island.iter().map(|link| link.row).collect();
             island.sort_unstable();
-            if island.iter().any(|&row| self.ends[row].held) {
+            let (held, joints): (Vec<usize>, Vec<usize>) = island.iter().partition(|row| self.ends[**row].held);
+            if !held.is_empty() && joints.len() <= most_dense {
                 self.dense.push(island);
-            } else {
-                self.sparse.extend(island);
+                continue;
+            }
+            self.sparse.extend(joints);
+            if !held.is_empty() {
+                borders.push(held);
             }
         }
         self.sparse.sort_unstable();
         self.find_nodes(bodies);
+        self.find_borders(borders, rows, bodies);
+    }
+
+    fn find_borders(&mut self, borders: Vec<Vec<usize>>, rows: &[Row], bodies: &Bodies) {
+        self.borders.clear();
+        if borders.is_empty() {
+            return;
+        }
+        let mut unknowns = vec![Vec::new(); bodies.len()];
+        for (unknown, &row) in self.sparse.iter().enumerate() {
+            let moved = self.ends[row].bodies.into_iter().filter(|body| *body != NONE);
+            moved.for_each(|body| unknowns[body as usize].push(unknown));
+        }
+        borders.into_iter().for_each(|held| self.borders.add(held, rows, &unknowns));
     }
 
     /// Rows between the same bodies, one behind the other, are a node; nodes with a body in common have an edge.
@@ -211,6 +248,7 @@ impl Solver {
         if self.dependent {
             self.refine(rows, bodies);
         }
+        self.borders.solve((rows, &self.sparse), bodies, shares, values, &mut self.answer);
         self.sparse.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
     }
 
@@ -269,4 +307,60 @@ fn ends(row: &Row, bodies: &Bodies) -> Ends {
     let body =
         |side: Option<super::Side>| side.filter(|side| bodies.dynamic[side.body]).map_or(NONE, |side| side.body as u32);
     Ends { bodies: row.sides.map(body), held: row.kind == Kind::Acceleration }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::row::Side;
+    use super::*;
+    use bevy_ecs::entity::Entity;
+
+    /// Law: a border gives the forces that the whole dense matrix gives. A chain of forty links hangs by its ends; contacts hold
+    /// some of them, one slides. Tolerance: rounding times the condition of the matrix, which is below 1e4.
+    #[test]
+    fn a_border_gives_the_forces_of_the_dense_matrix() {
+        const LINKS: usize = 40;
+        let bodies = Bodies {
+            entity: vec![Entity::PLACEHOLDER; LINKS],
+            dynamic: vec![true; LINKS],
+            mass: vec![2.0; LINKS],
+            inertia: vec![0.5; LINKS],
+            ..Bodies::default()
+        };
+        let side = |body: usize, way: f64, direction: DVec2, arm: f64| {
+            let direction = direction * way;
+            let sag = 0.1 * body as f64 - 2.0;
+            let lever = DVec2::new(arm, sag * arm).perp_dot(direction);
+            Some(Side { body, direction, lever, force: direction, torque: lever })
+        };
+        let mut rows = Vec::new();
+        for link in 0..=LINKS {
+            for direction in [DVec2::X, DVec2::Y] {
+                let a = link.checked_sub(1).and_then(|body| side(body, -1.0, direction, 0.5));
+                let b = (link < LINKS).then(|| side(link, 1.0, direction, -0.5)).flatten();
+                rows.push(Row { sides: [a, b], kind: Kind::Position, ..Row::default() });
+            }
+        }
+        for link in [3, 17, 18, 30] {
+            let mut row = Row { sides: [None, side(link, 1.0, DVec2::new(0.6, 0.8), 0.3)], ..Row::default() };
+            if let (17, Some(side)) = (link, &mut row.sides[1]) {
+                side.force += DVec2::new(0.1, -0.2);
+            }
+            rows.push(row);
+        }
+        let right: Vec<f64> = (0..rows.len()).map(|row| ((7 * row) % 11) as f64 - 5.0).collect();
+        let solved = |most_dense: usize| {
+            let (mut solver, mut values) = (Solver::default(), right.clone());
+            solver.find_structure(&rows, &bodies, most_dense);
+            solver.prepare(&rows, &bodies);
+            solver.solve(&rows, &bodies, |row| row.share, &mut values);
+            (solver.borders.is_empty(), values)
+        };
+        let (bordered, dense) = (solved(MOST_DENSE), solved(usize::MAX));
+        assert_eq!((bordered.0, dense.0), (false, true));
+        let size = dense.1.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (found, exact) in bordered.1.iter().zip(&dense.1) {
+            assert!((found - exact).abs() < 1e4 * f64::EPSILON * size, "{found} instead of {exact}");
+        }
+    }
 }
