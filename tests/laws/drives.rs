@@ -201,3 +201,67 @@ fn samples_of_a_servo_are_taken_by_steps_of_any_length() {
         demand(&[bodies.angle[0], 0.1 * bodies.spin[0]], &[angle, 0.1 * spin], bound, clock);
     }
 }
+
+/// Law: a sample takes effect `delay` after it was taken and is held until the next one does (Astrom, Wittenmark, Computer-Controlled
+/// Systems, section 3.2). A free wheel then has a constant torque from one effect to the next, so its motion is known exactly. The delays
+/// are zero, a part of a period, a whole one, and two and a half. Ticks of 7 ms meet neither samples nor effects, except at the end.
+/// Tolerance: rounding of some 300 steps, `300 2^-52 * 4 rad = 3e-13`, which the control takes back rather than adds up.
+#[test]
+fn a_late_servo_gives_its_samples_after_its_delay() {
+    let (inertia, kp, kd, period) = (0.2, 1.5, 0.35, 0.05);
+    for delay in [0.0, 0.02, 0.05, 0.125] {
+        // Times in units of 5 ms, so that none is rounded: 1.75 s are 350 of them, and 250 ticks.
+        let (every, late) = (10_u32, (delay / 0.005_f64).round() as u32);
+        let (mut angle, mut spin, mut samples) = (0.0_f64, 0.0_f64, Vec::new());
+        for unit in 0..350 {
+            if unit % every == 0 {
+                samples.push(kp * (1.0 - angle) - kd * spin);
+            }
+            let effective = (unit >= late).then(|| samples[((unit - late) / every) as usize]);
+            let acceleration = effective.unwrap_or_default() / inertia;
+            angle += 0.005 * (spin + 0.5 * 0.005 * acceleration);
+            spin += 0.005 * acceleration;
+        }
+        for clock in [
+            "tick: 0.007, method: Dop853",
+            "tick: 0.007, method: RungeKutta4",
+            "tick: 0.007, method: VelocityVerlet, events: Located",
+            "tick: 0.005, method: VelocityVerlet, events: PerTick",
+        ] {
+            let scene = format!(
+                "Scene(format: 1, clock: (duration: 1.75, {clock}),
+                bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: {inertia:?}, atoms: Disc(radius: 0.1))],
+                joints: [Revolute(name: \"hip\", a: World, anchor_a: (0, 0), b: \"b\")],
+                controllers: [Servo(of: \"hip\", target: 1, kp: {kp:?}, kd: {kd:?}, rate: {:?}, delay: {delay:?})])",
+                1.0 / period
+            );
+            let source = Source::new("servo.ron", scene);
+            let mut simulation = Simulation::load(&source).unwrap_or_else(|errors| panic!("{errors}"));
+            simulation.run_to_end().unwrap();
+            let bodies = simulation.bodies();
+            let of = format!("{clock}, {delay} s late");
+            demand(&[bodies.angle[0], bodies.spin[0]], &[angle, spin], 1e-12, &of);
+        }
+    }
+}
+
+/// Law: samples that have not taken effect are part of the state, so runs that go on from a snapshot, and from a
+/// fork, have the same bits.
+#[test]
+fn a_snapshot_keeps_the_samples_that_are_under_way() {
+    let scene = "bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
+        joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
+        controllers: [Servo(of: \"hip\", target: 1, kp: 1.5, kd: 0.35, rate: 20, delay: 0.125)]";
+    let mut whole = load("Dop853", 0.01, scene);
+    run_to(&mut whole, 0.5);
+    let snapshot = whole.snapshot().unwrap();
+    let mut fork = whole.fork().unwrap();
+    run_to(&mut whole, 1.0);
+    let mut second = load("Dop853", 0.01, scene);
+    second.restore(&snapshot).unwrap();
+    for other in [&mut second, &mut fork] {
+        run_to(other, 1.0);
+        assert_eq!(other.bodies().angle[0].to_bits(), whole.bodies().angle[0].to_bits());
+        assert_eq!(other.future_hash().unwrap(), whole.future_hash().unwrap());
+    }
+}
