@@ -265,3 +265,52 @@ fn a_snapshot_keeps_the_samples_that_are_under_way() {
         assert_eq!(other.future_hash().unwrap(), whole.future_hash().unwrap());
     }
 }
+
+/// Law: a table in a file is the course with its points, to the last bit. Columns are found by name, with or without the unit that a run
+/// writes behind it.
+#[test]
+fn a_target_from_a_file_is_the_course_with_its_points() {
+    let folder = std::env::temp_dir().join(format!("jostle-target-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let table = "time [s],other,arm.angle [rad],force\n0,9,0,0\n0.3,9,0.7,2\n1.1,9,-0.25,-1\n";
+    std::fs::write(folder.join("arm.csv"), table).unwrap();
+    let run = |target: &str, force: &str| {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 1.5, tick: 0.01, method: Dop853),
+            bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1)),
+                (name: \"c\", at: (1, 0), mass: 1, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, b: \"b\"),
+                Prismatic(name: \"rail\", a: World, b: \"c\", axis: (0, 1))],
+            controllers: [Servo(of: \"hip\", target: {target}, kp: 8, kd: 0.8), Actuator(of: \"rail\", force: {force})])"
+        );
+        let path = folder.join("arm.ron");
+        std::fs::write(&path, scene).unwrap();
+        Simulation::load(&Source::read(&path).unwrap()).map(|mut simulation| {
+            simulation.run_to_end().unwrap();
+            let bodies = simulation.bodies();
+            [bodies.angle[0], bodies.spin[0], bodies.position[1].y].map(f64::to_bits)
+        })
+    };
+    let written = run("Course([(0, 0), (0.3, 0.7), (1.1, -0.25)])", "Course([(0, 0), (0.3, 2), (1.1, -1)])");
+    let written = written.unwrap_or_else(|errors| panic!("{errors}"));
+    for (target, force) in [
+        ("(file: \"arm.csv\", column: \"arm.angle\")", "(file: \"arm.csv\", time: \"time\", column: \"force\")"),
+        (
+            "(time: \"time [s]\", column: \"arm.angle [rad]\", file: \"arm.csv\")",
+            "(file: \"arm.csv\", column: \"force\")",
+        ),
+    ] {
+        let read = run(&format!("Csv{target}"), &format!("Csv{force}")).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(read, written);
+    }
+    for (target, says) in [
+        ("Csv(file: \"leg.csv\", column: \"arm.angle\")", "there is no file `leg.csv`"),
+        ("Csv(file: \"arm.csv\", column: \"arm.angel\")", "line 1 of `arm.csv` names no column `arm.angel`"),
+        ("Csv(file: \"arm.csv\", time: \"other\", column: \"force\")", "line 3 of `arm.csv` goes back in time"),
+        ("Csv(\"arm.csv\")", "line 1 of `arm.csv` has 4 columns, not two"),
+    ] {
+        let errors = run(target, "0").expect_err(target).to_string();
+        assert!(errors.contains(says) && errors.contains("controllers[0].target"), "{target}: {errors}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
