@@ -201,3 +201,253 @@ fn samples_of_a_servo_are_taken_by_steps_of_any_length() {
         demand(&[bodies.angle[0], 0.1 * bodies.spin[0]], &[angle, 0.1 * spin], bound, clock);
     }
 }
+
+/// Law: a sample takes effect `delay` after it was taken and is held until the next one does (Astrom, Wittenmark, Computer-Controlled
+/// Systems, section 3.2). A free wheel then has a constant torque from one effect to the next, so its motion is known exactly. The delays
+/// are zero, a part of a period, a whole one, and two and a half. Ticks of 7 ms meet neither samples nor effects, except at the end.
+/// Tolerance: rounding of some 300 steps, `300 2^-52 * 4 rad = 3e-13`, which the control takes back rather than adds up.
+#[test]
+fn a_late_servo_gives_its_samples_after_its_delay() {
+    let (inertia, kp, kd, period) = (0.2, 1.5, 0.35, 0.05);
+    for delay in [0.0, 0.02, 0.05, 0.125] {
+        // Times in units of 5 ms, so that none is rounded: 1.75 s are 350 of them, and 250 ticks.
+        let (every, late) = (10_u32, (delay / 0.005_f64).round() as u32);
+        let (mut angle, mut spin, mut samples) = (0.0_f64, 0.0_f64, Vec::new());
+        for unit in 0..350 {
+            if unit % every == 0 {
+                samples.push(kp * (1.0 - angle) - kd * spin);
+            }
+            let effective = (unit >= late).then(|| samples[((unit - late) / every) as usize]);
+            let acceleration = effective.unwrap_or_default() / inertia;
+            angle += 0.005 * (spin + 0.5 * 0.005 * acceleration);
+            spin += 0.005 * acceleration;
+        }
+        for clock in [
+            "tick: 0.007, method: Dop853",
+            "tick: 0.007, method: RungeKutta4",
+            "tick: 0.007, method: VelocityVerlet, events: Located",
+            "tick: 0.005, method: VelocityVerlet, events: PerTick",
+        ] {
+            let scene = format!(
+                "Scene(format: 1, clock: (duration: 1.75, {clock}),
+                bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: {inertia:?}, atoms: Disc(radius: 0.1))],
+                joints: [Revolute(name: \"hip\", a: World, anchor_a: (0, 0), b: \"b\")],
+                controllers: [Servo(of: \"hip\", target: 1, kp: {kp:?}, kd: {kd:?}, rate: {:?}, delay: {delay:?})])",
+                1.0 / period
+            );
+            let source = Source::new("servo.ron", scene);
+            let mut simulation = Simulation::load(&source).unwrap_or_else(|errors| panic!("{errors}"));
+            simulation.run_to_end().unwrap();
+            let bodies = simulation.bodies();
+            let of = format!("{clock}, {delay} s late");
+            demand(&[bodies.angle[0], bodies.spin[0]], &[angle, spin], 1e-12, &of);
+        }
+    }
+}
+
+/// Law: samples that have not taken effect are part of the state, so runs that go on from a snapshot, and from a
+/// fork, have the same bits.
+#[test]
+fn a_snapshot_keeps_the_samples_that_are_under_way() {
+    let scene = "bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
+        joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
+        controllers: [Servo(of: \"hip\", target: 1, kp: 1.5, kd: 0.35, rate: 20, delay: 0.125)]";
+    let mut whole = load("Dop853", 0.01, scene);
+    run_to(&mut whole, 0.5);
+    let snapshot = whole.snapshot().unwrap();
+    let mut fork = whole.fork().unwrap();
+    run_to(&mut whole, 1.0);
+    let mut second = load("Dop853", 0.01, scene);
+    second.restore(&snapshot).unwrap();
+    for other in [&mut second, &mut fork] {
+        run_to(other, 1.0);
+        assert_eq!(other.bodies().angle[0].to_bits(), whole.bodies().angle[0].to_bits());
+        assert_eq!(other.future_hash().unwrap(), whole.future_hash().unwrap());
+    }
+}
+
+/// Law: a table in a file is the course with its points, to the last bit. Columns are found by name, with or without the unit that a run
+/// writes behind it.
+#[test]
+fn a_target_from_a_file_is_the_course_with_its_points() {
+    let folder = std::env::temp_dir().join(format!("jostle-target-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let table = "time [s],other,arm.angle [rad],force\n0,9,0,0\n0.3,9,0.7,2\n1.1,9,-0.25,-1\n";
+    std::fs::write(folder.join("arm.csv"), table).unwrap();
+    let run = |target: &str, force: &str| {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 1.5, tick: 0.01, method: Dop853),
+            bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1)),
+                (name: \"c\", at: (1, 0), mass: 1, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, b: \"b\"),
+                Prismatic(name: \"rail\", a: World, b: \"c\", axis: (0, 1))],
+            controllers: [Servo(of: \"hip\", target: {target}, kp: 8, kd: 0.8), Actuator(of: \"rail\", force: {force})])"
+        );
+        let path = folder.join("arm.ron");
+        std::fs::write(&path, scene).unwrap();
+        Simulation::load(&Source::read(&path).unwrap()).map(|mut simulation| {
+            simulation.run_to_end().unwrap();
+            let bodies = simulation.bodies();
+            [bodies.angle[0], bodies.spin[0], bodies.position[1].y].map(f64::to_bits)
+        })
+    };
+    let written = run("Course([(0, 0), (0.3, 0.7), (1.1, -0.25)])", "Course([(0, 0), (0.3, 2), (1.1, -1)])");
+    let written = written.unwrap_or_else(|errors| panic!("{errors}"));
+    for (target, force) in [
+        ("(file: \"arm.csv\", column: \"arm.angle\")", "(file: \"arm.csv\", time: \"time\", column: \"force\")"),
+        (
+            "(time: \"time [s]\", column: \"arm.angle [rad]\", file: \"arm.csv\")",
+            "(file: \"arm.csv\", column: \"force\")",
+        ),
+    ] {
+        let read = run(&format!("Csv{target}"), &format!("Csv{force}")).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(read, written);
+    }
+    for (target, says) in [
+        ("Csv(file: \"leg.csv\", column: \"arm.angle\")", "there is no file `leg.csv`"),
+        ("Csv(file: \"arm.csv\", column: \"arm.angel\")", "line 1 of `arm.csv` names no column `arm.angel`"),
+        ("Csv(file: \"arm.csv\", time: \"other\", column: \"force\")", "line 3 of `arm.csv` goes back in time"),
+        ("Csv(\"arm.csv\")", "line 1 of `arm.csv` has 4 columns, not two"),
+    ] {
+        let errors = run(target, "0").expect_err(target).to_string();
+        assert!(errors.contains(says) && errors.contains("controllers[0].target"), "{target}: {errors}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Law: a weight on a rack, held by a torque on the pinion, is a balance of forces at the pitch point: the tooth bears the weight of the
+/// rack, the torque is `m g r`, the bearing of the pinion bears both weights, and the rail bears the moment of the tooth force about the
+/// rack's centre. The rack may lie on either side. Tolerance: 1e-12 of the numbers, some 50 N, as Dop853 has nothing to integrate.
+#[test]
+fn a_pinion_that_holds_a_rack_bears_it_on_its_bearing() {
+    for (radius, side) in [(0.1, 1.0), (-0.1, -1.0)] {
+        let mut simulation = load(
+            "Dop853",
+            0.01,
+            &format!(
+                "gravity: (0, -10),
+                bodies: [(name: \"pinion\", at: (0, 0), mass: 2, inertia: 0.01, atoms: Disc(radius: 0.1)),
+                    (name: \"bar\", at: (0.3, 1), mass: 3, atoms: Disc(radius: 0.05))],
+                joints: [Revolute(name: \"pin\", a: World, b: \"pinion\"),
+                    Prismatic(name: \"rail\", a: World, b: \"bar\", axis: (0, 1)),
+                    Rack(name: \"mesh\", of: (\"pin\", \"rail\"), radius: {radius:?})],
+                forces: [Torque(of: \"pinion\", value: {:?})], sensors: [Joint(of: \"*\")]",
+                30.0 * radius
+            ),
+        );
+        run_to(&mut simulation, 0.5);
+        assert!(simulation.bodies().velocity[1].length() < 1e-12);
+        let names = ["mesh.force", "pin.force.x", "pin.force.y", "pin.torque", "rail.force.x", "rail.torque"];
+        let found = names.map(|name| channel(&mut simulation, name));
+        demand(&found, &[30.0, 0.0, 50.0, 0.0, 0.0, 30.0 * (0.3 - 0.1 * side)], 5e-11, "the balance");
+        let columns = jostle::sensors::Channels::iter(simulation.resource()).map(|channel| channel.name.clone());
+        assert!(
+            columns.clone().any(|name| name == "mesh.force") && !columns.into_iter().any(|name| name == "mesh.torque")
+        );
+    }
+}
+
+/// Law: geared wheels accelerate by `T/(I1 + ratio^2 I2)`; the second gets its share `I2 ratio` of that from the gears, as a torque alone, so
+/// bearings without other loads bear nothing. A rack gets `m a` from the pinion, and the bearing of that gives as much. Tolerance: 1e-12 of
+/// numbers of some N m and N.
+#[test]
+fn gears_and_racks_tell_what_their_teeth_give() {
+    let scene = |coupling: &str| {
+        format!(
+            "bodies: [(name: \"first\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1)),
+                (name: \"second\", at: (0.3, 0), mass: 2, inertia: 0.05, angle: 0.7, atoms: Disc(radius: 0.1)),
+                (name: \"bar\", at: (0, 0.2), mass: 3, atoms: Disc(radius: 0.05))],
+            forces: [Torque(of: \"first\", value: 1.2)],
+            joints: [Revolute(name: \"one\", a: World, b: \"first\"), Revolute(name: \"two\", a: World, b: \"second\"),
+                Prismatic(name: \"slide\", a: World, b: \"bar\", axis: (1, 0)), {coupling}]"
+        )
+    };
+    for method in ["Dop853", "VelocityVerlet", "RungeKutta4"] {
+        let mut geared = load(method, 0.01, &scene("GearPair(name: \"mesh\", of: (\"one\", \"two\"), ratio: -2)"));
+        run_to(&mut geared, 0.5);
+        let found = ["mesh.torque", "one.force.x", "two.force.y", "one.torque"].map(|name| channel(&mut geared, name));
+        demand(&found, &[0.05 * -2.0 * (1.2 / 0.4), 0.0, 0.0, 0.0], 1e-11, method);
+        let mut racked = load(method, 0.01, &scene("Rack(name: \"mesh\", of: (\"one\", \"slide\"), radius: -0.1)"));
+        run_to(&mut racked, 0.5);
+        let push = 3.0 * -0.1 * (1.2 / (0.2 + 3.0 * 0.01));
+        let found = ["mesh.force", "one.force.x", "one.force.y", "slide.force.x"];
+        let found = found.map(|name| channel(&mut racked, name));
+        demand(&found, &[push, push, 0.0, 0.0], 1e-11, method);
+        let card = racked.card();
+        let [x, y] = card.momentum_residual;
+        assert!(x.abs().max(y.abs()).max(card.angular_momentum_residual.abs()) < 1e-11, "{method}");
+        assert!(card.energy.residual.abs() < 1e-11, "{method}");
+    }
+}
+
+/// Law: teeth count for the break force of a bearing. The pinion drives a rack of mass m with a torque `c t`, so the bearing bears
+/// `m r c t/(I + m r^2)` and breaks when that is its break force. Tolerance: forces are located to 1e-13 of the break force, and rounding
+/// of the force is less than a hundred times that; its rate is 2 N/s. Not tested: breaks at the very end of a tick.
+#[test]
+fn a_bearing_breaks_by_the_force_of_teeth() {
+    let mut simulation = load(
+        "Dop853",
+        0.03,
+        "bodies: [(name: \"pinion\", at: (0, 0), mass: 1, inertia: 0.02, atoms: Disc(radius: 0.1)),
+            (name: \"bar\", at: (0, 0.2), mass: 2, atoms: Disc(radius: 0.05))],
+        forces: [Drive(of: \"pinion\", torque: 0.4, course: Piecewise([(0, 0), (10, 10)]))],
+        joints: [Revolute(name: \"pin\", a: World, b: \"pinion\", break_force: 1.45),
+            Prismatic(name: \"rail\", a: World, b: \"bar\", axis: (1, 0)), Rack(of: (\"pin\", \"rail\"), radius: 0.1)]",
+    );
+    run_to(&mut simulation, 0.9);
+    let joint = simulation.state().models_of::<jostle::joints::Joint>().next().unwrap();
+    let rate = 2.0 * 0.1 * 0.4 / (0.02 + 2.0 * 0.01);
+    let broken = joint.parts.broken.expect("it breaks");
+    assert!((broken - 1.45 / rate).abs() < 1e-11, "{broken}");
+}
+
+/// Law: a pinion on a cart that rolls along a fixed rack is pushed by it with `(M + m) a`, where `a = T r/(I + (M + m) r^2)`, and its bearing
+/// takes `M a` of that to the cart. Tolerance: rounding.
+#[test]
+fn a_pinion_that_rolls_along_a_rack_pushes_its_cart() {
+    for method in ["Dop853", "VelocityVerlet"] {
+        let mut simulation = load(
+            method,
+            0.01,
+            "bodies: [(name: \"cart\", at: (0, 0), mass: 3, inertia: 0.5, atoms: Disc(radius: 0.2)),
+                (name: \"pinion\", at: (0.4, 0.1), mass: 1, inertia: 0.02, atoms: Disc(radius: 0.1))],
+            forces: [Torque(of: \"pinion\", value: 0.5)],
+            joints: [Revolute(name: \"pin\", a: \"cart\", anchor_a: (0.4, 0.1), b: \"pinion\"),
+                Prismatic(name: \"rail\", a: World, b: \"cart\", axis: (1, 0)),
+                Rack(name: \"mesh\", of: (\"pin\", \"rail\"), radius: 0.1)]",
+        );
+        run_to(&mut simulation, 1.0);
+        let acceleration = 0.5 * 0.1 / (0.02 + 4.0 * 0.01);
+        let bodies = simulation.bodies();
+        demand(&[bodies.position[0].x, bodies.angle[1]], &[0.5 * acceleration, 5.0 * acceleration], 1e-12, method);
+        let found = ["mesh.force", "pin.force.x"].map(|name| channel(&mut simulation, name));
+        demand(&found, &[4.0 * acceleration, -3.0 * acceleration], 1e-11, method);
+    }
+}
+
+/// Law: a rack and its pinion on a frame that nothing holds keep momentum, angular momentum and energy, and the travel stays `radius` times
+/// the angle. Tolerance: Dop853 errs by `(w h)^8` with rates of some 3 rad/s and steps of 10 ms, 1e-12 a step, of energies of some J; rows are
+/// brought back to rounding.
+#[test]
+fn a_rack_on_a_free_frame_keeps_momentum_and_energy() {
+    let mut simulation = load(
+        "Dop853",
+        0.01,
+        "bodies: [(name: \"frame\", at: (0, 0), mass: 3, inertia: 0.5, spin: 2, velocity: (0.3, 0.1), atoms: Disc(radius: 0.2)),
+            (name: \"pinion\", at: (0.4, 0.1), mass: 1, inertia: 0.02, spin: 5, atoms: Disc(radius: 0.1)),
+            (name: \"bar\", at: (0.1, -0.3), mass: 0.7, inertia: 0.03, atoms: Disc(radius: 0.1))],
+        joints: [Revolute(name: \"pin\", a: \"frame\", anchor_a: (0.4, 0.1), b: \"pinion\"),
+            Prismatic(name: \"rail\", a: \"frame\", b: \"bar\", axis: (0.6, 0.8)),
+            Rack(of: (\"pin\", \"rail\"), radius: 0.1)]",
+    );
+    let travel = |simulation: &mut Simulation| ["rail.travel", "pin.angle"].map(|name| channel(simulation, name));
+    let [before, turned] = travel(&mut simulation);
+    run_to(&mut simulation, 2.0);
+    let [after, turns] = travel(&mut simulation);
+    assert!((turns - turned).abs() > 0.5, "it moves: {turns}");
+    assert!((after - before - 0.1 * (turns - turned)).abs() < 1e-13);
+    let card = simulation.card();
+    let [x, y] = card.momentum_residual;
+    assert!(x.abs().max(y.abs()).max(card.angular_momentum_residual.abs()) < 1e-12, "{x} {y}");
+    assert!(card.energy.residual.abs() < 1e-10, "{}", card.energy.residual);
+}

@@ -40,6 +40,20 @@ fn expressions_are_the_numbers_they_stand_for() {
     );
 }
 
+#[test]
+fn expressions_need_no_parameters() {
+    same(
+        r#"bodies: [
+            (name: "pi", at: ("2*cos(0)", "1 + 2^2"), spin: "3*2", atoms: Disc(radius: "2*1 cm")),
+            (name: "b", at: ("-8*(1 m)", 1), angle: "pi", atoms: Disc(radius: 0.1)),
+        ],"#,
+        r#"bodies: [
+            (name: "pi", at: (2, 5), spin: 6, atoms: Disc(radius: 0.02)),
+            (name: "b", at: (-8, 1), angle: 3.141592653589793, atoms: Disc(radius: 0.1)),
+        ],"#,
+    );
+}
+
 /// A text that is a name stays a name, though a parameter is called so too.
 #[test]
 fn texts_stay_texts() {

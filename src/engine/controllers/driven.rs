@@ -60,7 +60,8 @@ impl Driven {
         self.found = known.map(|known| (known.ends.clone(), known.law.clone()));
         let bodies = &world.resource::<State>().bodies;
         let rod = self.found.as_ref().is_some_and(|(_, law)| law.needs_distance());
-        if self.found.is_some() && (rod || self.motion(bodies).is_none()) {
+        // Gears and racks leave nothing free either: they are not among the joints that are known.
+        if rod || self.motion(bodies).is_none() {
             let message = format!("the joint `{}` leaves no motion free that could be driven", self.name);
             let error = SceneError::new(format!("{path}.of"), message)
                 .with_help("drive a hinge (`Revolute`) or a slide (`Prismatic`)");

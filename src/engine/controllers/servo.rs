@@ -1,18 +1,20 @@
 //! A controller: torque `kp (target - angle) + ki I + kd (rate of the target - rate)` with `I' = target - angle` (PD and PID control,
-//! Astrom and Murray, Feedback Systems, section 10.1), bounded, computed all the time or at a rate of its own.
+//! Astrom and Murray, Feedback Systems, section 10.1), bounded, computed all the time or at a rate of its own. Sampled outputs are held
+//! until the next one, and may take effect after a delay (Astrom, Wittenmark, Computer-Controlled Systems, section 3.2).
 //!
 //! The integral is state that methods with stages advance as they do positions; velocity Verlet advances it from tick to tick.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
 
 use super::driven::{self, Driven, DrivenForce, Motion};
 use super::output::{self, Output};
 use super::target::Target;
 use crate::scene::units::dimension::{OfAngle, OfLength};
-use crate::scene::units::{Rate, Scalar};
+use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
 use crate::tick::snapshot::{Memory, Unfit, recall};
@@ -41,6 +43,9 @@ struct Servo {
     limit: Option<DrivenForce>,
     /// How often it computes its output, which it holds in between, in Hz. Above zero. Default: all the time.
     rate: Option<Rate>,
+    /// How long after each sample its output takes effect, in seconds. It may be longer than a period. Until the first sample takes
+    /// effect, the servo gives nothing. Needs `rate`. Not negative. Default: 0.
+    delay: Option<Time>,
 }
 
 impl Entry for Servo {
@@ -64,6 +69,12 @@ impl Entry for Servo {
         }
         report.positive_if_given("limit", self.limit);
         report.positive_if_given("rate", self.rate);
+        let Some(delay) = self.delay else { return };
+        if report.not_negative("delay", delay) && self.rate.is_none() {
+            report
+                .error("delay", "only outputs that are sampled can be late, and this servo has no `rate`")
+                .help("give it a `rate` such as `rate: \"100 Hz\"`, or remove `delay`");
+        }
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
@@ -76,10 +87,14 @@ impl Entry for Servo {
                 target: value.target,
                 gains: [value.kp, value.ki, value.kd].map(Scalar::si),
                 limit: value.limit.map_or(f64::INFINITY, DrivenForce::si),
-                period: value.rate.map(|rate| 1.0 / rate.si()),
+                sampling: value.rate.map(|rate| Sampling {
+                    period: 1.0 / rate.si(),
+                    delay: value.delay.unwrap_or_default().si(),
+                    next: 0.0,
+                    late: VecDeque::new(),
+                    held: 0.0,
+                }),
                 integral: 0.0,
-                held: 0.0,
-                next: 0.0,
             });
         }
     }
@@ -95,17 +110,53 @@ struct ServoForce {
     target: Target<OfAngle, OfLength>,
     gains: [f64; 3],
     limit: f64,
-    /// Seconds between two outputs, if it computes them at a rate of its own.
-    period: Option<f64>,
+    /// Its output, if it computes it at a rate of its own.
+    sampling: Option<Sampling>,
     integral: f64,
-    /// The output that is held, and when the next one is computed.
-    held: f64,
-    next: f64,
 }
 
-/// The next sample in s after a time; a sample within rounding of it is over.
-fn sample_after(time: f64, period: f64) -> f64 {
-    period * ((time / period + 1e-9).floor() + 1.0)
+/// Times that differ by less than this share of a period are one.
+const SAME: f64 = 1e-9;
+
+/// An output that is computed now and then, and held in between.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Sampling {
+    /// Seconds between two samples, and from a sample until it takes effect.
+    period: f64,
+    delay: f64,
+    /// When the next sample is due, in s.
+    next: f64,
+    /// Samples that have not taken effect: when they do in s, and their outputs.
+    late: VecDeque<(f64, f64)>,
+    /// The output that is held.
+    held: f64,
+}
+
+impl Sampling {
+    /// The first sample in s after a time; a sample within rounding of it is over.
+    fn sample_after(&self, time: f64) -> f64 {
+        self.period * ((time / self.period + SAME).floor() + 1.0)
+    }
+
+    /// The first time in s after a time at which a sample is taken or takes effect.
+    fn edge_after(&self, time: f64) -> f64 {
+        // The first sample is that of the start.
+        let effect = self.sample_after((time - self.delay).max(-0.5 * self.period)) + self.delay;
+        self.sample_after(time).min(effect)
+    }
+
+    /// Takes a sample, if one is due, and holds the last output that takes effect. Returns the output that was held before, if another
+    /// one takes its place.
+    fn advance(&mut self, time: f64, output: impl FnOnce() -> f64) -> Option<f64> {
+        let now = time + SAME * self.period;
+        if self.next <= now {
+            self.late.push_back((time + self.delay, output()));
+            self.next = self.sample_after(time);
+        }
+        let effective = self.late.partition_point(|(at, _)| *at <= now);
+        let (_, held) = self.late.drain(..effective).next_back()?;
+        Some(std::mem::replace(&mut self.held, held))
+    }
 }
 
 impl ServoForce {
@@ -139,31 +190,31 @@ impl Model for ServoForce {
 
     fn next_edge(&self, time: f64) -> f64 {
         // A step is planned before its sample is taken: that of this moment counts as taken.
-        let sample = self.period.map_or(f64::INFINITY, |period| sample_after(time, period));
+        let sample = self.sampling.as_ref().map_or(f64::INFINITY, |sampling| sampling.edge_after(time));
         self.target.next_point(time).min(sample)
     }
 
     fn has_modes(&self) -> bool {
-        self.period.is_some() || self.gains[1] != 0.0
+        self.sampling.is_some() || self.gains[1] != 0.0
     }
 
     fn begin_step(&mut self, state: &mut State) {
         let span = state.span();
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
         let staged = state.evaluation().style.is_staged();
-        if let Some(period) = self.period
-            && span.begin >= self.next - 1e-9 * period
+        let now = span.begin;
+        let mut sampling = self.sampling.take();
+        if let Some(sampling) = &mut sampling
+            && let Some(before) = sampling.advance(now, || self.wanted(&motion, now))
         {
-            let before = self.held;
-            self.held = self.wanted(&motion, span.begin);
-            self.next = sample_after(span.begin, period);
             // The forces of the state were those of the output before.
             if staged {
                 state.evaluation.stale = true;
             } else {
-                Driven::push(&motion, self.held - before, state);
+                Driven::push(&motion, sampling.held - before, state);
             }
         }
+        self.sampling = sampling;
         if !staged {
             self.integral += (self.target.at(span.begin).0 - motion.value) * span.length;
         }
@@ -172,8 +223,8 @@ impl Model for ServoForce {
     fn apply_forces(&mut self, state: &mut State) {
         self.driven.refresh(&state.bodies);
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        let torque = match self.period {
-            Some(_) => self.held,
+        let torque = match &self.sampling {
+            Some(sampling) => sampling.held,
             None => self.wanted(&motion, state.evaluation().time),
         };
         self.output.note(torque, torque * motion.rate);
@@ -189,11 +240,11 @@ impl Model for ServoForce {
     }
 
     fn save(&self) -> Memory {
-        Memory::of(&(self.integral, self.held, self.next, &self.output.values))
+        Memory::of(&(self.integral, &self.sampling, &self.output.values))
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
-        (self.integral, self.held, self.next, self.output.values) = recall(bytes)?;
+        (self.integral, self.sampling, self.output.values) = recall(bytes)?;
         Ok(())
     }
 }

@@ -41,7 +41,7 @@ impl<'de, A: Dimension, B: Dimension> Deserialize<'de> for Target<A, B> {
                 }
                 Err(_) => {
                     let (first, second) = (A::NAME, A::EXAMPLE);
-                    let courses = "`Course([(0, 0), (1, 0.5)])` or `Sine(frequency: 2)`";
+                    let courses = "`Course([(0, 0), (1, 0.5)])`, `Csv(\"course.csv\")` or `Sine(frequency: 2)`";
                     Err(de::Error::custom(format!("expected {first} such as {second}, {courses}, found {text}")))
                 }
             },
@@ -60,7 +60,7 @@ impl<A: Dimension, B: Dimension> JsonSchema for Target<A, B> {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let (first, second) = (plain_name::<A>(), plain_name::<B>());
-        json_schema!({ "x-value": format!("{first} or {second}, Course([(time, value), ..]) or Sine(..)") })
+        json_schema!({ "x-value": format!("{first} or {second}, Course([(time, value), ..]), Csv(..) or Sine(..)") })
     }
 }
 

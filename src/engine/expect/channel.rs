@@ -40,9 +40,11 @@ impl Entry for Channel {
         report.positive("below", self.below.si());
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        for Written { value, text } in entries {
-            let channel = sensors::find(app.world_mut(), &value.name);
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let paths =
+            outline.entries(Self::SECTION).iter().filter(|entry| entry.name == Self::NAME).map(|entry| &entry.path);
+        for (Written { value, text }, path) in entries.into_iter().zip(paths) {
+            let channel = sensors::require(app.world_mut(), outline, &value.name, format!("{path}.name"));
             let (below, from) = (value.below.si(), value.from.si());
             let energy = value.name.split_once('.').and_then(|(owner, quantity)| energy::entry(owner, quantity));
             Expectations::add(app, text, Watching { channel, energy, below, from, largest: None });

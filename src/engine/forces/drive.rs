@@ -9,8 +9,9 @@ use std::f64::consts::TAU;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
+use std::borrow::Cow;
 
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
 use super::thrust::ThrustFrame;
@@ -64,8 +65,39 @@ pub enum Course {
     /// the course at ticks only, and the card warns where that changes the impulse.
     Piecewise(Vec<(Time, Scalar)>),
     /// The same from a file of two columns, time in seconds and value, with or without a line of names: a path from the
-    /// folder of the file in which this stands.
-    Csv(String),
+    /// folder of the file in which this stands. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its columns by name;
+    /// without `time` the first column holds it. Units in the line of names, as in `angle [rad]`, may be left out.
+    Csv(#[schemars(with = "CsvFile")] String),
+}
+
+/// What stands in `Csv(..)`, for the schema: scenes are read with the points of the file in its place.
+struct CsvFile;
+
+impl JsonSchema for CsvFile {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "csv".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let text = |about: &str| json_schema!({ "type": "string", "description": about });
+        json_schema!({
+            "anyOf": [text("The file of two columns."), {
+                "type": "object",
+                "properties": {
+                    "file": text("The file."),
+                    "column": text("The name of the column of values."),
+                    "time": text("The name of the column of times. Default: the first column."),
+                },
+                "required": ["file", "column"],
+                "additionalProperties": false,
+            }],
+            "x-value": "text, or `file: .., time: .., column: ..`",
+        })
+    }
 }
 
 fn one() -> Scalar {
@@ -138,7 +170,9 @@ impl Course {
                 }
             }
             Self::Csv(file) => {
-                report.error("", format!("`{file}` was not read")).help("`Csv` stands in `course` of a scene");
+                report
+                    .error("", format!("`{file}` was not read"))
+                    .help("`Csv` stands in `course`, `target` or `force` of a scene");
             }
         }
     }

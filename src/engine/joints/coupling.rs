@@ -2,14 +2,18 @@
 //!
 //! The constant is that of the start. Bodies that do not move by forces drop out, so a row has two sides as long as no more than two
 //! others are involved.
+//!
+//! Gears give torques and no force: a ratio names no place for teeth. Teeth of a rack push at the pitch point, which lies `radius` from the
+//! pin, along the slide (spur gears without pressure angle: Shigley, Mechanical Engineering Design, chapter 13). Its row is that of both
+//! motions plus what the pin and the slide hold, times factors that leave nothing on their frame.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::KnownJoints;
-use super::ends::Ends;
-use super::law::{Freedom, Law};
+use super::ends::{Along, Ends, Pair};
+use super::law::{Freedom, Held, Law};
 use crate::constraints::{Kind as Holds, Row, Rows, Side};
 use crate::scene::{Entry, Kind, Outline, Report, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
@@ -46,57 +50,166 @@ impl Member {
     }
 }
 
-/// Adds the couplings of one kind: the names of two joints each, and the ratio of their rates.
+/// What a scene couples.
+pub(super) struct Asked {
+    pub name: Option<String>,
+    pub of: (String, String),
+    pub ratio: f64,
+}
+
+/// Adds the couplings of one kind.
 pub(super) fn install<E: Entry>(
     app: &mut App,
     outline: &Outline,
     members: [Member; 2],
-    couplings: impl Iterator<Item = ((String, String), f64)>,
+    couplings: impl Iterator<Item = Asked>,
 ) {
     super::close_at_start(app);
     let mentions = outline.entries(E::SECTION).iter().filter(|mention| mention.name == E::NAME);
-    for ((of, ratio), mention) in couplings.zip(mentions) {
+    for (Asked { name, of, ratio }, mention) in couplings.zip(mentions) {
         let (path, kind) = (mention.path.clone(), E::NAME);
-        app.add_model(Coupling { of, ratio, path, kind, members, sides: None, offset: 0.0, row: None });
+        let name = name.unwrap_or_else(|| path.clone());
+        app.add_model(Coupling {
+            name,
+            of,
+            ratio,
+            path,
+            kind,
+            members,
+            sides: None,
+            mesh: None,
+            offset: 0.0,
+            row: None,
+            force: 0.0,
+        });
     }
 }
 
 type Coupled = (Ends, Arc<dyn Law>);
 
+/// The axis of a slide, in the world.
+fn axis(travel: &Along) -> DVec2 {
+    travel.sides[1].0
+}
+
 /// A coupling of two joints.
 pub struct Coupling {
+    /// Its name; if it has none where it stands in the scene, such as `joints[2]`.
+    pub name: String,
+    /// What it gave in the last evaluation to `b` of the second joint: of gears the torque in N m, of a rack the force in N along the slide.
+    pub force: f64,
     of: (String, String),
     ratio: f64,
     path: String,
     kind: &'static str,
     members: [Member; 2],
     sides: Option<[Coupled; 2]>,
+    /// Where the teeth of a rack are; gears have no place for them.
+    mesh: Option<Mesh>,
     offset: f64,
     /// The index of its row in the present evaluation.
     row: Option<usize>,
 }
 
-impl Coupling {
-    /// The row in the present state; `None` if a body is gone.
-    fn held(&self, bodies: &Bodies) -> Option<Result<Row, usize>> {
-        let [first, second] = self.sides.as_ref()?;
-        let mut row = Row { kind: Holds::Position, gap: -self.offset, grounded: true, ..Row::default() };
-        let mut sides: Vec<Side> = Vec::with_capacity(4);
-        for ((ends, law), factor) in [(first, -self.ratio), (second, 1.0)] {
-            let pair = ends.pair(bodies)?;
-            let Freedom { along, value } = law.freedom(&pair)?;
-            row.gap += factor * value;
-            row.size += (factor * value).abs() + factor.abs();
-            row.inertial += factor * along.inertial;
-            for (end, (direction, lever)) in [(pair.a, along.sides[0]), (pair.b, along.sides[1])] {
-                let Some(body) = end.body else { continue };
-                let (direction, lever) = (direction * factor, lever * factor);
-                match sides.iter_mut().find(|side| side.body == body) {
-                    Some(side) => (side.direction, side.lever) = (side.direction + direction, side.lever + lever),
-                    None => sides.push(Side { body, direction, lever, force: DVec2::ZERO, torque: 0.0 }),
-                }
+/// How a pinion meets its rack.
+#[derive(Clone, Copy, Debug)]
+struct Mesh {
+    /// Which end of the hinge is the pinion, which one of the slide the rack. The other two are their frame.
+    pinion: usize,
+    rack: usize,
+    /// From anchor B of the slide to the pitch point, across the axis, in m.
+    lever: f64,
+}
+
+impl Mesh {
+    /// That of a hinge and a slide with a body in common, which is their frame. What does not move by forces counts as one body.
+    fn of(hinge: &Pair, slide: &Pair, bodies: &Bodies) -> Option<Self> {
+        let moving = |pair: &Pair| [pair.a, pair.b].map(|end| end.body.filter(|&body| bodies.moves[body]));
+        let (hinge, slide) = (moving(hinge), moving(slide));
+        let mut ways = [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter();
+        let (one, two) = ways.find(|&(one, two)| hinge[one] == slide[two])?;
+        Some(Self { pinion: 1 - one, rack: 1 - two, lever: 0.0 })
+    }
+
+    /// The signs with which pinion and rack stand in the angle and in the travel.
+    fn signs(self) -> [f64; 2] {
+        [self.pinion, self.rack].map(|end| if end == 1 { 1.0 } else { -1.0 })
+    }
+
+    /// The pitch point in metres, for an axis and a radius.
+    fn point(self, hinge: &Pair, axis: DVec2, radius: f64) -> DVec2 {
+        let [pinion, rack] = self.signs();
+        let pin = if self.pinion == 1 { hinge.b } else { hinge.a };
+        pin.position - pinion * rack * radius * axis.perp()
+    }
+
+    /// Takes the part of both motions that moves the frame out of a row, by what the hinge and the slide hold.
+    fn hold(self, sum: &mut Sum, axis: DVec2, [(hinge, pin), (slide, rail)]: [(&Pair, &dyn Law); 2]) {
+        let [pinion, rack] = self.signs();
+        pin.hold(hinge, &mut |held| sum.add(hinge, &held, -pinion * rack * held.along.sides[1].0.dot(axis)));
+        rail.hold(slide, &mut |held| {
+            let turns = held.along.sides[1].0 == DVec2::ZERO;
+            sum.add(slide, &held, if turns { self.lever } else { 0.0 });
+        });
+        let frame = [[hinge.b, hinge.a][self.pinion].body, [slide.b, slide.a][self.rack].body];
+        sum.sides.retain(|side| !frame.contains(&Some(side.body)));
+    }
+}
+
+/// A row as a sum of directions.
+struct Sum {
+    row: Row,
+    sides: Vec<Side>,
+}
+
+impl Sum {
+    fn add(&mut self, pair: &Pair, Held { along, gap, size }: &Held, factor: f64) {
+        self.row.gap += factor * gap;
+        self.row.size += factor.abs() * size;
+        self.row.inertial += factor * along.inertial;
+        for (end, (direction, lever)) in [(pair.a, along.sides[0]), (pair.b, along.sides[1])] {
+            let Some(body) = end.body else { continue };
+            let (direction, lever) = (direction * factor, lever * factor);
+            match self.sides.iter_mut().find(|side| side.body == body) {
+                Some(side) => (side.direction, side.lever) = (side.direction + direction, side.lever + lever),
+                None => self.sides.push(Side { body, direction, lever, force: DVec2::ZERO, torque: 0.0 }),
             }
         }
+    }
+}
+
+/// Both joints in the present state, each with what it leaves free.
+type Now<'a> = [(Pair, &'a dyn Law, Freedom); 2];
+
+impl Coupling {
+    /// How the channel of what it gives is called, and its unit.
+    pub fn gives(&self) -> (&'static str, &'static str) {
+        if self.members[1] == Member::Slide { ("force", "N") } else { ("torque", "N m") }
+    }
+
+    fn now(&self, bodies: &Bodies) -> Option<Now<'_>> {
+        let now = |(ends, law): &'_ Coupled| -> Option<_> {
+            let pair = ends.pair(bodies)?;
+            Some((pair, law.freedom(&pair)?))
+        };
+        let [first, second] = self.sides.as_ref()?;
+        let ((one, turn), (two, shift)) = (now(first)?, now(second)?);
+        Some([(one, &*first.1, turn), (two, &*second.1, shift)])
+    }
+
+    /// The row in the present state; `None` if a body is gone.
+    fn held(&self, bodies: &Bodies) -> Option<Result<Row, usize>> {
+        let row = Row { kind: Holds::Position, gap: -self.offset, grounded: true, ..Row::default() };
+        let mut sum = Sum { row, sides: Vec::with_capacity(4) };
+        let [first, second] = self.now(bodies)?;
+        for ((pair, _, Freedom { along, value }), factor) in [(&first, -self.ratio), (&second, 1.0)] {
+            sum.add(pair, &Held { along: *along, gap: *value, size: value.abs() + 1.0 }, factor);
+        }
+        if let Some(mesh) = self.mesh {
+            let axis = axis(&second.2.along);
+            mesh.hold(&mut sum, axis, [(&first.0, first.1), (&second.0, second.1)]);
+        }
+        let Sum { mut row, mut sides } = sum;
         sides.retain(|side| bodies.moves[side.body]);
         if sides.len() > 2 {
             return Some(Err(sides.len()));
@@ -105,6 +218,22 @@ impl Coupling {
         let mut sides = sides.into_iter();
         row.sides = [sides.next(), sides.next()];
         Some(Ok(row))
+    }
+
+    /// The pitch point of a rack, in metres.
+    fn pitch_point(&self, bodies: &Bodies) -> Option<DVec2> {
+        let [(hinge, ..), (_, _, shift)] = self.now(bodies)?;
+        Some(self.mesh?.point(&hinge, axis(&shift.along), self.ratio))
+    }
+
+    /// Finds the teeth of a rack. Says whether its joints have a frame in common.
+    fn find_mesh(&mut self, bodies: &Bodies) -> bool {
+        let Some([(hinge, ..), (slide, _, shift)]) = self.now(bodies) else { return true };
+        let Some(mesh) = Mesh::of(&hinge, &slide, bodies) else { return false };
+        let axis = axis(&shift.along);
+        let lever = (mesh.point(&hinge, axis, self.ratio) - slide.b.position).perp_dot(axis);
+        self.mesh = Some(Mesh { lever, ..mesh });
+        true
     }
 
     fn refuse(&self, world: &mut World, message: String, help: &str) {
@@ -128,7 +257,8 @@ impl Model for Coupling {
         let index = self.row.filter(|row| *row < state.rows().len())?;
         let (row, amount) = (state.rows().row(index), state.rows().force(index));
         let side = row.sides.iter().flatten().find(|side| side.body == body)?;
-        Some(ForceOn { part: ForcePart::Joint, force: side.force * amount, point: state.bodies().position[body] })
+        let point = self.pitch_point(state.bodies()).unwrap_or(state.bodies().position[body]);
+        Some(ForceOn { part: ForcePart::Joint, force: side.force * amount, point })
     }
 
     fn has_rows(&self) -> bool {
@@ -142,7 +272,17 @@ impl Model for Coupling {
                 .and_then(|known| known.named(name))
                 .map(|known| (known.ends.clone(), known.law.clone()))
         };
-        let (Some(first), Some(second)) = (named(&self.of.0), named(&self.of.1)) else { return };
+        let [first, second] = [&self.of.0, &self.of.1].map(|name| (name, named(name)));
+        for (name, found) in [&first, &second] {
+            if found.is_none() {
+                return self.refuse(
+                    world,
+                    format!("`{name}` couples joints itself"),
+                    "name the joints that it couples",
+                );
+            }
+        }
+        let ((_, Some(first)), (_, Some(second))) = (first, second) else { return };
         for (member, (name, (_, law))) in self.members.into_iter().zip([(&self.of.0, &first), (&self.of.1, &second)]) {
             if !member.is(&**law) {
                 let [one, two] = self.members.map(Member::called);
@@ -155,6 +295,10 @@ impl Model for Coupling {
             }
         }
         self.sides = Some([first, second]);
+        if self.members[1] == Member::Slide && !self.find_mesh(&world.resource::<State>().bodies) {
+            let help = "hold the pinion and the rack to one body, or both to the world";
+            return self.refuse(world, "its hinge and its slide have no body in common".to_owned(), help);
+        }
         let bodies = &world.resource::<State>().bodies;
         match self.held(bodies) {
             Some(Ok(row)) => self.offset = row.gap,
@@ -180,17 +324,19 @@ impl Model for Coupling {
     }
 
     fn take_rows(&mut self, state: &mut State) {
+        self.force = 0.0;
         if let Some(row) = self.row {
             state.apply_rows(row..row + 1);
+            self.force = state.rows().force(row);
         }
     }
 
     fn save(&self) -> Memory {
-        Memory::of(&self.row)
+        Memory::of(&(self.row, self.force))
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
-        self.row = recall(bytes)?;
+        (self.row, self.force) = recall(bytes)?;
         Ok(())
     }
 }

@@ -4,14 +4,18 @@ use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::coupling::{self, Member};
+use super::coupling::{self, Asked, Member};
+use super::model;
 use crate::scene::units::Scalar;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
-/// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play.
+/// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and no force: a
+/// ratio names no place for teeth, so the bearings bear nothing of them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GearPair {
+    /// Its name, for channels. Default: none.
+    name: Option<String>,
     /// The two hinges, by name.
     of: (String, String),
     /// Rate of the second over rate of the first; negative for gears that mesh from outside. Not zero.
@@ -21,10 +25,14 @@ struct GearPair {
 impl Entry for GearPair {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "GearPair";
-    const EXAMPLE: &'static str = "GearPair(of: (\"hip\", \"knee\"), ratio: -2)";
+    const EXAMPLE: &'static str = "GearPair(name: \"mesh\", of: (\"hip\", \"knee\"), ratio: -2)";
 
     fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
         Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
@@ -35,7 +43,11 @@ impl Entry for GearPair {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let couplings = entries.into_iter().map(|Written { value, .. }| (value.of, value.ratio.si()));
+        let couplings = entries.into_iter().map(|Written { value, .. }| Asked {
+            name: value.name,
+            of: value.of,
+            ratio: value.ratio.si(),
+        });
         coupling::install::<Self>(app, outline, [Member::Hinge, Member::Hinge], couplings);
     }
 }

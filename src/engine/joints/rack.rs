@@ -4,14 +4,18 @@ use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::coupling::{self, Member};
+use super::coupling::{self, Asked, Member};
+use super::model;
 use crate::scene::units::Length;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
 /// A pinion and a rack: the travel of the second joint, a slide, is `radius` times the angle of the first, a hinge, without play.
+/// The teeth push along the slide at the pitch point, which lies `radius` from the pin. The bearings bear that.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rack {
+    /// Its name, for channels. Default: none.
+    name: Option<String>,
     /// The hinge and the slide, by name.
     of: (String, String),
     /// Radius of the pinion in metres; negative for the other side. Not zero.
@@ -21,10 +25,14 @@ struct Rack {
 impl Entry for Rack {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "Rack";
-    const EXAMPLE: &'static str = "Rack(of: (\"pinion\", \"slide\"), radius: 0.1)";
+    const EXAMPLE: &'static str = "Rack(name: \"mesh\", of: (\"pinion\", \"slide\"), radius: 0.1)";
 
     fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
         Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
@@ -35,7 +43,11 @@ impl Entry for Rack {
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let couplings = entries.into_iter().map(|Written { value, .. }| (value.of, value.radius.si()));
+        let couplings = entries.into_iter().map(|Written { value, .. }| Asked {
+            name: value.name,
+            of: value.of,
+            ratio: value.radius.si(),
+        });
         coupling::install::<Self>(app, outline, [Member::Hinge, Member::Slide], couplings);
     }
 }

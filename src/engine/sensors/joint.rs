@@ -1,5 +1,6 @@
 //! `Joint(of: "hip")`: what a joint leaves free and what it bears. `hip.angle` in rad (`hip.travel` in m for a slide), `hip.rate`,
-//! `hip.force.x`, `hip.force.y` in N and `hip.torque` in N m on body B at its anchor, `hip.drift` in m.
+//! `hip.force.x`, `hip.force.y` in N and `hip.torque` in N m on body B at its anchor, `hip.drift` in m. Of gears `mesh.torque` in N m, of a
+//! rack `mesh.force` in N.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -7,16 +8,17 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, known};
-use crate::joints;
+use crate::joints::{self, Coupling};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::State;
 
-const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "drift"];
+const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "force", "drift"];
 
 /// What joints leave free and what they bear: `hip.angle` in rad (`piston.travel` in m for a slide) and `hip.rate`; `hip.force.x`,
 /// `hip.force.y` in N and `hip.torque` in N m on `b` at its anchor, not known and NaN before the first tick; `hip.drift` in m, how
-/// far it is from what it holds.
+/// far it is from what it holds. Gears have one channel, `mesh.torque` in N m on `b` of the second hinge. A rack has one, `mesh.force` in N
+/// on `b` of the slide, along its axis.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Joint {
@@ -49,6 +51,16 @@ impl Entry for Joint {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let state = world.get_resource::<State>()?;
+    let named = |coupling: &&Coupling, name: &str| coupling.name == name;
+    if let Some(coupling) = state.models_of::<Coupling>().find(|coupling| named(coupling, owner)) {
+        let (gives, unit) = coupling.gives();
+        let name = owner.to_owned();
+        let read = move |state: &State| {
+            let coupling = state.models_of::<Coupling>().find(|coupling| named(coupling, &name));
+            coupling.map_or(f64::NAN, |coupling| known(state, coupling.force))
+        };
+        return (quantity == gives).then(|| Channel::of_state(format!("{owner}.{quantity}"), unit, read));
+    }
     let place = state.models_of::<joints::Joint>().position(|joint| joint.name == owner)?;
     let joint = state.models_of::<joints::Joint>().nth(place)?;
     let (freedom, free_unit) = joint.law.freedom_name();

@@ -23,9 +23,9 @@ use bevy_ecs::prelude::*;
 
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::Word;
-use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, fits};
+use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, SceneError, fits, suggest};
 use crate::tick::energy::CHANNELS;
-use crate::tick::{State, place_of};
+use crate::tick::{LoadErrors, State, place_of};
 use crate::world::{Bodies, Body, Name, Wall};
 
 /// One measured number: its name, its unit and how it is read.
@@ -214,6 +214,20 @@ pub fn find(world: &mut World, name: &str) -> Option<Channel> {
     let channel = finders.into_iter().find_map(|finder| finder(world, owner, quantity))?;
     see_components(world, &channel);
     Some(channel)
+}
+
+/// The same; a channel that is not there is a mistake of the scene at `path`, told with those that its owner has.
+pub fn require(world: &mut World, outline: &Outline, name: &str, path: String) -> Option<Channel> {
+    let found = find(world, name);
+    if found.is_none() {
+        let (owner, quantity) = name.split_once('.').unwrap_or((name, ""));
+        let words = outline.words(QUANTITIES).map(|(word, _)| word);
+        let known: Vec<&str> = words.filter(|word| find(world, &format!("{owner}.{word}")).is_some()).collect();
+        let help = suggest::among(quantity, known.into_iter(), &format!("channels of `{owner}`"), '`');
+        let error = SceneError::new(path, format!("`{owner}` has no `{quantity}`")).with_help(help);
+        world.get_resource_or_init::<LoadErrors>().0.push(error);
+    }
+    found
 }
 
 /// Adds channels; one that is there already stays the only one of its name.

@@ -8,10 +8,10 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
-use super::{Channel, SensorAppExt, add_found, check_channel, find as find_channel};
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, SceneError, Written};
+use super::{Channel, SensorAppExt, add_found, check_channel, require};
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{LoadErrors, State, add_looker};
+use crate::tick::{State, add_looker};
 
 const QUANTITIES: &[&str] = &["period", "period.mean", "crossings", "crossings.last"];
 
@@ -72,12 +72,7 @@ impl Entry for Period {
         let paths =
             outline.entries(Self::SECTION).iter().filter(|entry| entry.name == Self::NAME).map(|entry| &entry.path);
         for (Written { value: Self { name, of, crossing }, .. }, path) in entries.into_iter().zip(paths) {
-            let Some(channel) = find_channel(world, &of) else {
-                let error = SceneError::new(format!("{path}.of"), format!("there is no channel `{of}`"))
-                    .with_help("docs/scenes.md lists the channels; a hinge has an `angle`, a slide a `travel`");
-                world.get_resource_or_init::<LoadErrors>().0.push(error);
-                continue;
-            };
+            let Some(channel) = require(world, outline, &of, format!("{path}.of")) else { continue };
             if !world.contains_resource::<Meters>() {
                 world.init_resource::<Meters>();
                 world.init_resource::<Followed>();

@@ -201,7 +201,9 @@ impl Expander {
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())
             }
-            Form::Round if key == table::FIELD && tree.name(id, text) == table::NAME => self.table(context, out, id),
+            Form::Round if table::FIELDS.contains(&key) && tree.name(id, text) == table::NAME => {
+                self.table(context, out, id)
+            }
             Form::Round | Form::Braces | Form::List => {
                 let start = out.text.len();
                 let name = tree.name(id, text).len();

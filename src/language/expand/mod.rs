@@ -111,6 +111,15 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree, embeddings: &[Embedding]) 
         || source.text.contains("repeat(")
         || embeddings.iter().any(|known| known.place == EmbeddingPlace::Atoms && source.text.contains(known.name))
         || source.text.contains(table::NAME)
+        || (0..tree.next()).any(|id| tree.node(id).form == Form::Text && is_expression(&source.text[tree.span(id)]))
+}
+
+/// Whether a text in quotes is an expression without parameters, or cannot be meant as anything else.
+fn is_expression(quoted: &str) -> bool {
+    let text = quoted.trim_matches('"');
+    let calculates = || text.contains(['*', '^', '(', '+']) && text.contains(|c: char| c.is_ascii_digit());
+    let value = || expression::evaluate(text, &mut |_| Err((String::new(), None)));
+    !scope::is_quantity(text) && (calculates() || value().is_ok())
 }
 
 /// The sections that a scene has when everything is made, by name; none if it cannot be made. Entries that name files become

@@ -1,5 +1,7 @@
-//! `course: Csv("drive.csv")`: the file is read, and `Piecewise([..])` with its points takes its place.
+//! `course: Csv("drive.csv")`, `target: Csv(file: "arm.csv", column: "angle")`: the file is read, and `Piecewise([..])` with its points
+//! takes its place.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use super::door::{Door, Wanted, Wrong};
@@ -7,33 +9,46 @@ use super::emit::{Context, WORK};
 use super::write::Buffer;
 use super::{Expander, Outcome};
 use crate::tree::{Form, Id};
-use crate::{cells, count, drop_empty_ends, separator};
+use crate::{cells, count, drop_empty_ends, separator, suggest};
 
-/// The leading name of a table in a file, and the field in which it stands.
+/// The leading name of a table in a file, and the fields in which it stands.
 pub(super) const NAME: &str = "Csv";
-pub(super) const FIELD: &str = "course";
+pub(super) const FIELDS: [&str; 3] = ["course", "target", "force"];
 const EXAMPLE: &str = "for example: course: Csv(\"drive.csv\")";
+const EXAMPLE_OF_COLUMNS: &str = "Csv(file: \"arm.csv\", time: \"t\", column: \"angle\")";
 const TABLE: Wanted = Wanted {
     most: 16 << 20,
     noun: "a table of numbers, one line each",
     smaller: "keep fewer points: between them the course is linear",
 };
 
+/// The columns that a scene asks for by name.
+struct Columns {
+    /// Default: the first one.
+    time: Option<String>,
+    value: String,
+}
+
 impl Expander {
     /// Writes the points of the file that a `Csv(..)` names.
     pub(super) fn table(&mut self, context: &Context, out: &mut Buffer, id: Id) -> Outcome<()> {
         let tree = &context.file.tree;
-        let &[child] = tree.children(id) else {
-            return Err(Box::new(self.wrong_value(context, id, "one file in `Csv(..)`").with_help(EXAMPLE)));
+        let (child, columns) = match tree.children(id) {
+            [child, ..] if !tree.key(*child).is_empty() => {
+                self.fields(context, id, &["file", "column", "time"], EXAMPLE_OF_COLUMNS)?;
+                let child = self.required(context, id, "file", EXAMPLE_OF_COLUMNS)?;
+                let value = self.required(context, id, "column", EXAMPLE_OF_COLUMNS)?;
+                let value = self.quoted_text(context, value, "the name of a column in quotes", EXAMPLE_OF_COLUMNS)?;
+                let time = self.field(context, id, "time");
+                let time = time
+                    .map(|time| self.quoted_text(context, time, "the name of a column in quotes", EXAMPLE_OF_COLUMNS));
+                (child, Some(Columns { time: time.transpose()?, value }))
+            }
+            [child] => (*child, None),
+            _ => return Err(Box::new(self.wrong_value(context, id, "one file in `Csv(..)`").with_help(EXAMPLE))),
         };
-        let is_text = tree.node(child).form == Form::Text && tree.key(child).is_empty();
-        let Some((mut name, shift)) = context.text(child).filter(|_| is_text) else {
-            return Err(Box::new(self.wrong_value(context, child, "a file name in quotes").with_help(EXAMPLE)));
-        };
-        if name.contains(['{', '}']) {
-            name = self.filled(context, child, &name, shift)?.text;
-        }
-        let points = read_points(&self.door, context, &name).map_err(|(message, help)| {
+        let name = self.quoted_text(context, child, "a file name in quotes", EXAMPLE)?;
+        let points = read_points(&self.door, context, &name, columns.as_ref()).map_err(|(message, help)| {
             let mut error = self.wrong(context, context.file.tree.span(child), message);
             error.path = context.file.tree.path(child, &context.file.source.text);
             error.label = "this value".into();
@@ -50,9 +65,23 @@ impl Expander {
         out.made(&text, context.file.number, context.file.tree.head(id), context.step);
         Ok(())
     }
+
+    /// A text in quotes, with what stands in braces filled in.
+    fn quoted_text(&mut self, context: &Context, id: Id, expected: &str, example: &str) -> Outcome<String> {
+        let is_text = context.file.tree.node(id).form == Form::Text;
+        let Some((text, shift)) = context.text(id).filter(|_| is_text) else {
+            return Err(Box::new(self.wrong_value(context, id, expected).with_help(example)));
+        };
+        self.filled(context, id, &text, shift).map(|filled| filled.text)
+    }
 }
 
-fn read_points(door: &Door, context: &Context, name: &str) -> Result<Vec<(f64, f64)>, Wrong> {
+fn read_points(
+    door: &Door,
+    context: &Context,
+    name: &str,
+    columns: Option<&Columns>,
+) -> Result<Vec<(f64, f64)>, Wrong> {
     let Some(folder) = &context.file.source.folder else {
         let message = "this scene is in no file, so no table can be found from it".to_owned();
         return Err((message, "save it as a file, or write the points out: `Piecewise([(0, 1), (2, 0)])`".into()));
@@ -61,32 +90,81 @@ fn read_points(door: &Door, context: &Context, name: &str) -> Result<Vec<(f64, f
     let text = String::from_utf8(bytes).map_err(|error| {
         (format!("cannot read `{name}` as text: {error}"), "it has to be a table of numbers, one line each".to_owned())
     })?;
-    points_of(&text).map_err(|(line, why)| {
-        let help = "each line holds a time in seconds and a value, such as `0.5, 2`; the first may hold names instead";
-        (format!("line {line} of `{name}` {why}"), help.to_owned())
+    points_of(&text, columns).map_err(|Fault { line, why, help }| {
+        let usual = match columns {
+            None => "each line holds a time in seconds and a value, such as `0.5, 2`; the first may hold names instead",
+            Some(_) => "the first line names the columns; each other line holds a number for each of them",
+        };
+        (format!("line {line} of `{name}` {why}"), help.unwrap_or_else(|| usual.to_owned()))
     })
 }
 
-/// The points of a table; or the number of the line that is wrong, and why.
-fn points_of(text: &str) -> Result<Vec<(f64, f64)>, (usize, String)> {
+/// What is wrong with a table: the number of the line, why, and what to do unless that is the usual.
+#[derive(Debug, PartialEq)]
+struct Fault {
+    line: usize,
+    why: String,
+    help: Option<String>,
+}
+
+/// How the lines of a table are read.
+struct Layout {
+    separator: char,
+    /// How many columns there are, and which of them hold the time and the value.
+    count: usize,
+    places: [usize; 2],
+}
+
+impl Layout {
+    /// That of a table whose first line is one of names.
+    fn named(names: &[Cow<str>], separator: char, columns: &Columns) -> Result<Self, (String, Option<String>)> {
+        // Tables that runs write have units behind the names: `hip.angle [rad]`.
+        let plain = |cell: &str| cell.split(" [").next().unwrap_or_default().to_owned();
+        let place = |wanted: &str| {
+            let mut found = (0..names.len()).filter(|place| names[*place] == wanted || plain(&names[*place]) == wanted);
+            match (found.next(), found.next()) {
+                (Some(place), None) => Ok(place),
+                (Some(_), Some(_)) => Err((format!("names the column `{wanted}` twice"), None)),
+                (None, _) => {
+                    let known = names.iter().map(|name| &**name);
+                    Err((format!("names no column `{wanted}`"), Some(suggest::among(wanted, known, "columns", '`'))))
+                }
+            }
+        };
+        let time = columns.time.as_ref().map_or(Ok(0), |time| place(time))?;
+        Ok(Self { separator, count: names.len(), places: [time, place(&columns.value)?] })
+    }
+}
+
+/// The points of a table; or what is wrong with it.
+fn points_of(text: &str, columns: Option<&Columns>) -> Result<Vec<(f64, f64)>, Fault> {
     let mut points: Vec<(f64, f64)> = Vec::new();
+    let mut layout: Option<Layout> = None;
     let mut named = false;
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let line = line.trim();
         if line.is_empty() || line.starts_with('#') {
             continue;
         }
-        let wrong = |why: String| (index + 1, why);
-        let Some(mut columns) = cells(line, separator(line)) else {
+        let wrong = |why: String| Fault { line: index + 1, why, help: None };
+        let separator = layout.as_ref().map_or_else(|| separator(line), |layout| layout.separator);
+        let Some(mut found) = cells(line, separator) else {
             return Err(wrong("has a quote that is not closed".into()));
         };
-        drop_empty_ends(&mut columns, 2);
-        let [time, value] = columns.as_slice() else {
-            return Err(wrong(format!("has {}, not two", count(columns.len(), "column", "columns"))));
-        };
-        let numbers = (time.parse::<f64>(), value.parse::<f64>());
+        drop_empty_ends(&mut found, layout.as_ref().map_or(2, |layout| layout.count));
+        if let (Some(columns), None) = (columns, &layout) {
+            let named = Layout::named(&found, separator, columns);
+            layout = Some(named.map_err(|(why, help)| Fault { line: index + 1, why, help })?);
+            continue;
+        }
+        let (count_of, [time, value]) = layout.as_ref().map_or((2, [0, 1]), |layout| (layout.count, layout.places));
+        if found.len() != count_of {
+            let wanted = if count_of == 2 { "two".to_owned() } else { count_of.to_string() };
+            return Err(wrong(format!("has {}, not {wanted}", count(found.len(), "column", "columns"))));
+        }
+        let numbers = (found[time].parse::<f64>(), found[value].parse::<f64>());
         let (Ok(time), Ok(value)) = numbers else {
-            if points.is_empty() && !named && numbers.0.is_err() && numbers.1.is_err() {
+            if layout.is_none() && points.is_empty() && !named && numbers.0.is_err() && numbers.1.is_err() {
                 named = true;
                 continue;
             }
@@ -100,21 +178,43 @@ fn points_of(text: &str) -> Result<Vec<(f64, f64)>, (usize, String)> {
         }
         points.push((time, value));
     }
-    if points.is_empty() { Err((1, "holds no point, nor do those behind it".into())) } else { Ok(points) }
+    let none = || Fault { line: 1, why: "holds no point, nor do those behind it".into(), help: None };
+    if points.is_empty() { Err(none()) } else { Ok(points) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::points_of;
+    use super::{Columns, points_of};
 
     #[test]
     fn tables_are_read_and_mistakes_told_with_their_line() {
-        assert_eq!(points_of("\"t\";\"f\";\n0;1\n"), Ok(vec![(0.0, 1.0)]));
-        assert_eq!(points_of("t, f\n0, 1\n# then\n\n0.5, -2e3\n"), Ok(vec![(0.0, 1.0), (0.5, -2000.0)]));
+        assert_eq!(points_of("\"t\";\"f\";\n0;1\n", None), Ok(vec![(0.0, 1.0)]));
+        assert_eq!(points_of("t, f\n0, 1\n# then\n\n0.5, -2e3\n", None), Ok(vec![(0.0, 1.0), (0.5, -2000.0)]));
         for (text, line) in
             [("0,1\n0,2", 2), ("t,f\nu,g", 2), ("0,1,2", 1), ("", 1), ("0,1\n1,x", 2), ("0,inf", 1), ("0,\"1", 1)]
         {
-            assert_eq!(points_of(text).map_err(|wrong| wrong.0), Err(line), "{text:?}");
+            assert_eq!(points_of(text, None).map_err(|wrong| wrong.line), Err(line), "{text:?}");
         }
+    }
+
+    #[test]
+    fn columns_are_found_by_name_with_or_without_their_unit() {
+        let columns = |time: Option<&str>| Columns { time: time.map(str::to_owned), value: "hip.angle".to_owned() };
+        let text = "# a run\ntime [s],hip.rate [rad/s],hip.angle [rad],t\n0,5,1,-1\n2,5,3,-0.5\n";
+        assert_eq!(points_of(text, Some(&columns(None))), Ok(vec![(0.0, 1.0), (2.0, 3.0)]));
+        assert_eq!(points_of(text, Some(&columns(Some("t")))), Ok(vec![(-1.0, 1.0), (-0.5, 3.0)]));
+        for (text, line, why) in [
+            ("t,hip.angel\n0,1", 1, "names no column `hip.angle`"),
+            ("t,hip.angle,hip.angle [rad]\n0,1,2", 1, "names the column `hip.angle` twice"),
+            ("t,x,hip.angle\n0,1", 2, "has 2 columns, not 3"),
+            ("t,x,hip.angle\n0,1,2\n-1,1,2", 3, "goes back in time: `-1,1,2`"),
+            ("t,x,hip.angle\n0,1,NaN", 2, "holds a number that is not finite: `0,1,NaN`"),
+            ("t,hip.angle\na,b", 2, "holds no two numbers: `a,b`"),
+        ] {
+            let fault = points_of(text, Some(&columns(None))).unwrap_err();
+            assert_eq!((fault.line, fault.why.as_str()), (line, why), "{text:?}");
+        }
+        let fault = points_of("t,hip.angel\n0,1", Some(&columns(None))).unwrap_err();
+        assert!(fault.help.unwrap().starts_with("did you mean `hip.angel`?"));
     }
 }
