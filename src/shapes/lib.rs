@@ -1,0 +1,22 @@
+//! Shapes as rounded convex hulls: the corners' convex hull, grown by a radius on all sides.
+//!
+//! The hull of the corners is the *core*. Discs, capsules, polygons and gears all become hulls; concave shapes become several.
+//! Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
+
+mod error;
+mod hull;
+mod nearest;
+mod orientation;
+mod pose;
+
+pub use error::{Mended, ShapeError};
+pub use hull::{Hull, Side};
+pub use nearest::{Feature, Nearest, distance_to, nearest};
+pub use pose::{Bounds, Pose};
+
+/// The settings of the property tests: the same cases in each run, and no files of failures.
+#[cfg(test)]
+pub(crate) fn cases(seed: u64, cases: u32) -> proptest::prelude::ProptestConfig {
+    let rng_seed = proptest::test_runner::RngSeed::Fixed(seed);
+    proptest::prelude::ProptestConfig { cases, rng_seed, failure_persistence: None, ..Default::default() }
+}
