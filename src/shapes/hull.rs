@@ -156,12 +156,10 @@ impl Hull {
     }
 }
 
-/// Unit vector and length; the components are scaled first, so that no square underflows or overflows.
+/// Unit vector and length. The square of a length within the admitted range is a normal number.
 pub(crate) fn direction(vector: DVec2) -> (DVec2, f64) {
-    let scale = vector.abs().max_element();
-    let scaled = vector / scale;
-    let length = scaled.length();
-    (scaled / length, length * scale)
+    let length = vector.length();
+    (vector / length, length)
 }
 
 /// Each index of a ring with the one before and the one after it.
@@ -316,7 +314,7 @@ mod tests {
         for size in [2e-75, 1.0, 1e74] {
             let corners = points(&[(0.0, 0.0), (size, 0.0), (0.0, size)]);
             let (hull, _) = Hull::polygon(&corners, 0.0).unwrap();
-            // Scaling, a square root and a division round three times.
+            // A square root and a division round, and so do the squares.
             assert!(hull.sides().iter().all(|side| (side.normal.length() - 1.0).abs() < 4.0 * f64::EPSILON), "{size}");
         }
     }

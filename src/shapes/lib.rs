@@ -3,14 +3,18 @@
 //! The hull of the corners is the *core*. Discs, capsules, polygons and gears all become hulls; concave shapes become several.
 //! Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
 
+mod boundary;
+mod cover;
 mod error;
 mod hull;
+mod moments;
 mod nearest;
 mod orientation;
 mod pose;
 
 pub use error::{Mended, ShapeError};
 pub use hull::{Hull, Side};
+pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};
 
