@@ -8,7 +8,8 @@
 //! **Ties.** Two boundaries may run along each other: boxes side by side, a hull given twice. Rounding must not decide there.
 //! Boundaries nearer than `tie` count as one. If their normals are opposite, both are covered. If their normals agree, that of
 //! the hull of lower index is free, the other covered. A pair reaches the same verdict from both sides as both work
-//! from one and the same number.
+//! from one and the same number. Boundaries that cross at an angle whose sine is above 1/64 have no ties: rounding, 1/64 of
+//! a tie, moves their crossing by less than one.
 
 use std::f64::consts::{PI, TAU};
 
@@ -77,6 +78,15 @@ pub(crate) fn free(piece: &Piece, mut covered: Spans) -> Spans {
     free
 }
 
+/// Sine of the angle between boundaries, above which they have no ties.
+const STEEP: f64 = 1.0 / 64.0;
+
+/// Whether curves are nearly parallel where they meet, by the square of the sine of half the angle between their normals or
+/// between one and the opposite of the other.
+fn is_flat(share: f64) -> bool {
+    share < STEEP * STEEP / 4.0
+}
+
 /// The ranks of two hulls, and by how much boundaries that count as one may differ, in metres.
 #[derive(Clone, Copy)]
 struct Ranks {
@@ -87,8 +97,12 @@ struct Ranks {
 
 impl Ranks {
     /// By how much the other hull is grown in the verdict, in metres.
-    fn growth(&self, opposite: bool) -> f64 {
-        if opposite || self.other < self.own { self.tie } else { -self.tie }
+    fn growth(&self, flat: bool, opposite: bool) -> f64 {
+        match flat {
+            false => 0.0,
+            true if opposite || self.other < self.own => self.tie,
+            true => -self.tie,
+        }
     }
 }
 
@@ -144,17 +158,22 @@ fn below(piece: &Piece, line: &Straight, ranks: Ranks) -> Spans {
     match piece {
         Piece::Straight(side) => segment_below(side, line, ranks),
         Piece::Arc(arc) => {
-            let height = line.normal.dot(arc.center - line.corner);
-            let share = if height - line.radius > 0.0 {
-                // The circle stands above the line: what dips below it lies about the opposite of the normal.
-                let share = ((line.radius + arc.radius) - height + ranks.growth(true)) / (2.0 * arc.radius);
-                return window(arc, -line.normal, half_window(share));
-            } else {
-                ((arc.radius - line.radius) + height - ranks.growth(false)) / (2.0 * arc.radius)
+            let (gap, opposite) = reach(line, arc.center, arc.radius);
+            let growth = ranks.growth(is_flat(gap / (2.0 * arc.radius)), opposite);
+            let half = match opposite {
+                true => half_window((gap + growth) / (2.0 * arc.radius)),
+                false => PI - half_window((gap - growth) / (2.0 * arc.radius)),
             };
-            window(arc, -line.normal, PI - half_window(share))
+            window(arc, -line.normal, half)
         }
     }
+}
+
+/// How far a circle reaches over a moved side, in metres: up from it, or, if its center is above, down. The second says which.
+fn reach(line: &Straight, center: DVec2, radius: f64) -> (f64, bool) {
+    let height = line.normal.dot(center - line.corner);
+    let opposite = height - line.radius > 0.0;
+    (if opposite { (line.radius + radius) - height } else { (radius - line.radius) + height }, opposite)
 }
 
 /// Both sides of a pair find the crossing from the one of lower rank, so that they cut at the same place even where they are
@@ -164,8 +183,9 @@ fn segment_below(side: &Straight, line: &Straight, ranks: Ranks) -> Spans {
     let is_low = ranks.own < ranks.other;
     let (low, high) = if is_low { (side, line) } else { (line, side) };
     let rise = high.normal.dot(low.corner - high.corner) + low.radius * high.normal.dot(low.normal) - high.radius;
-    let height = rise - if opposite { ranks.tie } else { -ranks.tie };
     let slope = high.normal.dot(low.along());
+    // Seen from the lower rank.
+    let height = rise - Ranks { own: 0, other: 1, ..ranks }.growth(slope.abs() < STEEP, opposite);
     if is_low {
         return sunk(height, slope, side.length);
     }
@@ -183,15 +203,12 @@ fn segment_below(side: &Straight, line: &Straight, ranks: Ranks) -> Spans {
 fn in_disc(piece: &Piece, center: DVec2, radius: f64, ranks: Ranks) -> Spans {
     match piece {
         Piece::Straight(side) => {
-            let height = side.normal.dot(center - side.corner);
-            let opposite = height - side.radius > 0.0;
-            // How far the disc, grown, reaches over the line.
-            let gap = ranks.growth(opposite)
-                + if opposite { (side.radius + radius) - height } else { (radius - side.radius) + height };
+            let (raw, opposite) = reach(side, center, radius);
+            let growth = ranks.growth(is_flat(raw / (2.0 * radius)), opposite);
+            let (gap, grown) = (raw + growth, radius + growth);
             if gap <= 0.0 {
                 return Vec::new();
             }
-            let grown = radius + ranks.growth(opposite);
             let half = libm::sqrt(gap * (2.0 * grown - gap));
             let middle = side.along().dot(center - side.corner);
             let span = ((middle - half).max(0.0), (middle + half).min(side.length));
@@ -201,15 +218,22 @@ fn in_disc(piece: &Piece, center: DVec2, radius: f64, ranks: Ranks) -> Spans {
             let away = center - arc.center;
             let distance = away.length();
             let opposite = distance * distance > radius * radius + arc.radius * arc.radius;
-            let growth = ranks.growth(opposite);
+            // Sides of the triangle of distance and both radii give the angle between both normals.
+            let (unequal, both) = ((arc.radius - radius).abs(), arc.radius + radius);
+            let room = if opposite {
+                (both - distance) * (both + distance)
+            } else {
+                (distance - unequal) * (distance + unequal)
+            };
+            let growth = ranks.growth(is_flat(room / (4.0 * arc.radius * radius)), opposite);
             // How much the own circle is larger than the grown other one.
             let larger = (arc.radius - radius) - growth;
             if larger + distance <= 0.0 {
                 return vec![(0.0, arc.angle)];
             }
-            // sin^2 and cos^2 of half the angle at the own center, in a triangle of distance and both radii.
-            let sine = ((radius + arc.radius) + growth - distance) * (distance - larger);
-            let cosine = (larger + distance) * ((radius + arc.radius) + growth + distance);
+            // sin^2 and cos^2 of half the angle at the own center, in that triangle.
+            let sine = (both + growth - distance) * (distance - larger);
+            let cosine = (larger + distance) * (both + growth + distance);
             if sine <= 0.0 {
                 return Vec::new();
             }

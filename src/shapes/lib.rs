@@ -4,19 +4,24 @@
 //! Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
 
 mod boundary;
+mod compound;
+mod convex_parts;
 mod cover;
 mod error;
 mod hull;
 mod moments;
 mod nearest;
 mod orientation;
+mod outline;
 mod pose;
+mod shape;
 
 pub use error::{Mended, ShapeError};
 pub use hull::{Hull, Side};
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};
+pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
 
 /// The settings of the property tests: the same cases in each run, and no files of failures.
 #[cfg(test)]

@@ -35,7 +35,8 @@ impl AreaMoments {
 
     /// The moments of what the hulls cover together, overlaps counted once.
     ///
-    /// Boundaries nearer to each other than 64 units in the last place of the greatest coordinate count as one.
+    /// Boundaries nearer to each other than 64 units in the last place of the greatest coordinate count as one. Where such
+    /// boundaries meet at an angle below 1/64, each meeting may change the area by that distance times the size of the shape.
     pub fn union_of(hulls: &[Hull]) -> Self {
         if let [hull] = hulls {
             return Self::of(hull);
