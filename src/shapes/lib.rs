@@ -7,6 +7,7 @@ mod boundary;
 mod compound;
 mod convex_parts;
 mod cover;
+mod distance;
 mod error;
 mod hull;
 mod moments;
@@ -15,13 +16,16 @@ mod orientation;
 mod outline;
 mod pose;
 mod shape;
+mod time_of_impact;
 
+pub use distance::{Separation, distance, separation};
 pub use error::{Mended, ShapeError};
 pub use hull::{Hull, Side};
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};
 pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
+pub use time_of_impact::{Motion, time_of_impact};
 
 /// The settings of the property tests: the same cases in each run, and no files of failures.
 #[cfg(test)]
