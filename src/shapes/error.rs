@@ -122,6 +122,11 @@ pub enum ShapeError {
         /// Width of the tooth at its tip circle or tip line, in metres; below zero where the flanks have crossed.
         tip_width: f64,
     },
+    /// Two teeth meet at their roots.
+    ClosedGap {
+        /// Width of the gap at the root circle, in metres, zero or below.
+        root_width: f64,
+    },
     /// A compound has no parts.
     Empty,
 }
@@ -153,6 +158,7 @@ impl fmt::Display for ShapeError {
             Self::PointedTooth { tip_width } => {
                 write!(text, "the teeth are pointed: {tip_width} m wide at their tips")
             }
+            Self::ClosedGap { root_width } => write!(text, "the teeth meet at their roots: gaps of {root_width} m"),
             Self::Empty => write!(text, "a compound has at least one part"),
         }
     }

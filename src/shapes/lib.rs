@@ -9,21 +9,25 @@ mod convex_parts;
 mod cover;
 mod distance;
 mod error;
+mod gear;
 mod hull;
 mod moments;
 mod nearest;
 mod orientation;
 mod outline;
 mod pose;
+mod rack;
 mod shape;
 mod time_of_impact;
 
 pub use distance::{Separation, distance, separation};
 pub use error::{Mended, ShapeError};
+pub use gear::Gear;
 pub use hull::{Hull, Side};
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};
+pub use rack::Rack;
 pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
 pub use time_of_impact::{Motion, time_of_impact};
 
