@@ -36,6 +36,7 @@ fn each_room_uses_those_below_it() {
         ("simd", &[][..]),
         ("language", &[]),
         ("frames", &["language"]),
+        ("shapes", &[]),
         ("engine", &["frames", "language", "simd"]),
         ("film", &["frames", "language"]),
         ("report", &["engine", "film", "frames", "language", "simd"]),

@@ -1,0 +1,177 @@
+//! Which sides and corners of a compound lie on its outline.
+//!
+//! A side is inner if its boundary lies in other hulls. A corner probes if the union bends outwards there. Around a round
+//! corner that is so if some of its arc is free. Around a sharp one the outward normals of all hulls that meet there must
+//! have a range of directions in common; the hull of lowest index has the corner. Boundaries nearer than a tie count as one
+//! ([`crate::moments`]).
+
+use glam::DVec2;
+
+use crate::boundary::Piece;
+use crate::hull::Hull;
+use crate::moments::{free_boundary, middle, thick, tie};
+use crate::nearest::nearest;
+
+/// Marks the sides that lie inside the union, and the corners that are no convex vertices of its outline.
+pub(crate) fn mark_inner(hulls: &mut [Hull]) {
+    let (middle, tie) = (middle(hulls), tie(hulls));
+    let (ranks, parts): (Vec<usize>, Vec<Hull>) = hulls
+        .iter()
+        .enumerate()
+        .filter_map(|(rank, hull)| thick(&hull.moved(-middle), tie).map(|part| (rank, part)))
+        .unzip();
+    let size = parts.iter().map(|part| part.reach_of_core(DVec2::ZERO) + part.radius()).fold(0.0, f64::max);
+    for (part, pieces) in free_boundary(&parts, tie).into_iter().enumerate() {
+        let hull = &mut hulls[ranks[part]];
+        let (mut side, mut corner) = (0, 0);
+        for (piece, free) in pieces {
+            let left = free.iter().map(|(from, to)| to - from).fold(0.0, f64::max);
+            // Where curves touch, a tie leaves sqrt(2 tie r) free on each side; rounding less than as much again.
+            let crumb = |radius: f64| 4.0 * libm::sqrt(2.0 * tie * radius);
+            match piece {
+                Piece::Straight(_) => {
+                    if left <= crumb(size) {
+                        hull.set_inner(side, true);
+                    }
+                    side += 1;
+                }
+                Piece::Arc(arc) => {
+                    if left * arc.radius <= crumb(arc.radius) {
+                        hull.set_probes(corner, false);
+                    }
+                    corner += 1;
+                }
+            }
+        }
+        if parts[part].radius() == 0.0 {
+            for corner in 0..hull.corners().len() {
+                if !is_sharp_vertex(&parts, part, corner, tie) {
+                    hull.set_probes(corner, false);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a corner of a hull without radius is a convex vertex of the union, and this hull the first that has it.
+fn is_sharp_vertex(parts: &[Hull], own: usize, corner: usize, tie: f64) -> bool {
+    let place = parts[own].corners()[corner];
+    let cone = Cone::at(&parts[own], corner);
+    let (mut from, mut to) = (0.0, cone.angle(cone.to));
+    for (rank, other) in parts.iter().enumerate().filter(|(rank, _)| *rank != own) {
+        let gap = nearest(other, place).distance - other.radius();
+        if gap > tie {
+            continue;
+        }
+        let same = (0..other.corners().len()).find(|index| other.corners()[*index].distance(place) <= tie);
+        let Some(same) = same.filter(|_| other.radius() == 0.0 && gap >= -tie) else { return false };
+        let met = Cone::at(other, same);
+        let start = cone.angle(met.from);
+        (from, to) = (f64::max(from, start), f64::min(to, start + met.angle(met.to)));
+        // A tie at the end of the shortest side turns its normal by so much.
+        if to - from <= 4.0 * tie / cone.shortest.min(met.shortest) || rank < own {
+            return false;
+        }
+    }
+    true
+}
+
+/// The outward normals at a corner, from that of the side that ends there to that of the side that begins.
+struct Cone {
+    from: DVec2,
+    to: DVec2,
+    /// Length of the shorter of both sides, in metres.
+    shortest: f64,
+}
+
+impl Cone {
+    fn at(hull: &Hull, corner: usize) -> Self {
+        let (sides, count) = (hull.sides(), hull.sides().len());
+        let (before, after) = (sides[(corner + count - 1) % count], sides[corner]);
+        Self { from: before.normal, to: after.normal, shortest: before.length.min(after.length) }
+    }
+
+    /// The angle from the first normal to a direction, from -pi to pi.
+    fn angle(&self, direction: DVec2) -> f64 {
+        libm::atan2(self.from.perp_dot(direction), self.from.dot(direction))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Shape, capsule, compound, disc, polygon, rectangle};
+
+    fn inner(shape: &Shape) -> Vec<Vec<usize>> {
+        let of = |hull: &Hull| (0..hull.sides().len()).filter(|side| hull.sides()[*side].inner).collect();
+        shape.hulls.iter().map(of).collect()
+    }
+
+    fn probes(shape: &Shape) -> Vec<Vec<usize>> {
+        let of = |hull: &Hull| (0..hull.corners().len()).filter(|corner| hull.probes(*corner)).collect();
+        shape.hulls.iter().map(of).collect()
+    }
+
+    fn at(shape: Shape, x: f64, y: f64) -> Shape {
+        shape.moved(DVec2::new(x, y))
+    }
+
+    /// Sides 0 to 3 of a rectangle: below, right, above, left. Corners 0 to 3: from below left, counter-clockwise.
+    #[test]
+    fn boxes_side_by_side_have_four_vertices_and_no_wall_between_them() {
+        let unit = || rectangle(1.0, 1.0, 0.0).unwrap();
+        let row = compound(&[at(unit(), 0.1, 0.3), at(unit(), 1.1, 0.3)]).unwrap();
+        assert_eq!(inner(&row), [vec![1], vec![3]]);
+        assert_eq!(probes(&row), [vec![0, 3], vec![1, 2]]);
+        // Half a step higher: the sides are free in part, the corners in the middle of sides are none.
+        let stair = compound(&[at(unit(), 0.0, 0.0), at(unit(), 1.0, 0.5)]).unwrap();
+        assert_eq!(inner(&stair), [Vec::<usize>::new(), vec![]]);
+        assert_eq!(probes(&stair), [vec![0, 1, 3], vec![1, 2, 3]]);
+    }
+
+    #[test]
+    fn the_same_hull_twice_counts_once() {
+        for rounding in [0.0, 0.2] {
+            let unit = rectangle(1.0, 1.0, rounding).unwrap();
+            let twice = compound(&[unit.clone(), unit]).unwrap();
+            assert_eq!(inner(&twice), [vec![], vec![0, 1, 2, 3]]);
+            assert_eq!(probes(&twice), [vec![0, 1, 2, 3], vec![]]);
+        }
+    }
+
+    #[test]
+    fn a_disc_inside_a_box_probes_nothing_and_one_across_a_corner_hides_it() {
+        let unit = || rectangle(1.0, 1.0, 0.0).unwrap();
+        let inside = compound(&[disc(DVec2::ZERO, 0.5).unwrap(), unit()]).unwrap();
+        assert_eq!(probes(&inside), [vec![], vec![0, 1, 2, 3]]);
+        let across = compound(&[unit(), disc(DVec2::new(0.5, 0.5), 0.1).unwrap()]).unwrap();
+        assert_eq!(probes(&across), [vec![0, 1, 3], vec![0]]);
+    }
+
+    #[test]
+    fn a_chain_of_capsules_probes_at_its_ends_and_at_its_bend() {
+        let bar = |from: (f64, f64), to: (f64, f64)| capsule(from.into(), to.into(), 0.1).unwrap();
+        let straight = compound(&[bar((0.0, 0.0), (1.0, 0.0)), bar((1.0, 0.0), (2.0, 0.0))]).unwrap();
+        assert_eq!(probes(&straight), [vec![0], vec![1]]);
+        let bent = compound(&[bar((0.0, 0.0), (1.0, 0.0)), bar((1.0, 0.0), (1.0, 1.0))]).unwrap();
+        assert_eq!(probes(&bent), [vec![0, 1], vec![1]]);
+    }
+
+    /// Law: cutting marks by topology what geometry finds. Marked anew, no side and no corner of a rounded or sharp bracket
+    /// changes.
+    #[test]
+    fn marks_of_a_cut_polygon_are_those_of_its_geometry() {
+        let bracket =
+            [(0.0, 0.0), (3.0, 0.2), (3.0, 1.0), (1.0, 1.0), (1.1, 2.0), (0.0, 2.0)].map(|(x, y)| DVec2::new(x, y));
+        for rounding in [0.0, 0.1] {
+            let cut = polygon(&bracket, rounding).unwrap();
+            let mut hulls = cut.hulls.clone();
+            for hull in &mut hulls {
+                (0..hull.sides().len()).for_each(|side| hull.set_inner(side, false));
+                (0..hull.corners().len()).for_each(|corner| hull.set_probes(corner, true));
+            }
+            mark_inner(&mut hulls);
+            assert_eq!(hulls, cut.hulls, "{rounding}");
+        }
+    }
+}

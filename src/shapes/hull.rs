@@ -1,0 +1,321 @@
+//! The one geometry: the convex hull of 1 to N corners, grown by a radius.
+//!
+//! With corners c_i and radius r the hull is the set of points at most r from the convex hull of the c_i, its *core*. One
+//! corner makes a disc, two a capsule (a segment with two sides, back and forth), more a rounded polygon. Side i runs from
+//! corner i to the next corner. Corners run counter-clockwise, so that the outside lies right of each side.
+//! Lengths are in metres.
+
+use glam::DVec2;
+
+use crate::error::{Mended, ShapeError};
+use crate::orientation::orientation;
+
+/// Coordinates lie below this, in metres: their fourth power, which second moments of area need, stays finite.
+pub(crate) const LARGEST: f64 = 1e75;
+
+/// Sides are longer than this, in metres: the fourth power of their length stays a normal number.
+pub(crate) const LEAST: f64 = 1e-75;
+
+/// One side of a core.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side {
+    /// Unit normal, outwards.
+    pub normal: DVec2,
+    /// Length in metres.
+    pub length: f64,
+    /// Whether the side is a cut between two parts of one shape, or lies inside their union.
+    pub inner: bool,
+}
+
+/// The convex hull of its corners, grown by a radius.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hull {
+    corners: Vec<DVec2>,
+    sides: Vec<Side>,
+    probes: Vec<bool>,
+    radius: f64,
+}
+
+impl Hull {
+    /// A disc. `center` and `radius` are in metres; a radius of zero makes a point.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or out of range; a radius below zero.
+    pub fn disc(center: DVec2, radius: f64) -> Result<Self, ShapeError> {
+        check_points(&[center], "a coordinate of the center")?;
+        check_radius(radius)?;
+        Ok(Self::of_corners(vec![center], radius))
+    }
+
+    /// All points at most `radius` from the segment between two points, in metres. A radius of zero makes a segment.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or out of range; a radius below zero; both ends at one place.
+    pub fn capsule(from: DVec2, to: DVec2, radius: f64) -> Result<Self, ShapeError> {
+        check_points(&[from, to], "a coordinate of an end")?;
+        check_radius(radius)?;
+        check_sides(&[from, to])?;
+        Ok(Self::of_corners(vec![from, to], radius))
+    }
+
+    /// A convex polygon grown by `radius`, both in metres, and what was mended: a clockwise order is turned round, points
+    /// exactly on a straight side are left out.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or out of range; a radius below zero; fewer than three points; two neighbours at one
+    /// place; an area of zero; an outline that bends inwards or runs round more than once.
+    pub fn polygon(points: &[DVec2], radius: f64) -> Result<(Self, Vec<Mended>), ShapeError> {
+        check_points(points, "a coordinate of a point")?;
+        check_radius(radius)?;
+        let (kept, mut mended) = without_straight(points)?;
+        let turns: Vec<f64> = around(&kept).map(|[a, b, c]| orientation(points[a], points[b], points[c])).collect();
+        // The sign that most corners have is that of the whole; a convex outline has no other.
+        let left = turns.iter().filter(|turn| **turn > 0.0).count();
+        let clockwise = 2 * left < turns.len();
+        if let Some(bad) = turns.iter().position(|turn| (*turn < 0.0) != clockwise) {
+            return Err(ShapeError::NotConvex { point: kept[bad] });
+        }
+        // An outline that bends one way only has one lowest point for each time that it runs round.
+        let lowest = around(&kept).filter(|&[a, b, c]| {
+            let key = |index: usize| (points[index].y, points[index].x);
+            key(b) < key(a) && key(b) < key(c)
+        });
+        if let Some([_, second, _]) = lowest.skip(1).last() {
+            return Err(ShapeError::NotConvex { point: second });
+        }
+        let mut corners: Vec<DVec2> = kept.iter().map(|index| points[*index]).collect();
+        if clockwise {
+            corners.reverse();
+            mended.insert(0, Mended::Turned);
+        }
+        Ok((Self::of_corners(corners, radius), mended))
+    }
+
+    /// A hull of corners that are known to be strictly convex and counter-clockwise.
+    pub(crate) fn of_corners(corners: Vec<DVec2>, radius: f64) -> Self {
+        let count = corners.len();
+        let sides = match count {
+            1 => Vec::new(),
+            _ => (0..count)
+                .map(|index| {
+                    let (along, length) = direction(corners[(index + 1) % count] - corners[index]);
+                    Side { normal: -along.perp(), length, inner: false }
+                })
+                .collect(),
+        };
+        Self { sides, probes: vec![true; count], corners, radius }
+    }
+
+    /// The corners of the core, counter-clockwise, in metres.
+    pub fn corners(&self) -> &[DVec2] {
+        &self.corners
+    }
+
+    /// The sides of the core: none of a disc, two of a capsule, else as many as corners. Side i begins at corner i.
+    pub fn sides(&self) -> &[Side] {
+        &self.sides
+    }
+
+    /// By how much the core is grown, in metres.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Both ends of a side, in metres.
+    pub fn ends(&self, side: usize) -> (DVec2, DVec2) {
+        (self.corners[side], self.corners[(side + 1) % self.corners.len()])
+    }
+
+    /// Whether a corner is a convex vertex of the outline of its shape, so that contacts look where it touches others. Where
+    /// several parts of a shape share the vertex, one of them has it.
+    pub fn probes(&self, corner: usize) -> bool {
+        self.probes[corner]
+    }
+
+    /// Says whether a side is a cut, or lies inside the union of the parts.
+    pub fn set_inner(&mut self, side: usize, inner: bool) {
+        self.sides[side].inner = inner;
+    }
+
+    /// Says whether a corner probes others.
+    pub fn set_probes(&mut self, corner: usize, probes: bool) {
+        self.probes[corner] = probes;
+    }
+
+    /// The same hull, moved by so many metres.
+    #[must_use]
+    pub fn moved(&self, by: DVec2) -> Self {
+        let mut moved = self.clone();
+        moved.corners.iter_mut().for_each(|corner| *corner += by);
+        moved
+    }
+
+    /// The distance of the farthest corner from a place, in metres. The radius does not count.
+    pub fn reach_of_core(&self, from: DVec2) -> f64 {
+        self.corners.iter().map(|corner| corner.distance(from)).fold(0.0, f64::max)
+    }
+}
+
+/// Unit vector and length. The square of a length within the admitted range is a normal number.
+pub(crate) fn direction(vector: DVec2) -> (DVec2, f64) {
+    let length = vector.length();
+    (vector / length, length)
+}
+
+/// Each index of a ring with the one before and the one after it.
+pub(crate) fn around(ring: &[usize]) -> impl Iterator<Item = [usize; 3]> {
+    let count = ring.len();
+    (0..count).map(move |at| [ring[(at + count - 1) % count], ring[at], ring[(at + 1) % count]])
+}
+
+/// The indices of points that are corners, and the others, which lie exactly on straight sides.
+///
+/// # Errors
+/// Too few points, neighbours at one place, a side that runs back over its neighbour, all points on one line.
+pub(crate) fn without_straight(points: &[DVec2]) -> Result<(Vec<usize>, Vec<Mended>), ShapeError> {
+    let count = points.len();
+    if count < 3 {
+        return Err(ShapeError::TooFewPoints { found: count });
+    }
+    check_sides(points)?;
+    let all: Vec<usize> = (0..count).collect();
+    if all.iter().all(|index| orientation(points[0], points[1], points[*index]) == 0.0) {
+        return Err(ShapeError::ZeroArea);
+    }
+    let (mut kept, mut mended) = (Vec::new(), Vec::new());
+    for [a, b, c] in around(&all) {
+        if orientation(points[a], points[b], points[c]) != 0.0 {
+            kept.push(b);
+        } else if (points[b] - points[a]).dot(points[c] - points[b]) < 0.0 {
+            return Err(ShapeError::SelfCrossing { first: a, second: b, at: points[b] });
+        } else {
+            mended.push(Mended::Straight { point: b });
+        }
+    }
+    Ok((kept, mended))
+}
+
+/// # Errors
+/// The first number that is not finite or too large.
+pub(crate) fn check_points(points: &[DVec2], quantity: &'static str) -> Result<(), ShapeError> {
+    points.iter().flat_map(|point| point.to_array()).try_for_each(|number| check_number(number, quantity))
+}
+
+/// # Errors
+/// A number that is not finite or too large.
+pub(crate) fn check_number(number: f64, quantity: &'static str) -> Result<(), ShapeError> {
+    if !number.is_finite() {
+        return Err(ShapeError::NotFinite { quantity });
+    }
+    if number.abs() > LARGEST {
+        return Err(ShapeError::OutOfRange { quantity, found: number });
+    }
+    Ok(())
+}
+
+/// # Errors
+/// A radius that is not finite, below zero, or out of range.
+pub(crate) fn check_radius(radius: f64) -> Result<(), ShapeError> {
+    check_number(radius, "the radius")?;
+    if radius < 0.0 {
+        return Err(ShapeError::Negative { quantity: "the radius", found: radius });
+    }
+    if radius > 0.0 && radius < LEAST {
+        return Err(ShapeError::OutOfRange { quantity: "the radius", found: radius });
+    }
+    Ok(())
+}
+
+/// # Errors
+/// Neighbours in the ring that are at one place, or so near that powers of their distance underflow.
+fn check_sides(points: &[DVec2]) -> Result<(), ShapeError> {
+    let count = points.len();
+    for index in 0..count {
+        let next = (index + 1) % count;
+        if points[index] == points[next] {
+            return Err(ShapeError::EqualPoints { first: index.min(next), second: index.max(next) });
+        }
+        let length = direction(points[next] - points[index]).1;
+        if length < LEAST {
+            return Err(ShapeError::OutOfRange { quantity: "the length of a side", found: length });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(list: &[(f64, f64)]) -> Vec<DVec2> {
+        list.iter().map(|(x, y)| DVec2::new(*x, *y)).collect()
+    }
+
+    #[test]
+    fn normals_of_a_square_point_outwards_whatever_its_order() {
+        let mut corners = points(&[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);
+        for clockwise in [false, true] {
+            if clockwise {
+                corners.reverse();
+            }
+            let (hull, mended) = Hull::polygon(&corners, 0.1).unwrap();
+            assert_eq!(mended.contains(&Mended::Turned), clockwise);
+            for (index, side) in hull.sides().iter().enumerate() {
+                assert_eq!(side.length, 2.0);
+                assert_eq!(side.normal.dot(DVec2::ONE - hull.corners()[index]), -1.0, "{index}");
+            }
+        }
+    }
+
+    #[test]
+    fn points_exactly_on_a_side_are_left_out_and_said() {
+        let (hull, mended) = Hull::polygon(&points(&[(0.0, 0.0), (1.0, 0.0), (3.0, 0.0), (0.0, 3.0)]), 0.0).unwrap();
+        assert_eq!(hull.corners().len(), 3);
+        assert_eq!(mended, [Mended::Straight { point: 1 }]);
+        // One unit in the last place outwards is a corner, however flat.
+        let flat = points(&[(0.0, 0.0), (1.0, -1e-300), (3.0, 0.0), (0.0, 3.0)]);
+        assert_eq!(Hull::polygon(&flat, 0.0).unwrap().0.corners().len(), 4);
+    }
+
+    #[test]
+    fn a_capsule_has_two_sides_back_and_forth() {
+        let hull = Hull::capsule(DVec2::ZERO, DVec2::new(4.0, 0.0), 0.0).unwrap();
+        assert_eq!(hull.sides()[0].normal, -DVec2::Y);
+        assert_eq!(hull.sides()[1].normal, DVec2::Y);
+        assert_eq!(hull.ends(1), (DVec2::new(4.0, 0.0), DVec2::ZERO));
+        assert_eq!(hull.reach_of_core(DVec2::X), 3.0);
+    }
+
+    #[test]
+    fn each_error_names_what_is_wrong() {
+        let polygon = |list: &[(f64, f64)]| Hull::polygon(&points(list), 0.0).unwrap_err();
+        assert_eq!(polygon(&[(0.0, 0.0), (1.0, 0.0)]), ShapeError::TooFewPoints { found: 2 });
+        assert_eq!(polygon(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]), ShapeError::ZeroArea);
+        let equal = polygon(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0)]);
+        assert_eq!(equal, ShapeError::EqualPoints { first: 1, second: 2 });
+        let spike = polygon(&[(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (0.0, 1.0)]);
+        assert_eq!(spike, ShapeError::SelfCrossing { first: 0, second: 1, at: DVec2::new(2.0, 0.0) });
+        let dart = polygon(&[(0.0, 0.0), (1.0, 0.0), (0.2, 0.2), (0.0, 1.0)]);
+        assert_eq!(dart, ShapeError::NotConvex { point: 2 });
+        // A pentagram bends one way at all points and still is not convex.
+        let star: Vec<(f64, f64)> = [0, 2, 4, 1, 3]
+            .map(|k: i32| f64::from(k) * 0.4 * std::f64::consts::PI)
+            .map(|angle| (libm::cos(angle), libm::sin(angle)))
+            .to_vec();
+        assert!(matches!(polygon(&star), ShapeError::NotConvex { .. }));
+        assert!(matches!(Hull::disc(DVec2::NAN, 1.0), Err(ShapeError::NotFinite { .. })));
+        assert!(matches!(Hull::disc(DVec2::ZERO, -1.0), Err(ShapeError::Negative { .. })));
+        assert!(matches!(Hull::disc(DVec2::X * 1e80, 1.0), Err(ShapeError::OutOfRange { .. })));
+        assert!(matches!(Hull::capsule(DVec2::X, DVec2::X, 1.0), Err(ShapeError::EqualPoints { .. })));
+    }
+
+    #[test]
+    fn tiny_and_huge_hulls_have_unit_normals() {
+        for size in [2e-75, 1.0, 1e74] {
+            let corners = points(&[(0.0, 0.0), (size, 0.0), (0.0, size)]);
+            let (hull, _) = Hull::polygon(&corners, 0.0).unwrap();
+            // A square root and a division round, and so do the squares.
+            assert!(hull.sides().iter().all(|side| (side.normal.length() - 1.0).abs() < 4.0 * f64::EPSILON), "{size}");
+        }
+    }
+}

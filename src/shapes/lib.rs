@@ -1,0 +1,39 @@
+//! Shapes as rounded convex hulls: the corners' convex hull, grown by a radius on all sides.
+//!
+//! The hull of the corners is the *core*. Discs, capsules, polygons and gears all become hulls; concave shapes become several.
+//! Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
+
+mod boundary;
+mod compound;
+mod convex_parts;
+mod cover;
+mod distance;
+mod error;
+mod gear;
+mod hull;
+mod moments;
+mod nearest;
+mod orientation;
+mod outline;
+mod pose;
+mod rack;
+mod shape;
+mod time_of_impact;
+
+pub use distance::{Separation, distance, separation};
+pub use error::{Mended, ShapeError};
+pub use gear::Gear;
+pub use hull::{Hull, Side};
+pub use moments::AreaMoments;
+pub use nearest::{Feature, Nearest, distance_to, nearest};
+pub use pose::{Bounds, Pose};
+pub use rack::Rack;
+pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
+pub use time_of_impact::{Motion, time_of_impact};
+
+/// The settings of the property tests: the same cases in each run, and no files of failures.
+#[cfg(test)]
+pub(crate) fn cases(seed: u64, cases: u32) -> proptest::prelude::ProptestConfig {
+    let rng_seed = proptest::test_runner::RngSeed::Fixed(seed);
+    proptest::prelude::ProptestConfig { cases, rng_seed, failure_persistence: None, ..Default::default() }
+}
