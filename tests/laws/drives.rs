@@ -245,24 +245,31 @@ fn a_late_servo_gives_its_samples_after_its_delay() {
     }
 }
 
-/// Law: samples that have not taken effect are part of the state, so runs that go on from a snapshot, and from a
-/// fork, have the same bits.
+/// Law: samples that have not taken effect, and whether the bound holds, are part of the state, so runs that go on from a snapshot, and from
+/// a fork, have the same bits.
 #[test]
-fn a_snapshot_keeps_the_samples_that_are_under_way() {
-    let scene = "bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
-        joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
-        controllers: [Servo(of: \"hip\", target: 1, kp: 1.5, kd: 0.35, rate: 20, delay: 0.125)]";
-    let mut whole = load("Dop853", 0.01, scene);
-    run_to(&mut whole, 0.5);
-    let snapshot = whole.snapshot().unwrap();
-    let mut fork = whole.fork().unwrap();
-    run_to(&mut whole, 1.0);
-    let mut second = load("Dop853", 0.01, scene);
-    second.restore(&snapshot).unwrap();
-    for other in [&mut second, &mut fork] {
-        run_to(other, 1.0);
-        assert_eq!(other.bodies().angle[0].to_bits(), whole.bodies().angle[0].to_bits());
-        assert_eq!(other.future_hash().unwrap(), whole.future_hash().unwrap());
+fn a_snapshot_keeps_what_a_servo_knows() {
+    for controller in [
+        "target: 1, kp: 1.5, kd: 0.35, rate: 20, delay: 0.125",
+        "target: Course([(0, 0), (0.3, 1), (0.7, -1)]), kp: 1.5, ki: 0.2, kd: 0.35, limit: 0.4",
+    ] {
+        let scene = format!(
+            "bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
+            controllers: [Servo(of: \"hip\", {controller})]"
+        );
+        let mut whole = load("Dop853", 0.01, &scene);
+        run_to(&mut whole, 0.5);
+        let snapshot = whole.snapshot().unwrap();
+        let mut fork = whole.fork().unwrap();
+        run_to(&mut whole, 1.0);
+        let mut second = load("Dop853", 0.01, &scene);
+        second.restore(&snapshot).unwrap();
+        for other in [&mut second, &mut fork] {
+            run_to(other, 1.0);
+            assert_eq!(other.bodies().angle[0].to_bits(), whole.bodies().angle[0].to_bits());
+            assert_eq!(other.future_hash().unwrap(), whole.future_hash().unwrap());
+        }
     }
 }
 
@@ -450,4 +457,123 @@ fn a_rack_on_a_free_frame_keeps_momentum_and_energy() {
     let [x, y] = card.momentum_residual;
     assert!(x.abs().max(y.abs()).max(card.angular_momentum_residual.abs()) < 1e-12, "{x} {y}");
     assert!(card.energy.residual.abs() < 1e-10, "{}", card.energy.residual);
+}
+
+/// A wheel under proportional control with a bound, from rest: evenly faster, freely about the target, evenly slower, and back. `swing` is the
+/// distance of the target at the start. Half a period is `2 t1 + t2`, with `t1 = sqrt(2 (swing - x) I/limit)` at the bound, where
+/// `x = limit/kp`, and `t2 = 2 atan(x w/v)/w` between both bounds, with the speed `v = limit t1/I` and `w = sqrt(kp/I)`.
+struct BoundedSwing {
+    inertia: f64,
+    kp: f64,
+    limit: f64,
+    swing: f64,
+}
+
+impl BoundedSwing {
+    /// A quarter of the period in s, and the spin at the target in rad/s.
+    fn quarter(&self) -> (f64, f64) {
+        let (x, w) = (self.limit / self.kp, (self.kp / self.inertia).sqrt());
+        let at_bound = (2.0 * (self.swing - x) * self.inertia / self.limit).sqrt();
+        let speed = self.limit * at_bound / self.inertia;
+        (at_bound + libm::atan2(x * w, speed) / w, (speed * speed + x * x * w * w).sqrt())
+    }
+
+    /// Angle from the target in rad, spin in rad/s and error of the energy in J after nine quarters of `ticks` ticks each.
+    fn run(&self, clock: &str, ticks: u32) -> (f64, f64, f64) {
+        let Self { inertia, kp, limit, swing } = self;
+        let tick = self.quarter().0 / f64::from(ticks);
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: {:?}, tick: {tick:?}, {clock}), contacts: None,
+            bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: {inertia:?}, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
+            controllers: [Servo(name: \"drive\", of: \"hip\", target: {swing:?}, kp: {kp:?}, limit: {limit:?})])",
+            tick * f64::from(9 * ticks)
+        );
+        let mut simulation =
+            Simulation::load(&Source::new("servo.ron", scene)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_tick(u64::from(9 * ticks)).unwrap();
+        let bodies = simulation.bodies();
+        (bodies.angle[0] - swing, bodies.spin[0], simulation.card().energy.residual)
+    }
+}
+
+/// Law: see [`BoundedSwing`]; after nine quarters of its period the wheel passes the target at its greatest speed. The bound is met and left
+/// nine times. The torque is continuous there, so a moment that is wrong by `e` costs `kp v e^2/(2 I)` of speed: rounding of moments costs
+/// nothing. What is left is the truncation of `Dop853`, `(w h)^9/9!` a step at most, `(20 * 0.0019)^9/9! = 5e-19` of 1 rad, and rounding of
+/// 900 steps of 1.1e-15 rad/s each, half an ulp of 10 rad/s, over 1.7 s: 2e-12.
+#[test]
+fn a_servo_reaches_and_leaves_its_bound_at_events() {
+    let law = BoundedSwing { inertia: 0.2, kp: 80.0, limit: 11.0, swing: 1.0 };
+    let (_, fastest) = law.quarter();
+    let (off, spin, residual) = law.run("method: Dop853", 100);
+    demand(&[off, spin / fastest, residual / 8.0], &[0.0, 1.0, 0.0], 2e-12, "Dop853");
+}
+
+/// Law: methods that locate events keep their order where the bound is met and left. Halving the tick divides the error by `2^order`; half
+/// of the order less is more than located events may cost, and far from order 2 of methods that do not see them.
+#[test]
+fn methods_keep_their_order_at_the_bound_of_a_servo() {
+    let law = BoundedSwing { inertia: 0.2, kp: 80.0, limit: 60.0, swing: 1.0 };
+    for (clock, order, ticks) in
+        [("method: Dop853", 8, 6), ("method: RungeKutta4", 4, 48), ("method: VelocityVerlet, events: Located", 2, 24)]
+    {
+        let [coarse, fine] = [ticks, 2 * ticks].map(|ticks| law.run(clock, ticks).0.abs());
+        let found = (coarse / fine).log2();
+        assert!(found > f64::from(order) - 0.5, "{clock}: {found}, {coarse:e} and {fine:e}");
+    }
+}
+
+/// Law: where the rate of the target jumps, the output jumps from one bound to the other. From rest at 0.3 s the wheel gets `limit` for 50 ms
+/// and then `-limit`, so it stands at `limit/I (50 ms)^2` after 50 ms more. Kinks lie between ticks. Tolerance: rounding of some 30 steps
+/// and of times near 1 s, where the wheel moves at 0.5 rad/s at most.
+#[test]
+fn the_output_of_a_servo_jumps_between_its_bounds_where_its_target_bends() {
+    for method in ["Dop853", "RungeKutta4"] {
+        let mut simulation = load(
+            method,
+            0.016,
+            "bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
+            controllers: [Servo(name: \"drive\", of: \"hip\", kp: 1, kd: 1, limit: 2,
+                target: Course([(0, 0), (0.3, 0), (0.35, 0.25), (0.45, -0.25)]))]",
+        );
+        run_to(&mut simulation, 0.4);
+        let bodies = simulation.bodies();
+        demand(&[bodies.angle[0], bodies.spin[0]], &[10.0 * 0.05 * 0.05, 0.0], 1e-14, method);
+        assert_eq!(channel(&mut simulation, "drive.torque"), -2.0);
+    }
+}
+
+/// Law: `I q'' = kd (r - q')` on a course with the rate `r` of each piece gives `v = r + (v0 - r) e^(-l t)` with `l = kd/I = 5/s`, and `q` as its
+/// integral. Steps end at kinks and see the rate of their own piece, also in stages at their ends. Tolerance: the truncation of 25
+/// steps of 16 ms from 5 rad/s, `(l h)^9/9!` each under `Dop853` and `(l h)^5/5!` under `RungeKutta4`, and rounding.
+#[test]
+fn a_servo_sees_the_rate_of_the_piece_on_which_its_target_is() {
+    let pieces = [(0.3, 0.0), (0.05, 5.0), (0.05, -5.0_f64)];
+    let (mut angle, mut spin) = (0.0, 0.0_f64);
+    for (time, rate) in pieces {
+        let faded = libm::exp(-5.0 * time);
+        angle += rate * time + (spin - rate) * (1.0 - faded) / 5.0;
+        spin = rate + (spin - rate) * faded;
+    }
+    let truncation = |order: i32, factorial: f64| 25.0 * 5.0 * (5.0 * 0.016_f64).powi(order) / factorial;
+    for (clock, tolerance) in [
+        ("method: Dop853, tick: 0.016", truncation(9, 362_880.0) + 1e-14),
+        ("method: RungeKutta4, tick: 0.016", truncation(5, 120.0)),
+        ("method: RungeKutta4, tick: 0.016, events: PerTick", truncation(5, 120.0)),
+        ("tolerance: 1e-9", 1e-8),
+    ] {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 0.4, {clock}), contacts: None,
+            bodies: [(name: \"b\", at: (0, 0), mass: 1, inertia: 0.2, atoms: Disc(radius: 0.1))],
+            joints: [Revolute(name: \"hip\", a: World, b: \"b\")],
+            controllers: [Servo(of: \"hip\", kp: 0, kd: 1,
+                target: Course([(0, 0), (0.3, 0), (0.35, 0.25), (0.45, -0.25)]))])"
+        );
+        let mut simulation =
+            Simulation::load(&Source::new("servo.ron", scene)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_end().unwrap();
+        let bodies = simulation.bodies();
+        demand(&[bodies.angle[0], bodies.spin[0]], &[angle, spin], tolerance, clock);
+    }
 }

@@ -92,7 +92,7 @@ impl Model for ActuatorForce {
     fn apply_forces(&mut self, state: &mut State) {
         self.driven.refresh(&state.bodies);
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        let force = self.force.at(state.evaluation().time).0;
+        let force = self.force.at(state.evaluation().time);
         self.output.note(force, force * motion.rate);
         Driven::push(&motion, force, state);
     }

@@ -2,6 +2,8 @@
 //! Astrom and Murray, Feedback Systems, section 10.1), bounded, computed all the time or at a rate of its own. Sampled outputs are held
 //! until the next one, and may take effect after a delay (Astrom, Wittenmark, Computer-Controlled Systems, section 3.2).
 //!
+//! Computed all the time, its output reaches its bounds and leaves them at located events, if the method locates any.
+//!
 //! The integral is state that methods with stages advance as they do positions; velocity Verlet advances it from tick to tick.
 
 use bevy_app::App;
@@ -13,6 +15,7 @@ use std::collections::VecDeque;
 use super::driven::{self, Driven, DrivenForce, Motion};
 use super::output::{self, Output};
 use super::target::Target;
+use crate::constraints::Kind;
 use crate::scene::units::dimension::{OfAngle, OfLength};
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
@@ -95,6 +98,8 @@ impl Entry for Servo {
                     held: 0.0,
                 }),
                 integral: 0.0,
+                mode: Mode::default(),
+                inside: 0.0,
             });
         }
     }
@@ -113,6 +118,33 @@ struct ServoForce {
     /// Its output, if it computes it at a rate of its own.
     sampling: Option<Sampling>,
     integral: f64,
+    mode: Mode,
+    /// A time within the step under way, in s: it says on which piece of a table the target is.
+    inside: f64,
+}
+
+/// What its output is in a step, where the ends of modes are located.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+enum Mode {
+    /// What it wants to give.
+    #[default]
+    Follows,
+    /// Its bound: the sign of it.
+    Bounded(f64),
+}
+
+/// A share of the numbers from which an output is found that is rounding, and one within which a mode lasts.
+const ROUNDING: f64 = 1e-14;
+const LASTS: f64 = 1e-12;
+
+/// An output without its bounds, in N m or N.
+#[derive(Clone, Copy, Debug)]
+struct Wanted {
+    torque: f64,
+    /// Its rate per second.
+    slope: f64,
+    /// The size of the numbers from which it is found.
+    size: f64,
 }
 
 /// Times that differ by less than this share of a period are one.
@@ -160,11 +192,64 @@ impl Sampling {
 }
 
 impl ServoForce {
-    fn wanted(&self, motion: &Motion, time: f64) -> f64 {
+    /// The target and its rate.
+    fn aim(&self, time: f64, style: Style) -> (f64, f64) {
+        let inside = if style.is_staged() { self.inside } else { time };
+        (self.target.at(time), self.target.rate(time, inside))
+    }
+
+    /// The output without its bounds, in N m or N.
+    fn free(&self, motion: &Motion, (target, rate): (f64, f64)) -> f64 {
         let [kp, ki, kd] = self.gains;
-        let (target, rate) = self.target.at(time);
-        let torque = kp * (target - motion.value) + ki * self.integral + kd * (rate - motion.rate);
-        torque.clamp(-self.limit, self.limit)
+        kp * (target - motion.value) + ki * self.integral + kd * (rate - motion.rate)
+    }
+
+    fn bounded(&self, motion: &Motion, aim: (f64, f64)) -> f64 {
+        self.free(motion, aim).clamp(-self.limit, self.limit)
+    }
+
+    /// Whether the output may jump where the target bends.
+    fn jumps(&self) -> bool {
+        self.gains[2] != 0.0 && self.target.next_point(f64::NEG_INFINITY).is_finite()
+    }
+
+    /// Whether it reaches its bounds and leaves them at events.
+    fn has_events(&self) -> bool {
+        self.limit.is_finite() && self.sampling.is_none()
+    }
+
+    /// What it wants in the state just evaluated.
+    fn look(&self, state: &State) -> Option<Wanted> {
+        let motion = self.driven.motion(&state.bodies).filter(|_| self.has_events())?;
+        let [kp, ki, kd] = self.gains;
+        let (time, style) = (state.evaluation().time, state.evaluation().style);
+        let (target, rate) = self.aim(time, style);
+        let acceleration = motion.pair.row(&motion.along, Kind::Velocity).acceleration(&state.bodies);
+        let slope = kp * (rate - motion.rate)
+            + ki * (target - motion.value)
+            + kd * (self.target.acceleration(time) - acceleration);
+        let size = kp * (target.abs() + motion.value.abs())
+            + ki * self.integral.abs()
+            + kd * (rate.abs() + motion.pair.speeds(&motion.along));
+        Some(Wanted { torque: self.free(&motion, (target, rate)), slope, size: size + self.limit })
+    }
+
+    /// Chooses the mode of a state. Says whether that is another one.
+    fn choose(&mut self, state: &State) -> bool {
+        let Some(Wanted { torque, size, .. }) = self.look(state) else { return false };
+        let lasts = LASTS * size;
+        let mode = match self.mode {
+            Mode::Follows if torque.abs() > self.limit + lasts => Mode::Bounded(torque.signum()),
+            Mode::Bounded(sign) if sign * torque < self.limit - lasts => {
+                if sign * torque < -self.limit - lasts {
+                    Mode::Bounded(-sign)
+                } else {
+                    Mode::Follows
+                }
+            }
+            mode => mode,
+        };
+        std::mem::replace(&mut self.mode, mode) != mode
     }
 }
 
@@ -195,17 +280,22 @@ impl Model for ServoForce {
     }
 
     fn has_modes(&self) -> bool {
-        self.sampling.is_some() || self.gains[1] != 0.0
+        self.sampling.is_some() || self.gains[1] != 0.0 || self.jumps()
     }
 
     fn begin_step(&mut self, state: &mut State) {
         let span = state.span();
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        let staged = state.evaluation().style.is_staged();
+        let style = state.evaluation().style;
+        let staged = style.is_staged();
         let now = span.begin;
+        let before = std::mem::replace(&mut self.inside, span.middle());
+        if staged && self.sampling.is_none() && self.jumps() {
+            state.evaluation.stale |= self.target.rate(now, before) != self.target.rate(now, self.inside);
+        }
         let mut sampling = self.sampling.take();
         if let Some(sampling) = &mut sampling
-            && let Some(before) = sampling.advance(now, || self.wanted(&motion, now))
+            && let Some(before) = sampling.advance(now, || self.bounded(&motion, self.aim(now, style)))
         {
             // The forces of the state were those of the output before.
             if staged {
@@ -216,7 +306,7 @@ impl Model for ServoForce {
         }
         self.sampling = sampling;
         if !staged {
-            self.integral += (self.target.at(span.begin).0 - motion.value) * span.length;
+            self.integral += (self.target.at(span.begin) - motion.value) * span.length;
         }
     }
 
@@ -225,14 +315,26 @@ impl Model for ServoForce {
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
         let torque = match &self.sampling {
             Some(sampling) => sampling.held,
-            None => self.wanted(&motion, state.evaluation().time),
+            None => {
+                let (style, time) = (state.evaluation().style, state.evaluation().time);
+                let aim = self.aim(time, style);
+                match self.mode {
+                    Mode::Follows if style == Style::Frozen => self.free(&motion, aim),
+                    Mode::Bounded(sign) if style == Style::Frozen => sign * self.limit,
+                    _ => self.bounded(&motion, aim),
+                }
+            }
         };
         self.output.note(torque, torque * motion.rate);
         Driven::push(&motion, torque, state);
     }
 
     fn events(&mut self) -> Option<&mut dyn Events> {
-        (self.gains[1] != 0.0).then_some(self)
+        (self.gains[1] != 0.0 || self.has_events()).then_some(self)
+    }
+
+    fn after_blow(&mut self, state: &mut State) {
+        self.choose(state);
     }
 
     fn inner(&self) -> Option<&dyn std::any::Any> {
@@ -240,49 +342,72 @@ impl Model for ServoForce {
     }
 
     fn save(&self) -> Memory {
-        Memory::of(&(self.integral, &self.sampling, &self.output.values))
+        Memory::of(&(self.integral, self.mode, self.inside, &self.sampling, &self.output.values))
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
-        (self.integral, self.sampling, self.output.values) = recall(bytes)?;
+        (self.integral, self.mode, self.inside, self.sampling, self.output.values) = recall(bytes)?;
         Ok(())
     }
 }
 
-/// The integral.
+/// The integral, and the bounds of the output.
 impl Events for ServoForce {
     fn length(&self) -> usize {
-        1
+        usize::from(self.gains[1] != 0.0)
     }
 
     fn read(&self, numbers: &mut [f64]) {
-        numbers[0] = self.integral;
+        numbers.fill(self.integral);
     }
 
     fn write(&mut self, numbers: &[f64]) {
-        self.integral = numbers[0];
+        numbers.iter().for_each(|integral| self.integral = *integral);
     }
 
     fn rates(&self, state: &State, rates: &mut [f64]) {
-        let error = |motion: Motion| self.target.at(state.evaluation().time).0 - motion.value;
-        rates[0] = self.driven.motion(&state.bodies).map_or(0.0, error);
+        let error = |motion: Motion| self.target.at(state.evaluation().time) - motion.value;
+        rates.fill(self.driven.motion(&state.bodies).map_or(0.0, error));
     }
 
-    fn tell(&mut self, _: &State, _: &mut Vec<Indicator>) {}
-
-    fn switch(&mut self, _: &mut State, _: &[usize]) {}
-
-    fn settle(&mut self, _: &State) -> bool {
-        false
+    /// How far the output is from both bounds, or beyond the one that it gives.
+    fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
+        let Some(Wanted { torque, slope, size }) = self.look(state) else { return };
+        let told_of = |sign: f64, limit: f64| Indicator {
+            value: limit + sign * torque,
+            slope: sign * slope,
+            rounding: ROUNDING * size,
+            ..Indicator::default()
+        };
+        match self.mode {
+            Mode::Follows => told.extend([-1.0, 1.0].map(|sign| told_of(sign, self.limit))),
+            Mode::Bounded(sign) => told.push(told_of(sign, -self.limit)),
+        }
     }
 
-    fn take_stock(&mut self, _: &State) {}
+    fn switch(&mut self, _: &mut State, fired: &[usize]) {
+        self.mode = match (self.mode, fired) {
+            (Mode::Follows, [0, ..]) => Mode::Bounded(1.0),
+            (Mode::Follows, _) => Mode::Bounded(-1.0),
+            (Mode::Bounded(_), _) => Mode::Follows,
+        };
+    }
+
+    fn settle(&mut self, state: &State) -> bool {
+        self.choose(state)
+    }
+
+    fn take_stock(&mut self, state: &State) {
+        self.choose(state);
+    }
 
     fn tidy(&mut self, _: &mut State) -> bool {
         false
     }
 
-    fn hand_over(&mut self, _: &State, _: Style) {}
+    fn hand_over(&mut self, state: &State, _: Style) {
+        self.choose(state);
+    }
 
     fn is_crowded(&self) -> bool {
         false

@@ -78,11 +78,27 @@ impl<A, B> Target<A, B> {
         }
     }
 
-    /// The value at `time` seconds, and its rate per second.
-    pub fn at(&self, time: f64) -> (f64, f64) {
+    /// The value at `time` seconds.
+    pub fn at(&self, time: f64) -> f64 {
         match &self.value {
-            Value::Constant(value) => (*value, 0.0),
-            Value::Course(course) => (course.at(time), course.rate(time)),
+            Value::Constant(value) => *value,
+            Value::Course(course) => course.at(time),
+        }
+    }
+
+    /// Its rate per second at `time` seconds, on the piece of a table on which `inside` lies.
+    pub fn rate(&self, time: f64, inside: f64) -> f64 {
+        match &self.value {
+            Value::Constant(_) => 0.0,
+            Value::Course(course) => course.rate(time, inside),
+        }
+    }
+
+    /// Its second derivative at `time` seconds, per second squared.
+    pub fn acceleration(&self, time: f64) -> f64 {
+        match &self.value {
+            Value::Constant(_) => 0.0,
+            Value::Course(course) => course.acceleration(time),
         }
     }
 

@@ -199,20 +199,25 @@ impl Course {
         }
     }
 
-    /// Its rate per second at `time` seconds; at a point of a table that of the piece behind it.
-    pub fn rate(&self, time: f64) -> f64 {
+    /// Its rate per second at `time` seconds, on the piece of a table on which `inside` lies: at a point two pieces meet.
+    pub fn rate(&self, time: f64, inside: f64) -> f64 {
         match self {
             Self::Sine { amplitude, phase, .. } => {
                 amplitude.si() * self.rhythm() * libm::cos(self.rhythm() * time + phase.si())
             }
             Self::Piecewise(points) => {
-                let next = points.partition_point(|point| point.0.si() <= time);
+                let next = points.partition_point(|point| point.0.si() <= inside);
                 let pair = next.checked_sub(1).and_then(|before| points.get(before..=next));
                 pair.map_or(0.0, |pair| (pair[1].1.si() - pair[0].1.si()) / (pair[1].0.si() - pair[0].0.si()))
             }
             // A check refuses it.
             Self::Csv(_) => 0.0,
         }
+    }
+
+    /// Its second derivative at `time` seconds, per second squared. A table has none between its points.
+    pub fn acceleration(&self, time: f64) -> f64 {
+        -self.rhythm() * self.rhythm() * self.at(time)
     }
 
     /// The angular frequency of a sine in rad/s; zero, if it is none.
