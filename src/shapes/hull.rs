@@ -6,6 +6,7 @@
 //! Lengths are in metres.
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Mended, ShapeError};
 use crate::orientation::orientation;
@@ -17,7 +18,7 @@ pub(crate) const LARGEST: f64 = 1e75;
 pub(crate) const LEAST: f64 = 1e-75;
 
 /// One side of a core.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Side {
     /// Unit normal, outwards.
     pub normal: DVec2,
@@ -28,7 +29,7 @@ pub struct Side {
 }
 
 /// The convex hull of its corners, grown by a radius.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hull {
     corners: Vec<DVec2>,
     sides: Vec<Side>,
@@ -148,6 +149,19 @@ impl Hull {
         let mut moved = self.clone();
         moved.corners.iter_mut().for_each(|corner| *corner += by);
         moved
+    }
+
+    /// Half of the least width of the hull in metres: for a disc or a capsule its radius.
+    pub fn half_width(&self) -> f64 {
+        let across = |side: &Side| {
+            let heights = self.corners.iter().map(|corner| side.normal.dot(*corner));
+            let (low, high) = heights
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)));
+            high - low
+        };
+        let width =
+            if self.corners.len() < 3 { 0.0 } else { self.sides.iter().map(across).fold(f64::INFINITY, f64::min) };
+        0.5 * width + self.radius
     }
 
     /// The distance of the farthest corner from a place, in metres. The radius does not count.

@@ -15,7 +15,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::SimulationExt;
-use jostle::contacts::{AtomPair, CandidatePairs, Law, LawSide, LawTouch, WallPair, add_law};
+use jostle::contacts::{AtomPair, CandidatePairs, Law, LawSide, LawTouch, add_law};
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::{Overrides, Simulation};
 use jostle::tick::{Balance, Energies, Model, State, SteadySpring};
@@ -53,7 +53,7 @@ impl Law for AxisWiseLaw {
         let bodies = state.bodies();
         let along = match pair.a {
             LawSide::Atom(a) => series(bodies, a, pair.b),
-            LawSide::Wall(_) => bodies.atom_stiffness(pair.b),
+            LawSide::Hull(_) | LawSide::Wall(_) => bodies.atom_stiffness(pair.b),
         };
         (along, 0.0)
     }
@@ -97,8 +97,9 @@ fn apply_axis_wise(materials: &Materials, pairs: &CandidatePairs, bodies: &mut B
         push(bodies, balance, a, force);
         push(bodies, balance, b, -force);
     }
-    for &WallPair { wall, atom } in &pairs.walls {
-        let (wall, atom) = (bodies.walls[wall as usize], atom as usize);
+    let near_walls: Vec<_> = pairs.near_walls(bodies).collect();
+    for (wall, atom) in near_walls {
+        let wall = bodies.walls[wall];
         let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
         let compression = bodies.atom_radius[atom] - height;
         if compression <= 0.0 {
@@ -121,8 +122,8 @@ fn elastic_energy(bodies: &Bodies, pairs: &CandidatePairs) -> f64 {
         let distance = (bodies.atom_place(a) - bodies.atom_place(b)).length();
         energy(series(bodies, a, b), bodies.atom_radius[a] + bodies.atom_radius[b] - distance)
     });
-    let of_walls = pairs.walls.iter().map(|&WallPair { wall, atom }| {
-        let (wall, atom) = (bodies.walls[wall as usize], atom as usize);
+    let of_walls = pairs.near_walls(bodies).map(|(wall, atom)| {
+        let wall = bodies.walls[wall];
         let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
         energy(bodies.atom_stiffness(atom), bodies.atom_radius[atom] - height)
     });

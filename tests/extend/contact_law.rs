@@ -68,8 +68,8 @@ impl Model for Floor {
 
 /// Atoms in walls, with what they are pressed in by, and the normal.
 fn pressed(bodies: &Bodies, pairs: &CandidatePairs) -> Vec<(usize, f64, DVec2)> {
-    let all = pairs.walls.iter().map(|pair| {
-        let (wall, atom) = (bodies.walls[pair.wall as usize], pair.atom as usize);
+    let all = pairs.near_walls(bodies).map(|(wall, atom)| {
+        let wall = bodies.walls[wall];
         let height = (bodies.atom_place(atom) - wall.point).dot(wall.normal);
         (atom, bodies.atom_radius[atom] - height, wall.normal)
     });

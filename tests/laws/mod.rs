@@ -22,6 +22,7 @@ mod forces;
 mod frames;
 mod friction;
 mod hard;
+mod hulls;
 mod impacts;
 mod joint_friction;
 mod joint_limits;

@@ -83,7 +83,7 @@ impl Anatomy {
             card: plain.card(),
             ticks,
             atoms: plain.bodies().atom_count(),
-            pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.walls.len())),
+            pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.surfaces.len())),
             search: pairs.map(|pairs| {
                 let evaluations = plain.resource::<State>().evaluation().count;
                 (pairs.search.told(), evaluations as f64 / pairs.version.max(1) as f64)

@@ -1,14 +1,22 @@
 //! The geometry of a candidate pair: overlap, normal, arms, velocities and their rates. Contact laws make forces of it.
 //!
-//! Side B is an atom, side A another atom or a wall. The normal points from A to B. The overlap is positive where they touch.
+//! Side B is an atom, or the side of a hull near an end of a wall; side A another atom, the side of a hull, or a wall. The normal points from A to B. The overlap is positive where they touch.
 //! The kernel for many discs ([`crate::contacts::penalty`]) works out the same for eight pairs at a time.
 
+use bevy_ecs::entity::Entity;
 use glam::DVec2;
 
-use super::{AtomPair, WallPair};
+use super::{AtomPair, Probe, Surface, SurfacePair};
 use crate::constraints::islands::Link;
-use crate::world::{Bodies, NearestPoint};
+use crate::world::{Bodies, NearestOnHull, NearestPoint};
 use serde::{Deserialize, Serialize};
+
+impl SurfacePair {
+    /// The overlap of both sides in metres; negative: the gap.
+    pub fn overlap(self, bodies: &Bodies) -> f64 {
+        PairGeometry::surface(bodies, 0, self).overlap
+    }
+}
 
 /// How two sides share their overlap: each gives way by its share, the softer one more. Both shares sum up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,17 +25,23 @@ pub(crate) struct Shares {
     pub b: f64,
 }
 
-/// One side of a contact.
+/// One side of a contact: an atom, or the place of a hull's core that is nearest to the other side.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct End {
     pub body: usize,
-    /// Centre of the atom from the centre of mass of its body, in metres.
+    /// Centre of the atom, or the place on the core, from the centre of mass of its body, in metres.
     pub arm: DVec2,
-    /// Radius of the atom in metres.
+    /// Radius of the atom or of the hull in metres.
     pub radius: f64,
 }
 
 impl End {
+    /// The place of a hull that is nearest to the other side.
+    fn on_hull(bodies: &Bodies, hull: usize, found: &NearestOnHull) -> Self {
+        let packed = &bodies.hulls[hull];
+        Self { body: packed.body as usize, arm: found.foot, radius: packed.hull.radius() }
+    }
+
     #[inline(always)]
     pub fn of(bodies: &Bodies, atom: u32) -> Self {
         let atom = atom as usize;
@@ -60,8 +74,16 @@ impl End {
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) enum SideA {
     Atom(End),
+    Hull(End),
     /// The index of a wall.
     Wall(u32),
+}
+
+/// The list in which a pair stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Listed {
+    Atoms,
+    Surfaces,
 }
 
 /// The two sides of a candidate pair.
@@ -86,18 +108,32 @@ impl Link for Pair {
 }
 
 impl Pair {
+    /// The list in which it stands.
+    pub fn listed(&self) -> Listed {
+        if matches!(self.a, SideA::Atom(_)) { Listed::Atoms } else { Listed::Surfaces }
+    }
+
     /// Side A unless it is a wall.
     pub fn other_end(&self) -> Option<&End> {
         match &self.a {
-            SideA::Atom(end) => Some(end),
+            SideA::Atom(end) | SideA::Hull(end) => Some(end),
             SideA::Wall(_) => None,
         }
+    }
+
+    /// The entities of both sides.
+    pub fn entities(&self, bodies: &Bodies) -> (Entity, Entity) {
+        let a = match &self.a {
+            SideA::Atom(a) | SideA::Hull(a) => bodies.entity[a.body],
+            SideA::Wall(wall) => bodies.walls[*wall as usize].entity,
+        };
+        (a, bodies.entity[self.b.body])
     }
 
     /// Arms of both sides to the point where they touch, in metres.
     pub fn arms(&self, shares: Shares, overlap: f64) -> (DVec2, DVec2) {
         match &self.a {
-            SideA::Atom(other) => arms((other, &self.b), self.normal, overlap, shares),
+            SideA::Atom(other) | SideA::Hull(other) => arms((other, &self.b), self.normal, overlap, shares),
             SideA::Wall(_) => (DVec2::ZERO, self.b.arm - self.normal * (self.b.radius - overlap)),
         }
     }
@@ -123,8 +159,10 @@ pub(crate) struct PairGeometry {
     pub pair: Pair,
     /// Overlap in metres; negative: the gap.
     pub overlap: f64,
-    /// Distance of the centres in metres; infinite for the flat side of a wall.
+    /// Distance of the centres in metres; infinite for the flat side of a wall or hull.
     pub distance: f64,
+    /// Where the nearest place is on a flat side of a hull: the spin of its body, and the distance of the cores in metres.
+    flat: Option<(f64, f64)>,
     /// Velocity of the centre of side B seen from that of side A, or from the surface of the wall, in m/s.
     pub velocity: DVec2,
     /// Spins of side A and side B times their radii given way, for the velocity along the surface; see [`PairGeometry::sliding`].
@@ -140,22 +178,62 @@ impl PairGeometry {
         Self {
             overlap: reach - distance,
             distance,
+            flat: None,
             velocity: b.velocity(bodies) - a.velocity(bodies),
             spins: (bodies.spin[a.body], bodies.spin[b.body]),
             pair: Pair { index: index as u32, normal, a: SideA::Atom(a), b },
         }
     }
 
-    pub fn wall(bodies: &Bodies, index: usize, WallPair { wall, atom }: WallPair) -> Self {
-        let (packed, end) = (bodies.walls[wall as usize], End::of(bodies, atom));
+    pub fn surface(bodies: &Bodies, index: usize, pair: SurfacePair) -> Self {
+        match (pair.surface(bodies), pair.probe(bodies)) {
+            (Surface::Wall(wall), _) => Self::wall(bodies, index, wall, pair.probe),
+            (Surface::Hull(hull), Probe::Atom(atom)) => Self::hull(bodies, index, hull, atom as u32),
+            (Surface::Hull(hull), Probe::End(wall, right)) => Self::end(bodies, index, hull, (wall, right)),
+        }
+    }
+
+    fn wall(bodies: &Bodies, index: usize, wall: usize, atom: u32) -> Self {
+        let (packed, end) = (bodies.walls[wall], End::of(bodies, atom));
         let NearestPoint { height, normal, distance } = packed.nearest(bodies.atom_place(atom as usize));
-        let belt = bodies.belts.get(wall as usize).copied().unwrap_or(DVec2::ZERO);
+        let belt = bodies.belts.get(wall).copied().unwrap_or(DVec2::ZERO);
         Self {
             overlap: end.radius - height,
             distance,
+            flat: None,
             velocity: end.velocity(bodies) - belt,
             spins: (0.0, bodies.spin[end.body]),
-            pair: Pair { index: index as u32, normal, a: SideA::Wall(wall), b: end },
+            pair: Pair { index: index as u32, normal, a: SideA::Wall(wall as u32), b: end },
+        }
+    }
+
+    fn hull(bodies: &Bodies, index: usize, hull: usize, atom: u32) -> Self {
+        let (b, found) = (End::of(bodies, atom), bodies.nearest_on_hull(hull, bodies.atom_place(atom as usize)));
+        let a = End::on_hull(bodies, hull, &found);
+        let spins = (bodies.spin[a.body], bodies.spin[b.body]);
+        Self {
+            overlap: a.radius + b.radius - found.distance,
+            distance: if found.flat { f64::INFINITY } else { found.distance },
+            flat: found.flat.then_some((spins.0, found.distance)),
+            velocity: b.velocity(bodies) - a.velocity(bodies),
+            spins,
+            pair: Pair { index: index as u32, normal: found.normal, a: SideA::Hull(a), b },
+        }
+    }
+
+    /// An end of a wall near a hull: the hull is side B.
+    fn end(bodies: &Bodies, index: usize, hull: usize, (wall, right): (usize, bool)) -> Self {
+        let (center, radius) = bodies.walls[wall].end(right);
+        let found = bodies.nearest_on_hull(hull, center);
+        let b = End::on_hull(bodies, hull, &found);
+        let spin = bodies.spin[b.body];
+        Self {
+            overlap: radius + b.radius - found.distance,
+            distance: if found.flat { f64::INFINITY } else { found.distance },
+            flat: found.flat.then_some((spin, found.distance)),
+            velocity: b.velocity(bodies),
+            spins: (0.0, spin),
+            pair: Pair { index: index as u32, normal: -found.normal, a: SideA::Wall(wall as u32), b },
         }
     }
 
@@ -192,6 +270,31 @@ impl PairGeometry {
         (radius_a, self.pair.b.radius - shares.b * self.overlap)
     }
 
+    /// The turn in rad of the normal since the last accepted state, if side B was displaced against side A by so much.
+    pub fn turned(&self, bodies: &Bodies, displacement: DVec2) -> f64 {
+        let flat = match (self.flat, &self.pair.a) {
+            (None, _) => return self.pair.normal.perp_dot(displacement) / self.distance,
+            (_, SideA::Hull(a)) => a,
+            _ => &self.pair.b,
+        };
+        bodies.displacement(flat.body).1
+    }
+
+    /// The rate in rad/s at which the normal turns at most, whatever the direction of the velocity.
+    pub fn turns(&self) -> f64 {
+        self.velocity.length() / self.distance + self.flat.map_or(0.0, |(spin, _)| spin.abs())
+    }
+
+    /// The rate in rad/s at which the normal turns.
+    fn swing(&self) -> f64 {
+        self.velocity.dot(self.pair.normal.perp()) / self.distance + self.flat.map_or(0.0, |(spin, _)| spin)
+    }
+
+    /// The acceleration in m/s2 along the normal that comes from the place on a flat side, which moves along it.
+    fn gliding(&self) -> f64 {
+        self.flat.map_or(0.0, |(spin, height)| spin * (self.velocity.dot(self.pair.normal.perp()) - spin * height))
+    }
+
     /// What the relative accelerations along normal and tangent would be if no force acted: the frame of the contact turns
     /// and its lever arms change.
     pub fn inertial(&self, shares: Shares, bodies: &Bodies) -> (f64, f64) {
@@ -205,10 +308,10 @@ impl PairGeometry {
         let rolling = spinning(self.pair.other_end()) * radius_a + spinning(Some(&self.pair.b)) * radius_b;
         let tangent = self.pair.normal.perp();
         let (along, parting) = (self.velocity.dot(tangent), self.parting());
-        let turning = along / self.distance;
+        let turning = self.swing();
         let giving_way = shares.a * self.spins.0 + shares.b * self.spins.1;
         (
-            free.dot(self.pair.normal) + along * turning,
+            free.dot(self.pair.normal) + along * turning + self.gliding(),
             free.dot(tangent) - parting * turning - giving_way * parting - rolling,
         )
     }
@@ -221,13 +324,21 @@ impl PairGeometry {
     /// The rate of what [`End::mobility`] of both sides sums up to, in 1/(kg s).
     pub fn mobility_rate(&self, bodies: &Bodies) -> f64 {
         let normal = self.pair.normal;
-        let swing = normal.perp() * (self.velocity.dot(normal.perp()) / self.distance);
-        let mobility = |end: &End| {
+        let swing = normal.perp() * self.swing();
+        let (of_a, of_b) = self.glides();
+        let mobility = |end: &End, glides: f64| {
             let (lever, spin) = (end.arm.perp_dot(normal), bodies.spin[end.body]);
-            let rate = spin * end.arm.perp().perp_dot(normal) + end.arm.perp_dot(swing);
+            let rate = spin * end.arm.perp().perp_dot(normal) + end.arm.perp_dot(swing) - glides;
             2.0 * lever * rate * bodies.inverse_inertia(end.body)
         };
-        mobility(&self.pair.b) + self.pair.other_end().map_or(0.0, mobility)
+        mobility(&self.pair.b, of_b) + self.pair.other_end().map_or(0.0, |a| mobility(a, of_a))
+    }
+
+    /// The speeds in m/s along the tangent with which the places on sides A and B move along their flat sides.
+    fn glides(&self) -> (f64, f64) {
+        let Some((spin, height)) = self.flat else { return (0.0, 0.0) };
+        let along = self.velocity.dot(self.pair.normal.perp()) - spin * height;
+        if matches!(self.pair.a, SideA::Hull(_)) { (along, 0.0) } else { (0.0, -along) }
     }
 
     /// The rate of [`PairGeometry::parting`] under the present forces, in m/s2.
@@ -286,7 +397,9 @@ impl PairGeometry {
             bodies.force[body] * bodies.inverse_mass(body) + led + end.arm.perp() * turning
                 - end.arm * (bodies.spin[body] * bodies.spin[body])
         };
-        (acceleration(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, acceleration)).length()
+        let apart = acceleration(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, acceleration);
+        let swings = self.flat.map_or(0.0, |(spin, _)| (spin * self.velocity.dot(self.pair.normal.perp())).abs());
+        apart.length() + swings + self.gliding().abs()
     }
 }
 

@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::geometry::PairGeometry;
-use super::search;
+use super::{Probe, Surface, search};
 use crate::tick::response::{Spring, Springs};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
@@ -38,6 +38,8 @@ pub struct LawTouch {
 pub enum LawSide {
     /// An atom.
     Atom(usize),
+    /// The side of a hull.
+    Hull(usize),
     /// A wall.
     Wall(usize),
 }
@@ -197,7 +199,11 @@ impl<L: Law> Watched<L> {
             let entity = |atom: usize| bodies.entity[bodies.atom_body(atom)];
             let (first, smaller) = match pair.a {
                 LawSide::Atom(a) => (entity(a), bodies.atom_radius[a].min(bodies.atom_radius[pair.b])),
-                LawSide::Wall(wall) => (bodies.walls[wall].entity, bodies.atom_radius[pair.b]),
+                LawSide::Hull(hull) => {
+                    let packed = &bodies.hulls[hull];
+                    (bodies.entity[packed.body as usize], packed.hull.half_width().min(bodies.size_of_atom(pair.b)))
+                }
+                LawSide::Wall(wall) => (bodies.walls[wall].entity, bodies.size_of_atom(pair.b)),
             };
             deepest.note(pair.overlap, smaller, time, || (first, entity(pair.b)));
         }
@@ -213,6 +219,10 @@ impl<L: Law> Watched<L> {
         let spring = |pair: &LawTouch| Spring {
             a: match pair.a {
                 LawSide::Atom(atom) => Some(side(atom)),
+                LawSide::Hull(hull) => {
+                    let found = bodies.nearest_on_hull(hull, bodies.atom_place(pair.b));
+                    Some((bodies.hulls[hull].body as usize, found.foot))
+                }
                 LawSide::Wall(_) => None,
             },
             b: side(pair.b),
@@ -240,8 +250,14 @@ fn touching(state: &State) -> Vec<LawTouch> {
     let atoms = pairs.atoms.iter().enumerate().filter_map(|(index, &pair)| {
         touch(LawSide::Atom(pair.a as usize), pair.b, PairGeometry::atoms(bodies, index, pair))
     });
-    let walls = pairs.walls.iter().enumerate().filter_map(|(index, &pair)| {
-        touch(LawSide::Wall(pair.wall as usize), pair.atom, PairGeometry::wall(bodies, index, pair))
+    let surfaces = pairs.surfaces.iter().enumerate().filter_map(|(index, &pair)| {
+        // Beside an end of a wall no atom is side B.
+        let Probe::Atom(atom) = pair.probe(bodies) else { return None };
+        let side = match pair.surface(bodies) {
+            Surface::Wall(wall) => LawSide::Wall(wall),
+            Surface::Hull(hull) => LawSide::Hull(hull),
+        };
+        touch(side, atom as u32, PairGeometry::surface(bodies, index, pair))
     });
-    atoms.chain(walls).collect()
+    atoms.chain(surfaces).collect()
 }

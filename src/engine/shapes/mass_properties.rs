@@ -13,6 +13,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize};
 
+use jostle_shapes::{AreaMoments, Hull};
+
+use super::outline::Parts;
 use super::{AtomSpec, union};
 use crate::scene::Report;
 use crate::scene::units::Inertia;
@@ -86,6 +89,8 @@ pub struct MassProperties {
     pub inertia: f64,
     /// The atoms with their places counted from the centre of mass; their masses add up to `mass`.
     pub atoms: Vec<AtomSpec>,
+    /// The hulls about the centre of mass. Their corners are no atoms here.
+    pub hulls: Vec<Hull>,
 }
 
 impl MassProperties {
@@ -126,7 +131,25 @@ pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64
         atom.offset -= center;
         atom.mass = atom.mass.map(|own| own * (mass / sum));
     }
-    MassProperties { mass, center, inertia, atoms }
+    MassProperties { mass, center, inertia, atoms, hulls: Vec::new() }
+}
+
+/// The same where the body has hulls beside its atoms: those of the area that all of them cover, uniformly heavy.
+pub fn of_area(parts: &Parts, mass: Option<f64>, rule: InertiaRule, density: f64) -> MassProperties {
+    let discs = parts.discs.iter().filter_map(|disc| Hull::disc(disc.offset, disc.radius).ok());
+    let all: Vec<Hull> = parts.hulls.iter().cloned().chain(discs).collect();
+    let area = AreaMoments::union_of(&all);
+    let mass = mass.unwrap_or(density * area.area);
+    let inertia = match rule {
+        InertiaRule::Given(inertia) => inertia,
+        _ => mass / area.area * area.second_moment,
+    };
+    let center = area.centre;
+    let discs: f64 = parts.discs.iter().map(|disc| disc.radius * disc.radius).sum();
+    let share = |disc: &AtomSpec| if parts.hulls.is_empty() { mass * disc.radius * disc.radius / discs } else { 0.0 };
+    let atom = |disc: &AtomSpec| AtomSpec { offset: disc.offset - center, mass: Some(share(disc)), ..*disc };
+    let hulls = parts.hulls.iter().map(|hull| hull.moved(-center)).collect();
+    MassProperties { mass, center, inertia, atoms: parts.discs.iter().map(atom).collect(), hulls }
 }
 
 /// Whether some atoms have masses of their own and others follow the material.

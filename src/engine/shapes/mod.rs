@@ -5,6 +5,7 @@
 pub mod disc;
 pub mod list;
 pub mod mass_properties;
+pub mod outline;
 pub mod picture;
 pub mod png;
 pub(crate) mod silhouette;

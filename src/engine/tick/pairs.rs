@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::world::{Bodies, NearestPoint};
+use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
 /// Marks a pair that was not in the list before.
@@ -33,20 +33,82 @@ impl AtomPair {
     }
 }
 
-/// An atom that is nearer to a wall than the margin.
+/// A probe that is nearer to a surface of something else than the margin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct WallPair {
-    /// Place of the wall.
-    pub wall: u32,
-    /// Place of the atom.
-    pub atom: u32,
+pub struct SurfacePair {
+    /// Place of a wall; or, behind all walls, of a hull.
+    pub surface: u32,
+    /// Place of an atom: a corner, or a disc; or, behind all atoms, of an end of a wall.
+    pub probe: u32,
 }
 
-impl WallPair {
-    /// The wall as the centre of the atom sees it.
+/// What a probe is near to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    /// Place of a wall.
+    Wall(usize),
+    /// Place of a hull.
+    Hull(usize),
+}
+
+/// What is near to a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Probe {
+    /// Place of an atom.
+    Atom(usize),
+    /// An end of a wall: place of the wall, and whether it is the one to the right.
+    End(usize, bool),
+}
+
+impl SurfacePair {
+    /// The surface.
     #[inline(always)]
-    pub fn nearest(self, bodies: &Bodies) -> NearestPoint {
-        bodies.walls[self.wall as usize].nearest(bodies.atom_place(self.atom as usize))
+    pub fn surface(self, bodies: &Bodies) -> Surface {
+        let place = self.surface as usize;
+        match place.checked_sub(bodies.walls.len()) {
+            None => Surface::Wall(place),
+            Some(hull) => Surface::Hull(hull),
+        }
+    }
+
+    /// The probe.
+    #[inline(always)]
+    pub fn probe(self, bodies: &Bodies) -> Probe {
+        let place = self.probe as usize;
+        match place.checked_sub(bodies.atom_count()) {
+            None => Probe::Atom(place),
+            Some(end) => Probe::End(end / 2, end % 2 == 1),
+        }
+    }
+
+    /// Half the width in metres of the thinner side; walls do not count.
+    pub fn size(self, bodies: &Bodies) -> f64 {
+        let hull = |hull: usize| bodies.hulls[hull].hull.half_width();
+        match (self.surface(bodies), self.probe(bodies)) {
+            (Surface::Wall(_), _) => bodies.size_of_atom(self.probe as usize),
+            (Surface::Hull(place), Probe::Atom(atom)) => hull(place).min(bodies.size_of_atom(atom)),
+            (Surface::Hull(place), Probe::End(..)) => hull(place),
+        }
+    }
+
+    /// The place of the wall, if one side is one.
+    #[inline]
+    pub fn wall(self, bodies: &Bodies) -> Option<usize> {
+        match (self.surface(bodies), self.probe(bodies)) {
+            (Surface::Wall(wall), _) | (_, Probe::End(wall, _)) => Some(wall),
+            _ => None,
+        }
+    }
+
+    /// The bodies of both sides, if they are no walls: that of the surface, or of the probe where the surface is a wall, stands behind.
+    #[inline]
+    pub fn bodies(self, bodies: &Bodies) -> (Option<usize>, usize) {
+        let of_hull = |hull: usize| bodies.hulls[hull].body as usize;
+        match (self.surface(bodies), self.probe(bodies)) {
+            (Surface::Hull(hull), Probe::Atom(atom)) => (Some(of_hull(hull)), bodies.atom_body(atom)),
+            (Surface::Hull(hull), Probe::End(..)) => (None, of_hull(hull)),
+            (Surface::Wall(_), _) => (None, bodies.atom_body(self.probe as usize)),
+        }
     }
 }
 
@@ -59,14 +121,24 @@ pub struct CandidatePairs {
     pub atoms: Vec<AtomPair>,
     /// Where the group of those ends that touched when the list was made, and that of those that nearly did. Each group is in order.
     pub group_ends: [usize; 2],
-    /// Atoms near walls.
-    pub walls: Vec<WallPair>,
+    /// Atoms near walls and hulls, and ends of walls near hulls.
+    pub surfaces: Vec<SurfacePair>,
     /// For each item of `atoms` its place in the list before, or [`NEW`].
     pub atoms_before: Vec<u32>,
-    /// For each item of `walls` its place in the list before, or [`NEW`].
-    pub walls_before: Vec<u32>,
+    /// For each item of `surfaces` its place in the list before, or [`NEW`].
+    pub surfaces_before: Vec<u32>,
     /// How the pairs of atoms were found.
     pub search: Search,
+}
+
+impl CandidatePairs {
+    /// Places of walls and of the atoms near them.
+    pub fn near_walls(&self, bodies: &Bodies) -> impl Iterator<Item = (usize, usize)> {
+        self.surfaces.iter().filter_map(|pair| match pair.surface(bodies) {
+            Surface::Wall(wall) => Some((wall, pair.probe as usize)),
+            Surface::Hull(_) => None,
+        })
+    }
 }
 
 /// How pairs of atoms are searched.

@@ -12,6 +12,7 @@ use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Mass, Motion, Position, Rotation, Spin, Velocity};
 use super::fitting::Counts;
 use super::flight::Flights;
+use super::hull::{Hulls, NO_HULL, PackedHull};
 use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
 use super::lone::{Surface, Surfaces};
@@ -164,6 +165,10 @@ pub struct Bodies {
     /// number to go by where others than [`Bodies::advance`] and [`Bodies::prescribe`] moved bodies.
     pub path: f64,
 
+    /// The hulls of bodies, in the order of the bodies.
+    pub hulls: Vec<PackedHull>,
+    /// Place of the hull of which each atom is a corner; empty without hulls.
+    pub(crate) atom_hull: Vec<u32>,
     /// The walls in canonical order.
     pub walls: Vec<PackedWall>,
     /// Velocity of the surface of each wall in m/s; empty if all stand.
@@ -383,6 +388,17 @@ pub(super) fn place_atoms<V: Lanes>((position, angle): (DVec2, f64), offsets: &[
 }
 
 impl Bodies {
+    /// Tells atoms of which hulls they are corners.
+    fn list_corners(&mut self) {
+        if self.hulls.is_empty() {
+            return;
+        }
+        self.atom_hull = vec![NO_HULL; self.atom_count()];
+        for (place, hull) in self.hulls.iter().enumerate() {
+            self.atom_hull[hull.corners()].fill(place as u32);
+        }
+    }
+
     /// Makes room for so many bodies and atoms and no more: lists that grow end up to twice as long.
     fn make_room(&mut self, bodies: usize, atoms: usize) {
         self.entity.reserve_exact(bodies);
@@ -481,7 +497,11 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
             bodies.extent.push(extent);
             bodies.first_atom.push(first_atom);
         }
+        if let Some(hulls) = body.get::<Hulls>() {
+            bodies.hulls.extend(PackedHull::of_body(place, hulls, bodies.atom_radius.len()));
+        }
     }
+    bodies.list_corners();
     (bodies.surfaces, bodies.atom_surface) = surfaces.listed(std::mem::take(&mut bodies.atom_surface));
     if !bodies.lone_discs {
         bodies.first_atom.push(bodies.atom_count() as u32);
@@ -503,7 +523,11 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         (bodies.inverse_mass, bodies.inverse_inertia) = (inverse(&bodies.mass), inverse(&bodies.inertia));
     }
     let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
-    bodies.smallest_radius = bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min);
+    bodies.smallest_radius = if bodies.hulls.is_empty() {
+        bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min)
+    } else {
+        (0..bodies.atom_count()).map(|atom| bodies.size_of_atom(atom)).fold(f64::INFINITY, f64::min)
+    };
     walls.sort_unstable_by_key(|(_, wall)| wall.key);
     if walls.iter().any(|(_, wall)| wall.surface_velocity != DVec2::ZERO) {
         bodies.belts = walls.iter().map(|(_, wall)| wall.surface_velocity).collect();

@@ -8,7 +8,8 @@ use glam::DVec2;
 
 use super::atom::{Atom, AtomOf, Atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
-use super::{Kinematic, Name, Roster};
+use super::{Hulls, Kinematic, Name, Roster};
+use jostle_shapes::Hull;
 
 /// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.
 #[derive(Resource, Debug, Default)]
@@ -56,8 +57,10 @@ pub struct NewBody {
     pub mass: f64,
     /// Moment of inertia about the centre of mass in kg m2.
     pub inertia: f64,
-    /// Its atoms, offsets from the centre of mass.
+    /// Its atoms, offsets from the centre of mass; the last ones are the corners of its hulls.
     pub atoms: Vec<Atom>,
+    /// Its hulls about the centre of mass.
+    pub hulls: Vec<Hull>,
 }
 
 impl Default for NewBody {
@@ -75,6 +78,7 @@ impl Default for NewBody {
             mass: 1.0,
             inertia: 1.0,
             atoms: Vec::new(),
+            hulls: Vec::new(),
         }
     }
 }
@@ -182,6 +186,7 @@ impl NewBody {
 
     fn spawn_named(mut self, world: &mut World, key: u64, name: Name) -> Entity {
         let (kinematic, atoms) = (self.kinematic.take(), std::mem::take(&mut self.atoms));
+        let hulls = std::mem::take(&mut self.hulls);
         if kinematic.is_some() {
             self.motion = Motion::Kinematic;
         }
@@ -195,6 +200,9 @@ impl NewBody {
         };
         if let Some(kinematic) = kinematic {
             world.entity_mut(body).insert(kinematic);
+        }
+        if !hulls.is_empty() {
+            world.entity_mut(body).insert(Hulls(hulls));
         }
         if atoms.len() > 1 {
             for atom in atoms {

@@ -103,6 +103,12 @@ impl PackedWall {
         NearestPoint { height: distance - half, normal: apart / distance, distance }
     }
 
+    /// Centre in metres and radius in metres of one of its round ends: of a wall with ends.
+    pub fn end(&self, right: bool) -> (DVec2, f64) {
+        let Ends { length, half } = self.ends.unwrap_or(Ends { length: 0.0, half: 0.0 });
+        (self.point + self.normal.perp() * if right { length } else { 0.0 }, half)
+    }
+
     /// Whether a point that went straight from one place to another has crossed the middle line of a wall with ends.
     pub fn is_crossed(&self, before: DVec2, now: DVec2) -> bool {
         let Some(Ends { length, .. }) = self.ends else { return false };

@@ -212,12 +212,8 @@ fn pairs(simulation: &Simulation) -> (usize, usize) {
     let (place, radius) = (|atom| bodies.atom_place(atom), &bodies.atom_radius);
     let touch = |a: usize, b: usize| DVec2::distance(place(a), place(b)) < radius[a] + radius[b];
     let atoms = pairs.atoms.iter().filter(|pair| touch(pair.a as usize, pair.b as usize)).count();
-    let meets = |wall: usize, atom: usize| {
-        let wall = &bodies.walls[wall];
-        (place(atom) - wall.point).dot(wall.normal) < radius[atom]
-    };
-    let walls = pairs.walls.iter().filter(|pair| meets(pair.wall as usize, pair.atom as usize)).count();
-    (pairs.atoms.len() + pairs.walls.len(), atoms + walls)
+    let surfaces = pairs.surfaces.iter().filter(|pair| pair.overlap(bodies) > 0.0).count();
+    (pairs.atoms.len() + pairs.surfaces.len(), atoms + surfaces)
 }
 
 /// Shares of the time that was spent between two looks at a stopwatch.

@@ -22,8 +22,8 @@ use super::staged;
 use super::switching::Told;
 use crate::constraints::Rows;
 use crate::contacts::Touches;
-use crate::contacts::geometry::{End, Shares, arms};
-use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, WallPair};
+use crate::contacts::geometry::{End, PairGeometry, Shares, SideA, arms};
+use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface, SurfacePair};
 use crate::contacts::{ContactPoint, Other};
 use crate::tick::{Balance, Evaluation, Ledger};
 use crate::world::{Bodies, Materials, NearestPoint};
@@ -41,8 +41,8 @@ pub struct PenaltyContacts {
     pub(super) laws: LawTable,
     /// One for each pair of atoms.
     pub atoms: ContactList,
-    /// One for each atom near a wall.
-    pub walls: ContactList,
+    /// One for each probe near a surface.
+    pub surfaces: ContactList,
     pub(super) records: Records,
     meetings: Meetings,
     pub(super) rest: Rest,
@@ -71,7 +71,7 @@ impl Default for PenaltyContacts {
             materials: Materials::default(),
             laws: LawTable::default(),
             atoms: ContactList::default(),
-            walls: ContactList::default(),
+            surfaces: ContactList::default(),
             records: Records::default(),
             meetings: Meetings::default(),
             rest: Rest::default(),
@@ -103,7 +103,7 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
         stiffness: bodies.atom_stiffness(atom as usize),
         material: bodies.atom_material(atom as usize),
     };
-    let PenaltyContacts { laws, materials, settings, atoms, walls, .. } = contacts;
+    let PenaltyContacts { laws, materials, settings, atoms, surfaces, .. } = contacts;
     atoms.carry(&pairs.atoms_before, |place| {
         let pair = pairs.atoms[place];
         laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
@@ -121,10 +121,18 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
             }
         }
     }
-    walls.carry(&pairs.walls_before, |place| {
-        let pair = pairs.walls[place];
-        let wall = Side { stiffness: f64::INFINITY, material: bodies.walls[pair.wall as usize].material };
-        laws.place::<N>(wall, side(pair.atom), materials, settings)
+    let wall = |wall: usize| Side { stiffness: f64::INFINITY, material: bodies.walls[wall].material };
+    surfaces.carry(&pairs.surfaces_before, |place| {
+        let pair = pairs.surfaces[place];
+        let surface = match pair.surface(bodies) {
+            Surface::Wall(place) => wall(place),
+            Surface::Hull(hull) => side(bodies.hulls[hull].first_atom),
+        };
+        let (a, b) = match pair.probe(bodies) {
+            Probe::Atom(atom) => (surface, side(atom as u32)),
+            Probe::End(place, _) => (wall(place), surface),
+        };
+        laws.place::<N>(a, b, materials, settings)
     });
 }
 
@@ -230,7 +238,7 @@ pub(super) fn apply<N: NormalForce>(
     }
     if bodies.asleep.is_empty() {
         contacts.atoms.wake_all();
-        contacts.walls.wake_all();
+        contacts.surfaces.wake_all();
     }
     if let Some(forces) = &mut forces {
         forces.clear(bodies);
@@ -248,7 +256,7 @@ pub(super) fn apply<N: NormalForce>(
         return;
     }
     let (time, elapsed) = (evaluation.time, evaluation.elapsed);
-    let PenaltyContacts { laws, atoms, walls, records, meetings, .. } = &mut *contacts;
+    let PenaltyContacts { laws, atoms, surfaces, records, meetings, .. } = &mut *contacts;
     let path = if elapsed > 0.0 { sink.bodies.path } else { f64::NAN };
     if !pairs.atoms.is_empty() {
         let bound = sink.bodies.flights.take_bound();
@@ -268,7 +276,13 @@ pub(super) fn apply<N: NormalForce>(
         );
         records.lendable = !some_fly;
     }
-    follow_walls::<N>((walls, &pairs.walls), laws, (&mut sink, &mut losses), deepest, Moment { path, time, elapsed });
+    follow_surfaces::<N>(
+        (surfaces, &pairs.surfaces),
+        laws,
+        (&mut sink, &mut losses),
+        deepest,
+        Moment { path, time, elapsed },
+    );
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
     contacts.follow_flights(sink.bodies, pairs, elapsed);
@@ -277,10 +291,10 @@ pub(super) fn apply<N: NormalForce>(
     }
 }
 
-/// Atoms near walls follow their motion.
+/// Probes near surfaces follow their motion.
 #[inline]
-fn follow_walls<N: NormalForce>(
-    (list, pairs): (&mut ContactList, &[WallPair]),
+fn follow_surfaces<N: NormalForce>(
+    (list, pairs): (&mut ContactList, &[SurfacePair]),
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
@@ -288,7 +302,7 @@ fn follow_walls<N: NormalForce>(
 ) {
     for number in 0..list.awake_blocks() {
         let block = list.awake_block(number);
-        // Nobody can have come near since it was looked at last.
+        // Nothing can have come near since it was looked at last.
         if list.is_early(block, path) {
             continue;
         }
@@ -297,18 +311,30 @@ fn follow_walls<N: NormalForce>(
         let mut near = list.asleep_in(block) != 0;
         let mut gap = f64::INFINITY;
         for lane in lanes(list.awake_in(block)) {
-            let WallPair { wall, atom } = pairs[lane];
-            let (packed, passing) = (&sink.bodies.walls[wall as usize], sink.bodies.passing(atom as usize));
-            let at = passing.map_or_else(|| sink.bodies.atom_place(atom as usize), |passing| passing.position);
-            let apart = packed.nearest(at).height - sink.bodies.atom_radius[atom as usize];
-            let place = BLOCK * block + lane;
+            let (pair, place) = (pairs[lane], BLOCK * block + lane);
+            let Surface::Wall(wall) = pair.surface(sink.bodies) else {
+                let geometry = PairGeometry::surface(sink.bodies, place, pair);
+                // Both sides may move: the gap closes by two ways at most.
+                if geometry.overlap <= 0.0 && !list.is_touching(place) {
+                    gap = gap.min(-0.5 * geometry.overlap);
+                } else {
+                    near = true;
+                    let size = pair.size(sink.bodies);
+                    follow_hull::<N>((list, place), (&geometry, size), laws, (sink, losses), deepest, (time, elapsed));
+                }
+                continue;
+            };
+            let atom = pair.probe as usize;
+            let (packed, passing) = (&sink.bodies.walls[wall], sink.bodies.passing(atom));
+            let at = passing.map_or_else(|| sink.bodies.atom_place(atom), |passing| passing.position);
+            let apart = packed.nearest(at).height - sink.bodies.atom_radius[atom];
             if apart >= 0.0 && !list.is_touching(place) {
                 gap = gap.min(apart);
             } else {
                 near = true;
-                // Whoever touches flies no more.
-                sink.bodies.bind(atom as usize);
-                follow_wall::<N>((list, place), pairs[lane], laws, (sink, losses), deepest, (time, elapsed));
+                // What touches flies no more.
+                sink.bodies.bind(atom);
+                follow_wall::<N>((list, place), (wall, pair.probe), laws, (sink, losses), deepest, (time, elapsed));
             }
         }
         // Half of it: more than rounding can take.
@@ -316,23 +342,59 @@ fn follow_walls<N: NormalForce>(
     }
 }
 
-/// An atom near a wall follows its motion.
-#[inline]
-fn follow_wall<N: NormalForce>(
+/// A probe near a hull follows its motion, or the hull near an end of a wall.
+fn follow_hull<N: NormalForce>(
     (list, place): (&mut ContactList, usize),
-    WallPair { wall, atom }: WallPair,
+    (geometry, size): (&PairGeometry, f64),
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
     (time, elapsed): (f64, f64),
 ) {
-    let packed = sink.bodies.walls[wall as usize];
+    let mut contact = list.get(place);
+    let law = laws.get(contact.law);
+    let approach = if N::DEPENDS_ON_VELOCITY { geometry.approach(sink.bodies) } else { Approach::default() };
+    let (a, b) = (geometry.pair.other_end(), &geometry.pair.b);
+    let (displacement, turn) = b.displacement(sink.bodies);
+    let (by_a, turn_a) = a.map_or((DVec2::ZERO, 0.0), |a| a.displacement(sink.bodies));
+    let displacement = displacement - by_a;
+    let normal = geometry.pair.normal;
+    let touch = Touch {
+        normal: (normal.x, normal.y),
+        overlap: geometry.overlap,
+        approach,
+        displacement: (displacement.x, displacement.y),
+        swing: geometry.turned(sink.bodies, displacement),
+        rolled_a: (a.map_or(0.0, |a| a.radius), turn_a),
+        rolled_b: (b.radius, turn),
+    };
+    let lost = contact.follow::<N>(law, &touch, elapsed);
+    losses.friction += lost.friction;
+    losses.inelasticity += lost.inelasticity;
+    list.set(place, &contact);
+    if contact.mode != Mode::Open {
+        deepest.note(contact.overlap, size, time, || geometry.pair.entities(sink.bodies));
+        geometry.pair.push(sink, law, geometry.overlap, contact.force(law, normal));
+    }
+}
+
+/// An atom near a wall follows its motion.
+#[inline]
+fn follow_wall<N: NormalForce>(
+    (list, place): (&mut ContactList, usize),
+    (wall, atom): (usize, u32),
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    (time, elapsed): (f64, f64),
+) {
+    let packed = sink.bodies.walls[wall];
     let end = End::of(sink.bodies, atom);
     let NearestPoint { height, normal, distance } = packed.nearest(sink.bodies.atom_place(atom as usize));
     let mut contact = list.get(place);
     let law = laws.get(contact.law);
     let (mut displacement, turn) = end.displacement(sink.bodies);
-    if let Some(&belt) = sink.bodies.belts.get(wall as usize) {
+    if let Some(&belt) = sink.bodies.belts.get(wall) {
         displacement -= belt * elapsed;
     }
     let approach = if N::DEPENDS_ON_VELOCITY { approach(sink.bodies, None, &end, normal) } else { Approach::default() };
@@ -350,8 +412,9 @@ fn follow_wall<N: NormalForce>(
     losses.inelasticity += lost.inelasticity;
     list.set(place, &contact);
     if contact.mode != Mode::Open {
-        deepest.note(contact.overlap, end.radius, time, || (sink.bodies.entity[end.body], packed.entity));
-        sink.wall_pushes(&end, wall, normal, height, contact.force(law, normal));
+        let size = sink.bodies.size_of_atom(atom as usize);
+        deepest.note(contact.overlap, size, time, || (sink.bodies.entity[end.body], packed.entity));
+        sink.wall_pushes(&end, wall as u32, normal, height, contact.force(law, normal));
     }
 }
 
@@ -362,9 +425,13 @@ fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePa
         let AtomPair { a, b } = pairs.atoms[place];
         touches.bodies(body(a), body(b));
     }
-    for place in contacts.walls.touching() {
-        let WallPair { wall, atom } = pairs.walls[place];
-        touches.wall(body(atom), wall);
+    for place in contacts.surfaces.touching() {
+        let pair = pairs.surfaces[place];
+        match (pair.bodies(bodies), pair.wall(bodies)) {
+            ((Some(a), b), _) => touches.bodies(a, b),
+            ((None, b), Some(wall)) => touches.wall(b, wall as u32),
+            _ => {}
+        }
     }
 }
 
@@ -380,7 +447,7 @@ impl PenaltyContacts {
         }
         let of_atoms = self.atoms.touching().map(|place| pairs.atoms[place]).flat_map(|pair| [pair.a, pair.b]);
         let mut touching: Vec<u32> =
-            of_atoms.chain(self.walls.touching().map(|place| pairs.walls[place].atom)).collect();
+            of_atoms.chain(self.surfaces.touching().map(|place| pairs.surfaces[place].probe)).collect();
         touching.sort_unstable();
         touching.iter().for_each(|&body| bodies.bind(body as usize));
         if elapsed > 0.0 {
@@ -405,20 +472,23 @@ impl PenaltyContacts {
         })
     }
 
-    /// Contacts with walls, with their places.
-    pub(super) fn wall_points(
+    /// Contacts with walls and hulls, with their places.
+    pub(super) fn surface_points(
         &self,
         bodies: &Bodies,
         pairs: &CandidatePairs,
     ) -> impl Iterator<Item = (usize, ContactPoint)> {
-        self.walls.touching().map(|place| {
-            let (pair, contact) = (pairs.walls[place], self.walls.get(place));
-            let (law, end) = (self.laws.get(contact.law), End::of(bodies, pair.atom));
-            let normal = pair.nearest(bodies).normal;
-            let arm = end.arm - normal * (end.radius - contact.overlap);
-            let force = contact.force(law, normal);
-            let point = bodies.position[end.body] + arm;
-            (place, ContactPoint { body: end.body, other: Other::Wall(pair.wall as usize), point, force, normal })
+        self.surfaces.touching().map(|place| {
+            let (pair, contact) =
+                (PairGeometry::surface(bodies, place, pairs.surfaces[place]).pair, self.surfaces.get(place));
+            let law = self.laws.get(contact.law);
+            let (_, arm) = pair.arms(law.shares(), contact.overlap);
+            let (force, body) = (contact.force(law, pair.normal), pair.b.body);
+            let other = match pair.a {
+                SideA::Atom(a) | SideA::Hull(a) => Other::Body(a.body),
+                SideA::Wall(wall) => Other::Wall(wall as usize),
+            };
+            (place, ContactPoint { body, other, point: bodies.position[body] + arm, force, normal: pair.normal })
         })
     }
 }
@@ -431,7 +501,7 @@ impl PenaltyContacts {
             contact.energy(self.laws.get(contact.law))
         };
         let atoms = self.atoms.touching().map(|place| of(&self.atoms, place));
-        let walls = self.walls.touching().map(|place| of(&self.walls, place));
-        atoms.chain(walls).fold(0.0, |sum, energy| sum + energy)
+        let surfaces = self.surfaces.touching().map(|place| of(&self.surfaces, place));
+        atoms.chain(surfaces).fold(0.0, |sum, energy| sum + energy)
     }
 }

@@ -14,7 +14,9 @@ impl Pair {
     /// `force` acts on side B, the opposite on side A, where they touch.
     pub(super) fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
         match &self.a {
-            SideA::Atom(other) => sink.between((other, &self.b), self.normal, overlap, law.shares(), force),
+            SideA::Atom(other) | SideA::Hull(other) => {
+                sink.between((other, &self.b), self.normal, overlap, law.shares(), force)
+            }
             SideA::Wall(wall) => {
                 sink.wall_pushes(&self.b, *wall, self.normal, self.b.radius - overlap, force);
             }

@@ -10,8 +10,8 @@ use super::apply::PenaltyContacts;
 use super::law::PairLaw;
 use super::normal::NormalForce;
 use super::rolling;
-use crate::contacts::geometry::{End, arms};
-use crate::contacts::{AtomPair, CandidatePairs, WallPair};
+use crate::contacts::geometry::{End, PairGeometry, arms};
+use crate::contacts::{AtomPair, CandidatePairs};
 use crate::tick::response::{Spring, Springs};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Balance, Briefest, Clock, Fastest, Holder, Responses, Stability};
@@ -59,7 +59,7 @@ impl PenaltyContacts {
         balance: &mut Balance,
         steady: &SteadySprings,
     ) {
-        let touching = self.atoms.touching_count() + self.walls.touching_count();
+        let touching = self.atoms.touching_count() + self.surfaces.touching_count();
         if touching == 0 {
             // Whoever touches next is new.
             self.watch.pairs = 0;
@@ -90,7 +90,7 @@ impl PenaltyContacts {
             let others = steady.rows(weight);
             springs.gather(self.springs::<N>(bodies, pairs, weight), others, bodies);
         };
-        watch.pairs = self.atoms.touching_count() + self.walls.touching_count();
+        watch.pairs = self.atoms.touching_count() + self.surfaces.touching_count();
         watch.springs.make_room(watch.pairs);
         gather(&mut watch.springs, weight(stability.limit / clock.dt));
         watch.earliest = clock.ticks + watch.pairs as u64;
@@ -105,8 +105,10 @@ impl PenaltyContacts {
             let (a, b) = watch.springs.pair(bound.pair);
             let wall = || {
                 let number = bound.pair - self.atoms.touching_count();
-                let place = self.walls.touching().nth(number).expect("the pair is one of those that were gathered");
-                bodies.walls[pairs.walls[place].wall as usize].entity
+                let place = self.surfaces.touching().nth(number).expect("the pair is one of those that were gathered");
+                let wall =
+                    pairs.surfaces[place].wall(bodies).expect("a contact without another body is one with a wall");
+                bodies.walls[wall].entity
             };
             let between = (a.map_or_else(wall, entity), entity(b));
             found.briefest = Some(Briefest { angular_frequency: bound.pair_squared.sqrt(), between, time });
@@ -161,19 +163,19 @@ impl PenaltyContacts {
             let turning = rolling::stiffness(ratio, law.stiffness, radius);
             Spring { a, b, normal, stiffness: (stiffness, across), damped, turning }
         });
-        let walls = self.walls.touching().map(move |place| {
-            let WallPair { atom, .. } = pairs.walls[place];
-            let normal = pairs.walls[place].nearest(bodies).normal;
-            let end = End::of(bodies, atom);
-            let contact = self.walls.get(place);
-            let arm = end.arm - normal * (end.radius - contact.overlap);
+        let surfaces = self.surfaces.touching().map(move |place| {
+            let pair = PairGeometry::surface(bodies, place, pairs.surfaces[place]).pair;
+            let (normal, end) = (pair.normal, pair.b);
+            let contact = self.surfaces.get(place);
             let law = self.laws.get(contact.law);
-            let (stiffness, across, damped) = stiffness(law, end.mobility(bodies, normal));
-            let turning = rolling::stiffness(ratio, law.stiffness, rolling::rolling_radius(None, &end));
-            let b = (end.body, arm);
-            Spring { a: None, b, normal, stiffness: (stiffness, across), damped, turning }
+            let (arm_a, arm_b) = pair.arms(law.shares(), contact.overlap);
+            let mobility = pair.other_end().map_or(0.0, |a| a.mobility(bodies, normal)) + end.mobility(bodies, normal);
+            let (stiffness, across, damped) = stiffness(law, mobility);
+            let turning = rolling::stiffness(ratio, law.stiffness, rolling::rolling_radius(pair.other_end(), &end));
+            let a = pair.other_end().map(|a| (a.body, arm_a));
+            Spring { a, b: (end.body, arm_b), normal, stiffness: (stiffness, across), damped, turning }
         });
-        atoms.chain(walls)
+        atoms.chain(surfaces)
     }
 }
 

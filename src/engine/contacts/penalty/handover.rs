@@ -27,10 +27,10 @@ pub(super) fn crowded(contacts: &PenaltyContacts, rolling: Option<&RollingContac
     let rows =
         |contact: Contact| usize::from(contact.mode == Mode::Hold) + usize::from(contact.tangential.grip == Grip::Hold);
     let atoms = contacts.atoms.touching().map(|place| contacts.atoms.get(place));
-    let walls = contacts.walls.touching().map(|place| contacts.walls.get(place));
-    let rolling = rolling.into_iter().flat_map(|rolling| rolling.atoms.iter().chain(&rolling.walls));
+    let surfaces = contacts.surfaces.touching().map(|place| contacts.surfaces.get(place));
+    let rolling = rolling.into_iter().flat_map(|rolling| rolling.atoms.iter().chain(&rolling.surfaces));
     let rolling = rolling.filter(|slider| slider.grip == Grip::Hold).count();
-    atoms.chain(walls).map(rows).sum::<usize>() + rolling > MOST_ROWS
+    atoms.chain(surfaces).map(rows).sum::<usize>() + rolling > MOST_ROWS
 }
 
 /// The way in which contacts are evaluated changes.
@@ -47,7 +47,7 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) 
             slip(&mut view.contact(place).0.tangential);
         }
         let rolling = view.rolling.as_deref_mut().into_iter();
-        rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.walls)).for_each(slip);
+        rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.surfaces)).for_each(slip);
         return;
     }
     view.contacts.held_before = Some(view.stored(|_| true));

@@ -75,8 +75,7 @@ impl View<'_> {
                 told.push(indicator);
             };
             // Where a body is fast the line of centres turns faster than springs swing.
-            let turns =
-                if contact.mode == Mode::Hold { 0.0 } else { TURNS * geometry.velocity.length() / geometry.distance };
+            let turns = if contact.mode == Mode::Hold { 0.0 } else { TURNS * geometry.turns() };
             let known = |value: f64, slope: f64| {
                 let swings = pressure.swings.sqrt().max(turns);
                 Indicator { value, slope, swings, ..Indicator::default() }

@@ -175,7 +175,7 @@ impl<N: NormalForce> Model for Contacts<N> {
     fn contact_points(&self, state: &State) -> Option<Vec<ContactPoint>> {
         let (contacts, bodies, pairs) = (&self.own.contacts, &state.bodies, state.pairs.as_ref()?);
         let atoms = contacts.atom_points(bodies, pairs);
-        Some(atoms.chain(contacts.wall_points(bodies, pairs)).map(|(_, point)| point).collect())
+        Some(atoms.chain(contacts.surface_points(bodies, pairs)).map(|(_, point)| point).collect())
     }
 
     fn inner(&self) -> Option<&dyn Any> {

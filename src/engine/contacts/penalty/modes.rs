@@ -15,8 +15,8 @@ use super::rolling::{RollingContacts, twist};
 use crate::constraints::Rows;
 use crate::constraints::islands::{Islands, Link, Marked, Members};
 use crate::constraints::rest_solver::{Frame, Friction, Island, Mover, Seen, Verdict};
-use crate::contacts::geometry::{End, Pair, SideA};
-use crate::contacts::{AtomPair, CandidatePairs, WallPair};
+use crate::contacts::geometry::{End, Listed, Pair, PairGeometry, SideA};
+use crate::contacts::{AtomPair, CandidatePairs, SurfacePair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
 use crate::world::Bodies;
@@ -78,13 +78,12 @@ pub(super) fn choose<N: NormalForce>(
         }
     }
     touching.clear();
-    touching.extend(choice.contacts.walls.awake_touching().map(|place| place as u32));
+    touching.extend(choice.contacts.surfaces.awake_touching().map(|place| place as u32));
     for &place in &*touching {
-        let WallPair { wall, atom } = pairs.walls[place as usize];
-        let end = End::of(choice.sink.bodies, atom);
-        if !choice.stands(end.body) {
-            let normal = pairs.walls[place as usize].nearest(choice.sink.bodies).normal;
-            choice.first_look::<N>(Pair { index: place, normal, a: SideA::Wall(wall), b: end }, cases, moved);
+        let pair = pairs.surfaces[place as usize];
+        if choice.moves(pair) {
+            let geometry = PairGeometry::surface(choice.sink.bodies, place as usize, pair);
+            choice.first_look::<N>(geometry.pair, cases, moved);
         }
     }
     let mut found = Found::default();
@@ -124,9 +123,15 @@ impl Choice<'_> {
         !self.sink.bodies.dynamic[body] || self.contacts.rest.has(body)
     }
 
+    /// Whether a body near a surface, or that of the surface, moves by forces and is not at rest.
+    fn moves(&self, pair: SurfacePair) -> bool {
+        let (a, b) = pair.bodies(self.sink.bodies);
+        !self.stands(b) || a.is_some_and(|a| !self.stands(a))
+    }
+
     /// Bodies at rest that touch one that moves wake, and so do their neighbours.
     fn wake_touched(&mut self, pairs: &CandidatePairs) {
-        let PenaltyContacts { atoms, rest, .. } = &mut *self.contacts;
+        let PenaltyContacts { atoms, surfaces, rest, .. } = &mut *self.contacts;
         // Whoever was pushed has woken by that.
         let mut woke = !rest.is_empty() && std::mem::take(&mut rest.woke);
         if !woke {
@@ -148,6 +153,11 @@ impl Choice<'_> {
                 let (a, b) = ends(place);
                 woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
             }
+            for place in surfaces.touching() {
+                if let (Some(a), b) = pairs.surfaces[place].bodies(bodies) {
+                    woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
+                }
+            }
         }
         self.contacts.rest.forget_woken();
         self.contacts.lay_asleep(self.sink.bodies, pairs, self.sink.forces.as_deref_mut());
@@ -155,15 +165,15 @@ impl Choice<'_> {
 
     /// A contact as it is, and its law.
     fn known(&self, case: &Pair) -> (Contact, PairLaw) {
-        let PenaltyContacts { laws, atoms, walls, .. } = &*self.contacts;
-        let list = if case.other_end().is_some() { atoms } else { walls };
+        let PenaltyContacts { laws, atoms, surfaces, .. } = &*self.contacts;
+        let list = if case.listed() == Listed::Atoms { atoms } else { surfaces };
         let contact = list.get(case.index as usize);
         (contact, *laws.get(contact.law))
     }
 
     fn contact(&mut self, case: &Pair) -> (Edited<'_>, &PairLaw) {
-        let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
-        let list = if case.other_end().is_some() { atoms } else { walls };
+        let PenaltyContacts { laws, atoms, surfaces, .. } = &mut *self.contacts;
+        let list = if case.listed() == Listed::Atoms { atoms } else { surfaces };
         let contact = list.edit(case.index as usize);
         let law = laws.get(contact.law);
         (contact, law)
@@ -173,7 +183,7 @@ impl Choice<'_> {
     fn roller(&mut self, case: &Pair, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref_mut()?;
         let law = rolling.law(pair, case.other_end(), &case.b);
-        let list = if case.other_end().is_some() { &mut rolling.atoms } else { &mut rolling.walls };
+        let list = if case.listed() == Listed::Atoms { &mut rolling.atoms } else { &mut rolling.surfaces };
         Some((&mut list[case.index as usize], law))
     }
 
@@ -198,14 +208,14 @@ impl Choice<'_> {
 
     /// How many contacts touch of bodies that are not at rest. Where some rest, no more are counted once there are [`MANY`].
     fn restless(&self, pairs: &CandidatePairs) -> usize {
-        let PenaltyContacts { atoms, walls, rest, .. } = &*self.contacts;
+        let PenaltyContacts { atoms, surfaces, rest, .. } = &*self.contacts;
         if rest.is_empty() {
-            return atoms.awake_touching_count() + walls.awake_touching_count();
+            return atoms.awake_touching_count() + surfaces.awake_touching_count();
         }
         let bodies = &*self.sink.bodies;
         let moves = |atom: u32| !self.stands(bodies.atom_body(atom as usize));
         let of_atoms = atoms.count_touching(MANY, |place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
-        of_atoms + walls.count_touching(MANY, |place| moves(pairs.walls[place].atom))
+        of_atoms + surfaces.count_touching(MANY, |place| self.moves(pairs.surfaces[place]))
     }
 
     /// What is held follows its law again, but for what holds bodies at rest.
@@ -223,15 +233,13 @@ impl Choice<'_> {
             }
         }
         held.clear();
-        held.extend(self.contacts.walls.awake_held().map(|place| place as u32));
+        held.extend(self.contacts.surfaces.awake_held().map(|place| place as u32));
         for &place in &*held {
-            let WallPair { wall, atom } = pairs.walls[place as usize];
-            let normal = pairs.walls[place as usize].nearest(self.sink.bodies).normal;
-            let end = End::of(self.sink.bodies, atom);
-            if !self.stands(end.body) {
+            let pair = pairs.surfaces[place as usize];
+            if self.moves(pair) {
                 self.sink.bodies.catch_up();
-                let approach = approach(self.sink.bodies, None, &end, normal);
-                self.choose_by_velocity::<N>(&Pair { index: place, normal, a: SideA::Wall(wall), b: end }, approach);
+                let geometry = PairGeometry::surface(self.sink.bodies, place as usize, pair);
+                self.choose_by_velocity::<N>(&geometry.pair, geometry.approach(self.sink.bodies));
             }
         }
     }

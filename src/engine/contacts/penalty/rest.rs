@@ -167,7 +167,7 @@ impl PenaltyContacts {
         pairs: &CandidatePairs,
         forces: Option<&mut ContactForces>,
     ) {
-        let Self { rest, atoms, walls, sleep, .. } = self;
+        let Self { rest, atoms, surfaces, sleep, .. } = self;
         // Whoever was laid to rest in this tick has yet to be looked at, though the lists be made anew before that.
         rest.changed = rest.resting.iter().any(|resting| resting.left_over.is_none());
         let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
@@ -181,7 +181,7 @@ impl PenaltyContacts {
         if count == 0 || FEWEST * count < bodies.dynamic_count() {
             bodies.wake_all();
             atoms.wake_all();
-            walls.wake_all();
+            surfaces.wake_all();
             return;
         }
         bodies.lay_asleep(asleep);
@@ -190,7 +190,11 @@ impl PenaltyContacts {
             !bodies.moves[body] || bodies.is_asleep(body)
         };
         atoms.lay_asleep(|place| stands(pairs.atoms[place].a) && stands(pairs.atoms[place].b));
-        walls.lay_asleep(|place| stands(pairs.walls[place].atom));
+        let body_stands = |body: usize| !bodies.moves[body] || bodies.is_asleep(body);
+        surfaces.lay_asleep(|place| {
+            let (a, b) = pairs.surfaces[place].bodies(bodies);
+            body_stands(b) && a.is_none_or(body_stands)
+        });
         let mut awake = vec![false; bodies.asleep.len()];
         let whole = |block: usize| {
             let there = bodies.len() - BLOCK * block;
@@ -210,6 +214,13 @@ impl PenaltyContacts {
                 }
             }
         }
+        for number in 0..if bodies.hulls.is_empty() { 0 } else { surfaces.awake_blocks() } {
+            let first = BLOCK * surfaces.awake_block(number);
+            for pair in &pairs.surfaces[first..pairs.surfaces.len().min(first + BLOCK)] {
+                let (a, b) = pair.bodies(bodies);
+                [a, Some(b)].into_iter().flatten().for_each(|body| awake[body / BLOCK] = true);
+            }
+        }
         bodies.awake = (0..awake.len()).filter(|&block| awake[block]).map(|block| block as u32).collect();
         if let Some(forces) = forces {
             let mut asleep = (vec![DVec2::ZERO; bodies.len()], vec![DVec2::ZERO; bodies.walls.len()]);
@@ -221,12 +232,13 @@ impl PenaltyContacts {
                     asleep.0[point.body] += point.force;
                 }
             }
-            for (place, point) in self.wall_points(bodies, pairs) {
-                if let Other::Wall(wall) = point.other
-                    && self.walls.is_asleep(place)
-                {
+            for (place, point) in self.surface_points(bodies, pairs) {
+                if self.surfaces.is_asleep(place) {
                     asleep.0[point.body] += point.force;
-                    asleep.1[wall] -= point.force;
+                    match point.other {
+                        Other::Body(other) => asleep.0[other] -= point.force,
+                        Other::Wall(wall) => asleep.1[wall] -= point.force,
+                    }
                 }
             }
             forces.asleep = Some(asleep);

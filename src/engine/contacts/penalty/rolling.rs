@@ -13,8 +13,8 @@ use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::law::PairLaw;
 use super::normal::Mode;
-use crate::contacts::geometry::End;
-use crate::contacts::{AtomPair, CandidatePairs, WallPair};
+use crate::contacts::geometry::{End, PairGeometry};
+use crate::contacts::{AtomPair, CandidatePairs};
 use crate::tick::Balance;
 use crate::tick::pairs::NEW;
 use crate::world::Bodies;
@@ -30,8 +30,8 @@ pub struct RollingContacts {
     version: u64,
     /// One for each pair of atoms.
     pub atoms: Vec<Slider>,
-    /// One for each atom near a wall.
-    pub walls: Vec<Slider>,
+    /// One for each probe near a surface.
+    pub surfaces: Vec<Slider>,
 }
 
 impl RollingContacts {
@@ -57,7 +57,7 @@ impl RollingContacts {
         if self.version != pairs.version {
             self.version = pairs.version;
             self.atoms = carried(&pairs.atoms_before, &self.atoms);
-            self.walls = carried(&pairs.walls_before, &self.walls);
+            self.surfaces = carried(&pairs.surfaces_before, &self.surfaces);
         }
     }
 
@@ -70,11 +70,11 @@ impl RollingContacts {
             let (a, b) = (End::of(bodies, a), End::of(bodies, b));
             energy += slider.energy(&self.law(contacts.laws.get(contact.law), Some(&a), &b));
         }
-        for (&WallPair { atom, .. }, (slider, contact)) in
-            pairs.walls.iter().zip(self.walls.iter().zip(contacts.walls.iter()))
+        for (place, (&pair, (slider, contact))) in
+            pairs.surfaces.iter().zip(self.surfaces.iter().zip(contacts.surfaces.iter())).enumerate()
         {
-            let end = End::of(bodies, atom);
-            energy += slider.energy(&self.law(contacts.laws.get(contact.law), None, &end));
+            let pair = PairGeometry::surface(bodies, place, pair).pair;
+            energy += slider.energy(&self.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b));
         }
         energy
     }
@@ -149,7 +149,7 @@ pub(super) fn apply(
         // They have acted with their contacts.
         return;
     }
-    let (mut atoms, mut walls) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.walls));
+    let (mut atoms, mut surfaces) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.surfaces));
     let mut follow = Follow { bodies, balance, elapsed: evaluation.elapsed, losses: Losses::default() };
     for (place, slider) in atoms.iter_mut().enumerate() {
         let contact = contacts.atoms.get(place);
@@ -163,17 +163,17 @@ pub(super) fn apply(
             follow.pair(slider, &law, &contact, Some(&a), &b);
         }
     }
-    for (place, slider) in walls.iter_mut().enumerate() {
-        let contact = contacts.walls.get(place);
-        if contacts.walls.is_asleep(place) {
+    for (place, slider) in surfaces.iter_mut().enumerate() {
+        let contact = contacts.surfaces.get(place);
+        if contacts.surfaces.is_asleep(place) {
             continue;
         }
         if contact.mode != Mode::Open || *slider != Slider::default() {
-            let end = End::of(follow.bodies, pairs.walls[place].atom);
-            let law = rolling.law(contacts.laws.get(contact.law), None, &end);
-            follow.pair(slider, &law, &contact, None, &end);
+            let pair = PairGeometry::surface(follow.bodies, place, pairs.surfaces[place]).pair;
+            let law = rolling.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b);
+            follow.pair(slider, &law, &contact, pair.other_end(), &pair.b);
         }
     }
     ledger.friction.add(follow.losses.friction);
-    (rolling.atoms, rolling.walls) = (atoms, walls);
+    (rolling.atoms, rolling.surfaces) = (atoms, surfaces);
 }

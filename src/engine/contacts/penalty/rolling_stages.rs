@@ -12,7 +12,7 @@ use super::rolling::{RollingContacts, twist};
 use super::switching::{Base, What};
 use crate::constraints::{Rows, Share};
 use crate::contacts::CandidatePairs;
-use crate::contacts::geometry::PairGeometry;
+use crate::contacts::geometry::{Listed, PairGeometry};
 use crate::tick::Indicator;
 use crate::world::Bodies;
 
@@ -24,7 +24,7 @@ impl RollingContacts {
     pub(super) fn of(&mut self, geometry: &PairGeometry, pair: &PairLaw) -> Roller<'_> {
         let other = geometry.pair.other_end();
         let law = self.law(pair, other, &geometry.pair.b);
-        let list = if other.is_some() { &mut self.atoms } else { &mut self.walls };
+        let list = if geometry.pair.listed() == Listed::Atoms { &mut self.atoms } else { &mut self.surfaces };
         (&mut list[geometry.pair.index as usize], law)
     }
 }
@@ -38,7 +38,7 @@ fn springs<'a>(
     contacts: &'a PenaltyContacts,
     rolling: &'a RollingContacts,
 ) -> impl Iterator<Item = (Contact, &'a Slider)> {
-    contacts.atoms.iter().chain(contacts.walls.iter()).zip(rolling.atoms.iter().chain(&rolling.walls))
+    contacts.atoms.iter().chain(contacts.surfaces.iter()).zip(rolling.atoms.iter().chain(&rolling.surfaces))
 }
 
 /// How many angles are state.
@@ -54,9 +54,9 @@ pub(super) fn read(contacts: &PenaltyContacts, rolling: &RollingContacts, state:
 
 /// State -> springs.
 pub(super) fn write(contacts: &PenaltyContacts, rolling: &mut RollingContacts, state: &[f64]) {
-    let RollingContacts { atoms, walls, .. } = rolling;
-    let contacts = contacts.atoms.iter().chain(contacts.walls.iter());
-    let sticking = contacts.zip(atoms.iter_mut().chain(walls));
+    let RollingContacts { atoms, surfaces, .. } = rolling;
+    let contacts = contacts.atoms.iter().chain(contacts.surfaces.iter());
+    let sticking = contacts.zip(atoms.iter_mut().chain(surfaces));
     let sticking = sticking.filter(|(contact, slider)| is_state(&(*contact, &**slider)));
     state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);
 }
@@ -69,7 +69,10 @@ pub(super) fn rates(
 ) {
     let spin = |atom: u32| bodies.spin[bodies.atom_body(atom as usize)];
     let turning = pairs.atoms.iter().map(|pair| spin(pair.b) - spin(pair.a));
-    let turning = turning.chain(pairs.walls.iter().map(|pair| spin(pair.atom)));
+    let turning = turning.chain(pairs.surfaces.iter().map(|pair| {
+        let (a, b) = pair.bodies(bodies);
+        bodies.spin[b] - a.map_or(0.0, |a| bodies.spin[a])
+    }));
     let sticking = springs(contacts, rolling).zip(turning).filter(|(spring, _)| is_state(spring));
     rates.iter_mut().zip(sticking).for_each(|(rate, (_, turning))| *rate = turning);
 }

@@ -14,7 +14,7 @@ use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use crate::constraints::Rows;
 use crate::contacts::CandidatePairs;
-use crate::contacts::geometry::PairGeometry;
+use crate::contacts::geometry::{Listed, PairGeometry};
 use crate::tick::Style;
 use crate::world::Bodies;
 
@@ -26,7 +26,7 @@ pub(super) fn evaluate<N: NormalForce>(
     style: Style,
     (sink, rows): (&mut Sink, &mut Rows),
 ) {
-    let PenaltyContacts { laws, atoms, walls, held, .. } = contacts;
+    let PenaltyContacts { laws, atoms, surfaces, held, .. } = contacts;
     held.begin(rows);
     for (place, &pair) in pairs.atoms.iter().enumerate() {
         if style == Style::Instant || atoms.is_touching(place) {
@@ -37,10 +37,10 @@ pub(super) fn evaluate<N: NormalForce>(
             stage::<N>((&mut contact, law, roller), &geometry, style, sink, (held, rows));
         }
     }
-    for (place, &pair) in pairs.walls.iter().enumerate() {
-        if style == Style::Instant || walls.is_touching(place) {
-            let geometry = PairGeometry::wall(sink.bodies, place, pair);
-            let mut contact = walls.edit(place);
+    for (place, &pair) in pairs.surfaces.iter().enumerate() {
+        if style == Style::Instant || surfaces.is_touching(place) {
+            let geometry = PairGeometry::surface(sink.bodies, place, pair);
+            let mut contact = surfaces.edit(place);
             let law = laws.get(contact.law);
             let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&geometry, law));
             stage::<N>((&mut contact, law, roller), &geometry, style, sink, (held, rows));
@@ -55,9 +55,9 @@ pub(super) fn take_rows(
     rows: &Rows,
     sink: &mut Sink,
 ) {
-    let PenaltyContacts { laws, atoms, walls, held, .. } = contacts;
+    let PenaltyContacts { laws, atoms, surfaces, held, .. } = contacts;
     for (geometry, kind, force) in held.answers(rows) {
-        let list = if geometry.pair.other_end().is_some() { &mut *atoms } else { &mut *walls };
+        let list = if geometry.pair.listed() == Listed::Atoms { &mut *atoms } else { &mut *surfaces };
         let mut contact = list.edit(geometry.pair.index as usize);
         let law = laws.get(contact.law);
         let roller = rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law));

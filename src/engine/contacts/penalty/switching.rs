@@ -46,7 +46,7 @@ pub(super) enum What {
     RollingStop,
 }
 
-/// The indicators of the present modes: candidate pairs (pairs of atoms first, then walls) and what is watched of them.
+/// The indicators of the present modes: candidate pairs (pairs of atoms first, then surfaces) and what is watched of them.
 pub(super) type Told = Vec<(u32, What)>;
 
 /// All candidate pairs with their contacts.
@@ -59,30 +59,30 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     pub fn len(&self) -> usize {
-        self.contacts.atoms.len() + self.contacts.walls.len()
+        self.contacts.atoms.len() + self.contacts.surfaces.len()
     }
 
     pub fn look(&self, place: usize) -> PairGeometry {
         let atoms = self.contacts.atoms.len();
         match place.checked_sub(atoms) {
             None => PairGeometry::atoms(self.bodies, place, self.pairs.atoms[place]),
-            Some(place) => PairGeometry::wall(self.bodies, place, self.pairs.walls[place]),
+            Some(place) => PairGeometry::surface(self.bodies, place, self.pairs.surfaces[place]),
         }
     }
 
     /// A contact with its law, and its rolling spring in scenes that have them.
     pub fn whole(&mut self, place: usize, geometry: &PairGeometry) -> (Edited<'_>, &PairLaw, Option<Roller<'_>>) {
-        let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
+        let PenaltyContacts { laws, atoms, surfaces, .. } = &mut *self.contacts;
         let count = atoms.len();
-        let contact = if place < count { atoms.edit(place) } else { walls.edit(place - count) };
+        let contact = if place < count { atoms.edit(place) } else { surfaces.edit(place - count) };
         let law = laws.get(contact.law);
         (contact, law, self.rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law)))
     }
 
     pub fn contact(&mut self, place: usize) -> (Edited<'_>, &PairLaw) {
-        let PenaltyContacts { laws, atoms, walls, .. } = &mut *self.contacts;
+        let PenaltyContacts { laws, atoms, surfaces, .. } = &mut *self.contacts;
         let count = atoms.len();
-        let contact = if place < count { atoms.edit(place) } else { walls.edit(place - count) };
+        let contact = if place < count { atoms.edit(place) } else { surfaces.edit(place - count) };
         let law = laws.get(contact.law);
         (contact, law)
     }
@@ -90,7 +90,7 @@ impl View<'_> {
 
 /// Contacts whose tangential spring holds: its elongation is state.
 fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = Contact> {
-    contacts.atoms.iter().chain(contacts.walls.iter()).filter(|contact| is_spring(contact, &contacts.laws))
+    contacts.atoms.iter().chain(contacts.surfaces.iter()).filter(|contact| is_spring(contact, &contacts.laws))
 }
 
 fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
@@ -112,9 +112,9 @@ pub(super) fn read(contacts: &PenaltyContacts, state: &mut [f64]) {
 
 /// State -> contacts.
 pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
-    let PenaltyContacts { atoms, walls, laws, .. } = contacts;
+    let PenaltyContacts { atoms, surfaces, laws, .. } = contacts;
     let mut states = state.iter();
-    for list in [atoms, walls] {
+    for list in [atoms, surfaces] {
         for place in 0..list.len() {
             if is_spring(&list.get(place), laws)
                 && let Some(&state) = states.next()
@@ -132,18 +132,18 @@ pub(super) fn rates((bodies, pairs): (&Bodies, &CandidatePairs), contacts: &Pena
         of_atoms.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
             PairGeometry::atoms(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
         });
-    let of_walls = contacts.walls.iter().zip(&pairs.walls).enumerate();
-    let of_walls =
-        of_walls.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
-            PairGeometry::wall(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
+    let of_surfaces = contacts.surfaces.iter().zip(&pairs.surfaces).enumerate();
+    let of_surfaces =
+        of_surfaces.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
+            PairGeometry::surface(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
         });
-    rates.iter_mut().zip(of_atoms.chain(of_walls)).for_each(|(rate, sliding)| *rate = sliding);
+    rates.iter_mut().zip(of_atoms.chain(of_surfaces)).for_each(|(rate, sliding)| *rate = sliding);
 }
 
 impl PenaltyContacts {
     /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to geometry.
     pub(super) fn is_idle(&self) -> bool {
-        let near = !self.atoms.is_empty() || !self.walls.is_empty();
+        let near = !self.atoms.is_empty() || !self.surfaces.is_empty();
         !near && self.held.is_empty() && self.held_before.is_none() && self.slid == 0.0
     }
 }
@@ -199,6 +199,7 @@ impl View<'_> {
             let case = view.look(place).pair;
             match case.a {
                 SideA::Atom(other) => (false, other.body, case.b.body),
+                SideA::Hull(other) => (false, other.body.min(case.b.body), other.body.max(case.b.body)),
                 SideA::Wall(wall) => (true, case.b.body, wall as usize),
             }
         };
@@ -344,13 +345,11 @@ impl View<'_> {
                 continue;
             }
             let geometry = self.look(place);
-            let entity = |body: usize| self.bodies.entity[body];
-            let (b, radius) = (geometry.pair.b.body, geometry.pair.b.radius);
-            let other = match geometry.pair.a {
-                SideA::Atom(a) => (entity(a.body), a.radius),
-                SideA::Wall(wall) => (self.bodies.walls[wall as usize].entity, f64::INFINITY),
+            let size = match place.checked_sub(self.contacts.atoms.len()) {
+                Some(surface) => self.pairs.surfaces[surface].size(self.bodies),
+                None => geometry.pair.other_end().map_or(f64::INFINITY, |a| a.radius).min(geometry.pair.b.radius),
             };
-            deepest.note(geometry.overlap, radius.min(other.1), time, || (other.0, entity(b)));
+            deepest.note(geometry.overlap, size, time, || geometry.pair.entities(self.bodies));
         }
     }
 }

@@ -10,6 +10,7 @@
 mod at_start;
 mod cells;
 mod crossing;
+mod hulls;
 mod identity;
 mod still;
 mod sweep;
@@ -23,7 +24,7 @@ use self::cells::Sorted;
 use self::identity::Identities;
 use self::still::Still;
 use crate::tick::bounds::{self, Bounds};
-use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, WallPair};
+use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, SurfacePair};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, TickAppExt, Wrong};
 use crate::world::Bodies;
@@ -37,6 +38,9 @@ pub struct PairSearch {
     /// What stays the same when places change.
     identities: Identities,
     wall_count: usize,
+    /// The first corner of each hull, and how many atoms there were.
+    first_atoms: Vec<u32>,
+    atom_count: u32,
     /// Where most bodies are asleep: what stays of the lists as long as those do.
     still: Option<Still>,
 }
@@ -116,26 +120,36 @@ impl PairSearch {
         pairs.version += 1;
         let old_atoms = std::mem::take(&mut pairs.atoms);
         let [touching, close] = std::mem::take(&mut pairs.group_ends);
-        let old_walls = std::mem::take(&mut pairs.walls);
+        let old_surfaces = std::mem::take(&mut pairs.surfaces);
         pairs.search = suiting(bodies);
         let sorted = (pairs.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
         pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies, most));
-        if !bodies.apart.is_empty() {
-            let apart = places_apart(bodies);
+        let apart = places_apart(bodies);
+        if !apart.is_empty() {
             let body = |atom: u32| bodies.atom_body(atom as usize);
             pairs.atoms.retain(|pair| apart.binary_search(&ordered(body(pair.a), body(pair.b))).is_err());
         }
-        pairs.walls.clear();
+        if !bodies.hulls.is_empty() {
+            // Corners touch hulls, not discs.
+            let corner = |atom: u32| bodies.is_corner(atom as usize);
+            pairs.atoms.retain(|pair| !corner(pair.a) && !corner(pair.b));
+        }
+        pairs.surfaces.clear();
         each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| {
-            if pairs.walls.len() <= most {
-                pairs.walls.push(pair);
+            if pairs.surfaces.len() <= most {
+                pairs.surfaces.push(pair);
             }
         });
-        let most_of = (pairs.atoms.len() + pairs.walls.len() > most).then(|| body_with_most(pairs, bodies));
+        hulls::each_pair(bodies, bounds.margin, &apart, |pair| {
+            if pairs.surfaces.len() <= most {
+                pairs.surfaces.push(pair);
+            }
+        });
+        let most_of = (pairs.atoms.len() + pairs.surfaces.len() > most).then(|| body_with_most(pairs, bodies));
         if most_of.is_some() {
-            (pairs.atoms, pairs.walls) = (Vec::new(), Vec::new());
+            (pairs.atoms, pairs.surfaces) = (Vec::new(), Vec::new());
         }
-        bounds.candidates = pairs.atoms.len() + pairs.walls.len();
+        bounds.candidates = pairs.atoms.len() + pairs.surfaces.len();
         let same = self.generation == bodies.generation;
         let renamed = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
         let place = |old: u32| {
@@ -143,17 +157,32 @@ impl PairSearch {
                 .as_ref()
                 .map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
         };
-        // Walls do not come and go one by one: when their number changes their history starts anew.
+        // Walls do not come and go one by one: when their number changes the history of surfaces starts anew.
         let same_walls = same || self.wall_count == bodies.walls.len();
+        let first_atoms = bodies.hulls.iter().map(|hull| hull.first_atom).collect();
+        let old_first_atoms = std::mem::replace(&mut self.first_atoms, first_atoms);
+        let old_atoms_count = std::mem::replace(&mut self.atom_count, bodies.atom_count() as u32);
+        // Hulls are known by their first corners.
+        let walls = self.wall_count as u32;
+        let surface = |old: u32| match old.checked_sub(walls) {
+            None => Some(old),
+            Some(hull) => Some(
+                bodies.walls.len() as u32 + bodies.hull_of(place(old_first_atoms[hull as usize])? as usize)? as u32,
+            ),
+        };
+        let probe = |old: u32| match old.checked_sub(old_atoms_count) {
+            None => place(old),
+            Some(end) => Some(bodies.atom_count() as u32 + end),
+        };
         let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
         pairs.atoms_before = carry(&pairs.atoms, groups, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
-        pairs.walls_before = carry(&pairs.walls, [&old_walls], |old| {
-            Some(WallPair { wall: old.wall, atom: place(old.atom)? }).filter(|_| same_walls)
+        pairs.surfaces_before = carry(&pairs.surfaces, [&old_surfaces], |old| {
+            same_walls.then(|| Some(SurfacePair { surface: surface(old.surface)?, probe: probe(old.probe)? }))?
         });
         if pairs.search == Search::Cells {
             group(pairs, bodies, bounds.margin);
         }
-        self.still = sorted.and_then(|sorted| Still::of(bodies, bounds, sorted, (&pairs.atoms, &pairs.walls)));
+        self.still = sorted.and_then(|sorted| Still::of(bodies, bounds, sorted, (&pairs.atoms, &pairs.surfaces)));
         if !same {
             self.generation = bodies.generation;
             self.wall_count = bodies.walls.len();
@@ -176,8 +205,12 @@ fn most_pairs(bodies: &Bodies) -> usize {
 /// The first of the bodies that have most pairs.
 fn body_with_most(pairs: &CandidatePairs, bodies: &Bodies) -> usize {
     let mut counts = vec![0_u32; bodies.len()];
-    let atoms = pairs.atoms.iter().flat_map(|pair| [pair.a, pair.b]).chain(pairs.walls.iter().map(|pair| pair.atom));
-    atoms.for_each(|atom| counts[bodies.atom_body(atom as usize)] += 1);
+    let atoms = pairs.atoms.iter().flat_map(|pair| [pair.a, pair.b]);
+    let of_surfaces = pairs.surfaces.iter().flat_map(|pair| {
+        let (a, b) = pair.bodies(bodies);
+        [a, Some(b)].into_iter().flatten()
+    });
+    atoms.map(|atom| bodies.atom_body(atom as usize)).chain(of_surfaces).for_each(|body| counts[body] += 1);
     (0..counts.len()).rev().max_by_key(|&body| counts[body]).unwrap_or_default()
 }
 
@@ -248,7 +281,7 @@ fn each_wall_pair(
     bodies: &Bodies,
     margin: f64,
     among: impl Iterator<Item = usize> + Clone,
-    mut see: impl FnMut(WallPair),
+    mut see: impl FnMut(SurfacePair),
 ) {
     for (place, wall) in bodies.walls.iter().enumerate() {
         for body in among.clone().filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
@@ -257,7 +290,7 @@ fn each_wall_pair(
             }
             for atom in bodies.atoms_of(body) {
                 if wall.nearest(bodies.atom_place(atom)).height < bodies.atom_radius[atom] + margin {
-                    see(WallPair { wall: place as u32, atom: atom as u32 });
+                    see(SurfacePair { surface: place as u32, probe: atom as u32 });
                 }
             }
         }

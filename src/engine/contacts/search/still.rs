@@ -6,7 +6,7 @@
 //! whether they were.
 
 use super::cells::Sorted;
-use super::{AtomPair, WallPair, each_wall_pair, group_of, most_pairs};
+use super::{AtomPair, SurfacePair, each_wall_pair, group_of, most_pairs};
 use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 use jostle_simd::BLOCK;
@@ -35,7 +35,7 @@ pub(super) struct Still {
 struct Pairs {
     /// Sorted, each with its group.
     atoms: Vec<(AtomPair, usize)>,
-    walls: Vec<WallPair>,
+    walls: Vec<SurfacePair>,
 }
 
 fn has(bits: &[u8], body: usize) -> bool {
@@ -48,9 +48,9 @@ impl Still {
         bodies: &Bodies,
         bounds: &Bounds,
         sorted: Sorted,
-        (atoms, walls): (&[AtomPair], &[WallPair]),
+        (atoms, walls): (&[AtomPair], &[SurfacePair]),
     ) -> Option<Self> {
-        if bodies.asleep.is_empty() {
+        if bodies.asleep.is_empty() || !bodies.hulls.is_empty() {
             return None;
         }
         let may_move = |body: &usize| bodies.moves[*body] && !bodies.is_asleep(*body);
@@ -66,7 +66,7 @@ impl Still {
         let own = atoms.iter().copied().filter(|pair| of_moving(pair.a) || of_moving(pair.b));
         let mut own: Vec<_> = own.map(|pair| (pair, group_of(pair, bodies, bounds.margin))).collect();
         own.sort_unstable();
-        let walls = walls.iter().copied().filter(|pair| of_moving(pair.atom)).collect();
+        let walls = walls.iter().copied().filter(|pair| of_moving(pair.probe)).collect();
         let pairs = Pairs { atoms: own, walls };
         let (generation, rousings, margin) = (bodies.generation, bodies.rousings, bounds.margin);
         Some(Self { generation, rousings, margin, sorted: sorted.without_list(), moving, moves, pairs })
@@ -129,10 +129,10 @@ mod tests {
                     bodies.atom_position[atom] += way;
                 }
             }
-            let before = (pairs.atoms.clone(), pairs.group_ends, pairs.walls.clone());
+            let before = (pairs.atoms.clone(), pairs.group_ends, pairs.surfaces.clone());
             search.renew(&mut pairs, &bodies, &mut bounds);
-            walls_alone += u32::from(before.0 == pairs.atoms && before.2 != pairs.walls);
-            let same = before == (pairs.atoms, pairs.group_ends, pairs.walls);
+            walls_alone += u32::from(before.0 == pairs.atoms && before.2 != pairs.surfaces);
+            let same = before == (pairs.atoms, pairs.group_ends, pairs.surfaces);
             assert_eq!(still.holds(&bodies, &bounds), same, "seed {seed}");
             *if same { &mut held } else { &mut changed } += 1;
             bodies.wake_all();

@@ -7,8 +7,9 @@ use serde::Deserialize;
 
 use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
-use crate::shapes::Atoms;
 use crate::shapes::mass_properties::{self, MassProperties};
+use crate::shapes::outline::Shape;
+use crate::shapes::{AtomSpec, Atoms};
 use crate::world::{Kinematic, material, sections};
 
 use crate::world::sections::KinematicEntry;
@@ -22,8 +23,12 @@ pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 pub struct BodyEntry {
     /// The name; no other body, wall, joint or sensor has it.
     pub name: String,
-    /// Its shape: the discs it is made of.
-    pub atoms: Atoms,
+    /// The discs it is made of. Default: none, for a body with a `shape`.
+    #[serde(default)]
+    pub atoms: Option<Atoms>,
+    /// Its shape with sides, beside the discs if it has both. Default: none.
+    #[serde(default)]
+    pub shape: Option<Shape>,
     /// Where its centre of mass is at the start, in m; with `datum: Origin`, where the origin of its atoms is.
     /// Default: (0, 0), which only bodies with `datum: Origin` may leave out.
     #[serde(default)]
@@ -101,7 +106,15 @@ impl Section for BodiesSection {
 
 impl BodyEntry {
     fn check(&self, outline: &Outline, report: &mut Report) {
-        report.within("atoms", |report| self.atoms.check(report));
+        if let Some(atoms) = &self.atoms {
+            report.within("atoms", |report| atoms.check(report));
+        }
+        if let Some(shape) = &self.shape {
+            report.within("shape", |report| shape.check(report));
+        }
+        if self.atoms.is_none() && self.shape.is_none() {
+            report.missing("atoms", "say what it is made of: write `atoms: Disc(radius: 0.1)`, or a `shape`");
+        }
         match self.at {
             Some(at) => {
                 report.finite_pair("at", at.si());
@@ -119,13 +132,24 @@ impl BodyEntry {
             report.positive("inertia", inertia);
         }
         material::require(self.material.as_deref(), outline, report);
-        let specs = self.atoms.specs();
-        self.mass_properties(1.0).check(report);
+        let specs = self.specs();
+        if report.is_clean() {
+            self.mass_properties(1.0).check(report);
+        }
         if self.inertia == Some(InertiaRule::Points) && specs.len() == 1 && !self.fixed && self.kinematic.is_none() {
             let message = "one atom counted as a point has no moment of inertia";
             report.error("inertia", message).help("leave `inertia` out, or give a number in kg m2");
         }
-        if self.inertia == Some(InertiaRule::Union) && specs.iter().any(|atom| atom.mass.is_some()) {
+        if self.shape.is_some() {
+            if matches!(self.inertia, Some(InertiaRule::Discs | InertiaRule::Points)) {
+                let message = "the moment of inertia of a shape follows from its area";
+                report.error("inertia", message).help("leave `inertia` out, or give a number in kg m2");
+            }
+            if specs.iter().any(|atom| atom.mass.is_some()) {
+                let message = "beside a `shape` discs have no masses of their own: all are of one area";
+                report.error("atoms", message).help("remove the atoms' `mass`; the body's own `mass` may stay");
+            }
+        } else if self.inertia == Some(InertiaRule::Union) && specs.iter().any(|atom| atom.mass.is_some()) {
             let message = "with `Union` the mass follows from the covered area, but atoms have masses of their own";
             report.error("inertia", message).help("remove the atoms' `mass`; the body's own `mass` may stay");
         }
@@ -154,8 +178,23 @@ impl BodyEntry {
 
     /// Mass, centre of mass, inertia and atoms, given the density of its material in kg/m2.
     pub fn mass_properties(&self, density: f64) -> MassProperties {
-        let rule = self.inertia.unwrap_or(self.atoms.own_rule());
-        mass_properties::of(&self.atoms.specs(), self.mass.map(f64::from), rule, density)
+        let mass = self.mass.map(f64::from);
+        let Some(shape) = &self.shape else {
+            return mass_properties::of(&self.specs(), mass, self.rule(), density);
+        };
+        let mut parts = shape.parts();
+        parts.discs.splice(0..0, self.specs());
+        mass_properties::of_area(&parts, mass, self.inertia.unwrap_or(InertiaRule::Union), density)
+    }
+
+    /// The discs that it is made of, without those of its shape.
+    fn specs(&self) -> Vec<AtomSpec> {
+        self.atoms.as_ref().map_or_else(Vec::new, Atoms::specs)
+    }
+
+    /// Where mass and inertia of its discs come from.
+    fn rule(&self) -> InertiaRule {
+        self.inertia.unwrap_or_else(|| self.atoms.as_ref().map_or_else(InertiaRule::default, Atoms::own_rule))
     }
 
     /// Where its centre of mass is at the start, in m.
@@ -180,11 +219,11 @@ impl BodyEntry {
 
     /// The places that `fill` must keep clear of.
     fn occupy(&self, outline: &mut Outline) {
-        let specs = self.atoms.specs();
+        let specs = self.specs();
         if mass_properties::center_depends_on_density(&specs) && self.datum == Datum::CenterOfMass {
             // The material is not known yet; this circle holds the body wherever its centre of mass is.
             let center = self.at.unwrap_or_default().si();
-            outline.occupy(Obstacle::Disc { center, radius: mass_properties::reach(&specs, self.atoms.own_rule()) });
+            outline.occupy(Obstacle::Disc { center, radius: mass_properties::reach(&specs, self.rule()) });
             return;
         }
         let properties = self.mass_properties(1.0);
@@ -193,6 +232,10 @@ impl BodyEntry {
         for atom in &properties.atoms {
             let center = start + DVec2::new(cosine, sine).rotate(atom.offset);
             outline.occupy(Obstacle::Disc { center, radius: atom.radius });
+        }
+        for hull in &properties.hulls {
+            let radius = hull.reach_of_core(DVec2::ZERO) + hull.radius();
+            outline.occupy(Obstacle::Disc { center: start, radius });
         }
     }
 }

@@ -157,10 +157,16 @@ impl MadeOf {
             stiffness: spec.stiffness.unwrap_or(self.stiffness),
             material: self.material,
         };
+        let corners = properties.hulls.iter().flat_map(|hull| {
+            let radius = hull.radius();
+            hull.corners().iter().map(move |&offset| AtomSpec { offset, radius, mass: None, stiffness: None })
+        });
+        let corners = corners.map(|spec| atom(&spec));
         NewBody {
             mass: properties.mass,
             inertia: properties.inertia,
-            atoms: properties.atoms.iter().map(atom).collect(),
+            atoms: properties.atoms.iter().map(atom).chain(corners).collect(),
+            hulls: properties.hulls.clone(),
             ..NewBody::default()
         }
     }

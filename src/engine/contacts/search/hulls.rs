@@ -1,0 +1,70 @@
+//! Probes near hulls: corners and discs of other bodies, and ends of walls. Boxes of bodies are swept along x.
+
+use glam::DVec2;
+
+use super::{SurfacePair, ordered};
+use crate::world::Bodies;
+
+/// The box about a body, grown by half the margin.
+struct Boxed {
+    body: usize,
+    low: DVec2,
+    high: DVec2,
+}
+
+/// Shows the probes that are nearer to hulls than the margin: hull by hull, for each in the order of the probes. Bodies `apart` do not touch
+/// each other.
+pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], mut see: impl FnMut(SurfacePair)) {
+    if bodies.hulls.is_empty() {
+        return;
+    }
+    let mut boxes: Vec<Boxed> = (0..bodies.len())
+        .filter(|&body| bodies.collides[body] && !bodies.atoms_of(body).is_empty())
+        .map(|body| {
+            let (low, high) =
+                bodies.atoms_of(body).fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), atom| {
+                    let (at, reach) = (bodies.atom_place(atom), DVec2::splat(bodies.atom_radius[atom] + 0.5 * margin));
+                    (low.min(at - reach), high.max(at + reach))
+                });
+            Boxed { body, low, high }
+        })
+        .collect();
+    boxes.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.body.cmp(&b.body)));
+    let mut near: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
+    for (rank, a) in boxes.iter().enumerate() {
+        for b in boxes[rank + 1..].iter().take_while(|b| b.low.x <= a.high.x) {
+            let across = b.low.y <= a.high.y && a.low.y <= b.high.y;
+            if across && (bodies.dynamic[a.body] || bodies.dynamic[b.body]) {
+                near[a.body].push(b.body);
+                near[b.body].push(a.body);
+            }
+        }
+    }
+    near.iter_mut().for_each(|list| list.sort_unstable());
+    let ends: Vec<(u32, DVec2, f64)> = (0..bodies.walls.len())
+        .filter(|&wall| bodies.walls[wall].ends.is_some())
+        .flat_map(|wall| [false, true].map(|right| (2 * wall as u32 + u32::from(right), bodies.walls[wall].end(right))))
+        .map(|(number, (center, half))| (number, center, half))
+        .collect();
+    let (walls, atoms) = (bodies.walls.len() as u32, bodies.atom_count() as u32);
+    for (place, packed) in bodies.hulls.iter().enumerate() {
+        let body = packed.body as usize;
+        if !bodies.collides[body] {
+            continue;
+        }
+        let reach = packed.hull.radius() + margin;
+        let surface = walls + place as u32;
+        let touches = |other: &&usize| apart.binary_search(&ordered(body, **other)).is_err();
+        for atom in near[body].iter().filter(touches).flat_map(|&other| bodies.atoms_of(other)) {
+            if bodies.nearest_on_hull(place, bodies.atom_place(atom)).distance < bodies.atom_radius[atom] + reach {
+                see(SurfacePair { surface, probe: atom as u32 });
+            }
+        }
+        for &(number, center, half) in ends.iter().filter(|_| bodies.dynamic[body]) {
+            let far = (center - bodies.position[body]).length() > packed.extent + half + margin;
+            if !far && bodies.nearest_on_hull(place, center).distance < half + reach {
+                see(SurfacePair { surface, probe: atoms + number });
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! A hull of a body: a rounded convex polygon or a capsule, with its sides. Its corners are atoms of the body.
+//!
+//! Corners touch hulls of others and walls; sides are touched by corners of others and by discs. A disc is an atom alone.
+
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use jostle_shapes::{Feature, Hull, nearest};
+use serde::{Deserialize, Serialize};
+
+use super::Bodies;
+use super::body::mark_changed;
+
+/// The hulls of a body with two corners and more, about its centre of mass, in metres. The last atoms of the body are their corners, hull by
+/// hull.
+#[derive(Component, Clone, Debug, PartialEq)]
+#[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
+pub struct Hulls(pub Vec<Hull>);
+
+/// A hull as contacts see it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PackedHull {
+    /// Place of its body.
+    pub body: u32,
+    /// Place of the atom that is its first corner.
+    pub first_atom: u32,
+    /// Its shape about the centre of mass.
+    pub hull: Hull,
+    /// How far it reaches from the centre of mass, in metres.
+    pub extent: f64,
+}
+
+/// Marks an atom that is no corner.
+pub(super) const NO_HULL: u32 = u32::MAX;
+
+/// The nearest place of the core of a hull, as seen from a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestOnHull {
+    /// Distance from the core in metres, negative inside.
+    pub distance: f64,
+    /// Unit normal of the hull there, outwards.
+    pub normal: DVec2,
+    /// The place on the core, from the centre of mass of the body, in metres.
+    pub foot: DVec2,
+    /// Whether it lies on a side, whose normal turns with the body.
+    pub flat: bool,
+}
+
+impl PackedHull {
+    /// Packs the hulls of the body at a place, whose corners are the last atoms before `end`.
+    pub(super) fn of_body(body: usize, hulls: &Hulls, end: usize) -> impl Iterator<Item = Self> {
+        let corners: usize = hulls.0.iter().map(|hull| hull.corners().len()).sum();
+        let mut first = end - corners;
+        hulls.0.iter().map(move |hull| {
+            let first_atom = first as u32;
+            first += hull.corners().len();
+            let extent = hull.reach_of_core(DVec2::ZERO) + hull.radius();
+            Self { body: body as u32, first_atom, hull: hull.clone(), extent }
+        })
+    }
+
+    /// The atoms that are its corners.
+    pub fn corners(&self) -> std::ops::Range<usize> {
+        let first = self.first_atom as usize;
+        first..first + self.hull.corners().len()
+    }
+}
+
+impl Bodies {
+    /// Whether an atom is the corner of a hull.
+    #[inline]
+    pub fn is_corner(&self, atom: usize) -> bool {
+        self.hull_of(atom).is_some()
+    }
+
+    /// The place of the hull of which an atom is a corner.
+    #[inline]
+    pub fn hull_of(&self, atom: usize) -> Option<usize> {
+        self.atom_hull.get(atom).filter(|hull| **hull != NO_HULL).map(|hull| *hull as usize)
+    }
+
+    /// Half the width in metres of what an atom belongs to: its radius, or for a corner half the least width of its hull.
+    #[inline]
+    pub fn size_of_atom(&self, atom: usize) -> f64 {
+        self.hull_of(atom).map_or(self.atom_radius[atom], |hull| self.hulls[hull].hull.half_width())
+    }
+
+    /// The nearest place of the core of a hull to a point in the world, in metres.
+    pub fn nearest_on_hull(&self, hull: usize, at: DVec2) -> NearestOnHull {
+        let PackedHull { body, hull, .. } = &self.hulls[hull];
+        let body = *body as usize;
+        let (sin, cos) = libm::sincos(self.angle[body]);
+        let turned = DVec2::new(cos, sin);
+        let from = at - self.position[body];
+        let local = DVec2::new(cos, -sin).rotate(from);
+        let found = nearest(hull, local);
+        let normal = turned.rotate(found.normal);
+        let foot = from - normal * found.distance;
+        NearestOnHull { distance: found.distance, normal, foot, flat: matches!(found.feature, Feature::Side(_)) }
+    }
+}
