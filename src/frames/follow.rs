@@ -58,7 +58,7 @@ mod tests {
 
     /// Where a camera looks that follows a body along x, frame by frame.
     fn looks(smoothing: f64, step: f64, places: impl Iterator<Item = f64>) -> Vec<f64> {
-        let look = BodyLook { name: "cart".into(), discs: Vec::new(), color: None, fixed: false };
+        let look = BodyLook { name: "cart".into(), discs: Vec::new(), hulls: Vec::new(), color: None, fixed: false };
         let cast = Arc::new(Cast { bodies: vec![look], ..Cast::default() });
         let mut follower = Follower::new("cart", smoothing, step);
         let look = |x| {

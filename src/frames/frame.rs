@@ -20,6 +20,15 @@ pub struct Disc {
     pub radius: f64,
 }
 
+/// A part of a body with sides: the convex hull of its corners, grown by a radius.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HullLook {
+    /// Two corners and more, counter-clockwise, in the body's own frame from its centre of mass, in metres.
+    pub corners: Vec<DVec2>,
+    /// Radius of the corners in metres.
+    pub radius: f64,
+}
+
 /// How one body looks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyLook {
@@ -27,6 +36,8 @@ pub struct BodyLook {
     pub name: String,
     /// Its discs.
     pub discs: Vec<Disc>,
+    /// Its parts with sides.
+    pub hulls: Vec<HullLook>,
     /// The colour its material asks for, as a name of the theme's palette (`"teal"`) or `"#rrggbb"`; `None`: the
     /// theme chooses by the body's place in the scene.
     pub color: Option<String>,

@@ -54,7 +54,7 @@ pub(crate) struct Walked<'a> {
 }
 
 /// Fields and choices inside sections that are kept for later versions of the language.
-const LATER: [&str; 1] = ["shape"];
+const LATER: [&str; 2] = ["shape", "soft"];
 
 impl Walked<'_> {
     fn path(&self, id: Id) -> String {

@@ -37,7 +37,7 @@ fn each_room_uses_those_below_it() {
         ("language", &[]),
         ("frames", &["language"]),
         ("shapes", &[]),
-        ("engine", &["frames", "language", "simd"]),
+        ("engine", &["frames", "language", "shapes", "simd"]),
         ("film", &["frames", "language"]),
         ("report", &["engine", "film", "frames", "language", "simd"]),
     ] {

@@ -3,6 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
+use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -11,6 +12,7 @@ use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, place_of};
 use crate::world::Bodies;
+use jostle_shapes::{Hull, Pose, distance};
 
 const QUANTITIES: &[&str] = &["clearance"];
 
@@ -81,6 +83,9 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
 }
 
 fn between_bodies(bodies: &Bodies, first: usize, second: usize) -> f64 {
+    if [first, second].iter().any(|&body| bodies.hulls_of(body).next().is_some()) {
+        return between_shapes(bodies, first, second);
+    }
     let pairs = bodies.atoms_of(first).flat_map(|a| bodies.atoms_of(second).map(move |b| (a, b)));
     let gap = |(a, b): (usize, usize)| {
         let reach = bodies.atom_radius[a] + bodies.atom_radius[b];
@@ -89,8 +94,34 @@ fn between_bodies(bodies: &Bodies, first: usize, second: usize) -> f64 {
     pairs.map(gap).fold(f64::INFINITY, f64::min)
 }
 
+/// The same where one of them has sides.
+fn between_shapes(bodies: &Bodies, first: usize, second: usize) -> f64 {
+    least((&parts(bodies, first), pose(bodies, first)), (&parts(bodies, second), pose(bodies, second)))
+}
+
+/// The discs and hulls of a body.
+fn parts(bodies: &Bodies, body: usize) -> Vec<Hull> {
+    let discs = bodies.atoms_of(body).filter(|atom| !bodies.is_corner(*atom));
+    let discs = discs.filter_map(|atom| Hull::disc(bodies.atom_offset(atom), bodies.atom_radius[atom]).ok());
+    discs.chain(bodies.hulls_of(body).map(|packed| packed.hull.clone())).collect()
+}
+
+fn pose(bodies: &Bodies, body: usize) -> Pose {
+    Pose::new(bodies.position[body], bodies.angle[body])
+}
+
+fn least((first, at): (&[Hull], Pose), (second, there): (&[Hull], Pose)) -> f64 {
+    let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
+    pairs.map(|(a, b)| distance(a, &at, b, &there)).fold(f64::INFINITY, f64::min)
+}
+
 fn from_wall(bodies: &Bodies, body: usize, wall: usize) -> f64 {
     let wall = &bodies.walls[wall];
+    if wall.ends.is_some() && bodies.hulls_of(body).next().is_some() {
+        let [(from, radius), (to, _)] = [false, true].map(|right| wall.end(right));
+        let strip = Hull::capsule(from, to, radius).map_or_else(|_| Vec::new(), |strip| vec![strip]);
+        return least((&parts(bodies, body), pose(bodies, body)), (&strip, Pose::new(DVec2::ZERO, 0.0)));
+    }
     let gap = |atom: usize| wall.nearest(bodies.atom_place(atom)).height - bodies.atom_radius[atom];
     bodies.atoms_of(body).map(gap).fold(f64::INFINITY, f64::min)
 }

@@ -120,7 +120,8 @@ impl Shape {
 
 fn remedy(error: ShapeError) -> &'static str {
     match error {
-        ShapeError::TooFewPoints { .. } | ShapeError::ZeroArea | ShapeError::EqualPoints { .. } => {
+        ShapeError::EqualPoints { .. } => "give each corner once, and a capsule two different ends",
+        ShapeError::TooFewPoints { .. } | ShapeError::ZeroArea => {
             "a polygon is a list of corners in order: Polygon(points: [(0, 0), (1, 0), (0, 1)])"
         }
         ShapeError::SelfCrossing { .. } => "give the corners in order, around the outline",

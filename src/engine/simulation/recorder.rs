@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 
-use crate::record::frame::{BodyLook, Cast, Disc, Frame, Pose, WallLook};
+use crate::record::frame::{BodyLook, Cast, Disc, Frame, HullLook, Pose, WallLook};
 use crate::record::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
@@ -100,13 +100,20 @@ fn cast_of(simulation: &Simulation) -> Cast {
     let name = |entity: Entity| world.get::<Name>(entity).map(Name::to_string).unwrap_or_default();
     let body = |place: usize| {
         let atoms = bodies.atoms_of(place);
-        let discs = atoms.clone().map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
+        let discs = atoms
+            .clone()
+            .filter(|a| !bodies.is_corner(*a))
+            .map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
+        let hulls = bodies
+            .hulls_of(place)
+            .map(|hull| HullLook { corners: hull.hull.corners().to_vec(), radius: hull.hull.radius() });
         let fixed =
             world.get::<crate::world::Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
         BodyLook {
             name: name(bodies.entity[place]),
             color: atoms.clone().next().and_then(|first| color(bodies.atom_material(first))),
             discs: discs.collect(),
+            hulls: hulls.collect(),
             fixed,
         }
     };

@@ -127,7 +127,7 @@ impl std::fmt::Display for Failure {
             }
             Wrong::Crossed(_) => write!(
                 f,
-                "`{body}` has passed through the wall `{other}`: its contact is too soft for that speed, or the tick too long; give it more \
+                "`{body}` has passed through `{other}`: its contact is too soft for that speed, or the tick too long; give it more \
                  `stiffness`, or a shorter `tick`,"
             )?,
             Wrong::Contradiction => write!(

@@ -78,6 +78,12 @@ impl Bodies {
         self.atom_hull.get(atom).filter(|hull| **hull != NO_HULL).map(|hull| *hull as usize)
     }
 
+    /// The hulls of a body.
+    pub fn hulls_of(&self, body: usize) -> impl Iterator<Item = &PackedHull> {
+        let first = self.hulls.partition_point(|hull| (hull.body as usize) < body);
+        self.hulls[first..].iter().take_while(move |hull| hull.body as usize == body)
+    }
+
     /// Half the width in metres of what an atom belongs to: its radius, or for a corner half the least width of its hull.
     #[inline]
     pub fn size_of_atom(&self, atom: usize) -> f64 {

@@ -50,7 +50,8 @@ fn view() -> View {
 fn frames(count: usize) -> Vec<Frame> {
     let disc = |x, y, radius| Disc { offset: DVec2::new(x, y), radius };
     let block = vec![disc(0.0, 0.0, 0.25), disc(0.5, 0.0, 0.25), disc(0.0, 0.5, 0.25), disc(0.5, 0.5, 0.25)];
-    let body = |name: &str, discs, fixed| BodyLook { name: name.to_owned(), discs, color: None, fixed };
+    let body =
+        |name: &str, discs, fixed| BodyLook { name: name.to_owned(), discs, hulls: Vec::new(), color: None, fixed };
     let bodies = vec![
         body("peg", vec![disc(0.0, 0.0, 0.4)], true),
         body("block", block, false),

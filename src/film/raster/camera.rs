@@ -20,15 +20,17 @@ impl Bounds {
         finite.map(|point| Bounds { low: point, high: point }).reduce(Bounds::union)
     }
 
-    /// The smallest rectangle that holds everything in a frame: the discs of all bodies and the points that define
+    /// The smallest rectangle that holds everything in a frame: the discs and hulls of all bodies and the points that define
     /// the walls. `None` if there is nothing.
     pub fn of_frame(frame: &Frame) -> Option<Bounds> {
         let walls = frame.cast.walls.iter().flat_map(|wall| [wall.left, wall.right]);
         let bodies = frame.cast.bodies.iter().zip(&frame.poses).flat_map(|(body, pose)| {
             let turn = DVec2::new(libm::cos(pose.angle), libm::sin(pose.angle));
-            body.discs.iter().flat_map(move |disc| {
-                let center = pose.position + turn.rotate(disc.offset);
-                [center - DVec2::splat(disc.radius), center + DVec2::splat(disc.radius)]
+            let corners = body.hulls.iter().flat_map(|hull| hull.corners.iter().map(|corner| (*corner, hull.radius)));
+            let round = body.discs.iter().map(|disc| (disc.offset, disc.radius)).chain(corners);
+            round.flat_map(move |(offset, radius)| {
+                let center = pose.position + turn.rotate(offset);
+                [center - DVec2::splat(radius), center + DVec2::splat(radius)]
             })
         });
         Bounds::of_points(walls.chain(bodies))

@@ -2,12 +2,12 @@
 //!
 //! Discs of one size that touch are joined by the straight strip between them, and the pinholes in the middle of
 //! four are closed: a body looks as massive as it is. The outline lies inside the edge, so the edge of the picture
-//! is the edge of the discs.
+//! is the edge of the discs. Parts with sides are drawn by their distance too, so that they join discs without a seam.
 
 use glam::DVec2;
 
 use super::canvas::{Canvas, Ink, blend, fill, span};
-use jostle_frames::frame::Disc;
+use jostle_frames::frame::{Disc, HullLook};
 
 /// Discs count as touching up to this share of the sum of their radii beyond it.
 const TOUCH: f64 = 1e-3;
@@ -34,6 +34,14 @@ struct Strip {
 #[derive(Clone, Debug)]
 pub(super) struct Silhouette {
     strips: Vec<Strip>,
+    polygons: Vec<Polygon>,
+}
+
+/// A convex polygon, counter-clockwise, grown by a radius, in pixels from the body's centre with y up.
+#[derive(Clone, Debug, PartialEq)]
+struct Polygon {
+    corners: Vec<DVec2>,
+    radius: f64,
 }
 
 /// Where a body stands in the picture: centre in pixels, and the direction of its own x axis with y up.
@@ -61,8 +69,8 @@ pub(super) struct Field {
 }
 
 impl Silhouette {
-    /// The shape of the discs of a body at a scale.
-    pub(super) fn new(discs: &[Disc], pixels_per_meter: f64) -> Silhouette {
+    /// The shape of the discs and hulls of a body at a scale.
+    pub(super) fn new(discs: &[Disc], hulls: &[HullLook], pixels_per_meter: f64) -> Silhouette {
         let bonds = bonds(discs);
         let mut bonded = vec![false; discs.len()];
         for &(a, b) in &bonds {
@@ -83,39 +91,62 @@ impl Silhouette {
             Strip { from: middle, to: middle, radius }
         };
         let closed = closures(discs, &bonds).into_iter().map(closure);
-        Silhouette { strips: bonds.iter().copied().chain(alone).map(strip).chain(closed).collect() }
+        let bars = hulls.iter().filter_map(|hull| match hull.corners[..] {
+            [from, to] => {
+                let [from, to] = [from, to].map(|end| end * pixels_per_meter);
+                Some(Strip { from, to, radius: hull.radius * pixels_per_meter })
+            }
+            _ => None,
+        });
+        let polygons = hulls.iter().filter(|hull| hull.corners.len() > 2).map(|hull| Polygon {
+            corners: hull.corners.iter().map(|corner| *corner * pixels_per_meter).collect(),
+            radius: hull.radius * pixels_per_meter,
+        });
+        Silhouette {
+            strips: bonds.iter().copied().chain(alone).map(strip).chain(closed).chain(bars).collect(),
+            polygons: polygons.collect(),
+        }
     }
 
     /// Draws the body where it stands.
     pub(super) fn draw(&self, stand: &Stand, ink: &Ink, canvas: &mut Canvas, field: &mut Field) {
         match self.strips.as_slice() {
-            [only] if only.from == only.to => {
+            [only] if only.from == only.to && self.polygons.is_empty() => {
                 let (x, y) = stand.place(only.from);
                 canvas.disc(x, y, only.radius as f32, ink);
             }
-            strips => draw_union(strips, stand, ink, canvas, field),
+            strips => draw_union((strips, &self.polygons), stand, ink, canvas, field),
         }
     }
 }
 
-fn draw_union(strips: &[Strip], stand: &Stand, ink: &Ink, canvas: &mut Canvas, field: &mut Field) {
+fn draw_union(
+    (strips, polygons): (&[Strip], &[Polygon]),
+    stand: &Stand,
+    ink: &Ink,
+    canvas: &mut Canvas,
+    field: &mut Field,
+) {
     let placed: Vec<Segment> = strips.iter().map(|strip| Segment::new(strip, stand)).collect();
-    let seen = placed.iter().map(|segment| segment.reach(canvas)).filter(|reach| !reach.is_empty());
+    let outlines: Vec<Outline> = polygons.iter().map(|polygon| Outline::new(polygon, stand)).collect();
+    let all = placed.iter().map(|segment| segment.reach(canvas)).chain(outlines.iter().map(|of| of.reach(canvas)));
+    let seen = all.filter(|reach| !reach.is_empty());
     let Some(reach) = seen.reduce(Reach::union) else { return };
     let width = reach.columns.len();
     field.distances.clear();
     field.distances.resize(width * reach.rows.len(), f32::MAX);
-    for segment in &placed {
-        let own = segment.reach(canvas);
+    let mut lower = |own: Reach, lower: &dyn Fn(&mut [f32], f32, f32)| {
         if own.is_empty() {
-            continue;
+            return;
         }
         for row in own.rows {
             let start = (row - reach.rows.start) * width + own.columns.start - reach.columns.start;
             let distances = &mut field.distances[start..start + own.columns.len()];
-            segment.lower(distances, own.columns.start as f32 + 0.5, row as f32 + 0.5);
+            lower(distances, own.columns.start as f32 + 0.5, row as f32 + 0.5);
         }
-    }
+    };
+    placed.iter().for_each(|of| lower(of.reach(canvas), &|distances, x, y| of.lower(distances, x, y)));
+    outlines.iter().for_each(|of| lower(of.reach(canvas), &|distances, x, y| of.lower(distances, x, y)));
     let solid = -(ink.width + 0.5);
     for (row, distances) in reach.rows.clone().zip(field.distances.chunks_exact(width)) {
         let pixels = &mut canvas.row(row)[4 * reach.columns.start..4 * reach.columns.end];
@@ -173,6 +204,60 @@ impl Segment {
             let own = (to_x * to_x + to_y * to_y).sqrt() - self.radius;
             *distance = if own < *distance { own } else { *distance };
         }
+    }
+}
+
+/// A polygon in the picture.
+struct Outline {
+    /// Each side: where it begins, its unit direction, its length.
+    sides: Vec<((f32, f32), (f32, f32), f32)>,
+    radius: f32,
+}
+
+impl Outline {
+    fn new(polygon: &Polygon, stand: &Stand) -> Outline {
+        let corners: Vec<(f32, f32)> = polygon.corners.iter().map(|corner| stand.place(*corner)).collect();
+        let next = corners.iter().cycle().skip(1);
+        let side = |(from, to): (&(f32, f32), &(f32, f32))| {
+            let (x, y) = (to.0 - from.0, to.1 - from.1);
+            let length = (x * x + y * y).sqrt().max(f32::MIN_POSITIVE);
+            (*from, (x / length, y / length), length)
+        };
+        Outline { sides: corners.iter().zip(next).map(side).collect(), radius: polygon.radius as f32 }
+    }
+
+    /// The box of pixels it may touch.
+    fn reach(&self, canvas: &Canvas) -> Reach {
+        let none = (f32::INFINITY, f32::NEG_INFINITY);
+        let of = |number: fn(&((f32, f32), (f32, f32), f32)) -> f32| {
+            let (low, high) = self.sides.iter().map(number).fold(none, |(low, high), at| (low.min(at), high.max(at)));
+            (0.5 * (low + high), 0.5 * (high - low) + self.radius + 0.5)
+        };
+        let (x, y) = (of(|side| side.0.0), of(|side| side.0.1));
+        Reach { columns: span(x.0, x.1, canvas.width()), rows: span(y.0, y.1, canvas.height()) }
+    }
+
+    /// Lowers the distances of a row of pixels, whose first centre is (`x`, `y`), to those of this polygon.
+    fn lower(&self, distances: &mut [f32], x: f32, y: f32) {
+        for (distance, column) in distances.iter_mut().zip(0_i32..) {
+            let own = self.distance(x + column as f32, y) - self.radius;
+            *distance = if own < *distance { own } else { *distance };
+        }
+    }
+
+    /// The distance of a point from the polygon without its radius: below zero inside. The highest side has the nearest place.
+    fn distance(&self, x: f32, y: f32) -> f32 {
+        let (mut highest, mut beyond) = (f32::NEG_INFINITY, 0.0);
+        for (from, along, length) in &self.sides {
+            let (dx, dy) = (x - from.0, y - from.1);
+            // With y down the outside of a counter-clockwise polygon lies to this hand.
+            let height = dx * -along.1 + dy * along.0;
+            if height > highest {
+                let way = dx * along.0 + dy * along.1;
+                (highest, beyond) = (height, (way - length).max(-way).max(0.0));
+            }
+        }
+        if highest > 0.0 { (highest * highest + beyond * beyond).sqrt() } else { highest }
     }
 }
 
@@ -310,7 +395,7 @@ mod tests {
         assert_eq!(bonds(&column.collect::<Vec<_>>()).len(), 99_999);
         let heap = chain(1e-9);
         assert_eq!(bonds(&heap), []);
-        assert_eq!(Silhouette::new(&heap, 10.0).strips.len(), heap.len());
+        assert_eq!(Silhouette::new(&heap, &[], 10.0).strips.len(), heap.len());
     }
 
     #[test]
@@ -332,7 +417,7 @@ mod tests {
     fn a_block_is_one_flat_area_inside_its_outline() {
         let ink = Ink { fill: Rgb(200, 100, 50), outline: Rgb(10, 20, 30), width: 2.0 };
         let mut pixmap = Pixmap::new(80, 80).expect("small");
-        let silhouette = Silhouette::new(&grid(&["####", "####", "####"]), 16.0);
+        let silhouette = Silhouette::new(&grid(&["####", "####", "####"]), &[], 16.0);
         let stand = Stand { x: 20.0, y: 20.0, cosine: 0.8, sine: -0.6 };
         silhouette.draw(&stand, &ink, &mut Canvas::new(&mut pixmap), &mut Field::default());
         // Along a line through the body in its own frame, all pixels well inside have the fill.

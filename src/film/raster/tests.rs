@@ -6,7 +6,7 @@ use jostle_frames::mark::Mark;
 
 fn ball(name: &str, fixed: bool) -> BodyLook {
     let discs = vec![Disc { offset: DVec2::ZERO, radius: 0.5 }];
-    BodyLook { name: name.to_owned(), discs, color: None, fixed }
+    BodyLook { name: name.to_owned(), discs, hulls: Vec::new(), color: None, fixed }
 }
 
 fn pose(x: f64, y: f64) -> Pose {

@@ -84,7 +84,7 @@ type Inside = Box<dyn Fn(DVec2, f64, &[(usize, usize)]) -> bool>;
 fn body(discs: &[Disc], ink: Ink) -> (Pixmap, Inside) {
     let stand = Stand { x: 21.3, y: 25.6, cosine: 0.8, sine: 0.6 };
     let picture = drawn(|picture| {
-        Silhouette::new(discs, 1.0).draw(&stand, &ink, &mut Canvas::new(picture), &mut Field::default());
+        Silhouette::new(discs, &[], 1.0).draw(&stand, &ink, &mut Canvas::new(picture), &mut Field::default());
     });
     let discs = discs.to_vec();
     let inside = move |place: DVec2, shrunk: f64, bonds: &[(usize, usize)]| {

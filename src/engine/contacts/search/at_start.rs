@@ -4,7 +4,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::{cells, most_pairs};
+use super::{cells, hulls, most_pairs};
 use crate::scene::SceneError;
 use crate::tick::{LoadErrors, Notes, State};
 use crate::world::{Bodies, Name};
@@ -52,6 +52,9 @@ impl Overlaps {
         let mut found = Self { most: most_pairs(bodies), ..Self::default() };
         let complete = cells::overlapping(bodies, MOST_LOOKS, |pair| {
             let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
+            if bodies.is_corner(a) || bodies.is_corner(b) {
+                return true;
+            }
             let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
             let whose = Pair::Bodies(bodies.atom_body(a) as u32, bodies.atom_body(b) as u32);
             found.add(overlap, bodies.atom_radius[a].min(bodies.atom_radius[b]), whose)
@@ -62,11 +65,18 @@ impl Overlaps {
             let height = |at: DVec2| wall.nearest(at).height;
             let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
             for atom in near.flat_map(|&body| bodies.atoms_of(body)) {
-                let radius = bodies.atom_radius[atom];
+                let (radius, size) = (bodies.atom_radius[atom], bodies.size_of_atom(atom));
                 let whose = Pair::Wall(bodies.atom_body(atom) as u32, place as u32);
-                found.add(radius - height(bodies.atom_place(atom)), radius, whose);
+                found.add(radius - height(bodies.atom_place(atom)), size, whose);
             }
         }
+        hulls::each_pair(bodies, 0.0, &super::places_apart(bodies), |pair| {
+            let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
+                ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
+                ((None, body), wall) => Pair::Wall(body as u32, wall.unwrap_or_default() as u32),
+            };
+            found.add(pair.overlap(bodies), pair.size(bodies), whose);
+        });
         found.more |= !complete || bodies.walls.len() > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();

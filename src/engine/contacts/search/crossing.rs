@@ -1,26 +1,35 @@
-//! Atoms that pass through walls with ends: the run ends, with both names.
+//! Atoms that pass through walls with ends, and corners that pass through hulls: the run ends, with both names.
 //!
-//! Such a wall is open on both sides, so an atom whose centre has passed the middle line would be pushed out on the other side. Soft
-//! contacts let that happen, and ticks in which a small atom goes farther than it is wide. A film would not show it.
+//! Such a wall is open on both sides, so an atom whose centre has passed the middle line would be pushed out on the other side. So would
+//! one that has passed the middle line of a capsule, or lies in a hull deeper than half its width. Soft contacts let that happen, and
+//! ticks in which a small atom goes farther than it is wide. A film would not show it.
 
 use bevy_ecs::world::World;
 use glam::DVec2;
+use jostle_shapes::Pose;
 use serde::{Deserialize, Serialize};
 
+use crate::contacts::{Probe, Surface, SurfacePair};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Model, State, SteadySpring, Wrong};
 use crate::world::Bodies;
 
-/// Where atoms were at the beginning of the present step, in m.
+/// So deep a probe lies at the most, as a share of half the width of a hull: the side that is nearest is the one it came through.
+const DEEPEST: f64 = 0.9;
+
+/// What was where at the beginning of the present step.
 #[derive(Default, Serialize, Deserialize)]
 struct Crossings {
+    /// Places of atoms in m, where there are walls with ends.
     before: Vec<DVec2>,
+    /// Probes near capsules, and their places in the frames of those in m.
+    near: Vec<(SurfacePair, DVec2)>,
 }
 
-/// Watches for atoms that pass through walls, if the scene has walls with ends.
+/// Watches for what passes through walls with ends and hulls, if the scene has some.
 pub(super) fn watch(world: &mut World) {
     let mut state = world.resource_mut::<State>();
-    if state.bodies().walls.iter().any(|wall| wall.ends.is_some()) {
+    if has_ends(state.bodies()) || !state.bodies().hulls.is_empty() {
         state.add_model(Crossings::default());
     }
 }
@@ -55,9 +64,16 @@ impl Model for Crossings {
         if state.span.begin > state.clock.time() {
             self.look(state);
         }
-        let bodies = &state.bodies;
+        let State { bodies, pairs: Some(pairs), .. } = state else { return };
         self.before.clear();
-        self.before.extend((0..bodies.atom_count()).map(|atom| bodies.atom_place(atom)));
+        if has_ends(bodies) {
+            self.before.extend((0..bodies.atom_count()).map(|atom| bodies.atom_place(atom)));
+        }
+        self.near.clear();
+        if !bodies.hulls.is_empty() {
+            let near = pairs.surfaces.iter().filter_map(|pair| Some((*pair, place_at_capsule(*pair, bodies)?.1)));
+            self.near.extend(near);
+        }
     }
 
     fn looks_at_ticks(&self) -> bool {
@@ -74,6 +90,20 @@ impl Crossings {
         if let Some((body, wall)) = self.first(&state.bodies) {
             state.end_run(body, Wrong::Crossed(state.bodies.walls[wall].entity));
         }
+        let State { bodies, pairs: Some(pairs), .. } = &*state else { return };
+        if bodies.hulls.is_empty() {
+            return;
+        }
+        let deep = pairs.surfaces.iter().copied().find(|pair| is_deep(*pair, bodies));
+        let through = self.near.iter().find(|(pair, before)| has_crossed(*pair, *before, bodies));
+        if let Some(pair) = deep.or(through.map(|(pair, _)| *pair)) {
+            let (a, b) = pair.bodies(bodies);
+            let other =
+                a.map_or_else(|| pair.wall(bodies).map(|wall| bodies.walls[wall].entity), |a| Some(bodies.entity[a]));
+            if let Some(other) = other {
+                state.end_run(b, Wrong::Crossed(other));
+            }
+        }
     }
 
     /// The first body with an atom that has crossed a wall since, and the index of the wall.
@@ -89,4 +119,46 @@ impl Crossings {
         }
         None
     }
+}
+
+fn has_ends(bodies: &Bodies) -> bool {
+    bodies.walls.iter().any(|wall| wall.ends.is_some())
+}
+
+/// Where a probe is, in m.
+fn place(pair: SurfacePair, bodies: &Bodies) -> DVec2 {
+    match pair.probe(bodies) {
+        Probe::Atom(atom) => bodies.atom_place(atom),
+        Probe::End(wall, right) => bodies.walls[wall].end(right).0,
+    }
+}
+
+/// Both ends of the middle line of the capsule that a probe is near to, and the place of the probe in the frame of the capsule, in m.
+fn place_at_capsule(pair: SurfacePair, bodies: &Bodies) -> Option<([DVec2; 2], DVec2)> {
+    let Surface::Hull(hull) = pair.surface(bodies) else { return None };
+    let packed = &bodies.hulls[hull];
+    let &[from, to] = packed.hull.corners() else { return None };
+    let body = packed.body as usize;
+    let pose = Pose::new(bodies.position[body], bodies.angle[body]);
+    Some(([from, to], pose.point_to_local(place(pair, bodies))))
+}
+
+/// Whether a probe has passed the middle line of a capsule since.
+fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
+    let Some(([from, to], now)) = place_at_capsule(pair, bodies) else { return false };
+    let along = to - from;
+    let heights = [before, now].map(|at| along.perp_dot(at - from));
+    if (heights[0] < 0.0) == (heights[1] < 0.0) {
+        return false;
+    }
+    let crossing = before + (now - before) * (heights[0] / (heights[0] - heights[1]));
+    (0.0..=along.length_squared()).contains(&(crossing - from).dot(along))
+}
+
+/// Whether a probe lies in a polygon deeper than half its width.
+fn is_deep(pair: SurfacePair, bodies: &Bodies) -> bool {
+    let Surface::Hull(hull) = pair.surface(bodies) else { return false };
+    let packed = &bodies.hulls[hull].hull;
+    packed.corners().len() > 2
+        && bodies.nearest_on_hull(hull, place(pair, bodies)).distance < packed.radius() - packed.half_width() * DEEPEST
 }

@@ -86,14 +86,14 @@ fn fields_and_choices_of_later_versions() {
 Scene(
     format: 1,
     clock: (duration: 1),
-    bodies: [(name: "ball", at: (0, 0), shape: Capsule(length: 1, radius: 0.1))],
+    bodies: [(name: "ball", at: (0, 0), soft: (stiffness: 500))],
 )"#,
         r#"
-error: bodies[0].shape: `shape` is not available yet
+error: bodies[0].soft: `soft` is not available yet
  --> a.ron:4:41
   |
-4 |     bodies: [(name: "ball", at: (0, 0), shape: Capsule(length: 1, radius: 0.1))],
-  |                                         ^^^^^ not available yet
+4 |     bodies: [(name: "ball", at: (0, 0), soft: (stiffness: 500))],
+  |                                         ^^^^ not available yet
   |
   = help: the name is reserved for a later version; remove it
 "#,

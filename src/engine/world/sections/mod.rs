@@ -25,6 +25,7 @@ use crate::scene::names::of_series;
 use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::shapes::{AtomSpec, silhouette};
+use crate::tick::Notes;
 
 /// Registers the sections. Materials come first: the others name them.
 pub fn plugin(app: &mut App) {
@@ -72,9 +73,12 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
             velocity: start.map_or(entry.velocity.si(), |start| start.velocity),
             spin: start.map_or(entry.spin.si(), |start| start.spin),
             kinematic,
-            name: entry.name,
+            name: entry.name.clone(),
             ..made_of.body(&properties)
         };
+        for mended in entry.shape.iter().flat_map(|shape| shape.parts().mended) {
+            world.get_resource_or_init::<Notes>().0.push(format!("`{}`: {mended}", body.name));
+        }
         let (key, body) = keyed(body, outline);
         let entity = body.spawn_keyed(world, key);
         if let Some(origin) = origin {

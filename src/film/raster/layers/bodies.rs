@@ -38,7 +38,7 @@ impl Figure {
         let smallest = look.discs.iter().map(|disc| disc.radius * scale).fold(f64::INFINITY, f64::min);
         let mark = if look.fixed { outline } else { theme.mark.of(fill) };
         Figure {
-            silhouette: Silhouette::new(&look.discs, scale),
+            silhouette: Silhouette::new(&look.discs, &look.hulls, scale),
             ink: Ink { fill, outline, width: line.min(0.26 * smallest as f32) },
             marks: marks(&look.discs, look.fixed, scale),
             mark_ink: Ink::plain(mark),
