@@ -209,9 +209,16 @@ impl Segment {
 
 /// A polygon in the picture.
 struct Outline {
-    /// Each side: where it begins, its unit direction, its length.
-    sides: Vec<((f32, f32), (f32, f32), f32)>,
+    sides: Vec<OutlineSide>,
     radius: f32,
+}
+
+/// A side of a polygon in the picture.
+struct OutlineSide {
+    from: (f32, f32),
+    /// Unit direction.
+    along: (f32, f32),
+    length: f32,
 }
 
 impl Outline {
@@ -221,7 +228,7 @@ impl Outline {
         let side = |(from, to): (&(f32, f32), &(f32, f32))| {
             let (x, y) = (to.0 - from.0, to.1 - from.1);
             let length = (x * x + y * y).sqrt().max(f32::MIN_POSITIVE);
-            (*from, (x / length, y / length), length)
+            OutlineSide { from: *from, along: (x / length, y / length), length }
         };
         Outline { sides: corners.iter().zip(next).map(side).collect(), radius: polygon.radius as f32 }
     }
@@ -229,11 +236,11 @@ impl Outline {
     /// The box of pixels it may touch.
     fn reach(&self, canvas: &Canvas) -> Reach {
         let none = (f32::INFINITY, f32::NEG_INFINITY);
-        let of = |number: fn(&((f32, f32), (f32, f32), f32)) -> f32| {
+        let of = |number: fn(&OutlineSide) -> f32| {
             let (low, high) = self.sides.iter().map(number).fold(none, |(low, high), at| (low.min(at), high.max(at)));
             (0.5 * (low + high), 0.5 * (high - low) + self.radius + 0.5)
         };
-        let (x, y) = (of(|side| side.0.0), of(|side| side.0.1));
+        let (x, y) = (of(|side| side.from.0), of(|side| side.from.1));
         Reach { columns: span(x.0, x.1, canvas.width()), rows: span(y.0, y.1, canvas.height()) }
     }
 
@@ -248,7 +255,7 @@ impl Outline {
     /// The distance of a point from the polygon without its radius: below zero inside. The highest side has the nearest place.
     fn distance(&self, x: f32, y: f32) -> f32 {
         let (mut highest, mut beyond) = (f32::NEG_INFINITY, 0.0);
-        for (from, along, length) in &self.sides {
+        for OutlineSide { from, along, length } in &self.sides {
             let (dx, dy) = (x - from.0, y - from.1);
             // With y down the outside of a counter-clockwise polygon lies to this hand.
             let height = dx * -along.1 + dy * along.0;
