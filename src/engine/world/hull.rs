@@ -16,6 +16,10 @@ use super::body::mark_changed;
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Hulls(pub Vec<Hull>);
 
+/// What was mended in the numbers of shapes, for the notes of the card.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Mended(pub Vec<String>);
+
 /// A hull as contacts see it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PackedHull {

@@ -1,9 +1,19 @@
 //! Probes near hulls: corners and discs of other bodies, and ends of walls. Boxes of bodies are swept along x.
 
+use bevy_ecs::world::World;
 use glam::DVec2;
 
 use super::{SurfacePair, ordered};
+use crate::tick::Notes;
 use crate::world::Bodies;
+use crate::world::hull::Mended;
+
+/// Says on the card what was mended in shapes.
+pub(super) fn note_mended(world: &mut World) {
+    if let Some(Mended(told)) = world.remove_resource::<Mended>() {
+        world.resource_mut::<Notes>().0.extend(told);
+    }
+}
 
 /// The box about a body, grown by half the margin.
 struct Boxed {

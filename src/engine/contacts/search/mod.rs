@@ -55,10 +55,11 @@ pub fn plugin(app: &mut App) {
     state.bounds = Some(Bounds::default());
     state.pairs = Some(CandidatePairs::default());
     app.add_model(PairSearch::default());
-    app.world_mut()
-        .get_resource_or_init::<AfterLoad>()
-        .0
-        .extend([at_start::note_overlaps as fn(&mut World), crossing::watch]);
+    app.world_mut().get_resource_or_init::<AfterLoad>().0.extend([
+        at_start::note_overlaps as fn(&mut World),
+        crossing::watch,
+        hulls::note_mended,
+    ]);
 }
 
 /// Moves nothing by itself.

@@ -18,6 +18,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::hull::Mended;
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::{NextKey, Series, after_others, spawn_series};
 use super::{Atom, Motion, Name, NewBody, Origin, Wall};
@@ -25,7 +26,6 @@ use crate::scene::names::of_series;
 use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::shapes::{AtomSpec, silhouette};
-use crate::tick::Notes;
 
 /// Registers the sections. Materials come first: the others name them.
 pub fn plugin(app: &mut App) {
@@ -77,7 +77,7 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
             ..made_of.body(&properties)
         };
         for mended in entry.shape.iter().flat_map(|shape| shape.parts().mended) {
-            world.get_resource_or_init::<Notes>().0.push(format!("`{}`: {mended}", body.name));
+            world.get_resource_or_init::<Mended>().0.push(format!("`{}`: {mended}", body.name));
         }
         let (key, body) = keyed(body, outline);
         let entity = body.spawn_keyed(world, key);
