@@ -8,6 +8,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("conveyor", include_str!("../../scenes/conveyor.ron")),
     ("cow", include_str!("../../scenes/cow.ron")),
     ("cradle_on_rods", include_str!("../../scenes/cradle_on_rods.ron")),
+    ("dominoes", include_str!("../../scenes/dominoes.ron")),
     ("double_pendulum", include_str!("../../scenes/double_pendulum.ron")),
     ("fireworks", include_str!("../../scenes/fireworks.ron")),
     ("four_bar", include_str!("../../scenes/four_bar.ron")),
