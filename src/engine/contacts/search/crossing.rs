@@ -6,7 +6,7 @@
 
 use bevy_ecs::world::World;
 use glam::DVec2;
-use jostle_shapes::Pose;
+use jostle_shapes::{Hull, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
@@ -22,7 +22,7 @@ const DEEPEST: f64 = 0.9;
 struct Crossings {
     /// Places of atoms in m, where there are walls with ends.
     before: Vec<DVec2>,
-    /// Probes near capsules, and their places in the frames of those in m.
+    /// Probes near hulls, and their places in the frames of those in m.
     near: Vec<(SurfacePair, DVec2)>,
 }
 
@@ -71,7 +71,7 @@ impl Model for Crossings {
         }
         self.near.clear();
         if !bodies.hulls.is_empty() {
-            let near = pairs.surfaces.iter().filter_map(|pair| Some((*pair, place_at_capsule(*pair, bodies)?.1)));
+            let near = pairs.surfaces.iter().filter_map(|pair| Some((*pair, place_at_hull(*pair, bodies)?.1)));
             self.near.extend(near);
         }
     }
@@ -133,19 +133,19 @@ fn place(pair: SurfacePair, bodies: &Bodies) -> DVec2 {
     }
 }
 
-/// Both ends of the middle line of the capsule that a probe is near to, and the place of the probe in the frame of the capsule, in m.
-fn place_at_capsule(pair: SurfacePair, bodies: &Bodies) -> Option<([DVec2; 2], DVec2)> {
+/// The hull that a probe is near to, and the place of the probe in its frame, in m.
+fn place_at_hull(pair: SurfacePair, bodies: &Bodies) -> Option<(&Hull, DVec2)> {
     let Surface::Hull(hull) = pair.surface(bodies) else { return None };
     let packed = &bodies.hulls[hull];
-    let &[from, to] = packed.hull.corners() else { return None };
     let body = packed.body as usize;
     let pose = Pose::new(bodies.position[body], bodies.angle[body]);
-    Some(([from, to], pose.point_to_local(place(pair, bodies))))
+    Some((&packed.hull, pose.point_to_local(place(pair, bodies))))
 }
 
-/// Whether a probe has passed the middle line of a capsule since.
+/// Whether a probe has passed the middle line of a capsule since, or has gone through a polygon.
 fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
-    let Some(([from, to], now)) = place_at_capsule(pair, bodies) else { return false };
+    let Some((hull, now)) = place_at_hull(pair, bodies) else { return false };
+    let &[from, to] = hull.corners() else { return has_gone_through(hull, before, now) };
     let along = to - from;
     let heights = [before, now].map(|at| along.perp_dot(at - from));
     if (heights[0] < 0.0) == (heights[1] < 0.0) {
@@ -153,6 +153,27 @@ fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
     }
     let crossing = before + (now - before) * (heights[0] / (heights[0] - heights[1]));
     (0.0..=along.length_squared()).contains(&(crossing - from).dot(along))
+}
+
+/// Whether the way from one place to another enters a polygon and leaves it, and is deep in it half-way (Cyrus and Beck 1978).
+fn has_gone_through(hull: &Hull, before: DVec2, now: DVec2) -> bool {
+    let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (side, corner) in hull.sides().iter().zip(hull.corners()) {
+        let [first, last] = [before, now].map(|at| side.normal.dot(at - *corner));
+        if first == last {
+            if first > 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let crosses = first / (first - last);
+        if first > last { enters = enters.max(crosses) } else { leaves = leaves.min(crosses) }
+    }
+    if !(0.0 < enters && enters < leaves && leaves < 1.0) {
+        return false;
+    }
+    let middle = before + (now - before) * (0.5 * (enters + leaves));
+    nearest(hull, middle).distance < -0.5 * (hull.half_width() - hull.radius())
 }
 
 /// Whether a probe lies in a polygon deeper than half its width.
