@@ -159,12 +159,13 @@ impl PairSearch {
                 .map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
         };
         // Walls do not come and go one by one: when their number changes the history of surfaces starts anew.
-        let same_walls = same || self.wall_count == bodies.walls.len();
+        let old_wall_count = std::mem::replace(&mut self.wall_count, bodies.walls.len());
+        let same_walls = same || old_wall_count == bodies.walls.len();
         let first_atoms = bodies.hulls.iter().map(|hull| hull.first_atom).collect();
         let old_first_atoms = std::mem::replace(&mut self.first_atoms, first_atoms);
         let old_atoms_count = std::mem::replace(&mut self.atom_count, bodies.atom_count() as u32);
         // Hulls are known by their first corners.
-        let walls = self.wall_count as u32;
+        let walls = old_wall_count as u32;
         let surface = |old: u32| match old.checked_sub(walls) {
             None => Some(old),
             Some(hull) => Some(
@@ -186,7 +187,6 @@ impl PairSearch {
         self.still = sorted.and_then(|sorted| Still::of(bodies, bounds, sorted, (&pairs.atoms, &pairs.surfaces)));
         if !same {
             self.generation = bodies.generation;
-            self.wall_count = bodies.walls.len();
             self.identities = Identities::of(bodies);
         }
         most_of
