@@ -1,19 +1,22 @@
 //! Which sides and corners of a compound lie on its outline.
 //!
 //! A side is inner if its boundary lies in other hulls. A corner probes if the union bends outwards there. Around a round
-//! corner that is so if some of its arc is free. Around a sharp one the outward normals of all hulls that meet there must
-//! have a range of directions in common; the hull of lowest index has the corner. Boundaries nearer than a tie count as one
-//! ([`crate::moments`]).
+//! corner that is so if some of its arc is free. Where several hulls have the same corner, their outward normals must have a
+//! range of directions in common; the hull of lowest index has the corner, in that range. A sharp corner on or in another
+//! hull is none. Boundaries nearer than a tie count as one ([`crate::moments`]).
 
 use glam::DVec2;
 
 use crate::boundary::Piece;
-use crate::hull::Hull;
+use crate::hull::{Free, Hull};
 use crate::moments::{free_boundary, middle, thick, tie};
 use crate::nearest::nearest;
 
-/// Marks the sides that lie inside the union, and the corners that are no convex vertices of its outline.
-pub(crate) fn mark_inner(hulls: &mut [Hull]) {
+/// Marks the sides that lie inside the union of the hulls of one body, and the corners that are no convex vertices of its outline.
+pub fn mark_inner(hulls: &mut [Hull]) {
+    if hulls.len() < 2 {
+        return;
+    }
     let (middle, tie) = (middle(hulls), tie(hulls));
     let (ranks, parts): (Vec<usize>, Vec<Hull>) = hulls
         .iter()
@@ -37,43 +40,69 @@ pub(crate) fn mark_inner(hulls: &mut [Hull]) {
                 }
                 Piece::Arc(arc) => {
                     if left * arc.radius <= crumb(arc.radius) {
-                        hull.set_probes(corner, false);
+                        hull.set_free(corner, Free::Nowhere);
                     }
                     corner += 1;
                 }
             }
         }
-        if parts[part].radius() == 0.0 {
-            for corner in 0..hull.corners().len() {
-                if !is_sharp_vertex(&parts, part, corner, tie) {
-                    hull.set_probes(corner, false);
-                }
-            }
+    }
+    let normals: Vec<Hull> = ranks.iter().map(|rank| hulls[*rank].clone()).collect();
+    for (part, hull) in normals.iter().enumerate() {
+        for corner in (0..hull.corners().len()).filter(|corner| hull.probes(*corner)) {
+            hulls[ranks[part]].set_free(corner, free(&parts, &normals, (part, corner), tie));
         }
     }
 }
 
-/// Whether a corner of a hull without radius is a convex vertex of the union, and this hull the first that has it.
-fn is_sharp_vertex(parts: &[Hull], own: usize, corner: usize, tie: f64) -> bool {
-    let place = parts[own].corners()[corner];
-    let cone = Cone::at(&parts[own], corner);
-    let (mut from, mut to) = (0.0, cone.angle(cone.to));
+/// In which directions a corner of a hull is the outline, in so far as others have the same corner, or hold a sharp one.
+///
+/// Places are those of `parts`, whose numbers are small; normals are those of the hulls themselves.
+fn free(parts: &[Hull], normals: &[Hull], (own, corner): (usize, usize), tie: f64) -> Free {
+    let (place, radius) = (parts[own].corners()[corner], parts[own].radius());
+    let cone = Cone::at(&normals[own], corner);
+    let mut free = Free::Whole;
+    let (mut from, mut to) = (0.0, cone.as_ref().map_or(0.0, Cone::span));
     for (rank, other) in parts.iter().enumerate().filter(|(rank, _)| *rank != own) {
         let gap = nearest(other, place).distance - other.radius();
-        if gap > tie {
+        let corners = other.corners().iter();
+        let alike = (other.radius() - radius).abs() <= tie;
+        let same =
+            corners.enumerate().find(|(_, corner)| alike && corner.distance(place) <= tie).map(|(index, _)| index);
+        let Some(same) = same else {
+            // A sharp corner on a side of another hull bends inwards, or not at all.
+            if radius == 0.0 && gap <= tie {
+                return Free::Nowhere;
+            }
             continue;
+        };
+        if rank < own {
+            return Free::Nowhere;
         }
-        let same = (0..other.corners().len()).find(|index| other.corners()[*index].distance(place) <= tie);
-        let Some(same) = same.filter(|_| other.radius() == 0.0 && gap >= -tie) else { return false };
-        let met = Cone::at(other, same);
-        let start = cone.angle(met.from);
-        (from, to) = (f64::max(from, start), f64::min(to, start + met.angle(met.to)));
+        let (Some(cone), Some(met)) = (&cone, Cone::at(&normals[rank], same)) else { continue };
+        let (start, end) = (cone.angle(met.from), cone.angle(met.from) + met.span());
+        if start > from {
+            (from, free) = (start, Free::Between(met.from, last(free, cone)));
+        }
+        if end < to {
+            (to, free) = (end, Free::Between(first(free, cone), met.to));
+        }
         // A tie at the end of the shortest side turns its normal by so much.
-        if to - from <= 4.0 * tie / cone.shortest.min(met.shortest) || rank < own {
-            return false;
+        if to - from <= 4.0 * tie / cone.shortest.min(met.shortest) {
+            return Free::Nowhere;
         }
     }
-    true
+    free
+}
+
+/// The first direction of a range within a cone.
+fn first(free: Free, cone: &Cone) -> DVec2 {
+    if let Free::Between(from, _) = free { from } else { cone.from }
+}
+
+/// The last one.
+fn last(free: Free, cone: &Cone) -> DVec2 {
+    if let Free::Between(_, to) = free { to } else { cone.to }
 }
 
 /// The outward normals at a corner, from that of the side that ends there to that of the side that begins.
@@ -85,10 +114,18 @@ struct Cone {
 }
 
 impl Cone {
-    fn at(hull: &Hull, corner: usize) -> Self {
+    /// That of a corner; a disc has none.
+    fn at(hull: &Hull, corner: usize) -> Option<Self> {
         let (sides, count) = (hull.sides(), hull.sides().len());
-        let (before, after) = (sides[(corner + count - 1) % count], sides[corner]);
-        Self { from: before.normal, to: after.normal, shortest: before.length.min(after.length) }
+        let after = sides.get(corner)?;
+        let before = &sides[(corner + count - 1) % count];
+        Some(Self { from: before.normal, to: after.normal, shortest: before.length.min(after.length) })
+    }
+
+    /// The angle that it spans.
+    fn span(&self) -> f64 {
+        // That of a capsule is half a turn, with either sign.
+        self.angle(self.to).abs()
     }
 
     /// The angle from the first normal to a direction, from -pi to pi.
@@ -168,7 +205,7 @@ mod tests {
             let mut hulls = cut.hulls.clone();
             for hull in &mut hulls {
                 (0..hull.sides().len()).for_each(|side| hull.set_inner(side, false));
-                (0..hull.corners().len()).for_each(|corner| hull.set_probes(corner, true));
+                (0..hull.corners().len()).for_each(|corner| hull.set_free(corner, Free::Whole));
             }
             mark_inner(&mut hulls);
             assert_eq!(hulls, cut.hulls, "{rounding}");

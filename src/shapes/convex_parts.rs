@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use crate::hull::Hull;
+use crate::hull::{Free, Hull, direction};
 use crate::orientation::orientation;
 use crate::outline::convex_corners;
 
@@ -76,11 +76,22 @@ fn merged(left: &[usize], right: &[usize], from: usize, to: usize) -> Vec<usize>
 pub(crate) fn hulls(corners: &[DVec2], radius: f64) -> Vec<Hull> {
     let mut to_probe = convex_corners(corners);
     let count = corners.len();
+    let normal = |from: usize, to: usize| -direction(corners[to] - corners[from]).0.perp();
+    let of_outline = |index: usize| {
+        let [before, after] = [(index + count - 1) % count, (index + 1) % count];
+        (normal(before, index), normal(index, after))
+    };
     let part_to_hull = |part: Vec<usize>| {
         let mut hull = Hull::of_corners(part.iter().map(|index| corners[*index]).collect(), radius);
         for (at, &index) in part.iter().enumerate() {
-            hull.set_inner(at, part[(at + 1) % part.len()] != (index + 1) % count);
-            hull.set_probes(at, std::mem::take(&mut to_probe[index]));
+            let [before, after] = [part[(at + part.len() - 1) % part.len()], part[(at + 1) % part.len()]];
+            hull.set_inner(at, after != (index + 1) % count);
+            let free = match (std::mem::take(&mut to_probe[index]), of_outline(index)) {
+                (false, _) => Free::Nowhere,
+                (true, _) if after == (index + 1) % count && index == (before + 1) % count => Free::Whole,
+                (true, (from, to)) => Free::Between(from, to),
+            };
+            hull.set_free(at, free);
         }
         hull
     };

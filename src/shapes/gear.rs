@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use glam::DVec2;
 
 use crate::error::ShapeError;
-use crate::hull::{Hull, check_number};
+use crate::hull::{Free, Hull, check_number};
 use crate::shape::{Shape, positive};
 
 /// A spur gear about the origin; one tooth points along +x.
@@ -137,7 +137,7 @@ impl Gear {
         let mut body = Hull::of_corners((0..2 * self.teeth).map(corner).collect(), 0.0);
         for index in 0..2 * self.teeth {
             body.set_inner(index, index.is_multiple_of(2));
-            body.set_probes(index, false);
+            body.set_free(index, Free::Nowhere);
         }
         body
     }
@@ -149,8 +149,8 @@ impl Gear {
         let (mut hull, _) = Hull::polygon(&right.chain(left).collect::<Vec<DVec2>>(), 0.0)?;
         let last = hull.corners().len() - 1;
         hull.set_inner(last, true);
-        hull.set_probes(last, false);
-        hull.set_probes(0, false);
+        hull.set_free(last, Free::Nowhere);
+        hull.set_free(0, Free::Nowhere);
         Ok(hull)
     }
 }

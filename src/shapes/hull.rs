@@ -28,12 +28,34 @@ pub struct Side {
     pub inner: bool,
 }
 
+/// In which outward directions a corner is the outline of its shape, and no other part of the shape is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Free {
+    /// In all directions between the normals of its sides.
+    Whole,
+    /// Counter-clockwise from the first unit normal to the second.
+    Between(DVec2, DVec2),
+    /// In none: it is concave, lies inside, or belongs to another part.
+    Nowhere,
+}
+
+impl Free {
+    /// Whether an outward direction belongs to the corner, given that no side of its hull is nearer.
+    pub fn holds(&self, direction: DVec2) -> bool {
+        match self {
+            Self::Whole => true,
+            Self::Between(from, to) => from.perp_dot(direction) >= 0.0 && direction.perp_dot(*to) >= 0.0,
+            Self::Nowhere => false,
+        }
+    }
+}
+
 /// The convex hull of its corners, grown by a radius.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hull {
     corners: Vec<DVec2>,
     sides: Vec<Side>,
-    probes: Vec<bool>,
+    free: Vec<Free>,
     radius: f64,
 }
 
@@ -104,7 +126,7 @@ impl Hull {
                 })
                 .collect(),
         };
-        Self { sides, probes: vec![true; count], corners, radius }
+        Self { sides, free: vec![Free::Whole; count], corners, radius }
     }
 
     /// The corners of the core, counter-clockwise, in metres.
@@ -130,7 +152,12 @@ impl Hull {
     /// Whether a corner is a convex vertex of the outline of its shape, so that contacts look where it touches others. Where
     /// several parts of a shape share the vertex, one of them has it.
     pub fn probes(&self, corner: usize) -> bool {
-        self.probes[corner]
+        self.free[corner] != Free::Nowhere
+    }
+
+    /// In which directions a corner is the outline of its shape.
+    pub fn free(&self, corner: usize) -> Free {
+        self.free[corner]
     }
 
     /// Says whether a side is a cut, or lies inside the union of the parts.
@@ -138,9 +165,9 @@ impl Hull {
         self.sides[side].inner = inner;
     }
 
-    /// Says whether a corner probes others.
-    pub fn set_probes(&mut self, corner: usize, probes: bool) {
-        self.probes[corner] = probes;
+    /// Says in which directions a corner is the outline of its shape.
+    pub fn set_free(&mut self, corner: usize, free: Free) {
+        self.free[corner] = free;
     }
 
     /// The same hull, moved by so many metres.
@@ -149,6 +176,22 @@ impl Hull {
         let mut moved = self.clone();
         moved.corners.iter_mut().for_each(|corner| *corner += by);
         moved
+    }
+
+    /// The same hull, turned about the origin by an angle in radians, counter-clockwise.
+    #[must_use]
+    pub fn turned(&self, angle: f64) -> Self {
+        let (sin, cos) = libm::sincos(angle);
+        let turn = |direction: DVec2| DVec2::new(cos, sin).rotate(direction);
+        let mut turned = self.clone();
+        turned.corners.iter_mut().for_each(|corner| *corner = turn(*corner));
+        turned.sides.iter_mut().for_each(|side| side.normal = turn(side.normal));
+        for free in &mut turned.free {
+            if let Free::Between(from, to) = *free {
+                *free = Free::Between(turn(from), turn(to));
+            }
+        }
+        turned
     }
 
     /// Half of the least width of the hull in metres: for a disc or a capsule its radius.

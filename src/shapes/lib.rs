@@ -20,10 +20,11 @@ mod rack;
 mod shape;
 mod time_of_impact;
 
+pub use compound::mark_inner;
 pub use distance::{Separation, distance, separation};
 pub use error::{Mended, ShapeError};
 pub use gear::Gear;
-pub use hull::{Hull, Side};
+pub use hull::{Free, Hull, Side};
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};

@@ -31,15 +31,11 @@ pub struct Nearest {
 }
 
 impl Hull {
-    /// Whether another part of the same shape lies behind a feature: a contact there belongs to that part. A corner is
-    /// inner if both its sides are.
-    pub fn is_inner(&self, feature: Feature) -> bool {
-        match feature {
-            Feature::Side(side) => self.sides()[side].inner,
-            Feature::Corner(corner) => {
-                let (sides, count) = (self.sides(), self.sides().len());
-                count > 0 && sides[corner].inner && sides[(corner + count - 1) % count].inner
-            }
+    /// Whether the nearest place lies on the outline of the hull's shape. Otherwise a contact there belongs to another part.
+    pub fn owns(&self, near: &Nearest) -> bool {
+        match near.feature {
+            Feature::Side(side) => !self.sides()[side].inner,
+            Feature::Corner(corner) => self.free(corner).holds(near.normal),
         }
     }
 }
@@ -47,7 +43,7 @@ impl Hull {
 /// The nearest place of the core to a point in the hull's frame, in metres.
 ///
 /// Inside the core only sides that are not inner count, by the height under their line, so that no normal points through a
-/// cut; if all are inner, all count. Outside, an inner feature may be the nearest: [`Hull::is_inner`] tells. At the centre of a
+/// cut; if all are inner, all count. Outside, an inner feature may be the nearest: [`Hull::owns`] tells. At the centre of a
 /// disc, where all directions are equal, the normal points along +y.
 pub fn nearest(hull: &Hull, point: DVec2) -> Nearest {
     match *hull.corners() {
@@ -245,6 +241,6 @@ mod tests {
         // Beyond the cut the side is still the nearest, and says that it is inner.
         let beyond = nearest(&cut, DVec2::new(2.25, 1.5));
         assert_eq!((beyond.feature, beyond.distance), (Feature::Side(1), 0.25));
-        assert!(cut.is_inner(beyond.feature) && !cut.is_inner(Feature::Corner(1)));
+        assert!(!cut.owns(&beyond) && cut.owns(&nearest(&cut, DVec2::new(2.25, 2.5))));
     }
 }

@@ -32,6 +32,12 @@ impl Shape {
     pub fn moved(&self, by: DVec2) -> Self {
         Self { hulls: self.hulls.iter().map(|hull| hull.moved(by)).collect(), ..self.clone() }
     }
+
+    /// The same shape, turned about the origin by an angle in radians, counter-clockwise.
+    #[must_use]
+    pub fn turned(&self, angle: f64) -> Self {
+        Self { hulls: self.hulls.iter().map(|hull| hull.turned(angle)).collect(), ..self.clone() }
+    }
 }
 
 /// A disc with center and radius in metres.

@@ -6,6 +6,7 @@ mod support;
 mod belt;
 mod bounce;
 mod clumps;
+mod compounds;
 mod conditioned;
 mod conservation;
 mod constant_acceleration;

@@ -208,7 +208,7 @@ impl PairGeometry {
     }
 
     fn hull(bodies: &Bodies, index: usize, hull: usize, atom: u32) -> Self {
-        let (b, found) = (End::of(bodies, atom), bodies.nearest_on_hull(hull, bodies.atom_place(atom as usize)));
+        let (b, found) = (End::of(bodies, atom), bodies.touched_on_hull(hull, bodies.atom_place(atom as usize)));
         let a = End::on_hull(bodies, hull, &found);
         let spins = (bodies.spin[a.body], bodies.spin[b.body]);
         Self {
@@ -224,7 +224,7 @@ impl PairGeometry {
     /// An end of a wall near a hull: the hull is side B.
     fn end(bodies: &Bodies, index: usize, hull: usize, (wall, right): (usize, bool)) -> Self {
         let (center, radius) = bodies.walls[wall].end(right);
-        let found = bodies.nearest_on_hull(hull, center);
+        let found = bodies.touched_on_hull(hull, center);
         let b = End::on_hull(bodies, hull, &found);
         let spin = bodies.spin[b.body];
         Self {

@@ -13,9 +13,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize};
 
-use jostle_shapes::{AreaMoments, Hull};
+use jostle_shapes::{AreaMoments, Hull, mark_inner};
 
-use super::outline::Parts;
+use super::outline::Part;
 use super::{AtomSpec, union};
 use crate::scene::Report;
 use crate::scene::units::Inertia;
@@ -91,6 +91,8 @@ pub struct MassProperties {
     pub atoms: Vec<AtomSpec>,
     /// The hulls about the centre of mass. Their corners are no atoms here.
     pub hulls: Vec<Hull>,
+    /// The hulls and discs that are seen, but touch nothing, about the centre of mass.
+    pub intangible: Vec<Hull>,
 }
 
 impl MassProperties {
@@ -131,25 +133,88 @@ pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64
         atom.offset -= center;
         atom.mass = atom.mass.map(|own| own * (mass / sum));
     }
-    MassProperties { mass, center, inertia, atoms, hulls: Vec::new() }
+    MassProperties { mass, center, inertia, atoms, hulls: Vec::new(), intangible: Vec::new() }
 }
 
-/// The same where the body has hulls beside its atoms: those of the area that all of them cover, uniformly heavy.
-pub fn of_area(parts: &Parts, mass: Option<f64>, rule: InertiaRule, density: f64) -> MassProperties {
-    let discs = parts.discs.iter().filter_map(|disc| Hull::disc(disc.offset, disc.radius).ok());
-    let all: Vec<Hull> = parts.hulls.iter().cloned().chain(discs).collect();
-    let area = AreaMoments::union_of(&all);
-    let mass = mass.unwrap_or(density * area.area);
+/// The same where the body has parts with sides beside its atoms.
+///
+/// If no part has a mass or a density of its own, mass and inertia are those of the area that all cover together, uniformly heavy.
+/// Otherwise each part weighs for itself, and what two of them cover counts twice; the atoms together are one such part.
+pub fn of_parts(
+    specs: &[AtomSpec],
+    parts: &[Part],
+    mass: Option<f64>,
+    rule: InertiaRule,
+    density: f64,
+) -> MassProperties {
+    let disc = |atom: &AtomSpec| Hull::disc(atom.offset, atom.radius).ok();
+    let atoms: Vec<Hull> = specs.iter().filter_map(disc).collect();
+    let own = parts.iter().any(|part| part.mass.is_some() || part.density.is_some());
+    let heap = if own {
+        let each = parts.iter().map(|part| Heavy::of(&part.hulls, part.mass, part.density.unwrap_or(density)));
+        let atoms = (!atoms.is_empty()).then(|| Heavy::of(&atoms, None, density));
+        each.chain(atoms).reduce(Heavy::with).unwrap_or_default()
+    } else {
+        let all: Vec<Hull> = parts.iter().flat_map(|part| part.hulls.iter().cloned()).chain(atoms).collect();
+        Heavy::of(&all, None, density)
+    };
+    let (center, total) = (heap.center, mass.unwrap_or(heap.mass));
     let inertia = match rule {
         InertiaRule::Given(inertia) => inertia,
-        _ => mass / area.area * area.second_moment,
+        _ => heap.inertia * (total / heap.mass),
     };
-    let center = area.centre;
-    let discs: f64 = parts.discs.iter().map(|disc| disc.radius * disc.radius).sum();
-    let share = |disc: &AtomSpec| if parts.hulls.is_empty() { mass * disc.radius * disc.radius / discs } else { 0.0 };
-    let atom = |disc: &AtomSpec| AtomSpec { offset: disc.offset - center, mass: Some(share(disc)), ..*disc };
-    let hulls = parts.hulls.iter().map(|hull| hull.moved(-center)).collect();
-    MassProperties { mass, center, inertia, atoms: parts.discs.iter().map(atom).collect(), hulls }
+    let mut atoms: Vec<AtomSpec> = specs.to_vec();
+    let (mut hulls, mut intangible) = (Vec::new(), Vec::new());
+    // A body of which nothing touches does not touch as a whole.
+    let none_touches = specs.is_empty() && !parts.iter().any(|part| part.collides);
+    for part in parts {
+        let to = if part.collides || none_touches { &mut hulls } else { &mut intangible };
+        to.extend(part.hulls.iter().map(|hull| hull.moved(-center)));
+    }
+    mark_inner(&mut hulls);
+    // A disc that touches is an atom.
+    let is_disc = |hull: &Hull| hull.corners().len() == 1;
+    for disc in hulls.iter().filter(|hull| is_disc(hull)) {
+        atoms.push(AtomSpec { offset: disc.corners()[0] + center, radius: disc.radius(), mass: None, stiffness: None });
+    }
+    hulls.retain(|hull| !is_disc(hull));
+    let squares: f64 = atoms.iter().map(|atom| atom.radius * atom.radius).sum();
+    for atom in &mut atoms {
+        let share = atom.radius * atom.radius / squares;
+        *atom = AtomSpec {
+            offset: atom.offset - center,
+            mass: Some(if hulls.is_empty() { total * share } else { 0.0 }),
+            ..*atom
+        };
+    }
+    MassProperties { mass: total, center, inertia, atoms, hulls, intangible }
+}
+
+/// A part of a body with its mass.
+#[derive(Clone, Copy, Debug, Default)]
+struct Heavy {
+    mass: f64,
+    center: DVec2,
+    /// About its own centre of mass, in kg m2.
+    inertia: f64,
+}
+
+impl Heavy {
+    /// The union of some hulls, uniformly heavy.
+    fn of(hulls: &[Hull], mass: Option<f64>, density: f64) -> Self {
+        let area = AreaMoments::union_of(hulls);
+        let mass = mass.unwrap_or(density * area.area);
+        Self { mass, center: area.centre, inertia: mass / area.area * area.second_moment }
+    }
+
+    /// Both as one body.
+    fn with(self, other: Self) -> Self {
+        let mass = self.mass + other.mass;
+        let share = other.mass / mass;
+        let apart = other.center - self.center;
+        let inertia = self.inertia + other.inertia + self.mass * share * apart.length_squared();
+        Self { mass, center: self.center + apart * share, inertia }
+    }
 }
 
 /// Whether some atoms have masses of their own and others follow the material.

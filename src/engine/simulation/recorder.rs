@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
+use jostle_shapes::Hull;
 
 use crate::record::frame::{BodyLook, Cast, Disc, Frame, HullLook, Pose, WallLook};
 use crate::record::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 use crate::world::between::{Moment, angle_between, position_between};
-use crate::world::{Bodies, Materials, Motion, Name, Wall};
+use crate::world::{Bodies, Intangible, Materials, Motion, Name, Wall};
 
 /// Takes frames of a running simulation.
 #[derive(Default)]
@@ -90,6 +91,11 @@ fn moments(bodies: &Bodies, time: f64) -> Vec<(u64, Moment)> {
     (0..bodies.len()).map(|place| (bodies.key.at(place), Moment::of(bodies, place, time))).collect()
 }
 
+fn look(hull: &Hull) -> HullLook {
+    let cuts = hull.sides().iter().map(|side| side.inner).collect();
+    HullLook { corners: hull.corners().to_vec(), cuts, radius: hull.radius() }
+}
+
 /// What a film shows of the present bodies and walls.
 fn cast_of(simulation: &Simulation) -> Cast {
     let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
@@ -104,15 +110,16 @@ fn cast_of(simulation: &Simulation) -> Cast {
             .clone()
             .filter(|a| !bodies.is_corner(*a))
             .map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
-        let hulls = bodies
-            .hulls_of(place)
-            .map(|hull| HullLook { corners: hull.hull.corners().to_vec(), radius: hull.hull.radius() });
+        let intangible = world.get::<Intangible>(bodies.entity[place]).map_or(&[][..], |intangible| &intangible.0);
+        let (round, sided) = intangible.iter().partition::<Vec<&Hull>, _>(|hull| hull.corners().len() == 1);
+        let seen = round.iter().map(|disc| Disc { offset: disc.corners()[0], radius: disc.radius() });
+        let hulls = bodies.hulls_of(place).map(|packed| &packed.hull).chain(sided).map(look);
         let fixed =
             world.get::<crate::world::Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
         BodyLook {
             name: name(bodies.entity[place]),
             color: atoms.clone().next().and_then(|first| color(bodies.atom_material(first))),
-            discs: discs.collect(),
+            discs: discs.chain(seen).collect(),
             hulls: hulls.collect(),
             fixed,
         }

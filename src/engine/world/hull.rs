@@ -16,6 +16,10 @@ use super::body::mark_changed;
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Hulls(pub Vec<Hull>);
 
+/// Parts of a body that are seen and have mass, but touch nothing: hulls and discs about its centre of mass, in metres.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Intangible(pub Vec<Hull>);
+
 /// What was mended in the numbers of shapes, for the notes of the card.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Mended(pub Vec<String>);
@@ -47,6 +51,8 @@ pub struct NearestOnHull {
     pub foot: DVec2,
     /// Whether it lies on a side, whose normal turns with the body.
     pub flat: bool,
+    /// Whether it lies on the outline of the body; otherwise another hull of the body is touched there.
+    pub owned: bool,
 }
 
 impl PackedHull {
@@ -76,6 +82,15 @@ impl Bodies {
         self.hull_of(atom).is_some()
     }
 
+    /// Whether an atom touches walls and hulls: a disc, or a convex corner of the outline of its body.
+    #[inline]
+    pub fn probes(&self, atom: usize) -> bool {
+        self.hull_of(atom).is_none_or(|hull| {
+            let packed = &self.hulls[hull];
+            packed.hull.probes(atom - packed.first_atom as usize)
+        })
+    }
+
     /// The place of the hull of which an atom is a corner.
     #[inline]
     pub fn hull_of(&self, atom: usize) -> Option<usize> {
@@ -94,6 +109,16 @@ impl Bodies {
         self.hull_of(atom).map_or(self.atom_radius[atom], |hull| self.hulls[hull].hull.half_width())
     }
 
+    /// The same for a contact: where the nearest place belongs to another part of the body, there is none, and the hull is far.
+    pub fn touched_on_hull(&self, hull: usize, at: DVec2) -> NearestOnHull {
+        let found = self.nearest_on_hull(hull, at);
+        if found.owned {
+            return found;
+        }
+        let packed = &self.hulls[hull];
+        NearestOnHull { distance: found.distance.abs() + 2.0 * packed.extent, ..found }
+    }
+
     /// The nearest place of the core of a hull to a point in the world, in metres.
     pub fn nearest_on_hull(&self, hull: usize, at: DVec2) -> NearestOnHull {
         let PackedHull { body, hull, .. } = &self.hulls[hull];
@@ -105,6 +130,7 @@ impl Bodies {
         let found = nearest(hull, local);
         let normal = turned.rotate(found.normal);
         let foot = from - normal * found.distance;
-        NearestOnHull { distance: found.distance, normal, foot, flat: matches!(found.feature, Feature::Side(_)) }
+        let flat = matches!(found.feature, Feature::Side(_));
+        NearestOnHull { distance: found.distance, normal, foot, flat, owned: hull.owns(&found) }
     }
 }

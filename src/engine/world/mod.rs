@@ -29,7 +29,7 @@ pub use atom::{Atom, AtomOf, Atoms, atoms_of};
 pub use body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
 pub(crate) use fitting::incomplete;
 pub(crate) use flight::Passing;
-pub use hull::{Hulls, NearestOnHull, PackedHull};
+pub use hull::{Hulls, Intangible, NearestOnHull, PackedHull};
 pub use kinematic::Kinematic;
 pub use material::{MaterialIndex, Materials};
 pub use name::Name;

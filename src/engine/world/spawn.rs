@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::atom::{Atom, AtomOf, Atoms};
 use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, Velocity};
-use super::{Hulls, Kinematic, Name, Roster};
+use super::{Hulls, Intangible, Kinematic, Name, Roster};
 use jostle_shapes::Hull;
 
 /// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.
@@ -61,6 +61,8 @@ pub struct NewBody {
     pub atoms: Vec<Atom>,
     /// Its hulls about the centre of mass.
     pub hulls: Vec<Hull>,
+    /// Its parts that touch nothing, about the centre of mass.
+    pub intangible: Vec<Hull>,
 }
 
 impl Default for NewBody {
@@ -79,6 +81,7 @@ impl Default for NewBody {
             inertia: 1.0,
             atoms: Vec::new(),
             hulls: Vec::new(),
+            intangible: Vec::new(),
         }
     }
 }
@@ -186,7 +189,7 @@ impl NewBody {
 
     fn spawn_named(mut self, world: &mut World, key: u64, name: Name) -> Entity {
         let (kinematic, atoms) = (self.kinematic.take(), std::mem::take(&mut self.atoms));
-        let hulls = std::mem::take(&mut self.hulls);
+        let (hulls, intangible) = (std::mem::take(&mut self.hulls), std::mem::take(&mut self.intangible));
         if kinematic.is_some() {
             self.motion = Motion::Kinematic;
         }
@@ -203,6 +206,9 @@ impl NewBody {
         }
         if !hulls.is_empty() {
             world.entity_mut(body).insert(Hulls(hulls));
+        }
+        if !intangible.is_empty() {
+            world.entity_mut(body).insert(Intangible(intangible));
         }
         if atoms.len() > 1 {
             for atom in atoms {

@@ -41,6 +41,7 @@ pub(super) struct Silhouette {
 #[derive(Clone, Debug, PartialEq)]
 struct Polygon {
     corners: Vec<DVec2>,
+    cuts: Vec<bool>,
     radius: f64,
 }
 
@@ -100,6 +101,7 @@ impl Silhouette {
         });
         let polygons = hulls.iter().filter(|hull| hull.corners.len() > 2).map(|hull| Polygon {
             corners: hull.corners.iter().map(|corner| *corner * pixels_per_meter).collect(),
+            cuts: hull.cuts.clone(),
             radius: hull.radius * pixels_per_meter,
         });
         Silhouette {
@@ -219,18 +221,20 @@ struct OutlineSide {
     /// Unit direction.
     along: (f32, f32),
     length: f32,
+    cut: bool,
 }
 
 impl Outline {
     fn new(polygon: &Polygon, stand: &Stand) -> Outline {
         let corners: Vec<(f32, f32)> = polygon.corners.iter().map(|corner| stand.place(*corner)).collect();
         let next = corners.iter().cycle().skip(1);
-        let side = |(from, to): (&(f32, f32), &(f32, f32))| {
+        let side = |((from, to), cut): ((&(f32, f32), &(f32, f32)), &bool)| {
             let (x, y) = (to.0 - from.0, to.1 - from.1);
             let length = (x * x + y * y).sqrt().max(f32::MIN_POSITIVE);
-            OutlineSide { from: *from, along: (x / length, y / length), length }
+            OutlineSide { from: *from, along: (x / length, y / length), length, cut: *cut }
         };
-        Outline { sides: corners.iter().zip(next).map(side).collect(), radius: polygon.radius as f32 }
+        let sides = corners.iter().zip(next).zip(&polygon.cuts).map(side);
+        Outline { sides: sides.collect(), radius: polygon.radius as f32 }
     }
 
     /// The box of pixels it may touch.
@@ -252,10 +256,11 @@ impl Outline {
         }
     }
 
-    /// The distance of a point from the polygon without its radius: below zero inside. The highest side has the nearest place.
+    /// The distance of a point from the polygon without its radius: below zero inside, where cuts do not count. The highest side has
+    /// the nearest place.
     fn distance(&self, x: f32, y: f32) -> f32 {
-        let (mut highest, mut beyond) = (f32::NEG_INFINITY, 0.0);
-        for OutlineSide { from, along, length } in &self.sides {
+        let (mut highest, mut beyond, mut outer) = (f32::NEG_INFINITY, 0.0, f32::NEG_INFINITY);
+        for OutlineSide { from, along, length, cut } in &self.sides {
             let (dx, dy) = (x - from.0, y - from.1);
             // With y down the outside of a counter-clockwise polygon lies to this hand.
             let height = dx * -along.1 + dy * along.0;
@@ -263,8 +268,11 @@ impl Outline {
                 let way = dx * along.0 + dy * along.1;
                 (highest, beyond) = (height, (way - length).max(-way).max(0.0));
             }
+            if !cut {
+                outer = outer.max(height);
+            }
         }
-        if highest > 0.0 { (highest * highest + beyond * beyond).sqrt() } else { highest }
+        if highest > 0.0 { (highest * highest + beyond * beyond).sqrt() } else { outer }
     }
 }
 

@@ -64,7 +64,7 @@ impl Overlaps {
         for (place, wall) in bodies.walls.iter().enumerate().take(looked_at) {
             let height = |at: DVec2| wall.nearest(at).height;
             let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
-            for atom in near.flat_map(|&body| bodies.atoms_of(body)) {
+            for atom in near.flat_map(|&body| bodies.atoms_of(body)).filter(|&atom| bodies.probes(atom)) {
                 let (radius, size) = (bodies.atom_radius[atom], bodies.size_of_atom(atom));
                 let whose = Pair::Wall(bodies.atom_body(atom) as u32, place as u32);
                 found.add(radius - height(bodies.atom_place(atom)), size, whose);

@@ -56,7 +56,7 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         .flat_map(|wall| [false, true].map(|right| (2 * wall as u32 + u32::from(right), bodies.walls[wall].end(right))))
         .map(|(number, (center, half))| (number, center, half))
         .collect();
-    let (walls, atoms) = (bodies.walls.len() as u32, bodies.atom_count() as u32);
+    let (walls, ends_from) = (bodies.walls.len() as u32, bodies.atom_count() as u32);
     for (place, packed) in bodies.hulls.iter().enumerate() {
         let body = packed.body as usize;
         if !bodies.collides[body] {
@@ -65,7 +65,8 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         let reach = packed.hull.radius() + margin;
         let surface = walls + place as u32;
         let touches = |other: &&usize| apart.binary_search(&ordered(body, **other)).is_err();
-        for atom in near[body].iter().filter(touches).flat_map(|&other| bodies.atoms_of(other)) {
+        let atoms = near[body].iter().filter(touches).flat_map(|&other| bodies.atoms_of(other));
+        for atom in atoms.filter(|&atom| bodies.probes(atom)) {
             if bodies.nearest_on_hull(place, bodies.atom_place(atom)).distance < bodies.atom_radius[atom] + reach {
                 see(SurfacePair { surface, probe: atom as u32 });
             }
@@ -73,7 +74,7 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         for &(number, center, half) in ends.iter().filter(|_| bodies.dynamic[body]) {
             let far = (center - bodies.position[body]).length() > packed.extent + half + margin;
             if !far && bodies.nearest_on_hull(place, center).distance < half + reach {
-                see(SurfacePair { surface, probe: atoms + number });
+                see(SurfacePair { surface, probe: ends_from + number });
             }
         }
     }

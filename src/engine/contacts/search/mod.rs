@@ -289,7 +289,7 @@ fn each_wall_pair(
             if wall.nearest(bodies.position[body]).height > bodies.extent(body) + margin {
                 continue;
             }
-            for atom in bodies.atoms_of(body) {
+            for atom in bodies.atoms_of(body).filter(|&atom| bodies.probes(atom)) {
                 if wall.nearest(bodies.atom_place(atom)).height < bodies.atom_radius[atom] + margin {
                     see(SurfacePair { surface: place as u32, probe: atom as u32 });
                 }

@@ -86,7 +86,7 @@ impl Section for BodiesSection {
     fn declare(&self, outline: &mut Outline) {
         for (index, body) in self.0.iter().enumerate() {
             outline.declare(Kind::BODY, &body.name, &format!("[{index}].name"));
-            if body.collides {
+            if body.touches() {
                 body.occupy(outline);
             }
         }
@@ -182,9 +182,14 @@ impl BodyEntry {
         let Some(shape) = &self.shape else {
             return mass_properties::of(&self.specs(), mass, self.rule(), density);
         };
-        let mut parts = shape.parts();
-        parts.discs.splice(0..0, self.specs());
-        mass_properties::of_area(&parts, mass, self.inertia.unwrap_or(InertiaRule::Union), density)
+        let rule = self.inertia.unwrap_or(InertiaRule::Union);
+        mass_properties::of_parts(&self.specs(), &shape.parts().parts, mass, rule, density)
+    }
+
+    /// Whether any of its parts touches others.
+    pub fn touches(&self) -> bool {
+        let parts = self.shape.as_ref().map_or_else(Vec::new, |shape| shape.parts().parts);
+        self.collides && (self.atoms.is_some() || parts.iter().any(|part| part.collides))
     }
 
     /// The discs that it is made of, without those of its shape.

@@ -68,7 +68,7 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
         let body = NewBody {
             position: entry.start(&properties),
             motion: if entry.fixed { Motion::Fixed } else { Motion::Dynamic },
-            collides: entry.collides,
+            collides: entry.touches(),
             angle: entry.angle.si(),
             velocity: start.map_or(entry.velocity.si(), |start| start.velocity),
             spin: start.map_or(entry.spin.si(), |start| start.spin),
@@ -171,6 +171,7 @@ impl MadeOf {
             inertia: properties.inertia,
             atoms: properties.atoms.iter().map(atom).chain(corners).collect(),
             hulls: properties.hulls.clone(),
+            intangible: properties.intangible.clone(),
             ..NewBody::default()
         }
     }

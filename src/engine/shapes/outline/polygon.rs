@@ -1,0 +1,30 @@
+//! `Polygon(points, rounding)`: a polygon; a concave one is cut into convex parts.
+
+use glam::DVec2;
+use jostle_shapes as shapes;
+use jostle_shapes::ShapeError;
+
+use super::{Sided, sided};
+use crate::scene::units::{Length, Position};
+
+sided! {
+    /// A polygon, convex or concave.
+    PolygonShape, "Polygon" {
+        /// Its corners in m, in order around it.
+        points: Vec<Position>,
+        /// The radius of its corners in m; those that bend inwards stay sharp. Default: 0.
+        #[serde(default)]
+        rounding: Length,
+    }
+}
+
+impl Sided for PolygonShape {
+    fn made(&self) -> Result<shapes::Shape, ShapeError> {
+        let points: Vec<DVec2> = self.points.iter().map(|point| point.si()).collect();
+        shapes::polygon(&points, self.rounding.si())
+    }
+
+    fn example(&self) -> &'static str {
+        "Polygon(points: [(0, 0), (1, 0), (0, 1)])"
+    }
+}
