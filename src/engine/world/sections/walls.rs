@@ -1,8 +1,10 @@
 //! `walls`: half-planes, strips and lines that nothing enters.
 
+use std::borrow::Cow;
+
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Position, Velocity};
@@ -42,6 +44,7 @@ pub struct WallEntry {
     /// The points of a line that is open upwards, in m, from left to right: a list, or a file, `(file: "ground.csv")`, or a function of `x`,
     /// `(of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`. Default: none.
     #[serde(default)]
+    #[schemars(with = "Option<Heights>")]
     pub heights: Option<Vec<Position>>,
     /// The name of its material. Default: `default`.
     #[serde(default)]
@@ -49,6 +52,47 @@ pub struct WallEntry {
     /// Of a half-plane: the velocity of its surface along the wall, in m/s: a belt. Default: (0, 0).
     #[serde(default)]
     pub surface_velocity: Velocity,
+}
+
+/// What stands in `heights`, for the schema: scenes are read with the points of the file or function in its place.
+struct Heights;
+
+impl JsonSchema for Heights {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "heights".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let text = |about: &str| json_schema!({ "type": "string", "description": about });
+        let length = generator.subschema_for::<Length>();
+        json_schema!({
+            "anyOf": [generator.subschema_for::<Vec<Position>>(), {
+                "type": "object",
+                "properties": {
+                    "file": text("The file."),
+                    "x": text("The name of the column of places. Default: the first column."),
+                    "column": text("The name of the column of heights. Default: the second column of two."),
+                },
+                "required": ["file"],
+                "additionalProperties": false,
+            }, {
+                "type": "object",
+                "properties": {
+                    "of": text("The height as a function of `x`, in m."),
+                    "from": length,
+                    "to": length,
+                    "pieces": { "type": ["number", "string"], "description": "How many pieces it has." },
+                },
+                "required": ["of", "from", "to", "pieces"],
+                "additionalProperties": false,
+            }],
+            "x-value": "list of `(x, y)`, or `file: .., x: .., column: ..`, or `of: .., from: .., to: .., pieces: ..`",
+        })
+    }
 }
 
 /// From where a strip is hit.

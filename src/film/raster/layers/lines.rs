@@ -68,7 +68,7 @@ fn look(points: &[DVec2], band: f64, (width, height): (usize, usize)) -> Vec<See
                 // At a joint both pieces are as near: the side is that of the one which sees it more from the front.
                 let nearer = distance < known.distance - 1e-9
                     || distance < known.distance + 1e-9 && across.abs() > known.height.abs();
-                if nearer && (distance <= reach || is_ground) {
+                if nearer && distance <= reach {
                     *known = Seen { height: distance.copysign(across), distance };
                 }
             }
