@@ -171,3 +171,23 @@ fn sides_are_open_or_end_the_run() {
         }
     }
 }
+
+/// Law: in a corner of a line a sharp box touches floor and wall as it does two half-planes, also behind the joint, where its corner has sunk
+/// into both. Tolerance: roundings of numbers near 1 in some five touches, 1e-9.
+#[test]
+fn a_box_is_pressed_into_a_corner() {
+    let corner = line([DVec2::new(-3.0, 0.0), DVec2::ZERO, DVec2::new(0.0, 2.0)]);
+    let planes = "(name: \"floor\", left: (0, 0), right: (-3, 0)), (name: \"wall\", left: (0, 2), right: (0, 0))";
+    for clock in METHODS {
+        let end = |walls: &str| {
+            let body = "bodies: [(name: \"box\", at: (-0.6, 0.2), velocity: (4, 0), mass: 1, shape: Rectangle(width: 0.6, height: 0.4))]";
+            let material = "stiffness: 1e4, restitution: 0.5, friction: 0.2";
+            let mut simulation = scene(clock, material, &format!("walls: [{walls}], {body}"));
+            run_to(&mut simulation, 0.3);
+            first(&simulation)
+        };
+        let (found, exact) = (end(&corner), end(planes));
+        let off = found.iter().zip(exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(exact[3] < 0.0 && off < 1e-9, "{clock}: off by {off:e}, {found:?} {exact:?}");
+    }
+}
