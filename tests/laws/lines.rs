@@ -191,3 +191,18 @@ fn a_box_is_pressed_into_a_corner() {
         assert!(exact[3] < 0.0 && off < 1e-9, "{clock}: off by {off:e}, {found:?} {exact:?}");
     }
 }
+
+/// Law: a line whose points stand in the wrong order is open downwards; the card says so if all bodies begin behind it, and only then.
+#[test]
+fn a_line_that_is_turned_around_is_noted() {
+    let notes = |points: [DVec2; 3], y: f64| {
+        let body =
+            format!("bodies: [(name: \"box\", at: (1, {y:?}), mass: 1, shape: Rectangle(width: 0.6, height: 0.4))]");
+        let simulation = scene(METHODS[0], "stiffness: 1e4", &format!("walls: [{}], {body}", line(points)));
+        simulation.card().notes.iter().any(|note| note.contains("all bodies are behind `ground`"))
+    };
+    let ground = [DVec2::ZERO, DVec2::new(1.0, 0.2), DVec2::new(2.0, 0.0)];
+    let [first, middle, last] = ground;
+    assert!(!notes(ground, 1.0) && notes(ground, -1.0));
+    assert!(notes([last, middle, first], 1.0) && !notes([last, middle, first], -1.0));
+}

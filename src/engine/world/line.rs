@@ -362,6 +362,22 @@ impl Bodies {
         });
     }
 
+    /// Whether a place in m lies behind a line: behind the piece that is nearest.
+    pub(crate) fn is_behind_line(&self, line: &PackedLine, at: DVec2) -> bool {
+        let mut nearest = (f64::INFINITY, 0.0_f64);
+        for wall in &self.walls[line.pieces()] {
+            let from = at - wall.point;
+            let (back, height) = (from.dot(wall.normal.perp()), from.dot(wall.normal));
+            let square = (back - back.clamp(0.0, length(wall))).powi(2) + height * height;
+            // At a joint two pieces are as near: the one that is seen more from the front counts.
+            let alike = (square - nearest.0).abs() <= 1e-12 * square;
+            if !alike && square < nearest.0 || alike && height.abs() > nearest.1.abs() {
+                nearest = (square, height);
+            }
+        }
+        nearest.1 < 0.0
+    }
+
     /// Shows the ends and joints of a line that may touch sides of hulls, nearer to a place than `reach` metres: as numbers of ends of walls.
     pub(crate) fn each_edge_of_line(&self, line: &PackedLine, at: DVec2, reach: f64, mut see: impl FnMut(u32)) {
         line.each_near(at, reach, &mut |piece| {

@@ -8,8 +8,8 @@ use bevy_ecs::world::World;
 use super::{NEW, SurfacePair};
 use crate::tick::pairs::{Probe, Surface};
 use crate::tick::snapshot::Memory;
-use crate::tick::{Dependence, Energies, Model, State, SteadySpring};
-use crate::world::Bodies;
+use crate::tick::{Dependence, Energies, Model, Notes, State, SteadySpring};
+use crate::world::{Bodies, Name, PackedLine};
 
 /// Pairs of a list before under their present names, each with its place there, in order. Empty without lines.
 pub(super) fn known(
@@ -76,6 +76,30 @@ pub(super) fn watch(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     if !state.bodies().lines.is_empty() {
         state.add_model(Walks);
+    }
+}
+
+/// Places that are compared with pieces for the note, at most: a second is enough.
+const MOST_LOOKS: usize = 1 << 27;
+
+/// Says on the card which lines have all bodies behind them: their points may stand in the wrong order.
+pub(super) fn note_behind(world: &mut World) {
+    let bodies = &world.resource::<State>().bodies;
+    let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
+    let is_turned = |line: &&PackedLine| {
+        !touching.is_empty()
+            && touching.len().saturating_mul(line.pieces().len()) <= MOST_LOOKS
+            && touching.iter().all(|&body| bodies.is_behind_line(line, bodies.position[body]))
+    };
+    let turned: Vec<_> =
+        bodies.lines.iter().filter(is_turned).map(|line| bodies.walls[line.first as usize].entity).collect();
+    for entity in turned {
+        let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
+        let note = format!(
+            "all bodies are behind `{name}`, and enter it without a force: it is open to the left of the way from its first point to its \
+             last; perhaps its points stand in the wrong order"
+        );
+        world.resource_mut::<Notes>().0.push(note);
     }
 }
 

@@ -60,6 +60,7 @@ pub fn plugin(app: &mut App) {
         at_start::note_overlaps as fn(&mut World),
         crossing::watch,
         lines::watch,
+        lines::note_behind,
         hulls::note_mended,
     ]);
 }
