@@ -294,7 +294,10 @@ impl Bodies {
     #[inline(always)]
     pub fn nearest_on_wall(&self, wall: usize, atom: usize, at: DVec2) -> NearestPoint {
         let packed = &self.walls[wall];
-        if packed.ends.is_some() && packed.line.is_some() { self.walk(wall, atom, at).1 } else { packed.nearest(at) }
+        match packed.ends {
+            None => packed.nearest(at),
+            Some(_) => self.walk(wall, atom, at).1,
+        }
     }
 
     /// The piece of a line to which an atom is nearest now, if it was near to this one: another contact does not begin there. Of another
@@ -304,8 +307,11 @@ impl Bodies {
     }
 
     /// The wall that stands for all pieces of a line; of another wall: itself.
-    #[inline(always)]
+    #[inline]
     pub fn whole_wall(&self, wall: usize) -> usize {
+        if self.lines.is_empty() {
+            return wall;
+        }
         match self.walls[wall].line {
             None => wall,
             Some(line) => self.lines[line as usize].first as usize,
@@ -329,6 +335,7 @@ impl Bodies {
         Probe { at, radius: self.atom_radius[atom], size: self.size_of_atom(atom) }
     }
 
+    #[cold]
     #[inline(never)]
     fn walk(&self, wall: usize, atom: usize, at: DVec2) -> (usize, NearestPoint) {
         let Some(line) = self.walls[wall].line.map(|line| &self.lines[line as usize]) else {
