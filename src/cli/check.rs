@@ -99,6 +99,6 @@ fn refused_by_render(request: Request, source: &Source, simulation: &Simulation)
 fn contents(simulation: &Simulation) -> String {
     let bodies = simulation.bodies();
     let atoms = count(bodies.atom_count(), "atom", "atoms");
-    let walls = count(bodies.walls.len(), "wall", "walls");
+    let walls = count(bodies.wall_count(), "wall", "walls");
     format!("{}, {atoms}, {walls}", count(bodies.len(), "body", "bodies"))
 }

@@ -30,6 +30,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("solar_system", include_str!("../../scenes/solar_system.ron")),
     ("tetris", include_str!("../../scenes/tetris.ron")),
     ("tetris_weightless", include_str!("../../scenes/tetris_weightless.ron")),
+    ("tiles", include_str!("../../scenes/tiles.ron")),
     ("triple_pendulum", include_str!("../../scenes/triple_pendulum.ron")),
     ("two_link_arm", include_str!("../../scenes/two_link_arm.ron")),
 ];

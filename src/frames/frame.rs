@@ -47,7 +47,7 @@ pub struct BodyLook {
     pub fixed: bool,
 }
 
-/// How one wall looks: the half-plane behind the line through two points, or the strip about the line between them.
+/// How one wall looks: the half-plane behind the line through two points, the strip about the line between them, or a line of many pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallLook {
     /// The wall's name in the scene.
@@ -56,8 +56,10 @@ pub struct WallLook {
     pub left: DVec2,
     /// Seen from the open side, the right point, in metres.
     pub right: DVec2,
-    /// Thickness in metres of a strip with round ends; `None`: a half-plane.
+    /// Thickness in metres of a strip with round ends; `None`: a half-plane, or a line.
     pub thickness: Option<f64>,
+    /// The points of a line in metres, open to the left of the way from the first to the last; empty for others.
+    pub points: Vec<DVec2>,
     /// The colour its material asks for; see [`BodyLook::color`].
     pub color: Option<String>,
 }

@@ -31,6 +31,7 @@ mod joints;
 mod joints_at_rest;
 mod kinematic;
 mod ledger;
+mod lines;
 mod located;
 mod long_steps;
 mod measured;

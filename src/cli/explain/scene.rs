@@ -215,7 +215,7 @@ fn things(simulation: &Simulation) -> String {
         "{}{led}, {}, {}",
         count(bodies.len(), "body", "bodies"),
         count(bodies.atom_count(), "atom", "atoms"),
-        count(bodies.walls.len(), "wall", "walls")
+        count(bodies.wall_count(), "wall", "walls")
     )
 }
 

@@ -159,7 +159,7 @@ pub(crate) struct PairGeometry {
     pub pair: Pair,
     /// Overlap in metres; negative: the gap.
     pub overlap: f64,
-    /// Distance of the centres in metres; infinite for the flat side of a wall or hull.
+    /// Distance of the centres in metres; infinite for the flat side of a wall or hull; see [`NearestPoint::distance`].
     pub distance: f64,
     /// Where the nearest place is on a flat side of a hull: the spin of its body, and the distance of the cores in metres.
     flat: Option<(f64, f64)>,
@@ -194,8 +194,9 @@ impl PairGeometry {
     }
 
     fn wall(bodies: &Bodies, index: usize, wall: usize, atom: u32) -> Self {
-        let (packed, end) = (bodies.walls[wall], End::of(bodies, atom));
-        let NearestPoint { height, normal, distance } = packed.nearest(bodies.atom_place(atom as usize));
+        let (end, place) = (End::of(bodies, atom), bodies.atom_place(atom as usize));
+        let NearestPoint { height, normal, distance } = bodies.nearest_on_wall(wall, atom as usize, place);
+        let wall = bodies.whole_wall(wall);
         let belt = bodies.belts.get(wall).copied().unwrap_or(DVec2::ZERO);
         Self {
             overlap: end.radius - height,
@@ -233,7 +234,12 @@ impl PairGeometry {
             flat: found.flat.then_some((spin, found.distance)),
             velocity: b.velocity(bodies),
             spins: (0.0, spin),
-            pair: Pair { index: index as u32, normal: -found.normal, a: SideA::Wall(wall as u32), b },
+            pair: Pair {
+                index: index as u32,
+                normal: -found.normal,
+                a: SideA::Wall(bodies.whole_wall(wall) as u32),
+                b,
+            },
         }
     }
 
@@ -273,6 +279,8 @@ impl PairGeometry {
     /// The turn in rad of the normal since the last accepted state, if side B was displaced against side A by so much.
     pub fn turned(&self, bodies: &Bodies, displacement: DVec2) -> f64 {
         let flat = match (self.flat, &self.pair.a) {
+            // In the corner of a line it turns within the overlap, whatever the displacement.
+            (None, _) if self.distance < 0.0 => return 0.0,
             (None, _) => return self.pair.normal.perp_dot(displacement) / self.distance,
             (_, SideA::Hull(a)) => a,
             _ => &self.pair.b,
@@ -282,7 +290,7 @@ impl PairGeometry {
 
     /// The rate in rad/s at which the normal turns at most, whatever the direction of the velocity.
     pub fn turns(&self) -> f64 {
-        self.velocity.length() / self.distance + self.flat.map_or(0.0, |(spin, _)| spin.abs())
+        self.velocity.length() / self.distance.abs() + self.flat.map_or(0.0, |(spin, _)| spin.abs())
     }
 
     /// The rate in rad/s at which the normal turns.

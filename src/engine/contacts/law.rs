@@ -254,7 +254,7 @@ fn touching(state: &State) -> Vec<LawTouch> {
         // Beside an end of a wall no atom is side B.
         let Probe::Atom(atom) = pair.probe(bodies) else { return None };
         let side = match pair.surface(bodies) {
-            Surface::Wall(wall) => LawSide::Wall(wall),
+            Surface::Wall(wall) => LawSide::Wall(bodies.whole_wall(wall)),
             Surface::Hull(hull) => LawSide::Hull(hull),
         };
         touch(side, atom as u32, PairGeometry::surface(bodies, index, pair))

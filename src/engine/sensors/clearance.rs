@@ -116,6 +116,14 @@ fn least((first, at): (&[Hull], Pose), (second, there): (&[Hull], Pose)) -> f64 
 }
 
 fn from_wall(bodies: &Bodies, body: usize, wall: usize) -> f64 {
+    let pieces = match bodies.walls[wall].line {
+        Some(line) => bodies.lines[line as usize].pieces(),
+        None => wall..wall + 1,
+    };
+    pieces.map(|piece| from_piece(bodies, body, piece)).fold(f64::INFINITY, f64::min)
+}
+
+fn from_piece(bodies: &Bodies, body: usize, wall: usize) -> f64 {
     let wall = &bodies.walls[wall];
     if wall.ends.is_some() && bodies.hulls_of(body).next().is_some() {
         let [(from, radius), (to, _)] = [false, true].map(|right| wall.end(right));

@@ -10,7 +10,7 @@ use crate::record::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 use crate::world::between::{Moment, angle_between, position_between};
-use crate::world::{Bodies, Intangible, Materials, Motion, Name, Wall};
+use crate::world::{Bodies, Intangible, Line, Materials, Motion, Name, Wall};
 
 /// Takes frames of a running simulation.
 #[derive(Default)]
@@ -124,14 +124,17 @@ fn cast_of(simulation: &Simulation) -> Cast {
             fixed,
         }
     };
-    let wall = |packed: &crate::world::PackedWall| {
-        let wall = world.get::<Wall>(packed.entity)?;
-        let Wall { left, right, thickness, .. } = *wall;
-        Some(WallLook { name: name(packed.entity), left, right, thickness, color: color(wall.material) })
+    let wall = |place: usize| {
+        let entity = bodies.walls[place].entity;
+        let Wall { left, right, thickness, material, .. } = *world.get::<Wall>(entity)?;
+        let points = world.get::<Line>(entity).filter(|_| thickness.is_none());
+        let points = points.map_or_else(Vec::new, |Line(points)| points.clone());
+        Some(WallLook { name: name(entity), left, right, thickness, points, color: color(material) })
     };
+    let walls = (0..bodies.walls.len()).filter(|place| bodies.whole_wall(*place) == *place);
     Cast {
         title: simulation.header().title.clone().unwrap_or_default(),
         bodies: (0..bodies.len()).map(body).collect(),
-        walls: bodies.walls.iter().filter_map(wall).collect(),
+        walls: walls.filter_map(wall).collect(),
     }
 }

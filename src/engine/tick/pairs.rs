@@ -36,7 +36,7 @@ impl AtomPair {
 /// A probe that is nearer to a surface of something else than the margin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct SurfacePair {
-    /// Place of a wall; or, behind all walls, of a hull.
+    /// Place of a wall, or of the piece of a line where the search found the probe; or, behind all walls, of a hull.
     pub surface: u32,
     /// Place of an atom: a corner, or a disc; or, behind all atoms, of an end of a wall.
     pub probe: u32,
@@ -91,11 +91,11 @@ impl SurfacePair {
         }
     }
 
-    /// The place of the wall, if one side is one.
+    /// The place of the wall, if one side is one; of a line that of its first piece.
     #[inline]
     pub fn wall(self, bodies: &Bodies) -> Option<usize> {
         match (self.surface(bodies), self.probe(bodies)) {
-            (Surface::Wall(wall), _) | (_, Probe::End(wall, _)) => Some(wall),
+            (Surface::Wall(wall), _) | (_, Probe::End(wall, _)) => Some(bodies.whole_wall(wall)),
             _ => None,
         }
     }
@@ -132,7 +132,7 @@ pub struct CandidatePairs {
 }
 
 impl CandidatePairs {
-    /// Places of walls and of the atoms near them.
+    /// Places of walls, or of pieces of lines, and of the atoms near them.
     pub fn near_walls(&self, bodies: &Bodies) -> impl Iterator<Item = (usize, usize)> {
         self.surfaces.iter().filter_map(|pair| match pair.surface(bodies) {
             Surface::Wall(wall) => Some((wall, pair.probe as usize)),

@@ -53,6 +53,7 @@ impl Bodies {
             point: DVec2::ZERO,
             normal: DVec2::Y,
             ends: None,
+            line: None,
             material: super::MaterialIndex::default(),
         };
         resize!(walls, no_wall, walls);

@@ -15,6 +15,7 @@ use super::flight::Flights;
 use super::hull::{Hulls, NO_HULL, PackedHull};
 use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
+use super::line::{self, Line, PackedLine};
 use super::lone::{Surface, Surfaces};
 use super::motion::Travel;
 use super::wall::{PackedWall, Wall};
@@ -169,8 +170,10 @@ pub struct Bodies {
     pub hulls: Vec<PackedHull>,
     /// Place of the hull of which each atom is a corner; empty without hulls.
     pub(crate) atom_hull: Vec<u32>,
-    /// The walls in canonical order.
+    /// The walls in canonical order. Pieces of a line are walls, one behind the other.
     pub walls: Vec<PackedWall>,
+    /// The lines among them.
+    pub lines: Vec<PackedLine>,
     /// Velocity of the surface of each wall in m/s; empty if all stand.
     pub belts: Vec<DVec2>,
 
@@ -522,26 +525,25 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         };
         (bodies.inverse_mass, bodies.inverse_inertia) = (inverse(&bodies.mass), inverse(&bodies.inertia));
     }
-    let mut walls: Vec<(Entity, Wall)> = world.query::<(Entity, &Wall)>().iter(world).map(|(e, w)| (e, *w)).collect();
+    let mut walls: Vec<(Entity, Wall, Option<Line>)> = world
+        .query::<(Entity, &Wall, Option<&Line>)>()
+        .iter(world)
+        .map(|(entity, wall, line)| (entity, *wall, line.cloned()))
+        .collect();
     bodies.smallest_radius = if bodies.hulls.is_empty() {
         bodies.atom_radius.iter().copied().fold(f64::INFINITY, f64::min)
     } else {
         (0..bodies.atom_count()).map(|atom| bodies.size_of_atom(atom)).fold(f64::INFINITY, f64::min)
     };
-    walls.sort_unstable_by_key(|(_, wall)| wall.key);
-    if walls.iter().any(|(_, wall)| wall.surface_velocity != DVec2::ZERO) {
-        bodies.belts = walls.iter().map(|(_, wall)| wall.surface_velocity).collect();
+    walls.sort_unstable_by_key(|(_, wall, _)| wall.key);
+    (bodies.walls, bodies.lines) = line::pack(&walls);
+    if walls.iter().any(|(_, wall, _)| wall.surface_velocity != DVec2::ZERO) {
+        let velocity = |(_, wall, line): &(Entity, Wall, Option<Line>)| {
+            let pieces = line.as_ref().map_or(1, |Line(points)| points.len() - 1);
+            std::iter::repeat_n(wall.surface_velocity, pieces)
+        };
+        bodies.belts = walls.iter().flat_map(velocity).collect();
     }
-    bodies.walls = walls
-        .into_iter()
-        .map(|(entity, wall)| PackedWall {
-            entity,
-            point: wall.left,
-            normal: wall.normal(),
-            ends: wall.ends(),
-            material: wall.material,
-        })
-        .collect();
     bodies.count_all();
     bodies
 }

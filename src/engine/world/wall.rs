@@ -35,6 +35,11 @@ impl Wall {
         DVec2::new(along.y, -along.x).normalize()
     }
 
+    /// The wall as contacts see it: a piece of a line, if that has a number.
+    pub(super) fn packed(&self, entity: Entity, line: Option<u32>) -> PackedWall {
+        PackedWall { entity, point: self.left, normal: self.normal(), ends: self.ends(), line, material: self.material }
+    }
+
     /// Its two ends, if it has them.
     pub(super) fn ends(&self) -> Option<Ends> {
         let half = 0.5 * self.thickness?;
@@ -62,6 +67,8 @@ pub struct PackedWall {
     pub normal: DVec2,
     /// Its ends, if it has them: it is open on both sides then.
     pub ends: Option<Ends>,
+    /// The number of the line of which it is a piece, if it is one.
+    pub line: Option<u32>,
     /// What it is made of.
     pub material: MaterialIndex,
 }
@@ -73,7 +80,8 @@ pub struct NearestPoint {
     pub height: f64,
     /// Unit normal of the surface at its nearest point, towards the viewer.
     pub normal: DVec2,
-    /// Distance in metres from the centre of the round end that is nearest; infinite where the surface is flat.
+    /// Distance in metres from the centre of the round end that is nearest; infinite where the surface is flat. In the corner of a line it
+    /// is that from the place where the viewer would touch both sides, below zero.
     pub distance: f64,
 }
 
@@ -148,13 +156,7 @@ mod tests {
             material: MaterialIndex::default(),
             surface_velocity: DVec2::ZERO,
         };
-        let packed = PackedWall {
-            entity: Entity::PLACEHOLDER,
-            point: wall.left,
-            normal: wall.normal(),
-            ends: wall.ends(),
-            material: wall.material,
-        };
+        let packed = wall.packed(Entity::PLACEHOLDER, None);
         for (at, height, normal, distance) in [
             ((1.0, 0.5), 0.4, (0.0, 1.0), f64::INFINITY),
             ((1.0, -0.5), 0.4, (0.0, -1.0), f64::INFINITY),

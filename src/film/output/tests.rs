@@ -62,6 +62,7 @@ fn frames(count: usize) -> Vec<Frame> {
         left: DVec2::new(4.0, 0.0),
         right: DVec2::ZERO,
         thickness: None,
+        points: Vec::new(),
         color: None,
     };
     let cast = Arc::new(Cast { title: "Test".to_owned(), bodies, walls: vec![floor] });

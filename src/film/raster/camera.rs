@@ -23,7 +23,11 @@ impl Bounds {
     /// The smallest rectangle that holds everything in a frame: the discs and hulls of all bodies and the points that define
     /// the walls. `None` if there is nothing.
     pub fn of_frame(frame: &Frame) -> Option<Bounds> {
-        let walls = frame.cast.walls.iter().flat_map(|wall| [wall.left, wall.right]);
+        let walls = frame
+            .cast
+            .walls
+            .iter()
+            .flat_map(|wall| [wall.left, wall.right].into_iter().chain(wall.points.iter().copied()));
         let bodies = frame.cast.bodies.iter().zip(&frame.poses).flat_map(|(body, pose)| {
             let turn = DVec2::new(libm::cos(pose.angle), libm::sin(pose.angle));
             let corners = body.hulls.iter().flat_map(|hull| hull.corners.iter().map(|corner| (*corner, hull.radius)));

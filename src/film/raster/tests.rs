@@ -20,6 +20,7 @@ fn frame() -> Frame {
         left: DVec2::new(6.0, 0.0),
         right: DVec2::ZERO,
         thickness: None,
+        points: Vec::new(),
         color: Some("blue".into()),
     };
     let cast =

@@ -175,7 +175,7 @@ fn a_wall() {
     let theme = Theme::named("paper").expect("shipped");
     let camera = Camera::look(DVec2::ZERO, f64::from(SIDE), (SIDE, SIDE));
     let (left, right) = (DVec2::new(20.0, 7.0), DVec2::new(-20.0, -13.0));
-    let wall = WallLook { name: String::new(), left, right, thickness: None, color: None };
+    let wall = WallLook { name: String::new(), left, right, thickness: None, points: Vec::new(), color: None };
     let picture = drawn(|picture| walls::draw(picture, std::slice::from_ref(&wall), &camera, &theme, 9.0, 1.5));
     let line = Ink { fill: theme.wall, outline: theme.outline.of(theme.wall), width: 1.5 };
     assert_true("wall", &picture, &[], |place| {

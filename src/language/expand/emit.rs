@@ -204,6 +204,7 @@ impl Expander {
             Form::Round if table::FIELDS.contains(&key) && tree.name(id, text) == table::NAME => {
                 self.table(context, out, id)
             }
+            Form::Round if Self::is_heights(context, id, key) => self.heights(context, out, id),
             Form::Round | Form::Braces | Form::List => {
                 let start = out.text.len();
                 let name = tree.name(id, text).len();

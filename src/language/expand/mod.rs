@@ -10,6 +10,7 @@ mod beside;
 mod door;
 mod emit;
 mod expression;
+mod heights;
 mod include;
 mod instance;
 mod locate;
@@ -111,6 +112,7 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree, embeddings: &[Embedding]) 
         || source.text.contains("repeat(")
         || embeddings.iter().any(|known| known.place == EmbeddingPlace::Atoms && source.text.contains(known.name))
         || source.text.contains(table::NAME)
+        || source.text.contains(heights::FIELD)
         || (0..tree.next()).any(|id| tree.node(id).form == Form::Text && is_expression(&source.text[tree.span(id)]))
 }
 

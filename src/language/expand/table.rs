@@ -23,11 +23,27 @@ const TABLE: Wanted = Wanted {
 };
 
 /// The columns that a scene asks for by name.
-struct Columns {
+pub(super) struct Columns {
     /// Default: the first one.
-    time: Option<String>,
-    value: String,
+    pub(super) time: Option<String>,
+    pub(super) value: String,
 }
+
+/// What the numbers of a table are, in words.
+pub(super) struct Words {
+    /// What stands in a line without names of columns, with an example.
+    pub(super) line: &'static str,
+    /// What is wrong where the first numbers do not ascend.
+    pub(super) back: &'static str,
+    /// What to write in place of a file.
+    pub(super) written_out: &'static str,
+}
+
+const COURSE: Words = Words {
+    line: "a time in seconds and a value, such as `0.5, 2`",
+    back: "goes back in time",
+    written_out: "Piecewise([(0, 1), (2, 0)])",
+};
 
 impl Expander {
     /// Writes the points of the file that a `Csv(..)` names.
@@ -48,12 +64,7 @@ impl Expander {
             _ => return Err(Box::new(self.wrong_value(context, id, "one file in `Csv(..)`").with_help(EXAMPLE))),
         };
         let name = self.quoted_text(context, child, "a file name in quotes", EXAMPLE)?;
-        let points = read_points(&self.door, context, &name, columns.as_ref()).map_err(|(message, help)| {
-            let mut error = self.wrong(context, context.file.tree.span(child), message);
-            error.path = context.file.tree.path(child, &context.file.source.text);
-            error.label = "this value".into();
-            Box::new(error.with_help(help))
-        })?;
+        let points = self.points_of_file(context, child, &name, columns.as_ref(), &COURSE)?;
         let mut text = String::from("Piecewise([");
         for (time, value) in &points {
             // Writing to a text cannot fail.
@@ -66,8 +77,25 @@ impl Expander {
         Ok(())
     }
 
+    /// The points of a file with this name, which stands in the scene at `id`.
+    pub(super) fn points_of_file(
+        &self,
+        context: &Context,
+        id: Id,
+        name: &str,
+        columns: Option<&Columns>,
+        words: &Words,
+    ) -> Outcome<Vec<(f64, f64)>> {
+        read_points(&self.door, context, name, columns, words).map_err(|(message, help)| {
+            let mut error = self.wrong(context, context.file.tree.span(id), message);
+            error.path = context.file.tree.path(id, &context.file.source.text);
+            error.label = "this value".into();
+            Box::new(error.with_help(help))
+        })
+    }
+
     /// A text in quotes, with what stands in braces filled in.
-    fn quoted_text(&mut self, context: &Context, id: Id, expected: &str, example: &str) -> Outcome<String> {
+    pub(super) fn quoted_text(&mut self, context: &Context, id: Id, expected: &str, example: &str) -> Outcome<String> {
         let is_text = context.file.tree.node(id).form == Form::Text;
         let Some((text, shift)) = context.text(id).filter(|_| is_text) else {
             return Err(Box::new(self.wrong_value(context, id, expected).with_help(example)));
@@ -81,21 +109,22 @@ fn read_points(
     context: &Context,
     name: &str,
     columns: Option<&Columns>,
+    words: &Words,
 ) -> Result<Vec<(f64, f64)>, Wrong> {
     let Some(folder) = &context.file.source.folder else {
         let message = "this scene is in no file, so no table can be found from it".to_owned();
-        return Err((message, "save it as a file, or write the points out: `Piecewise([(0, 1), (2, 0)])`".into()));
+        return Err((message, format!("save it as a file, or write the points out: `{}`", words.written_out)));
     };
     let bytes = TABLE.read(door, &folder.join(name), name)?;
     let text = String::from_utf8(bytes).map_err(|error| {
         (format!("cannot read `{name}` as text: {error}"), "it has to be a table of numbers, one line each".to_owned())
     })?;
-    points_of(&text, columns).map_err(|Fault { line, why, help }| {
+    points_of(&text, columns, words.back).map_err(|Fault { line, why, help }| {
         let usual = match columns {
-            None => "each line holds a time in seconds and a value, such as `0.5, 2`; the first may hold names instead",
-            Some(_) => "the first line names the columns; each other line holds a number for each of them",
+            None => format!("each line holds {}; the first may hold names instead", words.line),
+            Some(_) => "the first line names the columns; each other line holds a number for each of them".to_owned(),
         };
-        (format!("line {line} of `{name}` {why}"), help.unwrap_or_else(|| usual.to_owned()))
+        (format!("line {line} of `{name}` {why}"), help.unwrap_or(usual))
     })
 }
 
@@ -137,7 +166,7 @@ impl Layout {
 }
 
 /// The points of a table; or what is wrong with it.
-fn points_of(text: &str, columns: Option<&Columns>) -> Result<Vec<(f64, f64)>, Fault> {
+fn points_of(text: &str, columns: Option<&Columns>, back: &str) -> Result<Vec<(f64, f64)>, Fault> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     let mut layout: Option<Layout> = None;
     let mut named = false;
@@ -174,7 +203,7 @@ fn points_of(text: &str, columns: Option<&Columns>) -> Result<Vec<(f64, f64)>, F
             return Err(wrong(format!("holds a number that is not finite: `{line}`")));
         }
         if points.last().is_some_and(|before| time <= before.0) {
-            return Err(wrong(format!("goes back in time: `{line}`")));
+            return Err(wrong(format!("{back}: `{line}`")));
         }
         points.push((time, value));
     }
@@ -184,7 +213,11 @@ fn points_of(text: &str, columns: Option<&Columns>) -> Result<Vec<(f64, f64)>, F
 
 #[cfg(test)]
 mod tests {
-    use super::{Columns, points_of};
+    use super::{COURSE, Columns};
+
+    fn points_of(text: &str, columns: Option<&Columns>) -> Result<Vec<(f64, f64)>, super::Fault> {
+        super::points_of(text, columns, COURSE.back)
+    }
 
     #[test]
     fn tables_are_read_and_mistakes_told_with_their_line() {

@@ -325,9 +325,9 @@ fn follow_surfaces<N: NormalForce>(
                 continue;
             };
             let atom = pair.probe as usize;
-            let (packed, passing) = (&sink.bodies.walls[wall], sink.bodies.passing(atom));
+            let passing = sink.bodies.passing(atom);
             let at = passing.map_or_else(|| sink.bodies.atom_place(atom), |passing| passing.position);
-            let apart = packed.nearest(at).height - sink.bodies.atom_radius[atom];
+            let apart = sink.bodies.nearest_on_wall(wall, atom, at).height - sink.bodies.atom_radius[atom];
             if apart >= 0.0 && !list.is_touching(place) {
                 gap = gap.min(apart);
             } else {
@@ -388,9 +388,10 @@ fn follow_wall<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     (time, elapsed): (f64, f64),
 ) {
-    let packed = sink.bodies.walls[wall];
     let end = End::of(sink.bodies, atom);
-    let NearestPoint { height, normal, distance } = packed.nearest(sink.bodies.atom_place(atom as usize));
+    let place_of_atom = sink.bodies.atom_place(atom as usize);
+    let NearestPoint { height, normal, distance } = sink.bodies.nearest_on_wall(wall, atom as usize, place_of_atom);
+    let wall = sink.bodies.whole_wall(wall);
     let mut contact = list.get(place);
     let law = laws.get(contact.law);
     let (mut displacement, turn) = end.displacement(sink.bodies);
@@ -403,7 +404,7 @@ fn follow_wall<N: NormalForce>(
         overlap: end.radius - height,
         approach,
         displacement: (displacement.x, displacement.y),
-        swing: if distance < f64::INFINITY { normal.perp_dot(displacement) / distance } else { 0.0 },
+        swing: if (0.0..f64::INFINITY).contains(&distance) { normal.perp_dot(displacement) / distance } else { 0.0 },
         rolled_a: (0.0, 0.0),
         rolled_b: (end.radius, turn),
     };
@@ -413,7 +414,7 @@ fn follow_wall<N: NormalForce>(
     list.set(place, &contact);
     if contact.mode != Mode::Open {
         let size = sink.bodies.size_of_atom(atom as usize);
-        deepest.note(contact.overlap, size, time, || (sink.bodies.entity[end.body], packed.entity));
+        deepest.note(contact.overlap, size, time, || (sink.bodies.entity[end.body], sink.bodies.walls[wall].entity));
         sink.wall_pushes(&end, wall as u32, normal, height, contact.force(law, normal));
     }
 }

@@ -4,7 +4,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::{cells, hulls, most_pairs};
+use super::{cells, hulls, lines, most_pairs};
 use crate::scene::SceneError;
 use crate::tick::{LoadErrors, Notes, State};
 use crate::world::{Bodies, Name};
@@ -61,7 +61,8 @@ impl Overlaps {
         });
         let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
         let looked_at = if touching.is_empty() { 0 } else { MOST_LOOKS / touching.len() };
-        for (place, wall) in bodies.walls.iter().enumerate().take(looked_at) {
+        for place in bodies.single_walls().take(looked_at) {
+            let wall = &bodies.walls[place];
             let height = |at: DVec2| wall.nearest(at).height;
             let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
             for atom in near.flat_map(|&body| bodies.atoms_of(body)).filter(|&atom| bodies.probes(atom)) {
@@ -70,6 +71,12 @@ impl Overlaps {
                 found.add(radius - height(bodies.atom_place(atom)), size, whose);
             }
         }
+        lines::each_place(bodies, 0.0, &[], |pair, height| {
+            let atom = pair.probe as usize;
+            let line = pair.wall(bodies).unwrap_or_default();
+            let whose = Pair::Wall(bodies.atom_body(atom) as u32, line as u32);
+            found.add(bodies.atom_radius[atom] - height, bodies.size_of_atom(atom), whose);
+        });
         hulls::each_pair(bodies, 0.0, &super::places_apart(bodies), |pair| {
             let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
                 ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
@@ -77,7 +84,8 @@ impl Overlaps {
             };
             found.add(pair.overlap(bodies), pair.size(bodies), whose);
         });
-        found.more |= !complete || bodies.walls.len() > looked_at && !touching.is_empty();
+        let single = bodies.single_walls().count();
+        found.more |= !complete || single > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();
         found

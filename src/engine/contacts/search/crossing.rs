@@ -3,6 +3,9 @@
 //! Such a wall is open on both sides, so an atom whose centre has passed the middle line would be pushed out on the other side. So would
 //! one that has passed the middle line of a capsule, or lies in a hull deeper than half its width. Soft contacts let that happen, and
 //! ticks in which a small atom goes farther than it is wide. A film would not show it.
+//!
+//! A line pushes what is behind it back to its open side. That ends where the centre of a disc, or a corner, lies so deep that it may have
+//! come from elsewhere.
 
 use bevy_ecs::world::World;
 use glam::DVec2;
@@ -14,7 +17,8 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Model, State, SteadySpring, Wrong};
 use crate::world::Bodies;
 
-/// So deep a probe lies at the most, as a share of half the width of a hull: the side that is nearest is the one it came through.
+/// So deep a probe lies at the most, as a share of half the width of a hull: the side that is nearest is the one it came through. So deep
+/// lies the centre of what is behind a line, as a share of half its own width.
 const DEEPEST: f64 = 0.9;
 
 /// What was where at the beginning of the present step.
@@ -91,7 +95,7 @@ impl Crossings {
             state.end_run(body, Wrong::Crossed(state.bodies.walls[wall].entity));
         }
         let State { bodies, pairs: Some(pairs), .. } = &*state else { return };
-        if bodies.hulls.is_empty() {
+        if bodies.hulls.is_empty() && bodies.lines.is_empty() {
             return;
         }
         let deep = pairs.surfaces.iter().copied().find(|pair| is_deep(*pair, bodies));
@@ -113,7 +117,8 @@ impl Crossings {
             (0..bodies.len()).filter(moves).flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
         for (body, atom) in atoms {
             let (Some(&before), now) = (self.before.get(atom), bodies.atom_place(atom)) else { continue };
-            if let Some(wall) = bodies.walls.iter().position(|wall| wall.is_crossed(before, now)) {
+            let strip = bodies.single_walls().find(|wall| bodies.walls[*wall].is_crossed(before, now));
+            if let Some(wall) = strip.or_else(|| crossed_line(bodies, atom, before, now)) {
                 return Some((body, wall));
             }
         }
@@ -176,9 +181,42 @@ fn has_gone_through(hull: &Hull, before: DVec2, now: DVec2) -> bool {
     nearest(hull, middle).distance < -0.5 * (hull.half_width() - hull.radius())
 }
 
+/// Whether the centre of an atom is deeper behind a line than half the width of what it belongs to.
+fn is_behind(bodies: &Bodies, wall: usize, atom: usize) -> bool {
+    let half = bodies.walls[wall].ends.map_or(0.0, |ends| ends.half);
+    let found = bodies.nearest_on_wall(wall, atom, bodies.atom_place(atom));
+    found.height + half < -DEEPEST * bodies.size_of_atom(atom)
+}
+
+/// The piece of a line through which an atom went straight from one place to another, if it is now farther from it than half the width of
+/// what it belongs to; or from behind, if it has a radius.
+fn crossed_line(bodies: &Bodies, atom: usize, before: DVec2, now: DVec2) -> Option<usize> {
+    let (middle, reach) = (0.5 * (before + now), 0.5 * before.distance(now));
+    let mut crossed = None;
+    for line in &bodies.lines {
+        line.each_near(middle, reach, &mut |piece| {
+            let wall = line.first as usize + piece;
+            let packed = &bodies.walls[wall];
+            let height = |at: DVec2| (at - packed.point).dot(packed.normal);
+            let from_behind = height(before) < 0.0 && bodies.atom_radius[atom] > 0.0;
+            let is_deep = height(now) < -DEEPEST * bodies.size_of_atom(atom);
+            if crossed.is_none() && (from_behind || is_deep) && packed.is_crossed(before, now) {
+                crossed = Some(wall);
+            }
+        });
+    }
+    crossed
+}
+
 /// Whether a probe lies in a polygon deeper than half its width.
 fn is_deep(pair: SurfacePair, bodies: &Bodies) -> bool {
-    let Surface::Hull(hull) = pair.surface(bodies) else { return false };
+    let hull = match (pair.surface(bodies), pair.probe(bodies)) {
+        (Surface::Hull(hull), _) => hull,
+        (Surface::Wall(wall), Probe::Atom(atom)) => {
+            return bodies.walls[wall].line.is_some() && is_behind(bodies, wall, atom);
+        }
+        (Surface::Wall(_), Probe::End(..)) => return false,
+    };
     let packed = &bodies.hulls[hull].hull;
     packed.corners().len() > 2
         && bodies.nearest_on_hull(hull, place(pair, bodies)).distance < packed.radius() - packed.half_width() * DEEPEST

@@ -51,7 +51,8 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         }
     }
     near.iter_mut().for_each(|list| list.sort_unstable());
-    let ends: Vec<(u32, DVec2, f64)> = (0..bodies.walls.len())
+    let ends: Vec<(u32, DVec2, f64)> = bodies
+        .single_walls()
         .filter(|&wall| bodies.walls[wall].ends.is_some())
         .flat_map(|wall| [false, true].map(|right| (2 * wall as u32 + u32::from(right), bodies.walls[wall].end(right))))
         .map(|(number, (center, half))| (number, center, half))
@@ -71,10 +72,19 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
                 see(SurfacePair { surface, probe: atom as u32 });
             }
         }
-        for &(number, center, half) in ends.iter().filter(|_| bodies.dynamic[body]) {
+        let mut near_ends = |(number, center, half): (u32, DVec2, f64)| {
             let far = (center - bodies.position[body]).length() > packed.extent + half + margin;
             if !far && bodies.nearest_on_hull(place, center).distance < half + reach {
                 see(SurfacePair { surface, probe: ends_from + number });
+            }
+        };
+        if bodies.dynamic[body] {
+            ends.iter().copied().for_each(&mut near_ends);
+            for line in &bodies.lines {
+                bodies.each_edge_of_line(line, bodies.position[body], packed.extent + margin, |number| {
+                    let (center, half) = bodies.walls[number as usize / 2].end(number % 2 == 1);
+                    near_ends((number, center, half));
+                });
             }
         }
     }

@@ -12,6 +12,7 @@ mod cells;
 mod crossing;
 mod hulls;
 mod identity;
+mod lines;
 mod still;
 mod sweep;
 
@@ -58,6 +59,8 @@ pub fn plugin(app: &mut App) {
     app.world_mut().get_resource_or_init::<AfterLoad>().0.extend([
         at_start::note_overlaps as fn(&mut World),
         crossing::watch,
+        lines::watch,
+        lines::note_behind,
         hulls::note_mended,
     ]);
 }
@@ -135,22 +138,6 @@ impl PairSearch {
             let corner = |atom: u32| bodies.is_corner(atom as usize);
             pairs.atoms.retain(|pair| !corner(pair.a) && !corner(pair.b));
         }
-        pairs.surfaces.clear();
-        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| {
-            if pairs.surfaces.len() <= most {
-                pairs.surfaces.push(pair);
-            }
-        });
-        hulls::each_pair(bodies, bounds.margin, &apart, |pair| {
-            if pairs.surfaces.len() <= most {
-                pairs.surfaces.push(pair);
-            }
-        });
-        let most_of = (pairs.atoms.len() + pairs.surfaces.len() > most).then(|| body_with_most(pairs, bodies));
-        if most_of.is_some() {
-            (pairs.atoms, pairs.surfaces) = (Vec::new(), Vec::new());
-        }
-        bounds.candidates = pairs.atoms.len() + pairs.surfaces.len();
         let same = self.generation == bodies.generation;
         let renamed = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
         let place = |old: u32| {
@@ -176,11 +163,41 @@ impl PairSearch {
             None => place(old),
             Some(end) => Some(bodies.atom_count() as u32 + end),
         };
+        let old_surface = |old: SurfacePair| {
+            same_walls.then(|| Some(SurfacePair { surface: surface(old.surface)?, probe: probe(old.probe)? }))?
+        };
+        let known = lines::known(bodies, &old_surfaces, old_surface);
+        pairs.surfaces.clear();
+        each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| {
+            if pairs.surfaces.len() <= most {
+                pairs.surfaces.push(pair);
+            }
+        });
+        lines::each_pair(bodies, bounds.margin, &known, |pair| {
+            if pairs.surfaces.len() <= most {
+                pairs.surfaces.push(pair);
+            }
+        });
+        hulls::each_pair(bodies, bounds.margin, &apart, |pair| {
+            if pairs.surfaces.len() <= most {
+                pairs.surfaces.push(pair);
+            }
+        });
+        if !bodies.lines.is_empty() {
+            pairs.surfaces.sort_unstable();
+        }
+        let most_of = (pairs.atoms.len() + pairs.surfaces.len() > most).then(|| body_with_most(pairs, bodies));
+        if most_of.is_some() {
+            (pairs.atoms, pairs.surfaces) = (Vec::new(), Vec::new());
+        }
+        bounds.candidates = pairs.atoms.len() + pairs.surfaces.len();
         let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
         pairs.atoms_before = carry(&pairs.atoms, groups, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
-        pairs.surfaces_before = carry(&pairs.surfaces, [&old_surfaces], |old| {
-            same_walls.then(|| Some(SurfacePair { surface: surface(old.surface)?, probe: probe(old.probe)? }))?
-        });
+        pairs.surfaces_before = if bodies.lines.is_empty() {
+            carry(&pairs.surfaces, [&old_surfaces], old_surface)
+        } else {
+            pairs.surfaces.iter().map(|pair| lines::place(&known, *pair)).collect()
+        };
         if pairs.search == Search::Cells {
             group(pairs, bodies, bounds.margin);
         }
@@ -284,7 +301,8 @@ fn each_wall_pair(
     among: impl Iterator<Item = usize> + Clone,
     mut see: impl FnMut(SurfacePair),
 ) {
-    for (place, wall) in bodies.walls.iter().enumerate() {
+    for place in bodies.single_walls() {
+        let wall = &bodies.walls[place];
         for body in among.clone().filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
             if wall.nearest(bodies.position[body]).height > bodies.extent(body) + margin {
                 continue;

@@ -112,7 +112,8 @@ mod tests {
             for place in 0..20 {
                 let (entity, point) = (Entity::PLACEHOLDER, DVec2::splat(1.5 * f64::from(place)));
                 let normal = if place % 2 == 0 { DVec2::Y } else { -DVec2::X };
-                bodies.walls.push(PackedWall { entity, point, normal, ends: None, material: MaterialIndex::default() });
+                let material = MaterialIndex::default();
+                bodies.walls.push(PackedWall { entity, point, normal, ends: None, line: None, material });
             }
             bodies.extent = vec![30.0; bodies.len()];
             bodies.position = (0..bodies.len()).map(|body| bodies.atom_position[bodies.atoms_of(body).start]).collect();

@@ -21,7 +21,7 @@ use glam::DVec2;
 use super::hull::Mended;
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::{NextKey, Series, after_others, spawn_series};
-use super::{Atom, Motion, Name, NewBody, Origin, Wall};
+use super::{Atom, Line, Motion, Name, NewBody, Origin, Wall};
 use crate::scene::names::of_series;
 use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::{self, MassProperties};
@@ -47,9 +47,17 @@ pub fn spawn_walls(section: WallsSection, world: &mut World) {
         let mut next = world.get_resource_or_init::<NextKey>();
         let key = next.wall;
         next.wall += 1;
-        let ([left, right], thickness) = (wall.line(), wall.thickness());
+        let (points, thickness) = (wall.points(), wall.thickness());
+        let [left, right] = match points.as_deref() {
+            Some([first, .., last]) => [*last, *first],
+            _ => wall.ends(),
+        };
         let surface_velocity = wall.belt();
-        world.spawn((Wall { key, left, right, thickness, material, surface_velocity }, Name::from(wall.name)));
+        let wall = (Wall { key, left, right, thickness, material, surface_velocity }, Name::from(wall.name));
+        match points {
+            Some(points) => world.spawn((wall, Line(points))),
+            None => world.spawn(wall),
+        };
     }
 }
 

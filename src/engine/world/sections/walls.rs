@@ -1,15 +1,18 @@
-//! `walls`: half-planes and strips that nothing enters.
+//! `walls`: half-planes, strips and lines that nothing enters.
+
+use std::borrow::Cow;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Position, Velocity};
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
-/// One wall: the half-plane behind the line through two points; or, with `from` and `to`, a strip with two round ends.
+/// One wall: the half-plane behind the line through two points; or, with `from` and `to`, a strip with two round ends; or, with `line` or
+/// `heights`, a surface of many pieces.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Wall")]
@@ -31,6 +34,18 @@ pub struct WallEntry {
     /// Of a strip: its thickness, in m; ends are round. Default: 0.
     #[serde(default)]
     pub thickness: Option<Length>,
+    /// Of a strip: from where it is hit, seen on the way from `from` to `to`: `Left`, `Right` or `Both`. Default: `Both`.
+    #[serde(default)]
+    pub sides: Option<Sides>,
+    /// The points of a line, in m: one surface, open to the left of the way from the first point to the last. It is closed if both are the
+    /// same. Default: none.
+    #[serde(default)]
+    pub line: Option<Vec<Position>>,
+    /// The points of a line that is open upwards, in m, from left to right: a list, or a file, `(file: "ground.csv")`, or a function of `x`,
+    /// `(of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`. Default: none.
+    #[serde(default)]
+    #[schemars(with = "Option<Heights>")]
+    pub heights: Option<Vec<Position>>,
     /// The name of its material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
@@ -39,10 +54,63 @@ pub struct WallEntry {
     pub surface_velocity: Velocity,
 }
 
+/// What stands in `heights`, for the schema: scenes are read with the points of the file or function in its place.
+struct Heights;
+
+impl JsonSchema for Heights {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "heights".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let text = |about: &str| json_schema!({ "type": "string", "description": about });
+        let length = generator.subschema_for::<Length>();
+        json_schema!({
+            "anyOf": [generator.subschema_for::<Vec<Position>>(), {
+                "type": "object",
+                "properties": {
+                    "file": text("The file."),
+                    "x": text("The name of the column of places. Default: the first column."),
+                    "column": text("The name of the column of heights. Default: the second column of two."),
+                },
+                "required": ["file"],
+                "additionalProperties": false,
+            }, {
+                "type": "object",
+                "properties": {
+                    "of": text("The height as a function of `x`, in m."),
+                    "from": length,
+                    "to": length,
+                    "pieces": { "type": ["number", "string"], "description": "How many pieces it has." },
+                },
+                "required": ["of", "from", "to", "pieces"],
+                "additionalProperties": false,
+            }],
+            "x-value": "list of `(x, y)`, or `file: .., x: .., column: ..`, or `of: .., from: .., to: .., pieces: ..`",
+        })
+    }
+}
+
+/// From where a strip is hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum Sides {
+    /// From the left of the way from its first point to the last.
+    Left,
+    /// From the right of it.
+    Right,
+    /// From both sides.
+    Both,
+}
+
 /// How far a surface velocity may point out of its wall, as a share of itself: digits that people leave out.
 const ALONG: f64 = 1e-6;
 
-/// Half-planes that nothing enters, such as floors, slopes and belts; and strips with two ends, such as shelves and funnels.
+/// Half-planes that nothing enters, such as floors, slopes and belts; strips with two ends, such as shelves and funnels; and lines of many
+/// pieces, such as the ground of a landscape.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct WallsSection(pub Vec<WallEntry>);
 
@@ -58,11 +126,18 @@ impl Section for WallsSection {
     fn declare(&self, outline: &mut Outline) {
         for (index, wall) in self.0.iter().enumerate() {
             outline.declare(Kind::WALL, &wall.name, &format!("[{index}].name"));
-            let [left, right] = wall.line();
-            outline.occupy(match wall.thickness() {
-                None => Obstacle::Wall { left, right },
-                Some(thickness) => Obstacle::Strip { from: right, to: left, radius: 0.5 * thickness },
-            });
+            let [left, right] = wall.ends();
+            let points = wall.points();
+            match wall.thickness() {
+                None if points.is_none() => outline.occupy(Obstacle::Wall { left, right }),
+                thickness => {
+                    let radius = 0.5 * thickness.unwrap_or(0.0);
+                    let points = points.unwrap_or_else(|| vec![right, left]);
+                    points.windows(2).for_each(|two| {
+                        outline.occupy(Obstacle::Strip { from: two[0], to: two[1], radius });
+                    });
+                }
+            }
         }
     }
 
@@ -82,10 +157,16 @@ impl Section for WallsSection {
 const HALF_PLANE: [&str; 2] = ["left", "right"];
 const STRIP: [&str; 2] = ["from", "to"];
 
+/// Whether the way through three points goes back the same way at the second: the turn is half a turn but for rounding.
+fn turns_back(first: DVec2, second: DVec2, third: DVec2) -> bool {
+    let (before, behind) = ((second - first).normalize_or_zero(), (third - second).normalize_or_zero());
+    1.0 + before.dot(behind) < 1e-12
+}
+
 impl WallEntry {
     /// Left and right point in m, seen from the open side, or from the left of the way from one end to the other. Points that are missing
     /// are reported by the check.
-    pub fn line(&self) -> [DVec2; 2] {
+    pub fn ends(&self) -> [DVec2; 2] {
         let points = if self.is_strip() { [self.to, self.from] } else { [self.left, self.right] };
         points.map(|point| point.map(|point| point.si()).unwrap_or_default())
     }
@@ -95,25 +176,98 @@ impl WallEntry {
         self.is_strip().then(|| self.thickness.map_or(0.0, |thickness| thickness.si()))
     }
 
+    /// The points in m of a surface that is open to the left of the way from the first to the last: of a line, and of a strip that is hit
+    /// from one side.
+    pub fn points(&self) -> Option<Vec<DVec2>> {
+        if let Some((_, points)) = self.surface() {
+            return Some(points.iter().map(|point| point.si()).collect());
+        }
+        let [left, right] = self.ends();
+        match self.sides {
+            Some(Sides::Left) => Some(vec![right, left]),
+            Some(Sides::Right) => Some(vec![left, right]),
+            Some(Sides::Both) | None => None,
+        }
+    }
+
+    /// The field in which the points of a line stand, and those.
+    fn surface(&self) -> Option<(&'static str, &[Position])> {
+        let line = self.line.as_deref().map(|points| ("line", points));
+        line.or_else(|| self.heights.as_deref().map(|points| ("heights", points)))
+    }
+
     fn is_strip(&self) -> bool {
         self.from.is_some() || self.to.is_some()
     }
 
     /// The velocity of its surface in m/s, without what rounding leaves across the wall.
     pub fn belt(&self) -> DVec2 {
-        let [left, right] = self.line();
+        let [left, right] = self.ends();
         let along = (right - left).normalize_or_zero();
         along * self.surface_velocity.si().dot(along)
     }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
+        match self.surface() {
+            Some((field, points)) => self.check_points(field, points, report),
+            None => self.check_ends(report),
+        }
+        material::require(self.material.as_deref(), outline, report);
+    }
+
+    /// Reports fields that a line does not have, points that are no line, and heights that do not ascend.
+    fn check_points(&self, field: &'static str, points: &[Position], report: &mut Report) {
+        let others = [
+            ("heights", self.heights.is_some()),
+            ("left", self.left.is_some()),
+            ("right", self.right.is_some()),
+            ("from", self.from.is_some()),
+            ("to", self.to.is_some()),
+            ("thickness", self.thickness.is_some()),
+            ("sides", self.sides.is_some()),
+            ("surface_velocity", self.surface_velocity.si() != DVec2::ZERO),
+        ];
+        for (other, _) in others.iter().filter(|(other, given)| *given && *other != field) {
+            let message = format!("a wall with `{field}` is a line: it has no `{other}`");
+            report.error(other, message).help("leave it out, or write two walls");
+        }
+        if points.len() < 2 {
+            let message = format!("a line has at least two points, got {}", points.len());
+            report.error(field, message).help(format!("for example `{field}: [(0, 0), (1, 0.1), (2, 0)]`"));
+        }
+        let points: Vec<DVec2> = points.iter().map(|point| point.si()).collect();
+        let mut finite = true;
+        for (index, point) in points.iter().enumerate() {
+            finite &= report.finite_pair(&format!("{field}[{index}]"), *point);
+        }
+        for (index, two) in points.windows(2).enumerate().filter(|_| finite) {
+            let place = format!("{field}[{}]", index + 1);
+            let (before, x, y) = (two[0], two[1].x, two[1].y);
+            let length = before.distance(two[1]);
+            if field == "heights" && x <= before.x {
+                let message = format!("must lie to the right of the point before it, at x = {}, got x = {x}", before.x);
+                report.error(&place, message).help("heights ascend in x; a line that turns back stands in `line`");
+            } else if !(length > 0.0 && length.is_finite()) {
+                let message = format!("must differ from the point before it, got ({x}, {y}) for both");
+                report.error(&place, message).help("leave one of both out");
+            } else if index > 0 && turns_back(points[index - 1], before, two[1]) {
+                let message = "the line turns back onto itself here";
+                report.error(&place, message).help("between two pieces some room is left, however narrow");
+            } else {
+                continue;
+            }
+            break;
+        }
+    }
+
+    fn check_ends(&self, report: &mut Report) {
         let fields = if self.is_strip() { STRIP } else { HALF_PLANE };
         let given = if self.is_strip() { [self.from, self.to] } else { [self.left, self.right] };
         let mut complete = true;
         for (field, point) in fields.into_iter().zip(given) {
             if point.is_none() {
                 complete = false;
-                let help = "a half-plane has `left` and `right`, seen from its open side; a strip has `from` and `to`, and perhaps `thickness`";
+                let help = "a half-plane has `left` and `right`, seen from its open side; a strip has `from` and `to`, and perhaps `thickness`; a line has `line` or `heights`";
                 report.missing(field, help);
             }
         }
@@ -129,10 +283,15 @@ impl WallEntry {
                 .error("thickness", "a half-plane has no thickness")
                 .help("a strip has `from` and `to` in place of `left` and `right`");
         }
+        if !self.is_strip() && self.sides.is_some() {
+            report
+                .error("sides", "a half-plane is open on one side")
+                .help("a strip has `from` and `to` in place of `left` and `right`");
+        }
         if let Some(thickness) = self.thickness {
             report.not_negative("thickness", thickness.si());
         }
-        let [left, right] = self.line();
+        let [left, right] = self.ends();
         let [first, last] = if self.is_strip() { [right, left] } else { [left, right] };
         let finite = report.finite_pair(fields[0], first) & report.finite_pair(fields[1], last);
         let length = (right - left).length();
@@ -144,7 +303,6 @@ impl WallEntry {
         if report.finite_pair("surface_velocity", velocity) && complete && finite && length > 0.0 {
             self.check_belt(velocity, report);
         }
-        material::require(self.material.as_deref(), outline, report);
     }
 
     fn check_belt(&self, velocity: DVec2, report: &mut Report) {

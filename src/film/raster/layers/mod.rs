@@ -5,6 +5,7 @@ pub(super) mod backdrop;
 pub(super) mod bodies;
 pub(super) mod clock;
 pub(super) mod labels;
+mod lines;
 pub(super) mod marks;
 pub(super) mod scales;
 pub(super) mod title;

@@ -1,9 +1,11 @@
-//! Walls: everything behind a half-plane is ground, with a band along the border of the open room. Strips are drawn as they are.
+//! Walls: everything behind a half-plane is ground, with a band along the border of the open room. Strips are drawn as they are, lines
+//! by `lines.rs`.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
 
 use super::labels::Room;
+use super::lines;
 use crate::raster::camera::Camera;
 use crate::raster::canvas::{Canvas, Ink, blend, fill};
 use crate::raster::theme::Theme;
@@ -44,6 +46,7 @@ pub(in crate::raster) fn draw(
     line: f32,
 ) {
     draw_strips(pixmap, walls, camera, theme, line);
+    lines::draw(pixmap, walls, camera, theme, band, line);
     let planes = half_planes(walls, camera, theme, line);
     if planes.is_empty() {
         return;
@@ -120,7 +123,7 @@ fn half_planes(walls: &[WallLook], camera: &Camera, theme: &Theme, line: f32) ->
         let ink = Ink { fill, outline: theme.outline.of(fill), width: line };
         Some(HalfPlane { point: camera.to_picture(wall.left), normal: DVec2::new(normal.x, -normal.y), ink })
     };
-    walls.iter().filter(|wall| wall.thickness.is_none()).filter_map(plane).collect()
+    walls.iter().filter(|wall| wall.thickness.is_none() && wall.points.is_empty()).filter_map(plane).collect()
 }
 
 /// What is left of a convex polygon on the open side.
@@ -145,7 +148,14 @@ mod tests {
     use jostle_frames::frame::Rgb;
 
     fn wall(left: (f64, f64), right: (f64, f64)) -> WallLook {
-        WallLook { name: String::new(), left: left.into(), right: right.into(), thickness: None, color: None }
+        WallLook {
+            name: String::new(),
+            left: left.into(),
+            right: right.into(),
+            thickness: None,
+            points: Vec::new(),
+            color: None,
+        }
     }
 
     fn box_of_six() -> Vec<WallLook> {

@@ -1,0 +1,141 @@
+//! Atoms near lines, found by trees of boxes. Each atom has a pair for each place of a line that is nearer than its neighbourhood.
+//!
+//! A pair is named after the piece where its atom was as the list was made. Between lists the place goes on from there, so an old pair is
+//! found again under the name of the piece where its atom is now.
+
+use bevy_ecs::world::World;
+
+use super::{NEW, SurfacePair};
+use crate::tick::pairs::{Probe, Surface};
+use crate::tick::snapshot::Memory;
+use crate::tick::{Dependence, Energies, Model, Notes, State, SteadySpring};
+use crate::world::{Bodies, Name, PackedLine};
+
+/// Pairs of a list before under their present names, each with its place there, in order. Empty without lines.
+pub(super) fn known(
+    bodies: &Bodies,
+    old: &[SurfacePair],
+    renamed: impl Fn(SurfacePair) -> Option<SurfacePair>,
+) -> Vec<(SurfacePair, u32)> {
+    if bodies.lines.is_empty() {
+        return Vec::new();
+    }
+    let now = |pair: &SurfacePair| renamed(*pair).map(|pair| present(pair, bodies));
+    let mut known: Vec<_> = (0..).zip(old).filter_map(|(place, pair)| Some((now(pair)?, place))).collect();
+    known.sort_unstable();
+    known
+}
+
+/// A pair under the name of the piece where its atom is now.
+fn present(pair: SurfacePair, bodies: &Bodies) -> SurfacePair {
+    match (pair.surface(bodies), pair.probe(bodies)) {
+        (Surface::Wall(wall), Probe::Atom(atom)) => {
+            SurfacePair { surface: bodies.piece_now(wall, atom) as u32, ..pair }
+        }
+        _ => pair,
+    }
+}
+
+/// The place in the list before of a pair, or [`NEW`].
+pub(super) fn place(known: &[(SurfacePair, u32)], pair: SurfacePair) -> u32 {
+    let first = known.partition_point(|(other, _)| *other < pair);
+    known.get(first).filter(|(other, _)| *other == pair).map_or(NEW, |(_, place)| *place)
+}
+
+/// Shows the atoms near lines: line by line, for each in the order of the atoms.
+pub(super) fn each_pair(bodies: &Bodies, margin: f64, known: &[(SurfacePair, u32)], mut see: impl FnMut(SurfacePair)) {
+    each_place(bodies, margin, known, |pair, _| see(pair));
+}
+
+/// The same with the heights of the atoms over the line, in metres.
+pub(super) fn each_place(
+    bodies: &Bodies,
+    margin: f64,
+    known: &[(SurfacePair, u32)],
+    mut see: impl FnMut(SurfacePair, f64),
+) {
+    for line in &bodies.lines {
+        for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
+            let mut is_near = false;
+            line.each_near(bodies.position[body], bodies.extent(body) + margin, &mut |_| is_near = true);
+            for atom in bodies.atoms_of(body).filter(|_| is_near) {
+                let pair = |piece: usize| SurfacePair { surface: piece as u32, probe: atom as u32 };
+                let was_near = |piece: usize| place(known, pair(piece)) != NEW;
+                bodies.each_place_on_line(line, (atom, margin), was_near, |piece, height| see(pair(piece), height));
+            }
+        }
+    }
+}
+
+/// Names pairs after the pieces where they are as a step begins, so that walks are short. Sees to it that no two pairs go to one place: the
+/// lists are made anew before they count it twice.
+struct Walks;
+
+/// Watches for places on lines that become one, if the scene has lines.
+pub(super) fn watch(world: &mut World) {
+    let mut state = world.resource_mut::<State>();
+    if !state.bodies().lines.is_empty() {
+        state.add_model(Walks);
+    }
+}
+
+/// Places that are compared with pieces for the note, at most: a second is enough.
+const MOST_LOOKS: usize = 1 << 27;
+
+/// Says on the card which lines have all bodies behind them: their points may stand in the wrong order.
+pub(super) fn note_behind(world: &mut World) {
+    let bodies = &world.resource::<State>().bodies;
+    let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
+    let is_turned = |line: &&PackedLine| {
+        !touching.is_empty()
+            && touching.len().saturating_mul(line.pieces().len()) <= MOST_LOOKS
+            && touching.iter().all(|&body| bodies.is_behind_line(line, bodies.position[body]))
+    };
+    let turned: Vec<_> =
+        bodies.lines.iter().filter(is_turned).map(|line| bodies.walls[line.first as usize].entity).collect();
+    for entity in turned {
+        let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
+        let note = format!(
+            "all bodies are behind `{name}`, and enter it without a force: it is open to the left of the way from its first point to its \
+             last; perhaps its points stand in the wrong order"
+        );
+        world.resource_mut::<Notes>().0.push(note);
+    }
+}
+
+/// Moves nothing.
+impl Model for Walks {
+    fn save(&self) -> Memory {
+        Memory::Nothing
+    }
+
+    fn dependence(&self) -> Dependence {
+        Dependence::Nothing
+    }
+
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn has_modes(&self) -> bool {
+        true
+    }
+
+    fn begin_step(&mut self, state: &mut State) {
+        let State { bodies, bounds: Some(bounds), pairs: Some(pairs), .. } = state else { return };
+        let mut now = Vec::new();
+        for pair in &mut pairs.surfaces {
+            let renamed = present(*pair, bodies);
+            if matches!(pair.surface(bodies), Surface::Wall(wall) if bodies.walls[wall].line.is_some()) {
+                *pair = renamed;
+                now.push(renamed);
+            }
+        }
+        now.sort_unstable();
+        if now.windows(2).any(|two| two[0] == two[1]) {
+            bounds.outdate();
+        }
+    }
+}
