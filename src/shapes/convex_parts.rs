@@ -95,7 +95,11 @@ pub(crate) fn hulls(corners: &[DVec2], radius: f64) -> Vec<Hull> {
         }
         hull
     };
-    convex_parts(corners).into_iter().map(part_to_hull).collect()
+    let mut hulls: Vec<Hull> = convex_parts(corners).into_iter().map(part_to_hull).collect();
+    if hulls.len() > 1 {
+        hulls.iter_mut().for_each(|hull| hull.set_outline(corners.to_vec()));
+    }
+    hulls
 }
 
 #[cfg(test)]
@@ -104,6 +108,7 @@ mod tests {
 
     use super::*;
     use crate::moments::AreaMoments;
+    use crate::nearest::{Feature, nearest};
     use crate::outline::simple;
 
     fn shoelace(corners: &[DVec2]) -> f64 {
@@ -143,6 +148,42 @@ mod tests {
             prop_assert_eq!(probes, convex_corners(&corners).iter().filter(|convex| **convex).count());
             let outer = hulls.iter().flat_map(Hull::sides).filter(|side| !side.inner).count();
             prop_assert_eq!(outer, corners.len());
+        }
+
+        /// Law: one part owns the nearest place of the outline, at its signed distance, whatever the cuts. Source: definition, over all
+        /// sides of the outline. Tolerance: products of numbers near 1 round, and normals of short sides.
+        #[test]
+        fn one_part_owns_the_nearest_place(
+            radii in prop::collection::vec(0.1..1.0, 3..24), x in -1.2..1.2, y in -1.2..1.2,
+        ) {
+            let (corners, _) = simple(&star(&radii)).unwrap();
+            let point = DVec2::new(x, y);
+            let side = |at: usize| (corners[at], corners[(at + 1) % corners.len()]);
+            let from_side = |at: usize| {
+                let (from, to) = side(at);
+                let share = ((point - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+                point.distance(from + (to - from) * share)
+            };
+            // A ray to the right crosses the outline an odd number of times from within.
+            let crosses = |at: &usize| {
+                let (from, to) = side(*at);
+                (from.y > y) != (to.y > y) && (orientation(from, to, point) > 0.0) == (to.y > from.y)
+            };
+            let inside = (0..corners.len()).filter(crosses).count() % 2 == 1;
+            let distance = (0..corners.len()).map(from_side).fold(f64::INFINITY, f64::min) * if inside { -1.0 } else { 1.0 };
+            let hulls = hulls(&corners, 0.0);
+            let found: Vec<_> = hulls.iter().map(|hull| (hull, nearest(hull, point))).filter(|(hull, near)| hull.owns(near)).collect();
+            let there = found.iter().filter(|(_, near)| (near.distance - distance).abs() < 1e-12).count();
+            prop_assert_eq!(there, 1, "{} {:?}", distance, found);
+            prop_assert!(found.iter().all(|(_, near)| near.distance > distance - 1e-12));
+            // Seen from a corner that is owned, a point lies beyond both sides of the outline that meet there.
+            for (hull, near) in found {
+                let Feature::Corner(corner) = near.feature else { continue };
+                let place = hull.corners()[corner];
+                let at = corners.iter().position(|other| *other == place).unwrap();
+                let (before, after) = (side((at + corners.len() - 1) % corners.len()), side(at));
+                prop_assert!((point - place).dot(before.1 - before.0) > -1e-12 && (point - place).dot(after.1 - after.0) < 1e-12);
+            }
         }
     }
 

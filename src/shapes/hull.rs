@@ -56,6 +56,7 @@ pub struct Hull {
     corners: Vec<DVec2>,
     sides: Vec<Side>,
     free: Vec<Free>,
+    outline: Vec<DVec2>,
     radius: f64,
 }
 
@@ -126,7 +127,7 @@ impl Hull {
                 })
                 .collect(),
         };
-        Self { sides, free: vec![Free::Whole; count], corners, radius }
+        Self { sides, free: vec![Free::Whole; count], outline: Vec::new(), corners, radius }
     }
 
     /// The corners of the core, counter-clockwise, in metres.
@@ -142,6 +143,16 @@ impl Hull {
     /// By how much the core is grown, in metres.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// The core of the concave polygon of which the hull is a part, counter-clockwise, in metres; empty if it is no such part.
+    pub fn outline(&self) -> &[DVec2] {
+        &self.outline
+    }
+
+    /// Says of which concave polygon the hull is a part.
+    pub(crate) fn set_outline(&mut self, outline: Vec<DVec2>) {
+        self.outline = outline;
     }
 
     /// Both ends of a side, in metres.
@@ -174,7 +185,7 @@ impl Hull {
     #[must_use]
     pub fn moved(&self, by: DVec2) -> Self {
         let mut moved = self.clone();
-        moved.corners.iter_mut().for_each(|corner| *corner += by);
+        moved.corners.iter_mut().chain(&mut moved.outline).for_each(|corner| *corner += by);
         moved
     }
 
@@ -184,7 +195,7 @@ impl Hull {
         let (sin, cos) = libm::sincos(angle);
         let turn = |direction: DVec2| DVec2::new(cos, sin).rotate(direction);
         let mut turned = self.clone();
-        turned.corners.iter_mut().for_each(|corner| *corner = turn(*corner));
+        turned.corners.iter_mut().chain(&mut turned.outline).for_each(|corner| *corner = turn(*corner));
         turned.sides.iter_mut().for_each(|side| side.normal = turn(side.normal));
         for free in &mut turned.free {
             if let Free::Between(from, to) = *free {
@@ -194,17 +205,44 @@ impl Hull {
         turned
     }
 
-    /// Half of the least width of the hull in metres: for a disc or a capsule its radius.
+    /// Half of the least width of the hull in metres: for a disc or a capsule its radius. For a part of a concave polygon half of how thick the
+    /// whole is behind the sides of the part, or behind all sides if the part has none of them.
     pub fn half_width(&self) -> f64 {
+        let least = |widths: &mut dyn Iterator<Item = f64>| widths.fold(f64::INFINITY, f64::min);
+        let all = 0..self.outline.len();
+        let own = |index: &usize| {
+            let at = self.corners.iter().position(|corner| *corner == self.outline[*index]);
+            at.is_some_and(|at| !self.sides[at].inner)
+        };
         let across = |side: &Side| {
             let heights = self.corners.iter().map(|corner| side.normal.dot(*corner));
             let (low, high) = heights
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)));
             high - low
         };
-        let width =
-            if self.corners.len() < 3 { 0.0 } else { self.sides.iter().map(across).fold(f64::INFINITY, f64::min) };
+        let width = match (self.outline.is_empty(), self.corners.len()) {
+            (true, 1 | 2) => 0.0,
+            (true, _) => least(&mut self.sides.iter().map(across)),
+            _ if all.clone().any(|index| own(&index)) => least(&mut all.filter(own).map(|index| self.thickness(index))),
+            _ => least(&mut all.map(|index| self.thickness(index))),
+        };
         0.5 * width + self.radius
+    }
+
+    /// How thick the core of the whole concave polygon is behind the middle of a side of its outline, in metres: as far as the first side
+    /// that does not meet this one. Infinite if there is none, as in a triangle.
+    pub fn thickness(&self, side: usize) -> f64 {
+        let (outline, count) = (&self.outline, self.outline.len());
+        let ends = |index: usize| (outline[index % count], outline[(index + 1) % count]);
+        let (from, to) = ends(side);
+        let (middle, inwards) = ((from + to) / 2.0, direction(to - from).0.perp());
+        let hit = |index: usize| {
+            let (a, b) = ends(index);
+            let [left, right] = [a, b].map(|end| inwards.perp_dot(end - middle));
+            let height = inwards.dot(a - middle) + (inwards.dot(b - a)) * (left / (left - right));
+            ((left < 0.0) != (right < 0.0) && height > 0.0).then_some(height)
+        };
+        (side + 2..side + count - 1).filter_map(hit).fold(f64::INFINITY, f64::min)
     }
 
     /// The distance of the farthest corner from a place, in metres. The radius does not count.

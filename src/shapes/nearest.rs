@@ -8,7 +8,7 @@
 
 use glam::DVec2;
 
-use crate::hull::Hull;
+use crate::hull::{Hull, direction};
 
 /// A corner or a side of a core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,6 +17,17 @@ pub enum Feature {
     Corner(usize),
     /// The side that begins at the corner of this index.
     Side(usize),
+    /// The side of the outline of the whole concave polygon that begins at the corner of this index.
+    OutlineSide(usize),
+    /// The corner of that outline of this index.
+    OutlineCorner(usize),
+}
+
+impl Feature {
+    /// Whether it is straight: its normal is the same at all its places.
+    pub fn is_side(self) -> bool {
+        matches!(self, Self::Side(_) | Self::OutlineSide(_))
+    }
 }
 
 /// How far a point is from a core, and in which direction.
@@ -36,13 +47,14 @@ impl Hull {
         match near.feature {
             Feature::Side(side) => !self.sides()[side].inner,
             Feature::Corner(corner) => self.free(corner).holds(near.normal),
+            Feature::OutlineSide(_) | Feature::OutlineCorner(_) => true,
         }
     }
 }
 
 /// The nearest place of the core to a point in the hull's frame, in metres.
 ///
-/// Inside the core only sides that are not inner count, by the height under their line, so that no normal points through a
+/// Inside a part of a concave polygon the whole outline of that counts. Inside another core only sides that are not inner count, by the height under their line, so that no normal points through a
 /// cut; if all are inner, all count. Outside, an inner feature may be the nearest: [`Hull::owns`] tells. At the centre of a
 /// disc, where all directions are equal, the normal points along +y.
 pub fn nearest(hull: &Hull, point: DVec2) -> Nearest {
@@ -63,6 +75,16 @@ pub fn distance_to(hull: &Hull, feature: Feature, point: DVec2) -> Nearest {
         Feature::Side(index) => {
             let normal = hull.sides()[index].normal;
             Nearest { distance: normal.dot(point - hull.corners()[index]), normal, feature }
+        }
+        Feature::OutlineSide(index) => {
+            let (from, to) = outline_side(hull, index);
+            let normal = -direction(to - from).0.perp();
+            Nearest { distance: normal.dot(point - from), normal, feature }
+        }
+        Feature::OutlineCorner(index) => {
+            // Seen from within, where the distance is negative and the normal points to the corner.
+            let (inwards, distance) = direction(point - hull.outline()[index]);
+            Nearest { distance: -distance, normal: -inwards, feature }
         }
         Feature::Corner(index) => {
             let away = point - hull.corners()[index];
@@ -110,6 +132,9 @@ fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
     }
     let (height, index) = all;
     if height <= 0.0 {
+        if !hull.outline().is_empty() {
+            return nearest_on_outline(hull, point);
+        }
         let (distance, index) = if outer.0 > f64::NEG_INFINITY { outer } else { all };
         return Nearest { distance, normal: sides[index].normal, feature: Feature::Side(index) };
     }
@@ -122,6 +147,38 @@ fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
         distance_to(hull, Feature::Corner(next), point)
     } else {
         Nearest { distance: height, normal: side.normal, feature: Feature::Side(index) }
+    }
+}
+
+/// Both ends of a side of the outline of the whole polygon.
+fn outline_side(hull: &Hull, index: usize) -> (DVec2, DVec2) {
+    let outline = hull.outline();
+    (outline[index], outline[(index + 1) % outline.len()])
+}
+
+/// The nearest place of the outline of the whole polygon to a point inside it.
+fn nearest_on_outline(hull: &Hull, point: DVec2) -> Nearest {
+    let mut best = (f64::INFINITY, Feature::OutlineSide(0));
+    for index in 0..hull.outline().len() {
+        let (from, to) = outline_side(hull, index);
+        let (along, length) = direction(to - from);
+        let way = (point - from).dot(along);
+        // The end of a side is the beginning of the next one.
+        let (square, feature) = if way < 0.0 {
+            (point.distance_squared(from), Feature::OutlineCorner(index))
+        } else if way <= length {
+            (along.perp_dot(point - from).powi(2), Feature::OutlineSide(index))
+        } else {
+            continue;
+        };
+        if square < best.0 {
+            best = (square, feature);
+        }
+    }
+    // On a corner itself no direction leads to it.
+    match best {
+        (0.0, Feature::OutlineCorner(index)) => distance_to(hull, Feature::OutlineSide(index), point),
+        (_, feature) => distance_to(hull, feature, point),
     }
 }
 

@@ -3,7 +3,7 @@
 //! Source: a cut changes nothing: a shape in parts touches, weighs and moves as the whole does. Tolerances: at each test. Not tested: a
 //! corner that bends inwards by little, pressed so hard that the other side touches both its sides.
 
-use jostle::{Simulation, SimulationExt};
+use jostle::Simulation;
 
 use super::support::{load, run_to};
 

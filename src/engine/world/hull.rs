@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use jostle_shapes::{Feature, Hull, nearest};
+use jostle_shapes::{Hull, nearest};
 use serde::{Deserialize, Serialize};
 
 use super::Bodies;
@@ -130,7 +130,7 @@ impl Bodies {
         let found = nearest(hull, local);
         let normal = turned.rotate(found.normal);
         let foot = from - normal * found.distance;
-        let flat = matches!(found.feature, Feature::Side(_));
+        let flat = found.feature.is_side();
         NearestOnHull { distance: found.distance, normal, foot, flat, owned: hull.owns(&found) }
     }
 }

@@ -227,13 +227,13 @@ struct OutlineSide {
 impl Outline {
     fn new(polygon: &Polygon, stand: &Stand) -> Outline {
         let corners: Vec<(f32, f32)> = polygon.corners.iter().map(|corner| stand.place(*corner)).collect();
-        let next = corners.iter().cycle().skip(1);
-        let side = |((from, to), cut): ((&(f32, f32), &(f32, f32)), &bool)| {
+        let side = |index: usize| {
+            let (from, to) = (corners[index], corners[(index + 1) % corners.len()]);
             let (x, y) = (to.0 - from.0, to.1 - from.1);
             let length = (x * x + y * y).sqrt().max(f32::MIN_POSITIVE);
-            OutlineSide { from: *from, along: (x / length, y / length), length, cut: *cut }
+            OutlineSide { from, along: (x / length, y / length), length, cut: polygon.cuts[index] }
         };
-        let sides = corners.iter().zip(next).zip(&polygon.cuts).map(side);
+        let sides = (0..corners.len()).map(side);
         Outline { sides: sides.collect(), radius: polygon.radius as f32 }
     }
 
@@ -259,20 +259,21 @@ impl Outline {
     /// The distance of a point from the polygon without its radius: below zero inside, where cuts do not count. The highest side has
     /// the nearest place.
     fn distance(&self, x: f32, y: f32) -> f32 {
-        let (mut highest, mut beyond, mut outer) = (f32::NEG_INFINITY, 0.0, f32::NEG_INFINITY);
+        let (mut highest, mut beyond, mut outer) = (f32::NEG_INFINITY, 0.0, f32::INFINITY);
         for OutlineSide { from, along, length, cut } in &self.sides {
             let (dx, dy) = (x - from.0, y - from.1);
             // With y down the outside of a counter-clockwise polygon lies to this hand.
             let height = dx * -along.1 + dy * along.0;
+            let way = dx * along.0 + dy * along.1;
+            let past = (way - length).max(-way).max(0.0);
             if height > highest {
-                let way = dx * along.0 + dy * along.1;
-                (highest, beyond) = (height, (way - length).max(-way).max(0.0));
+                (highest, beyond) = (height, past);
             }
             if !cut {
-                outer = outer.max(height);
+                outer = outer.min(height * height + past * past);
             }
         }
-        if highest > 0.0 { (highest * highest + beyond * beyond).sqrt() } else { outer }
+        if highest > 0.0 { (highest * highest + beyond * beyond).sqrt() } else { -outer.sqrt() }
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use clap::Parser;
 use jostle::cli::{CommandLine, Exit};
@@ -15,6 +16,8 @@ use crate::mutate::mutant;
 
 /// Ticks of a short run.
 const TICKS: u64 = 12;
+/// No further tick begins after so long.
+const ENOUGH: Duration = Duration::from_secs(1);
 /// Seconds of physics for which the trial runs of a tolerance are made.
 const LONGEST_TRIED: f64 = 0.1;
 /// One good scene in so many is drawn through the command line too.
@@ -66,9 +69,14 @@ pub fn one(text: &str, number: u64, scratch: &Path) {
     if simulation.contains_resource::<Goal>() && simulation.duration() <= LONGEST_TRIED {
         let _ = Simulation::load(&source);
     }
-    let ticks = simulation.ticks().min(TICKS);
-    let end = ticks as f64 * simulation.clock().dt;
-    let failed = simulation.run_to_tick(ticks).is_err();
+    // Where ticks are long one of them takes many steps: a hang is a tick that does not end.
+    let (ticks, begin) = (simulation.ticks().min(TICKS), Instant::now());
+    let (mut done, mut failed) = (0, false);
+    while done < ticks && !failed && begin.elapsed() < ENOUGH {
+        done += 1;
+        failed = simulation.run_to_tick(done).is_err();
+    }
+    let end = done as f64 * simulation.clock().dt;
     let bodies = simulation.bodies();
     let finite = (0..bodies.len()).all(|body| {
         bodies.position[body].is_finite()

@@ -9,7 +9,7 @@
 
 use bevy_ecs::world::World;
 use glam::DVec2;
-use jostle_shapes::{Hull, Pose, nearest};
+use jostle_shapes::{Feature, Hull, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
@@ -160,7 +160,8 @@ fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
     (0.0..=along.length_squared()).contains(&(crossing - from).dot(along))
 }
 
-/// Whether the way from one place to another enters a polygon and leaves it, and is deep in it half-way (Cyrus and Beck 1978).
+/// Whether the way from one place to another enters a polygon and leaves it, and is deep in it between (Cyrus and Beck 1978). A part of a
+/// concave one may be left by a cut, so the depth at both ends counts too.
 fn has_gone_through(hull: &Hull, before: DVec2, now: DVec2) -> bool {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for (side, corner) in hull.sides().iter().zip(hull.corners()) {
@@ -177,8 +178,11 @@ fn has_gone_through(hull: &Hull, before: DVec2, now: DVec2) -> bool {
     if !(0.0 < enters && enters < leaves && leaves < 1.0) {
         return false;
     }
-    let middle = before + (now - before) * (0.5 * (enters + leaves));
-    nearest(hull, middle).distance < -0.5 * (hull.half_width() - hull.radius())
+    let is_deep = |share: f64| {
+        let near = nearest(hull, before + (now - before) * share);
+        -near.distance > 0.5 * (half_width_at(hull, near.feature) - hull.radius())
+    };
+    [enters, 0.5 * (enters + leaves), leaves].into_iter().any(is_deep)
 }
 
 /// Whether the centre of an atom is deeper behind a line than half the width of what it belongs to.
@@ -208,16 +212,25 @@ fn crossed_line(bodies: &Bodies, atom: usize, before: DVec2, now: DVec2) -> Opti
     crossed
 }
 
-/// Whether a probe lies in a polygon deeper than half its width.
+/// Whether a probe lies in a polygon deeper than half its width, or as deep behind a line.
 fn is_deep(pair: SurfacePair, bodies: &Bodies) -> bool {
-    let hull = match (pair.surface(bodies), pair.probe(bodies)) {
-        (Surface::Hull(hull), _) => hull,
-        (Surface::Wall(wall), Probe::Atom(atom)) => {
-            return bodies.walls[wall].line.is_some() && is_behind(bodies, wall, atom);
+    if let (Surface::Wall(wall), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) {
+        return bodies.walls[wall].line.is_some() && is_behind(bodies, wall, atom);
+    }
+    let Some((hull, at)) = place_at_hull(pair, bodies) else { return false };
+    let near = nearest(hull, at);
+    hull.corners().len() > 2 && near.distance < hull.radius() - half_width_at(hull, near.feature) * DEEPEST
+}
+
+/// Half the width in m of a polygon at a place of it: that of a concave one behind the side that is nearest.
+fn half_width_at(hull: &Hull, feature: Feature) -> f64 {
+    let thickness = match feature {
+        Feature::OutlineSide(side) => hull.thickness(side),
+        Feature::OutlineCorner(corner) => {
+            let before = (corner + hull.outline().len() - 1) % hull.outline().len();
+            hull.thickness(corner).min(hull.thickness(before))
         }
-        (Surface::Wall(_), Probe::End(..)) => return false,
+        Feature::Side(_) | Feature::Corner(_) => return hull.half_width(),
     };
-    let packed = &bodies.hulls[hull].hull;
-    packed.corners().len() > 2
-        && bodies.nearest_on_hull(hull, place(pair, bodies)).distance < packed.radius() - packed.half_width() * DEEPEST
+    0.5 * thickness + hull.radius()
 }

@@ -22,6 +22,11 @@ impl<'a> Manual<'a> {
         }
         let item = |key: &str| about.get(key).filter(|item| item.is_object());
         if let (Some(items), None) = (item("items"), about.get("x-value")) {
+            let told = self.language.resolve(items).0.and_then(|name| self.places.get(name));
+            if let Some(place) = told {
+                let list = format!("A list; each item is as [`{place}`](#{}).", anchor(place));
+                return self.paragraph(&list);
+            }
             self.paragraph("A list; each item has:");
             return self.value(&format!("{path}[..]"), items);
         }
