@@ -155,6 +155,13 @@ impl Hull {
         self.outline = outline;
     }
 
+    /// The same corners, sides and outline, at other places, in metres.
+    pub(crate) fn with_corners(&self, corners: Vec<DVec2>, outline: Vec<DVec2>, radius: f64) -> Self {
+        let mut moved = Self { free: self.free.clone(), outline, ..Self::of_corners(corners, radius) };
+        moved.sides.iter_mut().zip(&self.sides).for_each(|(side, old)| side.inner = old.inner);
+        moved
+    }
+
     /// Both ends of a side, in metres.
     pub fn ends(&self, side: usize) -> (DVec2, DVec2) {
         (self.corners[side], self.corners[(side + 1) % self.corners.len()])

@@ -5,6 +5,7 @@
 
 use bevy_ecs::entity::Entity;
 use glam::DVec2;
+use jostle_shapes::Hull;
 
 use super::{AtomPair, Probe, Surface, SurfacePair};
 use crate::constraints::islands::Link;
@@ -37,9 +38,8 @@ pub(crate) struct End {
 
 impl End {
     /// The place of a hull that is nearest to the other side.
-    fn on_hull(bodies: &Bodies, hull: usize, found: &NearestOnHull) -> Self {
-        let packed = &bodies.hulls[hull];
-        Self { body: packed.body as usize, arm: found.foot, radius: packed.hull.radius() }
+    fn on_hull(bodies: &Bodies, hull: usize, shape: &Hull, found: &NearestOnHull) -> Self {
+        Self { body: bodies.hulls[hull].body as usize, arm: found.foot, radius: shape.radius() }
     }
 
     #[inline(always)]
@@ -209,8 +209,11 @@ impl PairGeometry {
     }
 
     fn hull(bodies: &Bodies, index: usize, hull: usize, atom: u32) -> Self {
-        let (b, found) = (End::of(bodies, atom), bodies.touched_on_hull(hull, bodies.atom_place(atom as usize)));
-        let a = End::on_hull(bodies, hull, &found);
+        let (shape, place, radius) = bodies.meeting(hull, atom as usize);
+        let found = bodies.touched_on(hull, shape, place);
+        let a = End::on_hull(bodies, hull, shape, &found);
+        let body = bodies.atom_body(atom as usize);
+        let b = End { body, arm: place - bodies.position[body], radius };
         let spins = (bodies.spin[a.body], bodies.spin[b.body]);
         Self {
             overlap: a.radius + b.radius - found.distance,
@@ -225,8 +228,9 @@ impl PairGeometry {
     /// An end of a wall near a hull: the hull is side B.
     fn end(bodies: &Bodies, index: usize, hull: usize, (wall, right): (usize, bool)) -> Self {
         let (center, radius) = bodies.walls[wall].end(right);
-        let found = bodies.touched_on_hull(hull, center);
-        let b = End::on_hull(bodies, hull, &found);
+        let shape = &bodies.hulls[hull].hull;
+        let found = bodies.touched_on(hull, shape, center);
+        let b = End::on_hull(bodies, hull, shape, &found);
         let spin = bodies.spin[b.body];
         Self {
             overlap: radius + b.radius - found.distance,

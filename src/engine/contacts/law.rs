@@ -201,7 +201,7 @@ impl<L: Law> Watched<L> {
                 LawSide::Atom(a) => (entity(a), bodies.atom_radius[a].min(bodies.atom_radius[pair.b])),
                 LawSide::Hull(hull) => {
                     let packed = &bodies.hulls[hull];
-                    (bodies.entity[packed.body as usize], packed.hull.half_width().min(bodies.size_of_atom(pair.b)))
+                    (bodies.entity[packed.body as usize], packed.half_width.min(bodies.size_of_atom(pair.b)))
                 }
                 LawSide::Wall(wall) => (bodies.walls[wall].entity, bodies.size_of_atom(pair.b)),
             };
@@ -220,8 +220,9 @@ impl<L: Law> Watched<L> {
             a: match pair.a {
                 LawSide::Atom(atom) => Some(side(atom)),
                 LawSide::Hull(hull) => {
-                    let found = bodies.nearest_on_hull(hull, bodies.atom_place(pair.b));
-                    Some((bodies.hulls[hull].body as usize, found.foot))
+                    let (shape, place, _) = bodies.meeting(hull, pair.b);
+                    let body = bodies.hulls[hull].body as usize;
+                    Some((body, bodies.nearest_on(body, shape, place).foot))
                 }
                 LawSide::Wall(_) => None,
             },

@@ -57,6 +57,8 @@ pub enum Wrong {
     },
     /// The centre of an atom has passed the middle line of the wall with this entity.
     Crossed(Entity),
+    /// A sharp corner lies so deep in the body with this entity that the side that it came through is not known.
+    Sunk(Entity),
     /// Motors and joints ask for different motions of a body.
     Contradiction,
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
@@ -129,6 +131,11 @@ impl std::fmt::Display for Failure {
                 f,
                 "`{body}` has passed through `{other}`: its contact is too soft for that speed, or the tick too long; give it more \
                  `stiffness`, or a shorter `tick`,"
+            )?,
+            Wrong::Sunk(_) => write!(
+                f,
+                "a sharp corner has sunk so deep, between `{body}` and `{other}`, that the side that it came through is not known: give \
+                 them more `stiffness`, or `rounding`,"
             )?,
             Wrong::Contradiction => write!(
                 f,

@@ -83,7 +83,7 @@ impl SurfacePair {
 
     /// Half the width in metres of the thinner side; walls do not count.
     pub fn size(self, bodies: &Bodies) -> f64 {
-        let hull = |hull: usize| bodies.hulls[hull].hull.half_width();
+        let hull = |hull: usize| bodies.hulls[hull].half_width;
         match (self.surface(bodies), self.probe(bodies)) {
             (Surface::Wall(_), _) => bodies.size_of_atom(self.probe as usize),
             (Surface::Hull(place), Probe::Atom(atom)) => hull(place).min(bodies.size_of_atom(atom)),

@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use jostle_shapes::{Hull, nearest};
+use jostle_shapes::{Hull, Pose, Rounded, nearest};
 use serde::{Deserialize, Serialize};
 
 use super::Bodies;
@@ -33,9 +33,17 @@ pub struct PackedHull {
     pub first_atom: u32,
     /// Its shape about the centre of mass.
     pub hull: Hull,
+    /// Its shape where it meets another sharp hull, if it is sharp: see [`ROUNDING`].
+    pub(crate) rounded: Option<Rounded>,
+    /// Half of its least width in metres.
+    pub half_width: f64,
     /// How far it reaches from the centre of mass, in metres.
     pub extent: f64,
 }
+
+/// By this share of half their width corners are rounded off where two sharp hulls meet. A sharp corner just above the end of a sharp side
+/// is as near to the other side, so that aligned boxes would fall through each other.
+pub(crate) const ROUNDING: f64 = 0.02;
 
 /// Marks an atom that is no corner.
 pub(super) const NO_HULL: u32 = u32::MAX;
@@ -60,11 +68,14 @@ impl PackedHull {
     pub(super) fn of_body(body: usize, hulls: &Hulls, end: usize) -> impl Iterator<Item = Self> {
         let corners: usize = hulls.0.iter().map(|hull| hull.corners().len()).sum();
         let mut first = end - corners;
+        // Parts that share corners are rounded alike.
+        let least = hulls.0.iter().map(Hull::half_width).fold(f64::INFINITY, f64::min);
         hulls.0.iter().map(move |hull| {
             let first_atom = first as u32;
             first += hull.corners().len();
             let extent = hull.reach_of_core(DVec2::ZERO) + hull.radius();
-            Self { body: body as u32, first_atom, hull: hull.clone(), extent }
+            let rounded = hull.rounded(ROUNDING * least);
+            Self { body: body as u32, first_atom, hull: hull.clone(), rounded, half_width: hull.half_width(), extent }
         })
     }
 
@@ -106,31 +117,61 @@ impl Bodies {
     /// Half the width in metres of what an atom belongs to: its radius, or for a corner half the least width of its hull.
     #[inline]
     pub fn size_of_atom(&self, atom: usize) -> f64 {
-        self.hull_of(atom).map_or(self.atom_radius[atom], |hull| self.hulls[hull].hull.half_width())
+        self.hull_of(atom).map_or(self.atom_radius[atom], |hull| self.hulls[hull].half_width)
+    }
+
+    /// How a body stands that has hulls.
+    #[inline]
+    pub fn pose_with_hulls(&self, body: usize) -> Pose {
+        Pose { position: self.position[body], rotation: self.turned[body] }
+    }
+
+    /// A hull and an atom as they meet: where both are sharp, both are round. Returns the hull, the centre of the atom and its radius, in
+    /// metres.
+    #[inline]
+    pub(crate) fn meeting(&self, hull: usize, atom: usize) -> (&Hull, DVec2, f64) {
+        let packed = &self.hulls[hull];
+        if let (Some(surface), Some(of_atom)) = (&packed.rounded, self.hull_of(atom)) {
+            let own = &self.hulls[of_atom];
+            if let Some(probe) = &own.rounded {
+                let corner = probe.hull.corners()[atom - own.first_atom as usize];
+                let place = self.pose_with_hulls(own.body as usize).point_to_world(corner);
+                return (&surface.hull, place, probe.hull.radius());
+            }
+        }
+        (&packed.hull, self.atom_place(atom), self.atom_radius[atom])
+    }
+
+    /// The nearest place of the core of a hull of a body to a point in the world, in metres. `hull` is one of the body's, or rounded.
+    #[inline]
+    pub(crate) fn nearest_on(&self, body: usize, hull: &Hull, at: DVec2) -> NearestOnHull {
+        let pose = self.pose_with_hulls(body);
+        let found = nearest(hull, pose.point_to_local(at));
+        let normal = pose.direction_to_world(found.normal);
+        let foot = at - pose.position - normal * found.distance;
+        let flat = found.feature.is_side();
+        NearestOnHull { distance: found.distance, normal, foot, flat, owned: hull.owns(&found) }
     }
 
     /// The same for a contact: where the nearest place belongs to another part of the body, there is none, and the hull is far.
-    pub fn touched_on_hull(&self, hull: usize, at: DVec2) -> NearestOnHull {
-        let found = self.nearest_on_hull(hull, at);
+    pub(crate) fn touched_on(&self, hull: usize, shape: &Hull, at: DVec2) -> NearestOnHull {
+        let packed = &self.hulls[hull];
+        let found = self.nearest_on(packed.body as usize, shape, at);
         if found.owned {
             return found;
         }
-        let packed = &self.hulls[hull];
         NearestOnHull { distance: found.distance.abs() + 2.0 * packed.extent, ..found }
     }
 
     /// The nearest place of the core of a hull to a point in the world, in metres.
     pub fn nearest_on_hull(&self, hull: usize, at: DVec2) -> NearestOnHull {
-        let PackedHull { body, hull, .. } = &self.hulls[hull];
-        let body = *body as usize;
-        let (sin, cos) = libm::sincos(self.angle[body]);
-        let turned = DVec2::new(cos, sin);
-        let from = at - self.position[body];
-        let local = DVec2::new(cos, -sin).rotate(from);
-        let found = nearest(hull, local);
-        let normal = turned.rotate(found.normal);
-        let foot = from - normal * found.distance;
-        let flat = found.feature.is_side();
-        NearestOnHull { distance: found.distance, normal, foot, flat, owned: hull.owns(&found) }
+        let packed = &self.hulls[hull];
+        self.nearest_on(packed.body as usize, &packed.hull, at)
+    }
+
+    /// How much farther in metres sharp corners may be from a hull than it and they are as they meet.
+    pub(crate) fn spread(&self, hull: usize, atom: usize) -> f64 {
+        let own = self.hull_of(atom).and_then(|own| self.hulls[own].rounded.as_ref());
+        own.filter(|_| self.hulls[hull].rounded.is_some()).map_or(0.0, |own| own.spread)
     }
 }

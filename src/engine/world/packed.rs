@@ -168,6 +168,8 @@ pub struct Bodies {
 
     /// The hulls of bodies, in the order of the bodies.
     pub hulls: Vec<PackedHull>,
+    /// Cosine and sine of the angle of each body, as its atoms stand; empty without hulls.
+    pub(crate) turned: Vec<DVec2>,
     /// Place of the hull of which each atom is a corner; empty without hulls.
     pub(crate) atom_hull: Vec<u32>,
     /// The walls in canonical order. Pieces of a line are walls, one behind the other.
@@ -366,15 +368,19 @@ impl Bodies {
     }
 }
 
-/// Puts atoms where their body is: at a place, turned by an angle.
+/// Puts atoms where their body is: at a place, turned by an angle. Returns cosine and sine of the angle, if it was needed.
 #[inline(always)]
-pub(super) fn place_atoms<V: Lanes>((position, angle): (DVec2, f64), offsets: &[DVec2], places: &mut [DVec2]) {
+pub(super) fn place_atoms<V: Lanes>(
+    (position, angle): (DVec2, f64),
+    offsets: &[DVec2],
+    places: &mut [DVec2],
+) -> Option<DVec2> {
     // A lone disc in its centre of mass needs no angle.
     if let [offset] = offsets
         && *offset == DVec2::ZERO
     {
         places[0] = position;
-        return;
+        return None;
     }
     let (sin, cos) = libm::sincos(angle);
     let rotation = DVec2::new(cos, sin);
@@ -388,6 +394,7 @@ pub(super) fn place_atoms<V: Lanes>((position, angle): (DVec2, f64), offsets: &[
     for (offset, place) in offsets.iter().zip(places).skip(several) {
         *place = position + rotation.rotate(*offset);
     }
+    Some(rotation)
 }
 
 impl Bodies {
@@ -509,9 +516,13 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
     if !bodies.lone_discs {
         bodies.first_atom.push(bodies.atom_count() as u32);
         bodies.atom_position = vec![DVec2::ZERO; bodies.atom_count()];
+        bodies.turned = if bodies.hulls.is_empty() { Vec::new() } else { vec![DVec2::X; bodies.len()] };
         for body in 0..bodies.len() {
             let (pose, atoms) = ((bodies.position[body], bodies.angle[body]), bodies.atoms_of(body));
-            place_atoms::<f64>(pose, &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
+            let turned = place_atoms::<f64>(pose, &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
+            if let (Some(turned), Some(place)) = (turned, bodies.turned.get_mut(body)) {
+                *place = turned;
+            }
         }
     }
     bodies.moved =

@@ -52,6 +52,8 @@ pub(crate) struct Part<'a> {
     first_atom: &'a [u32],
     atom_offset: &'a [DVec2],
     pub atom_position: &'a mut [DVec2],
+    /// Empty without hulls.
+    turned: &'a mut [DVec2],
 }
 
 /// The first items of a list, which then begins behind them.
@@ -91,6 +93,7 @@ impl<'a> Part<'a> {
             first_atom: &bodies.first_atom,
             atom_offset: &bodies.atom_offset,
             atom_position: &mut bodies.atom_position,
+            turned: &mut bodies.turned,
         }
     }
 
@@ -126,6 +129,7 @@ impl<'a> Part<'a> {
             first_atom: if self.lone_discs { &[] } else { &self.first_atom[..=count] },
             atom_offset: &self.atom_offset[..atoms],
             atom_position: cut(&mut self.atom_position, atoms),
+            turned: cut(&mut self.turned, count),
         };
         self.first += count;
         self.awake = rest;
@@ -211,7 +215,11 @@ impl<'a> Part<'a> {
             let atoms = |place: usize| (self.first_atom[place] - self.first_atom[0]) as usize;
             let atoms = atoms(body)..atoms(body + 1);
             let offsets = &self.atom_offset[atoms.clone()];
-            place_atoms::<V>((self.position[body], self.angle[body]), offsets, &mut self.atom_position[atoms]);
+            let pose = (self.position[body], self.angle[body]);
+            let turned = place_atoms::<V>(pose, offsets, &mut self.atom_position[atoms]);
+            if let (Some(turned), Some(place)) = (turned, self.turned.get_mut(body)) {
+                *place = turned;
+            }
         }
     }
 }

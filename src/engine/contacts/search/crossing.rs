@@ -6,16 +6,20 @@
 //!
 //! A line pushes what is behind it back to its open side. That ends where the centre of a disc, or a corner, lies so deep that it may have
 //! come from elsewhere.
+//!
+//! Two sharp hulls meet as round ones. Where the core of a corner has entered the other core, the side that is nearest need not be the one it
+//! came through. The run ends where a contact would change from one side to another so.
 
+use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
 use glam::DVec2;
-use jostle_shapes::{Feature, Hull, Pose, nearest};
+use jostle_shapes::{Feature, Nearest, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Model, State, SteadySpring, Wrong};
-use crate::world::Bodies;
+use crate::world::{Bodies, PackedHull};
 
 /// So deep a probe lies at the most, as a share of half the width of a hull: the side that is nearest is the one it came through. So deep
 /// lies the centre of what is behind a line, as a share of half its own width.
@@ -26,8 +30,25 @@ const DEEPEST: f64 = 0.9;
 struct Crossings {
     /// Places of atoms in m, where there are walls with ends.
     before: Vec<DVec2>,
-    /// Probes near hulls, and their places in the frames of those in m.
-    near: Vec<(SurfacePair, DVec2)>,
+    /// Probes near hulls and lines, of the lists of this version.
+    near: Vec<Watched>,
+    version: u64,
+    /// Places in m and angles in rad of all bodies when they were last looked at.
+    seen: Vec<(DVec2, f64)>,
+    /// The sum of the greatest ways in m between those looks.
+    path: f64,
+}
+
+/// A probe near a hull or a line, as it was when it was last looked at.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+struct Watched {
+    pair: SurfacePair,
+    /// Where it was in the frame of the hull, in m.
+    place: DVec2,
+    /// The normal of the side in that frame, where a sharp corner touched a sharp hull.
+    touched: Option<DVec2>,
+    /// It stays outside up to this [`Crossings::path`].
+    until: f64,
 }
 
 /// Watches for what passes through walls with ends and hulls, if the scene has some.
@@ -69,14 +90,19 @@ impl Model for Crossings {
             self.look(state);
         }
         let State { bodies, pairs: Some(pairs), .. } = state else { return };
+        self.follow(bodies);
         self.before.clear();
         if has_ends(bodies) {
             self.before.extend((0..bodies.atom_count()).map(|atom| bodies.atom_place(atom)));
         }
-        self.near.clear();
-        if !bodies.hulls.is_empty() {
-            let near = pairs.surfaces.iter().filter_map(|pair| Some((*pair, place_at_hull(*pair, bodies)?.1)));
-            self.near.extend(near);
+        let path = self.path;
+        if self.version == pairs.version {
+            let due = self.near.iter_mut().filter(|watched| watched.until <= path);
+            due.for_each(|watched| *watched = Watched::at(watched.pair, bodies, path).unwrap_or(*watched));
+        } else {
+            self.version = pairs.version;
+            self.near.clear();
+            self.near.extend(pairs.surfaces.iter().filter_map(|pair| Watched::at(*pair, bodies, path)));
         }
     }
 
@@ -90,24 +116,39 @@ impl Model for Crossings {
 }
 
 impl Crossings {
-    fn look(&self, state: &mut State) {
+    fn look(&mut self, state: &mut State) {
         if let Some((body, wall)) = self.first(&state.bodies) {
             state.end_run(body, Wrong::Crossed(state.bodies.walls[wall].entity));
         }
-        let State { bodies, pairs: Some(pairs), .. } = &*state else { return };
+        let bodies = &state.bodies;
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
             return;
         }
-        let deep = pairs.surfaces.iter().copied().find(|pair| is_deep(*pair, bodies));
-        let through = self.near.iter().find(|(pair, before)| has_crossed(*pair, *before, bodies));
-        if let Some(pair) = deep.or(through.map(|(pair, _)| *pair)) {
+        self.follow(bodies);
+        let mut due = self.near.iter().filter(|watched| watched.until <= self.path);
+        if let Some((pair, wrong)) = due.find_map(|watched| Some((watched.pair, watched.wrong(bodies)?))) {
             let (a, b) = pair.bodies(bodies);
             let other =
                 a.map_or_else(|| pair.wall(bodies).map(|wall| bodies.walls[wall].entity), |a| Some(bodies.entity[a]));
             if let Some(other) = other {
-                state.end_run(b, Wrong::Crossed(other));
+                state.end_run(b, wrong(other));
             }
         }
+    }
+
+    /// Adds the greatest way that any point of a body went since the last look.
+    fn follow(&mut self, bodies: &Bodies) {
+        if bodies.hulls.is_empty() && bodies.lines.is_empty() {
+            return;
+        }
+        let poses = || bodies.position.iter().copied().zip(bodies.angle.iter().copied());
+        let way = |(body, ((place, angle), (before, turned))): (usize, ((DVec2, f64), (DVec2, f64)))| {
+            let turn = angle - turned;
+            place.distance(before) + turn.abs() * bodies.extent(body)
+        };
+        self.path += poses().zip(self.seen.iter().copied()).enumerate().map(way).fold(0.0, f64::max);
+        self.seen.clear();
+        self.seen.extend(poses());
     }
 
     /// The first body with an atom that has crossed a wall since, and the index of the wall.
@@ -126,6 +167,36 @@ impl Crossings {
     }
 }
 
+impl Watched {
+    /// None: it is near a wall that cannot be crossed in this way.
+    fn at(pair: SurfacePair, bodies: &Bodies, path: f64) -> Option<Self> {
+        let (place, distance) = if let Some((packed, place)) = place_at_hull(pair, bodies) {
+            (place, nearest(&packed.hull, place).distance)
+        } else if let (Surface::Wall(wall), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) {
+            bodies.walls[wall].line?;
+            (DVec2::ZERO, bodies.nearest_on_wall(wall, atom, bodies.atom_place(atom)).height)
+        } else {
+            return None;
+        };
+        let spread = match (pair.surface(bodies), pair.probe(bodies)) {
+            (Surface::Hull(hull), Probe::Atom(atom)) => bodies.spread(hull, atom),
+            _ => 0.0,
+        };
+        // Both sides may come nearer.
+        let until = path + 0.5 * (distance - spread).max(0.0);
+        let touched = met_sharp(pair, bodies).map(|found| found.normal);
+        Some(Self { pair, place, touched, until })
+    }
+
+    /// What happened to it since.
+    fn wrong(&self, bodies: &Bodies) -> Option<fn(Entity) -> Wrong> {
+        if is_deep(self.pair, bodies) || has_crossed(self.pair, self.place, bodies) {
+            return Some(Wrong::Crossed);
+        }
+        self.touched.is_some_and(|before| has_jumped(self.pair, before, bodies)).then_some(Wrong::Sunk)
+    }
+}
+
 fn has_ends(bodies: &Bodies) -> bool {
     bodies.walls.iter().any(|wall| wall.ends.is_some())
 }
@@ -139,18 +210,36 @@ fn place(pair: SurfacePair, bodies: &Bodies) -> DVec2 {
 }
 
 /// The hull that a probe is near to, and the place of the probe in its frame, in m.
-fn place_at_hull(pair: SurfacePair, bodies: &Bodies) -> Option<(&Hull, DVec2)> {
+fn place_at_hull(pair: SurfacePair, bodies: &Bodies) -> Option<(&PackedHull, DVec2)> {
     let Surface::Hull(hull) = pair.surface(bodies) else { return None };
     let packed = &bodies.hulls[hull];
-    let body = packed.body as usize;
-    let pose = Pose::new(bodies.position[body], bodies.angle[body]);
-    Some((&packed.hull, pose.point_to_local(place(pair, bodies))))
+    let pose = bodies.pose_with_hulls(packed.body as usize);
+    Some((packed, pose.point_to_local(place(pair, bodies))))
+}
+
+/// The nearest place of a sharp hull that a sharp corner touches, both rounded off.
+fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<Nearest> {
+    let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return None };
+    let (shape, place, radius) = bodies.meeting(hull, atom);
+    if bodies.hulls[hull].rounded.is_none() || radius == bodies.atom_radius[atom] {
+        return None;
+    }
+    let found = nearest(shape, bodies.pose_with_hulls(bodies.hulls[hull].body as usize).point_to_local(place));
+    (found.distance < radius + shape.radius()).then_some(found)
+}
+
+/// The cosine of the greatest angle between the normals of sides that a corner in the core of a hull passes on to.
+const LEAST_COSINE: f64 = 0.7;
+
+/// Whether a corner in the core of a hull touches another side than before.
+fn has_jumped(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
+    met_sharp(pair, bodies).is_some_and(|now| now.distance < 0.0 && now.normal.dot(before) < LEAST_COSINE)
 }
 
 /// Whether a probe has passed the middle line of a capsule since, or has gone through a polygon.
 fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
-    let Some((hull, now)) = place_at_hull(pair, bodies) else { return false };
-    let &[from, to] = hull.corners() else { return has_gone_through(hull, before, now) };
+    let Some((packed, now)) = place_at_hull(pair, bodies) else { return false };
+    let &[from, to] = packed.hull.corners() else { return has_gone_through(packed, before, now) };
     let along = to - from;
     let heights = [before, now].map(|at| along.perp_dot(at - from));
     if (heights[0] < 0.0) == (heights[1] < 0.0) {
@@ -162,7 +251,8 @@ fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
 
 /// Whether the way from one place to another enters a polygon and leaves it, and is deep in it between (Cyrus and Beck 1978). A part of a
 /// concave one may be left by a cut, so the depth at both ends counts too.
-fn has_gone_through(hull: &Hull, before: DVec2, now: DVec2) -> bool {
+fn has_gone_through(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
+    let hull = &packed.hull;
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for (side, corner) in hull.sides().iter().zip(hull.corners()) {
         let [first, last] = [before, now].map(|at| side.normal.dot(at - *corner));
@@ -180,7 +270,7 @@ fn has_gone_through(hull: &Hull, before: DVec2, now: DVec2) -> bool {
     }
     let is_deep = |share: f64| {
         let near = nearest(hull, before + (now - before) * share);
-        -near.distance > 0.5 * (half_width_at(hull, near.feature) - hull.radius())
+        -near.distance > 0.5 * (half_width_at(packed, near.feature) - hull.radius())
     };
     [enters, 0.5 * (enters + leaves), leaves].into_iter().any(is_deep)
 }
@@ -217,20 +307,22 @@ fn is_deep(pair: SurfacePair, bodies: &Bodies) -> bool {
     if let (Surface::Wall(wall), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) {
         return bodies.walls[wall].line.is_some() && is_behind(bodies, wall, atom);
     }
-    let Some((hull, at)) = place_at_hull(pair, bodies) else { return false };
-    let near = nearest(hull, at);
-    hull.corners().len() > 2 && near.distance < hull.radius() - half_width_at(hull, near.feature) * DEEPEST
+    let Some((packed, at)) = place_at_hull(pair, bodies) else { return false };
+    let near = nearest(&packed.hull, at);
+    let polygon = packed.hull.corners().len() > 2;
+    polygon && near.distance < packed.hull.radius() - half_width_at(packed, near.feature) * DEEPEST
 }
 
 /// Half the width in m of a polygon at a place of it: that of a concave one behind the side that is nearest.
-fn half_width_at(hull: &Hull, feature: Feature) -> f64 {
+fn half_width_at(packed: &PackedHull, feature: Feature) -> f64 {
+    let hull = &packed.hull;
     let thickness = match feature {
         Feature::OutlineSide(side) => hull.thickness(side),
         Feature::OutlineCorner(corner) => {
             let before = (corner + hull.outline().len() - 1) % hull.outline().len();
             hull.thickness(corner).min(hull.thickness(before))
         }
-        Feature::Side(_) | Feature::Corner(_) => return hull.half_width(),
+        Feature::Side(_) | Feature::Corner(_) => return packed.half_width,
     };
     0.5 * thickness + hull.radius()
 }

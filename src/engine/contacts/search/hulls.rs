@@ -4,14 +4,27 @@ use bevy_ecs::world::World;
 use glam::DVec2;
 
 use super::{SurfacePair, ordered};
-use crate::tick::Notes;
+use crate::tick::{Notes, State};
 use crate::world::Bodies;
-use crate::world::hull::Mended;
+use crate::world::hull::{Mended, ROUNDING};
 
 /// Says on the card what was mended in shapes.
 pub(super) fn note_mended(world: &mut World) {
     if let Some(Mended(told)) = world.remove_resource::<Mended>() {
         world.resource_mut::<Notes>().0.extend(told);
+    }
+}
+
+/// Says on the card that sharp corners are rounded off where they meet sharp shapes, if they can.
+pub(super) fn note_sharp(world: &mut World) {
+    let bodies = world.resource::<State>().bodies();
+    let sharp = |body: usize| bodies.collides[body] && bodies.hulls_of(body).any(|hull| hull.rounded.is_some());
+    let among: Vec<usize> = (0..bodies.len()).filter(|&body| sharp(body)).collect();
+    if among.len() > 1 && among.iter().any(|&body| bodies.dynamic[body]) {
+        world.resource_mut::<Notes>().0.push(format!(
+            "where two sharp shapes meet, their corners are round, with {} % of half their width; give them `rounding` to choose it",
+            100.0 * ROUNDING
+        ));
     }
 }
 
@@ -68,7 +81,8 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         let touches = |other: &&usize| apart.binary_search(&ordered(body, **other)).is_err();
         let atoms = near[body].iter().filter(touches).flat_map(|&other| bodies.atoms_of(other));
         for atom in atoms.filter(|&atom| bodies.probes(atom)) {
-            if bodies.nearest_on_hull(place, bodies.atom_place(atom)).distance < bodies.atom_radius[atom] + reach {
+            let reach = bodies.atom_radius[atom] + bodies.spread(place, atom) + reach;
+            if bodies.nearest_on_hull(place, bodies.atom_place(atom)).distance < reach {
                 see(SurfacePair { surface, probe: atom as u32 });
             }
         }

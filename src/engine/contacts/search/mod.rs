@@ -62,6 +62,7 @@ pub fn plugin(app: &mut App) {
         lines::watch,
         lines::note_behind,
         hulls::note_mended,
+        hulls::note_sharp,
     ]);
 }
 
