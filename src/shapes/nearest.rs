@@ -119,23 +119,17 @@ fn nearest_on_segment(hull: &Hull, from: DVec2, to: DVec2, point: DVec2) -> Near
 
 fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
     let (corners, sides) = (hull.corners(), hull.sides());
-    // The highest side of all, and the highest of those that are not inner.
-    let (mut all, mut outer) = ((f64::NEG_INFINITY, 0), (f64::NEG_INFINITY, 0));
-    for (index, (side, corner)) in sides.iter().zip(corners).enumerate() {
-        let height = side.normal.dot(point - *corner);
-        if height > all.0 {
-            all = (height, index);
-        }
-        if height > outer.0 && !side.inner {
-            outer = (height, index);
-        }
-    }
-    let (height, index) = all;
-    if height <= 0.0 {
+    let highest = |among: &mut dyn Iterator<Item = (usize, f64)>| {
+        among.fold((0, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
+    };
+    let height = |index: usize| (index, sides[index].normal.dot(point - corners[index]));
+    let (index, distance) = highest(&mut (0..sides.len()).map(height));
+    if distance <= 0.0 {
         if !hull.outline().is_empty() {
             return nearest_on_outline(hull, point);
         }
-        let (distance, index) = if outer.0 > f64::NEG_INFINITY { outer } else { all };
+        let outer = highest(&mut (0..sides.len()).filter(|side| !sides[*side].inner).map(height));
+        let (index, distance) = if outer.1 > f64::NEG_INFINITY { outer } else { (index, distance) };
         return Nearest { distance, normal: sides[index].normal, feature: Feature::Side(index) };
     }
     let side = sides[index];
@@ -146,7 +140,7 @@ fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
     } else if (point - corners[next]).dot(along) > 0.0 {
         distance_to(hull, Feature::Corner(next), point)
     } else {
-        Nearest { distance: height, normal: side.normal, feature: Feature::Side(index) }
+        Nearest { distance, normal: side.normal, feature: Feature::Side(index) }
     }
 }
 

@@ -186,8 +186,16 @@ impl PairGeometry {
     }
 
     pub fn surface(bodies: &Bodies, index: usize, pair: SurfacePair) -> Self {
+        Self::near(bodies, index, pair).0
+    }
+
+    /// The same, with the distance in metres of the probe from the surface, whether or not a contact belongs to that part of its body.
+    pub fn near(bodies: &Bodies, index: usize, pair: SurfacePair) -> (Self, f64) {
         match (pair.surface(bodies), pair.probe(bodies)) {
-            (Surface::Wall(wall), _) => Self::wall(bodies, index, wall, pair.probe),
+            (Surface::Wall(wall), _) => {
+                let geometry = Self::wall(bodies, index, wall, pair.probe);
+                (geometry, -geometry.overlap)
+            }
             (Surface::Hull(hull), Probe::Atom(atom)) => Self::hull(bodies, index, hull, atom as u32),
             (Surface::Hull(hull), Probe::End(wall, right)) => Self::end(bodies, index, hull, (wall, right)),
         }
@@ -208,31 +216,32 @@ impl PairGeometry {
         }
     }
 
-    fn hull(bodies: &Bodies, index: usize, hull: usize, atom: u32) -> Self {
+    fn hull(bodies: &Bodies, index: usize, hull: usize, atom: u32) -> (Self, f64) {
         let (shape, place, radius) = bodies.meeting(hull, atom as usize);
-        let found = bodies.touched_on(hull, shape, place);
+        let (found, distance) = bodies.touched_on(hull, shape, place);
         let a = End::on_hull(bodies, hull, shape, &found);
         let body = bodies.atom_body(atom as usize);
         let b = End { body, arm: place - bodies.position[body], radius };
         let spins = (bodies.spin[a.body], bodies.spin[b.body]);
-        Self {
+        let geometry = Self {
             overlap: a.radius + b.radius - found.distance,
             distance: if found.flat { f64::INFINITY } else { found.distance },
             flat: found.flat.then_some((spins.0, found.distance)),
             velocity: b.velocity(bodies) - a.velocity(bodies),
             spins,
             pair: Pair { index: index as u32, normal: found.normal, a: SideA::Hull(a), b },
-        }
+        };
+        (geometry, distance - shape.radius() - radius)
     }
 
     /// An end of a wall near a hull: the hull is side B.
-    fn end(bodies: &Bodies, index: usize, hull: usize, (wall, right): (usize, bool)) -> Self {
+    fn end(bodies: &Bodies, index: usize, hull: usize, (wall, right): (usize, bool)) -> (Self, f64) {
         let (center, radius) = bodies.walls[wall].end(right);
         let shape = &bodies.hulls[hull].hull;
-        let found = bodies.touched_on(hull, shape, center);
+        let (found, distance) = bodies.touched_on(hull, shape, center);
         let b = End::on_hull(bodies, hull, shape, &found);
         let spin = bodies.spin[b.body];
-        Self {
+        let geometry = Self {
             overlap: radius + b.radius - found.distance,
             distance: if found.flat { f64::INFINITY } else { found.distance },
             flat: found.flat.then_some((spin, found.distance)),
@@ -244,7 +253,8 @@ impl PairGeometry {
                 a: SideA::Wall(bodies.whole_wall(wall) as u32),
                 b,
             },
-        }
+        };
+        (geometry, distance - radius - shape.radius())
     }
 
     /// Velocity in m/s with which the sides part.

@@ -39,6 +39,8 @@ pub struct PackedHull {
     pub half_width: f64,
     /// How far it reaches from the centre of mass, in metres.
     pub extent: f64,
+    /// The middle of its corners, and how far it reaches from there, in metres.
+    pub(crate) circle: (DVec2, f64),
 }
 
 /// By this share of half their width corners are rounded off where two sharp hulls meet. A sharp corner just above the end of a sharp side
@@ -74,8 +76,16 @@ impl PackedHull {
             let first_atom = first as u32;
             first += hull.corners().len();
             let extent = hull.reach_of_core(DVec2::ZERO) + hull.radius();
-            let rounded = hull.rounded(ROUNDING * least);
-            Self { body: body as u32, first_atom, hull: hull.clone(), rounded, half_width: hull.half_width(), extent }
+            let middle = hull.corners().iter().sum::<DVec2>() / hull.corners().len() as f64;
+            Self {
+                body: body as u32,
+                first_atom,
+                hull: hull.clone(),
+                rounded: hull.rounded(ROUNDING * least),
+                half_width: hull.half_width(),
+                extent,
+                circle: (middle, hull.reach_of_core(middle) + hull.radius()),
+            }
         })
     }
 
@@ -153,14 +163,14 @@ impl Bodies {
         NearestOnHull { distance: found.distance, normal, foot, flat, owned: hull.owns(&found) }
     }
 
-    /// The same for a contact: where the nearest place belongs to another part of the body, there is none, and the hull is far.
-    pub(crate) fn touched_on(&self, hull: usize, shape: &Hull, at: DVec2) -> NearestOnHull {
+    /// The same for a contact, with the distance: where the nearest place belongs to another part of the body, there is none, and the hull is
+    /// far.
+    pub(crate) fn touched_on(&self, hull: usize, shape: &Hull, at: DVec2) -> (NearestOnHull, f64) {
         let packed = &self.hulls[hull];
         let found = self.nearest_on(packed.body as usize, shape, at);
-        if found.owned {
-            return found;
-        }
-        NearestOnHull { distance: found.distance.abs() + 2.0 * packed.extent, ..found }
+        let distance = found.distance;
+        let far = if found.owned { distance } else { distance.abs() + 2.0 * packed.extent };
+        (NearestOnHull { distance: far, ..found }, distance)
     }
 
     /// The nearest place of the core of a hull to a point in the world, in metres.

@@ -313,12 +313,19 @@ fn follow_surfaces<N: NormalForce>(
         for lane in lanes(list.awake_in(block)) {
             let (pair, place) = (pairs[lane], BLOCK * block + lane);
             let Surface::Wall(wall) = pair.surface(sink.bodies) else {
-                let geometry = PairGeometry::surface(sink.bodies, place, pair);
-                // Both sides may move: the gap closes by two ways at most.
+                if list.is_too_early(place, path) {
+                    gap = gap.min(*list.each_due(place) - path);
+                    continue;
+                }
+                let (geometry, apart) = PairGeometry::near(sink.bodies, place, pair);
                 if geometry.overlap <= 0.0 && !list.is_touching(place) {
-                    gap = gap.min(-0.5 * geometry.overlap);
+                    // Both sides may move, so the gap closes by two ways at most. Half of that: more than rounding can take.
+                    let way = 0.25 * apart.max(0.0);
+                    gap = gap.min(way);
+                    *list.each_due(place) = path + way;
                 } else {
                     near = true;
+                    *list.each_due(place) = f64::NEG_INFINITY;
                     let size = pair.size(sink.bodies);
                     follow_hull::<N>((list, place), (&geometry, size), laws, (sink, losses), deepest, (time, elapsed));
                 }

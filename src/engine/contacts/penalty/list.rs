@@ -85,6 +85,8 @@ pub struct ContactList {
     pub(super) phases: Vec<Phases>,
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
+    /// The same for each pair; empty where it is not told.
+    each_due: Vec<[f64; BLOCK]>,
     /// A bit each for pairs that an evaluation has to look at, where few of them are, touching ones among them; empty: all.
     looked_at: Vec<u8>,
     /// Blocks in which some are, in order; only then.
@@ -232,6 +234,18 @@ impl ContactList {
         path < self.due[block]
     }
 
+    /// Whether a pair cannot have begun to touch.
+    #[inline]
+    pub(super) fn is_too_early(&self, place: usize, path: f64) -> bool {
+        self.each_due.get(place / BLOCK).is_some_and(|due| path < due[place % BLOCK])
+    }
+
+    /// The same, at a place that is told up to which [`Bodies::path`](crate::world::Bodies::path) it cannot.
+    pub(super) fn each_due(&mut self, place: usize) -> &mut f64 {
+        self.each_due.resize(self.phases.len(), [f64::NEG_INFINITY; BLOCK]);
+        &mut self.each_due[place / BLOCK][place % BLOCK]
+    }
+
     /// Which contacts of a block are asleep.
     #[inline(always)]
     pub(super) fn asleep_in(&self, block: usize) -> u8 {
@@ -270,6 +284,7 @@ impl ContactList {
         self.looked_at.clear();
         self.watched.clear();
         self.due.fill(f64::NEG_INFINITY);
+        self.each_due.clear();
     }
 
     /// The next evaluation looks at no pair but for those that it is told; see [`ContactList::look_at`].

@@ -21,6 +21,9 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Model, State, SteadySpring, Wrong};
 use crate::world::{Bodies, PackedHull};
 
+/// What passes through a hull lies in it as deep as this share of half its width.
+const THROUGH: f64 = 0.5;
+
 /// So deep a probe lies at the most, as a share of half the width of a hull: the side that is nearest is the one it came through. So deep
 /// lies the centre of what is behind a line, as a share of half its own width.
 const DEEPEST: f64 = 0.9;
@@ -45,7 +48,7 @@ struct Watched {
     pair: SurfacePair,
     /// Where it was in the frame of the hull, in m.
     place: DVec2,
-    /// The normal of the side in that frame, where a sharp corner touched a sharp hull.
+    /// The normal of the side in that frame, if it is a sharp corner near a sharp hull.
     touched: Option<DVec2>,
     /// It stays outside up to this [`Crossings::path`].
     until: f64,
@@ -170,22 +173,21 @@ impl Crossings {
 impl Watched {
     /// None: it is near a wall that cannot be crossed in this way.
     fn at(pair: SurfacePair, bodies: &Bodies, path: f64) -> Option<Self> {
-        let (place, distance) = if let Some((packed, place)) = place_at_hull(pair, bodies) {
-            (place, nearest(&packed.hull, place).distance)
+        let (place, left) = if let Some((packed, place)) = place_at_hull(pair, bodies) {
+            (place, left_to_cross(packed, nearest(&packed.hull, place).distance))
         } else if let (Surface::Wall(wall), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) {
+            let half = bodies.walls[wall].line.and(bodies.walls[wall].ends).map_or(0.0, |ends| ends.half);
             bodies.walls[wall].line?;
-            (DVec2::ZERO, bodies.nearest_on_wall(wall, atom, bodies.atom_place(atom)).height)
+            let height = bodies.nearest_on_wall(wall, atom, bodies.atom_place(atom)).height;
+            (DVec2::ZERO, height + half + DEEPEST * bodies.size_of_atom(atom))
         } else {
             return None;
         };
-        let spread = match (pair.surface(bodies), pair.probe(bodies)) {
-            (Surface::Hull(hull), Probe::Atom(atom)) => bodies.spread(hull, atom),
-            _ => 0.0,
-        };
-        // Both sides may come nearer.
-        let until = path + 0.5 * (distance - spread).max(0.0);
-        let touched = met_sharp(pair, bodies).map(|found| found.normal);
-        Some(Self { pair, place, touched, until })
+        let met = met_sharp(pair, bodies);
+        // Before the centre of a corner enters the core, the side that it touches is noted.
+        let left = met.map_or(left, |(met, radius)| left.min(met.distance - radius));
+        // Both sides may move.
+        Some(Self { pair, place, touched: met.map(|(met, _)| met.normal), until: path + 0.5 * left.max(0.0) })
     }
 
     /// What happened to it since.
@@ -217,15 +219,15 @@ fn place_at_hull(pair: SurfacePair, bodies: &Bodies) -> Option<(&PackedHull, DVe
     Some((packed, pose.point_to_local(place(pair, bodies))))
 }
 
-/// The nearest place of a sharp hull that a sharp corner touches, both rounded off.
-fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<Nearest> {
+/// The nearest place of a sharp hull to a sharp corner, both rounded off, and the radius in m of the corner.
+fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<(Nearest, f64)> {
     let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return None };
     let (shape, place, radius) = bodies.meeting(hull, atom);
     if bodies.hulls[hull].rounded.is_none() || radius == bodies.atom_radius[atom] {
         return None;
     }
     let found = nearest(shape, bodies.pose_with_hulls(bodies.hulls[hull].body as usize).point_to_local(place));
-    (found.distance < radius + shape.radius()).then_some(found)
+    Some((found, radius))
 }
 
 /// The cosine of the greatest angle between the normals of sides that a corner in the core of a hull passes on to.
@@ -233,7 +235,7 @@ const LEAST_COSINE: f64 = 0.7;
 
 /// Whether a corner in the core of a hull touches another side than before.
 fn has_jumped(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
-    met_sharp(pair, bodies).is_some_and(|now| now.distance < 0.0 && now.normal.dot(before) < LEAST_COSINE)
+    met_sharp(pair, bodies).is_some_and(|(now, _)| now.distance < 0.0 && now.normal.dot(before) < LEAST_COSINE)
 }
 
 /// Whether a probe has passed the middle line of a capsule since, or has gone through a polygon.
@@ -247,6 +249,15 @@ fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
     }
     let crossing = before + (now - before) * (heights[0] / (heights[0] - heights[1]));
     (0.0..=along.length_squared()).contains(&(crossing - from).dot(along))
+}
+
+/// How far in m a probe at least goes before it is deep in a hull or through it, if it is at such a distance from the core.
+fn left_to_cross(packed: &PackedHull, distance: f64) -> f64 {
+    if packed.hull.corners().len() == 2 {
+        return distance;
+    }
+    let core = packed.half_width - packed.hull.radius();
+    distance + (THROUGH * core).min(DEEPEST * packed.half_width - packed.hull.radius())
 }
 
 /// Whether the way from one place to another enters a polygon and leaves it, and is deep in it between (Cyrus and Beck 1978). A part of a
@@ -270,7 +281,7 @@ fn has_gone_through(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     }
     let is_deep = |share: f64| {
         let near = nearest(hull, before + (now - before) * share);
-        -near.distance > 0.5 * (half_width_at(packed, near.feature) - hull.radius())
+        -near.distance > THROUGH * (half_width_at(packed, near.feature) - hull.radius())
     };
     [enters, 0.5 * (enters + leaves), leaves].into_iter().any(is_deep)
 }

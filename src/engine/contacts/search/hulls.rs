@@ -76,19 +76,25 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         if !bodies.collides[body] {
             continue;
         }
-        let reach = packed.hull.radius() + margin;
         let surface = walls + place as u32;
+        let (center, circle) = (bodies.pose_with_hulls(body).point_to_world(packed.circle.0), packed.circle.1 + margin);
         let touches = |other: &&usize| apart.binary_search(&ordered(body, **other)).is_err();
-        let atoms = near[body].iter().filter(touches).flat_map(|&other| bodies.atoms_of(other));
-        for atom in atoms.filter(|&atom| bodies.probes(atom)) {
-            let reach = bodies.atom_radius[atom] + bodies.spread(place, atom) + reach;
-            if bodies.nearest_on_hull(place, bodies.atom_place(atom)).distance < reach {
-                see(SurfacePair { surface, probe: atom as u32 });
+        for &other in near[body].iter().filter(touches) {
+            if is_far(center, bodies.position[other], circle + bodies.extent(other)) {
+                continue;
+            }
+            for atom in bodies.atoms_of(other).filter(|&atom| bodies.probes(atom)) {
+                let reach = bodies.atom_radius[atom] + bodies.spread(place, atom);
+                let at = bodies.atom_place(atom);
+                let near = || bodies.nearest_on_hull(place, at).distance < packed.hull.radius() + margin + reach;
+                if !is_far(center, at, circle + reach) && near() {
+                    see(SurfacePair { surface, probe: atom as u32 });
+                }
             }
         }
-        let mut near_ends = |(number, center, half): (u32, DVec2, f64)| {
-            let far = (center - bodies.position[body]).length() > packed.extent + half + margin;
-            if !far && bodies.nearest_on_hull(place, center).distance < half + reach {
+        let mut near_ends = |(number, end, half): (u32, DVec2, f64)| {
+            let near = || bodies.nearest_on_hull(place, end).distance < packed.hull.radius() + margin + half;
+            if !is_far(center, end, circle + half) && near() {
                 see(SurfacePair { surface, probe: ends_from + number });
             }
         };
@@ -96,10 +102,15 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
             ends.iter().copied().for_each(&mut near_ends);
             for line in &bodies.lines {
                 bodies.each_edge_of_line(line, bodies.position[body], packed.extent + margin, |number| {
-                    let (center, half) = bodies.walls[number as usize / 2].end(number % 2 == 1);
-                    near_ends((number, center, half));
+                    let (end, half) = bodies.walls[number as usize / 2].end(number % 2 == 1);
+                    near_ends((number, end, half));
                 });
             }
         }
     }
+}
+
+/// Whether two places are farther apart than so many metres.
+fn is_far(one: DVec2, other: DVec2, distance: f64) -> bool {
+    one.distance_squared(other) > distance * distance
 }

@@ -127,15 +127,18 @@ impl PairSearch {
         let [touching, close] = std::mem::take(&mut pairs.group_ends);
         let old_surfaces = std::mem::take(&mut pairs.surfaces);
         pairs.search = suiting(bodies);
-        let sorted = (pairs.search == Search::Cells).then(|| Sorted::of(bodies, bounds.margin));
+        let sorted = (pairs.search == Search::Cells).then(|| match bodies.hulls[..] {
+            [] => Sorted::of(bodies, bounds.margin),
+            // Corners touch hulls, not discs.
+            _ => Sorted::among(bodies, bounds.margin, (0..bodies.atom_count()).filter(|atom| !bodies.is_corner(*atom))),
+        });
         pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies, most));
         let apart = places_apart(bodies);
         if !apart.is_empty() {
             let body = |atom: u32| bodies.atom_body(atom as usize);
             pairs.atoms.retain(|pair| apart.binary_search(&ordered(body(pair.a), body(pair.b))).is_err());
         }
-        if !bodies.hulls.is_empty() {
-            // Corners touch hulls, not discs.
+        if !bodies.hulls.is_empty() && sorted.is_none() {
             let corner = |atom: u32| bodies.is_corner(atom as usize);
             pairs.atoms.retain(|pair| !corner(pair.a) && !corner(pair.b));
         }
