@@ -2,9 +2,14 @@
 
 /// Name and text of each scene in `scenes/`.
 pub(super) const SCENES: &[(&str, &str)] = &[
+    ("arch", include_str!("../../scenes/arch.ron")),
     ("billiards", include_str!("../../scenes/billiards.ron")),
     ("bounce", include_str!("../../scenes/bounce.ron")),
+    ("car_on_terrain", include_str!("../../scenes/car_on_terrain.ron")),
+    ("card_house", include_str!("../../scenes/card_house.ron")),
     ("chain_and_ball", include_str!("../../scenes/chain_and_ball.ron")),
+    ("clock_of_our_own", include_str!("../../scenes/clock_of_our_own.ron")),
+    ("cogs", include_str!("../../scenes/cogs.ron")),
     ("conveyor", include_str!("../../scenes/conveyor.ron")),
     ("cow", include_str!("../../scenes/cow.ron")),
     ("cradle_on_rods", include_str!("../../scenes/cradle_on_rods.ron")),
@@ -25,6 +30,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("plinko", include_str!("../../scenes/plinko.ron")),
     ("projectile", include_str!("../../scenes/projectile.ron")),
     ("rocket_thrust", include_str!("../../scenes/rocket_thrust.ron")),
+    ("rolling_shapes", include_str!("../../scenes/rolling_shapes.ron")),
     ("rope_bridge", include_str!("../../scenes/rope_bridge.ron")),
     ("slider_crank", include_str!("../../scenes/slider_crank.ron")),
     ("snow_globe", include_str!("../../scenes/snow_globe.ron")),
@@ -33,6 +39,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("tetris_weightless", include_str!("../../scenes/tetris_weightless.ron")),
     ("tiles", include_str!("../../scenes/tiles.ron")),
     ("triple_pendulum", include_str!("../../scenes/triple_pendulum.ron")),
+    ("tumbling_shapes", include_str!("../../scenes/tumbling_shapes.ron")),
     ("two_link_arm", include_str!("../../scenes/two_link_arm.ron")),
 ];
 

@@ -70,7 +70,7 @@ impl Ring {
         let next = |index: usize| corners[(index + 1) % corners.len()];
         let normal = |index: usize| (-direction(next(index) - corners[index]).0.perp(), 1.0);
         let sides = (0..corners.len()).map(normal).collect();
-        (!corners.is_empty()).then(|| Self { sides, corners })
+        (!corners.is_empty()).then_some(Self { sides, corners })
     }
 
     fn of_hull(hull: &Hull) -> Self {

@@ -18,6 +18,7 @@ mod orientation;
 mod outline;
 mod pose;
 mod rack;
+mod ray;
 mod shape;
 mod time_of_impact;
 
@@ -31,6 +32,7 @@ pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};
 pub use rack::Rack;
+pub use ray::ray;
 pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
 pub use time_of_impact::{Motion, time_of_impact};
 

@@ -3,7 +3,8 @@
 //! Source: a cut changes nothing: a shape in parts touches, weighs and moves as the whole does. Tolerances: at each test. Not tested: a
 //! corner that bends inwards by little, pressed so hard that the other side touches both its sides.
 
-use jostle::Simulation;
+use jostle::world::hash::state_hash;
+use jostle::{Simulation, SimulationExt};
 
 use super::support::{load, run_to};
 
@@ -124,4 +125,33 @@ fn gears_turn_as_their_teeth() {
     assert!(turned[0] > 14.9, "the pinion turns: {turned:?}");
     let off = turned[0] * 12.0 + turned[1] * 20.0;
     assert!(off.abs() * module / 2.0 < 2.0 * 0.001, "{turned:?}: {off}");
+}
+
+/// Law: shapes that touch nothing move as shapes that meet nothing, to the last bit: joints weigh their turning by how far they reach, not by
+/// their corners. Scene: a pendulum that drives a wheel by gears. Tolerance: none; the account of energy as the method allows.
+#[test]
+fn what_touches_nothing_moves_as_what_meets_nothing() {
+    let end = |collides: &str| {
+        let mut simulation = load(&format!(
+            r#"Scene(
+                format: 1,
+                clock: (duration: 2, tick: "1 ms", method: VelocityVerlet),
+                gravity: (0, -9.81),
+                bodies: [
+                    (name: "arm", at: (0, 0), datum: Origin, {collides} mass: 1, shape: Rectangle(at: (0.5, 0), width: 1, height: 0.1)),
+                    (name: "wheel", at: (3, 0), {collides} mass: 1, shape: Regular(sides: 6, radius: 0.4)),
+                ],
+                joints: [
+                    Revolute(name: "hinge", a: World, anchor_a: (0, 0), b: "arm", anchor_b: (0, 0)),
+                    Revolute(name: "axle", a: World, anchor_a: (3, 0), b: "wheel"),
+                    GearPair(of: ("hinge", "axle"), ratio: -2),
+                ],
+            )"#
+        ));
+        run_to(&mut simulation, 2.0);
+        (state_hash(simulation.bodies()), simulation.card().energy.residual.abs())
+    };
+    let ((meets, _), (touches, residual)) = (end(""), end("collides: false,"));
+    assert_eq!(meets, touches);
+    assert!(residual < 1e-3, "{residual}");
 }

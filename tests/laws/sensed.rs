@@ -140,3 +140,32 @@ fn the_clearance_is_that_of_the_nearest_atoms() {
         assert!((found - exact).abs() < 1e-15, "{name}: {found} instead of {exact}");
     }
 }
+
+/// Law: a ray meets what is nearest along it: a disc, a box that is turned, a strip, a half-plane, a line. It turns with its body and does not see
+/// that, nor what touches nothing. Exact: distances of plane geometry. Tolerance: rounding.
+#[test]
+fn a_ray_meets_what_is_nearest() {
+    let scene = "walls: [(name: \"floor\", left: (9, -1), right: (-9, -1)), (name: \"shelf\", from: (-2, 0.5), to: (-1, 0.5), thickness: 0.2),
+                         (name: \"steps\", line: [(0.5, 2), (-0.5, 2)])],
+        bodies: [(name: \"eye\", at: (0, 0), angle: \"30 deg\", fixed: true, atoms: Disc(radius: 0.1)),
+                 (name: \"ghost\", at: (0.5, 0), fixed: true, collides: false, atoms: Disc(radius: 0.2)),
+                 (name: \"ball\", at: (2, 0), fixed: true, atoms: Disc(radius: 0.2)),
+                 (name: \"box\", at: (3, 3), angle: \"45 deg\", fixed: true, shape: Rectangle(width: 1, height: 1))],
+        sensors: [Range(name: \"to_ball\", of: \"eye\", angle: \"-30 deg\"), Range(name: \"to_box\", of: \"eye\", angle: \"15 deg\"),
+                  Range(name: \"to_floor\", of: \"eye\", angle: \"-120 deg\"), Range(name: \"to_shelf\", of: \"eye\", at: (-0.75, 0), angle: \"90 deg\"),
+                  Range(name: \"short\", of: \"eye\", angle: \"-30 deg\", reach: 1.7), Range(name: \"up\", of: \"eye\", angle: \"60 deg\")]";
+    // From (-0.75 cos 30, -0.75 sin 30), 120 degrees from x: to the lower side of the shelf at a height of 0.4 m.
+    let to_shelf = (0.4 + 0.375) / 0.75_f64.sqrt();
+    let exact = [
+        ("to_ball", 1.8),
+        ("to_box", 18.0_f64.sqrt() - 0.5),
+        ("to_floor", 1.0),
+        ("to_shelf", to_shelf),
+        ("short", f64::INFINITY),
+        ("up", 2.0),
+    ];
+    for (name, exact) in exact {
+        let found = read("VelocityVerlet", 0, scene, &format!("{name}.range"));
+        assert!(found == exact || (found - exact).abs() < 1e-14, "{name}: {found} instead of {exact}");
+    }
+}

@@ -48,6 +48,19 @@ fn the_deepest_overlap_is_told_with_names_and_remedy() {
     assert!(note.starts_with(begins), "{note}");
 }
 
+/// Two bars that cross have no corner inside each other, so no contact parts them.
+#[test]
+fn bars_that_cross_are_told() {
+    let bar = |name: &str, angle: &str| {
+        format!(
+            "(name: \"{name}\", at: (0, 0), angle: \"{angle}\", shape: Capsule(from: (-1, 0), to: (1, 0), radius: 0.1)),"
+        )
+    };
+    let told = notes(&format!("bodies: [{}{}]", bar("a", "40 deg"), bar("b", "-40 deg")));
+    let [note] = &told[..] else { panic!("{told:?}") };
+    assert!(note.starts_with("at the start `a` and `b` overlap by "), "{note}");
+}
+
 #[test]
 fn what_may_be_so_is_not_told() {
     for sections in [

@@ -14,6 +14,7 @@ mod motor;
 mod overlap;
 mod period;
 mod pose;
+mod range;
 mod velocity;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -321,4 +322,5 @@ pub fn plugin(app: &mut App) {
     motor::plugin(app);
     period::plugin(app);
     clearance::plugin(app);
+    range::plugin(app);
 }

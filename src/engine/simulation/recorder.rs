@@ -110,15 +110,18 @@ fn cast_of(simulation: &Simulation) -> Cast {
             .clone()
             .filter(|a| !bodies.is_corner(*a))
             .map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
-        let intangible = world.get::<Intangible>(bodies.entity[place]).map_or(&[][..], |intangible| &intangible.0);
-        let (round, sided) = intangible.iter().partition::<Vec<&Hull>, _>(|hull| hull.corners().len() == 1);
+        let intangible = world.get::<Intangible>(bodies.entity[place]);
+        let parts = intangible.map_or(&[][..], |intangible| &intangible.hulls);
+        let (round, sided) = parts.iter().partition::<Vec<&Hull>, _>(|hull| hull.corners().len() == 1);
         let seen = round.iter().map(|disc| Disc { offset: disc.corners()[0], radius: disc.radius() });
         let hulls = bodies.hulls_of(place).map(|packed| &packed.hull).chain(sided).map(look);
         let fixed =
             world.get::<crate::world::Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
         BodyLook {
             name: name(bodies.entity[place]),
-            color: atoms.clone().next().and_then(|first| color(bodies.atom_material(first))),
+            color: (atoms.clone().next().map(|first| bodies.atom_material(first)))
+                .or(intangible.map(|intangible| intangible.material))
+                .and_then(color),
             discs: discs.chain(seen).collect(),
             hulls: hulls.collect(),
             fixed,

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Bodies;
 use super::body::mark_changed;
+use super::material::MaterialIndex;
 
 /// The hulls of a body with two corners and more, about its centre of mass, in metres. The last atoms of the body are their corners, hull by
 /// hull.
@@ -16,9 +17,14 @@ use super::body::mark_changed;
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Hulls(pub Vec<Hull>);
 
-/// Parts of a body that are seen and have mass, but touch nothing: hulls and discs about its centre of mass, in metres.
+/// Parts of a body that are seen and have mass, but touch nothing.
 #[derive(Component, Clone, Debug, PartialEq)]
-pub struct Intangible(pub Vec<Hull>);
+pub struct Intangible {
+    /// Hulls and discs about its centre of mass, in metres.
+    pub hulls: Vec<Hull>,
+    /// What they are made of.
+    pub material: MaterialIndex,
+}
 
 /// What was mended in the numbers of shapes, for the notes of the card.
 #[derive(Resource, Clone, Debug, Default)]
@@ -118,10 +124,15 @@ impl Bodies {
         self.atom_hull.get(atom).filter(|hull| **hull != NO_HULL).map(|hull| *hull as usize)
     }
 
+    /// The places of the hulls of a body.
+    pub fn places_of_hulls(&self, body: usize) -> std::ops::Range<usize> {
+        let first = |body: usize| self.hulls.partition_point(|hull| (hull.body as usize) < body);
+        first(body)..first(body + 1)
+    }
+
     /// The hulls of a body.
     pub fn hulls_of(&self, body: usize) -> impl Iterator<Item = &PackedHull> {
-        let first = self.hulls.partition_point(|hull| (hull.body as usize) < body);
-        self.hulls[first..].iter().take_while(move |hull| hull.body as usize == body)
+        self.hulls[self.places_of_hulls(body)].iter()
     }
 
     /// Half the width in metres of what an atom belongs to: its radius, or for a corner half the least width of its hull.

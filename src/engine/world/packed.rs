@@ -12,7 +12,7 @@ use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Mass, Motion, Position, Rotation, Spin, Velocity};
 use super::fitting::Counts;
 use super::flight::Flights;
-use super::hull::{Hulls, NO_HULL, PackedHull};
+use super::hull::{Hulls, Intangible, NO_HULL, PackedHull};
 use super::keys::Keys;
 use super::kinematic::{Kinematic, Prescribed};
 use super::line::{self, Line, PackedLine};
@@ -439,6 +439,14 @@ fn is_lone_disc(world: &World, body: Entity) -> bool {
     atoms.next().is_some_and(|atom| atom.offset == DVec2::ZERO) && atoms.next().is_none()
 }
 
+/// How far a body reaches that has no atoms, in metres: as far as its parts that touch nothing, or its radius of gyration if it has none. Turning
+/// is weighed by that against moving.
+fn extent_without_atoms(intangible: Option<&Intangible>, mass: f64, inertia: f64) -> f64 {
+    let parts = intangible.map_or(&[][..], |intangible| &intangible.hulls);
+    let reach = parts.iter().map(|hull| hull.reach_of_core(DVec2::ZERO) + hull.radius()).fold(0.0, f64::max);
+    if reach > 0.0 { reach } else { (inertia / mass).sqrt() }
+}
+
 /// Fills the arrays anew from the entities, in the order of keys. What rounding left over in the `previous` ones is kept.
 pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
     let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
@@ -504,6 +512,9 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
             }
         }
         if !bodies.lone_discs {
+            if extent == 0.0 {
+                extent = extent_without_atoms(body.get::<Intangible>(), mass, inertia);
+            }
             bodies.extent.push(extent);
             bodies.first_atom.push(first_atom);
         }

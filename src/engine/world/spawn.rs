@@ -61,8 +61,8 @@ pub struct NewBody {
     pub atoms: Vec<Atom>,
     /// Its hulls about the centre of mass.
     pub hulls: Vec<Hull>,
-    /// Its parts that touch nothing, about the centre of mass.
-    pub intangible: Vec<Hull>,
+    /// Its parts that touch nothing, if it has some.
+    pub intangible: Option<Intangible>,
 }
 
 impl Default for NewBody {
@@ -81,7 +81,7 @@ impl Default for NewBody {
             inertia: 1.0,
             atoms: Vec::new(),
             hulls: Vec::new(),
-            intangible: Vec::new(),
+            intangible: None,
         }
     }
 }
@@ -189,7 +189,7 @@ impl NewBody {
 
     fn spawn_named(mut self, world: &mut World, key: u64, name: Name) -> Entity {
         let (kinematic, atoms) = (self.kinematic.take(), std::mem::take(&mut self.atoms));
-        let (hulls, intangible) = (std::mem::take(&mut self.hulls), std::mem::take(&mut self.intangible));
+        let (hulls, intangible) = (std::mem::take(&mut self.hulls), self.intangible.take());
         if kinematic.is_some() {
             self.motion = Motion::Kinematic;
         }
@@ -207,8 +207,8 @@ impl NewBody {
         if !hulls.is_empty() {
             world.entity_mut(body).insert(Hulls(hulls));
         }
-        if !intangible.is_empty() {
-            world.entity_mut(body).insert(Intangible(intangible));
+        if let Some(intangible) = intangible {
+            world.entity_mut(body).insert(intangible);
         }
         if atoms.len() > 1 {
             for atom in atoms {

@@ -121,8 +121,13 @@ impl Evidence<'_> {
         if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
             return "look at what the plugin does to the world".to_owned();
         }
+        let deep = matches!(failure.wrong, Wrong::Crossed(_) | Wrong::Sunk(_));
         let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, place::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
+            if deep {
+                return "a contact bears more the stiffer it is, and sees what comes the better the finer the tick"
+                    .to_owned();
+            }
             return energy::of_unknown_cause(self);
         };
         remedy.map_or_else(|| what.clone(), |remedy| format!("{what}: try {remedy}"))

@@ -3,6 +3,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
+use jostle_shapes::distance;
 
 use super::{cells, hulls, lines, most_pairs};
 use crate::scene::SceneError;
@@ -77,7 +78,15 @@ impl Overlaps {
             let whose = Pair::Wall(bodies.atom_body(atom) as u32, line as u32);
             found.add(bodies.atom_radius[atom] - height, bodies.size_of_atom(atom), whose);
         });
-        hulls::each_pair(bodies, 0.0, &super::places_apart(bodies), |pair| {
+        let apart = super::places_apart(bodies);
+        // Bars may cross without a corner of one inside the other.
+        hulls::each_pair_of_hulls(bodies, &apart, |a, b| {
+            let [first, second] = [a, b].map(|hull| &bodies.hulls[hull]);
+            let [pose, other] = [first, second].map(|packed| bodies.pose_with_hulls(packed.body as usize));
+            let overlap = -distance(&first.hull, &pose, &second.hull, &other);
+            found.add(overlap, first.half_width.min(second.half_width), Pair::Bodies(first.body, second.body));
+        });
+        hulls::each_pair(bodies, 0.0, &apart, |pair| {
             let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
                 ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
                 ((None, body), wall) => Pair::Wall(body as u32, wall.unwrap_or_default() as u32),

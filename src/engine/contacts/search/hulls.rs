@@ -5,8 +5,8 @@ use glam::DVec2;
 
 use super::{SurfacePair, ordered};
 use crate::tick::{Notes, State};
-use crate::world::Bodies;
 use crate::world::hull::{Mended, ROUNDING};
+use crate::world::{Bodies, PackedHull};
 
 /// Says on the card what was mended in shapes.
 pub(super) fn note_mended(world: &mut World) {
@@ -35,12 +35,8 @@ struct Boxed {
     high: DVec2,
 }
 
-/// Shows the probes that are nearer to hulls than the margin: hull by hull, for each in the order of the probes. Bodies `apart` do not touch
-/// each other.
-pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], mut see: impl FnMut(SurfacePair)) {
-    if bodies.hulls.is_empty() {
-        return;
-    }
+/// For each body those whose boxes are nearer than the margin, in order. One of the two moves by forces.
+fn near_bodies(bodies: &Bodies, margin: f64) -> Vec<Vec<usize>> {
     let mut boxes: Vec<Boxed> = (0..bodies.len())
         .filter(|&body| bodies.collides[body] && !bodies.atoms_of(body).is_empty())
         .map(|body| {
@@ -64,6 +60,35 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
         }
     }
     near.iter_mut().for_each(|list| list.sort_unstable());
+    near
+}
+
+/// Shows the hulls of different bodies whose circles overlap, each pair once.
+pub(super) fn each_pair_of_hulls(bodies: &Bodies, apart: &[(usize, usize)], mut see: impl FnMut(usize, usize)) {
+    if bodies.hulls.is_empty() {
+        return;
+    }
+    let near = near_bodies(bodies, 0.0);
+    let center = |packed: &PackedHull| bodies.pose_with_hulls(packed.body as usize).point_to_world(packed.circle.0);
+    for (place, packed) in bodies.hulls.iter().enumerate() {
+        let body = packed.body as usize;
+        let others = near[body].iter().filter(|&&other| other > body && apart.binary_search(&(body, other)).is_err());
+        for other in others.flat_map(|&other| bodies.places_of_hulls(other)) {
+            let second = &bodies.hulls[other];
+            if !is_far(center(packed), center(second), packed.circle.1 + second.circle.1) {
+                see(place, other);
+            }
+        }
+    }
+}
+
+/// Shows the probes that are nearer to hulls than the margin: hull by hull, for each in the order of the probes. Bodies `apart` do not touch
+/// each other.
+pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], mut see: impl FnMut(SurfacePair)) {
+    if bodies.hulls.is_empty() {
+        return;
+    }
+    let near = near_bodies(bodies, margin);
     let ends: Vec<(u32, DVec2, f64)> = bodies
         .single_walls()
         .filter(|&wall| bodies.walls[wall].ends.is_some())

@@ -21,7 +21,7 @@ use glam::DVec2;
 use super::hull::Mended;
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::{NextKey, Series, after_others, spawn_series};
-use super::{Atom, Line, Motion, Name, NewBody, Origin, Wall};
+use super::{Atom, Intangible, Line, Motion, Name, NewBody, Origin, Wall};
 use crate::scene::names::of_series;
 use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::{self, MassProperties};
@@ -69,7 +69,10 @@ pub fn spawn_bodies(section: BodiesSection, outline: &Outline, world: &mut World
 fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
     for entry in section.0 {
         let made_of = MadeOf::named(world, entry.material.as_deref());
-        let properties = entry.mass_properties(made_of.density);
+        let mut properties = entry.mass_properties(made_of.density);
+        if !entry.touches() {
+            properties.intangible.append(&mut properties.hulls);
+        }
         let kinematic = entry.prescribed(&properties);
         let origin = (entry.datum == Datum::Origin).then_some(Origin(-properties.center));
         let start = kinematic.as_ref().map(|motion| motion.state(0.0));
@@ -179,7 +182,8 @@ impl MadeOf {
             inertia: properties.inertia,
             atoms: properties.atoms.iter().map(atom).chain(corners).collect(),
             hulls: properties.hulls.clone(),
-            intangible: properties.intangible.clone(),
+            intangible: (!properties.intangible.is_empty())
+                .then(|| Intangible { hulls: properties.intangible.clone(), material: self.material }),
             ..NewBody::default()
         }
     }
