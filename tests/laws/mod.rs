@@ -25,6 +25,7 @@ mod friction;
 mod hard;
 mod hulls;
 mod impacts;
+mod joint_blows;
 mod joint_friction;
 mod joint_limits;
 mod joints;

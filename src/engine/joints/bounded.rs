@@ -75,9 +75,9 @@ impl Bounded {
         self.farthest = self.farthest.max(missing.abs());
         let mode = match self.mode {
             _ if !self.is_bounded() => Mode::Holds,
-            Mode::Holds if missing.abs() > same => Mode::Gives(missing.signum()),
+            // A blow may have turned the rate round: then the torque turns with it.
+            _ if missing.abs() > same => Mode::Gives(missing.signum()),
             Mode::Holds if self.torque.abs() > self.limit * (1.0 + SAME) => Mode::Gives(self.torque.signum()),
-            Mode::Gives(sign) if sign * missing < -same => Mode::Holds,
             mode => mode,
         };
         self.set(mode)
