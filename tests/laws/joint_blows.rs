@@ -75,3 +75,89 @@ fn a_blow_turns_round_a_joint_with_friction() {
         }
     }
 }
+
+/// Law: what comes to rest on a limit, or hangs on a rope, rests there, however often it has come back: rebounds after `n` have `e^n` of
+/// the speed, and are over after `t (1 + e)/(1 - e)`. It bears the weight. Tolerance of the place: rounding.
+#[test]
+fn what_comes_back_by_a_share_comes_to_rest_at_the_limit() {
+    for method in METHODS {
+        for (e, rests) in [(0.0, 0.5), (0.1, 0.5), (0.5, 0.7), (0.8, 2.0)] {
+            let scene = format!(
+                "gravity: (0, -10),
+                 bodies: [(name: \"cabin\", at: (0, 1), mass: 2, atoms: Disc(radius: 0.1)),
+                    (name: \"bob\", at: (1, -0.8), mass: 3, atoms: Disc(radius: 0.1)),
+                    (name: \"arm\", at: (3, 0), mass: 1, inertia: 0.1, atoms: Disc(radius: 0.1))],
+                 joints: [Prismatic(name: \"shaft\", a: World, anchor_a: (0, 0), b: \"cabin\", axis: (0, 1), limits: (0.9, 2), restitution: {e:?}),
+                    Rope(name: \"rope\", a: World, anchor_a: (1, 0), b: \"bob\", length: 1, restitution: {e:?}),
+                    Revolute(name: \"hip\", a: World, anchor_a: (2.5, 0), b: \"arm\", anchor_b: (-0.5, 0), limits: (-0.2, 1), restitution: {e:?})],
+                 sensors: [Joint(of: \"*\")]"
+            );
+            let mut simulation = load(method, &scene);
+            for time in [rests, 5.0] {
+                run_to(&mut simulation, time);
+                let of = format!("{method}, restitution {e}, {time} s");
+                let bodies = simulation.bodies();
+                for body in 0..3 {
+                    assert_eq!(bodies.velocity[body].length() + bodies.spin[body].abs(), 0.0, "{of}: {body}");
+                }
+                near(bodies.position[0].y, 0.9, 1e-15, &of);
+                near(bodies.position[1].y, -1.0, 1e-15, &of);
+                near(bodies.angle[2], -0.2, 1e-15, &of);
+                for (name, force) in [("shaft.force.y", 20.0), ("rope.force.y", 30.0)] {
+                    let channel = jostle::sensors::find(simulation.world_mut(), name).expect("the channel is there");
+                    near(simulation.value(&channel), force, 1e-12, &of);
+                }
+            }
+        }
+    }
+}
+
+/// Law: rebounds that last for many ticks keep their heights, `e^(2 n) h`: only those end that are over within a tick. Tolerance: each
+/// arrival is seen within a tick, `v TICK` too far.
+#[test]
+fn rebounds_that_ticks_can_see_are_not_cut_short() {
+    for method in METHODS {
+        let scene = "gravity: (0, -10), bodies: [(name: \"cabin\", at: (0, 1), mass: 2, atoms: Disc(radius: 0.1))],
+            joints: [Prismatic(a: World, anchor_a: (0, 0), b: \"cabin\", axis: (0, 1), limits: (0.2, 2), restitution: 0.5)]";
+        let mut simulation = load(method, scene);
+        let mut tops = Vec::new();
+        let mut before = 0.0;
+        for tick in 0..1240 {
+            simulation.run_to_tick(tick).unwrap();
+            let rate = simulation.bodies().velocity[0].y;
+            if before > 0.0 && rate <= 0.0 {
+                tops.push(simulation.bodies().position[0].y - 0.2);
+            }
+            before = rate;
+        }
+        for (n, top) in (1..=4).zip(&tops) {
+            let exact = 0.8 * 0.25_f64.powi(n);
+            let speed = 4.0 * 0.5_f64.powi(n - 1);
+            near(*top, exact, 2.0 * speed * TICK, &format!("{method}, rebound {n}"));
+        }
+        assert!(tops.len() >= 4, "{method}: {tops:?}");
+    }
+}
+
+/// Law: what stands at its limit at the start and is pressed against it stays there from the first tick on, whatever the restitution.
+#[test]
+fn what_begins_at_rest_at_a_limit_stays() {
+    for method in METHODS {
+        for e in [0.0, 0.5, 1.0] {
+            let scene = format!(
+                "gravity: (0, -10),
+                 bodies: [(name: \"cabin\", at: (0, 1), mass: 2, atoms: Disc(radius: 0.1)),
+                    (name: \"bob\", at: (1, -1), mass: 3, atoms: Disc(radius: 0.1))],
+                 joints: [Prismatic(a: World, anchor_a: (0, 0), b: \"cabin\", axis: (0, 1), limits: (1, 2), restitution: {e:?}),
+                    Rope(a: World, anchor_a: (1, 0), b: \"bob\", restitution: {e:?})]"
+            );
+            let mut simulation = load(method, &scene);
+            for tick in 0..100 {
+                simulation.run_to_tick(tick).unwrap();
+                let places = simulation.bodies().position[..2].iter().map(|place| place.y).collect::<Vec<_>>();
+                assert_eq!(places, [1.0, -1.0], "{method}, restitution {e}, tick {tick}");
+            }
+            assert_eq!(simulation.card().energy.inelasticity, 0.0, "{method}");
+        }
+    }
+}
