@@ -28,6 +28,7 @@ mod impacts;
 mod joint_blows;
 mod joint_friction;
 mod joint_limits;
+mod joint_motors;
 mod joints;
 mod joints_at_rest;
 mod kinematic;

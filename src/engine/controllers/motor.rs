@@ -12,7 +12,7 @@ use crate::constraints::Rows;
 use crate::joints::bounded::Bounded;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Blow, Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// Turns a hinge at a constant rate, or moves a slide at a constant speed, with as much torque or force as that takes.
@@ -110,6 +110,9 @@ impl Model for MotorRow {
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
         if state.evaluation().style != Style::Frozen && self.held.follow(&motion.pair, &motion.along) {
             state.change_rows();
+            if self.held.given().is_none() {
+                state.strike(Blow::Grips);
+            }
         }
     }
 

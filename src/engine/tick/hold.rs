@@ -68,6 +68,8 @@ pub enum Blow {
     Rebounds(Box<Row>),
     /// They become those that all rows allow. The energy counts as friction.
     Sticks,
+    /// The same where a motor has reached its rate: the energy counts as its work.
+    Grips,
 }
 
 /// A bounded row sticks if that takes no more of an impulse than so many times what its bound gives in a tick: in the tick before it
@@ -250,18 +252,22 @@ impl State {
         }
         self.bodies.catch_up();
         let blows = std::mem::take(&mut self.blows);
-        let sticks = blows.contains(&Blow::Sticks);
+        let (sticks, grips) = (blows.contains(&Blow::Sticks), blows.contains(&Blow::Grips));
         let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(**row) } else { None };
         let back: Vec<Row> = blows.iter().filter_map(back).collect();
-        if blows.iter().any(|blow| *blow != Blow::Sticks) {
+        if blows.iter().any(|blow| !matches!(blow, Blow::Sticks | Blow::Grips)) {
             let lost = self.jump(time, Jump::Stops(&back));
             self.ledger.inelasticity.add(lost);
             self.tell_of_blow();
         }
-        if sticks {
+        if sticks || grips {
             let slip = self.rows_that_slip(time);
             let lost = self.jump(time, Jump::Sticks(&slip));
-            self.ledger.friction.add(lost);
+            if sticks {
+                self.ledger.friction.add(lost)
+            } else {
+                self.ledger.book_work(-lost)
+            }
             if !slip.is_empty() {
                 self.tell_of_blow();
             }
@@ -279,13 +285,28 @@ impl State {
         let all = rows.all().iter().copied().enumerate();
         let bounded: Vec<(usize, Row)> = all.filter(|(_, row)| row.gives_way()).collect();
         rows.retain(|row| !row.gives_way());
+        let driven = rows.all().iter().chain(bounded.iter().map(|(_, row)| row)).any(|row| row.rate != 0.0);
         let (others, solver) = rows.prepared(bodies);
-        let slips = |(_, row): &(usize, Row)| {
-            let missing = (row.rate - row.velocity(bodies)).abs();
-            missing > STUCK * row.speeds(bodies)
-                && missing > most * row.bound * projection.compliance(row, others, solver, bodies)
+        let missing = |row: &Row| (row.rate - row.velocity(bodies)).abs();
+        let held = |row: &Row| missing(row) <= STUCK * row.speeds(bodies);
+        let mut slips = |row: &Row| {
+            !held(row) && missing(row) > most * row.bound * projection.compliance(row, others, solver, bodies)
         };
-        bounded.into_iter().filter(slips).map(|(index, _)| index).collect()
+        let (mut slip, mut stick): (Vec<_>, Vec<_>) = bounded.into_iter().partition(|(_, row)| slips(row));
+        if driven {
+            // Two rates that follow from each other are not held both, if they do not agree: that which was held before goes on.
+            stick.iter().filter(|(_, row)| held(row)).for_each(|(_, row)| rows.add(*row));
+            stick.retain(|(_, row)| !held(row));
+            for (index, row) in stick {
+                let (others, solver) = rows.prepared(bodies);
+                if projection.compliance(&row, others, solver, bodies) > 0.0 {
+                    rows.add(row);
+                } else {
+                    slip.push((index, row));
+                }
+            }
+        }
+        slip.into_iter().map(|(index, _)| index).collect()
     }
 
     /// Velocities jump to those that rows allow. Returns the energy in J that this takes.
