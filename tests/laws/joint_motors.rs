@@ -173,3 +173,21 @@ fn a_strong_motor_does_not_push_through_a_stop() {
         }
     }
 }
+
+/// Law: a motor that reaches its rate within its first tick puts in the energy of that, once: `I w^2/2`, and as much again for what the
+/// grip takes, which counts as its work. Tolerance: rounding.
+#[test]
+fn a_motor_that_is_at_its_rate_at_once_puts_in_its_energy() {
+    for method in ["VelocityVerlet", "SemiImplicitEuler"] {
+        let simulation = run(
+            method,
+            "bodies: [(name: \"arm\", at: (0.5, 0), mass: 1, inertia: 0.08, atoms: Disc(radius: 0.1))],
+             joints: [Revolute(name: \"h\", a: World, anchor_a: (0, 0), b: \"arm\", anchor_b: (-0.5, 0), limits: (-1, 1))],
+             controllers: [Motor(of: \"h\", speed: 0.1, limit: 40)]",
+        );
+        near(simulation.bodies().spin[0], 0.1, 1e-14, method);
+        let energy = simulation.card().energy;
+        near(energy.work, 0.5 * (0.08 + 0.25) * 0.01, 1e-12, method);
+        near(energy.residual, 0.0, 1e-12, method);
+    }
+}

@@ -92,6 +92,16 @@ impl Bounded {
         }
     }
 
+    /// Between ticks: a rate that comes to the one to be held within the tick is held from now on. Says whether it is so.
+    pub fn reaches(&mut self, pair: &Pair, along: &Along, (acceleration, tick): (f64, f64)) -> bool {
+        match self.mode {
+            Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) <= sign * acceleration * tick => {
+                self.set(Mode::Holds)
+            }
+            _ => false,
+        }
+    }
+
     fn set(&mut self, mode: Mode) -> bool {
         let other = mode != self.mode;
         if other {
