@@ -139,6 +139,33 @@ fn rebounds_that_ticks_can_see_are_not_cut_short() {
     }
 }
 
+/// Law: what is pushed against a limit that gives back all speed stays there too, if it comes to it slower than ticks can see. A cart leans
+/// on its limit, 0.2 m/s2, at first with less than what a tick adds; and a ball that falls from far comes back to its height. Tolerance of
+/// the height: arrivals are seen within a tick.
+#[test]
+fn a_limit_that_gives_back_all_speed_is_not_passed() {
+    for method in METHODS {
+        let scene = "gravity: (0.2, -10),
+            bodies: [(name: \"cart\", at: (-1e-8, 0), mass: 1, atoms: Disc(radius: 0.1)),
+                (name: \"ball\", at: (2, 1), mass: 2, atoms: Disc(radius: 0.1))],
+            joints: [Prismatic(a: World, anchor_a: (0, 0), b: \"cart\", axis: (1, 0), limits: (-1, 0), restitution: 1),
+                Prismatic(a: World, anchor_a: (2, 0), b: \"ball\", axis: (0, 1), limits: (0.5, 2), restitution: 1)]";
+        let mut simulation = load(method, scene);
+        let mut top = 0.0_f64;
+        for tick in (0..5000).step_by(5) {
+            simulation.run_to_tick(tick).unwrap();
+            let bodies = simulation.bodies();
+            assert!(bodies.position[0].x < 0.2 * TICK * TICK, "{method}: {} m at tick {tick}", bodies.position[0].x);
+            if tick > 4300 {
+                top = top.max(bodies.position[1].y);
+            }
+        }
+        near(simulation.bodies().position[0].x, 0.0, 0.2 * TICK * TICK, method);
+        // Eight arrivals at 3.2 m/s.
+        near(top, 1.0, 8.0 * 3.2 * TICK, method);
+    }
+}
+
 /// Law: what stands at its limit at the start and is pressed against it stays there from the first tick on, whatever the restitution.
 #[test]
 fn what_begins_at_rest_at_a_limit_stays() {

@@ -163,8 +163,8 @@ impl Limit {
         self.fastest = self.fastest.max(rate.abs());
         let back = self.restitution * rate.abs();
         let beyond = -self.room(side, pair, freedom).0;
-        let ends = |press: Press| self.restitution < 1.0 && press.ends(-side.sign(), back, beyond);
-        if back > STAYS * self.fastest && !press.is_some_and(ends) {
+        let ends = press.is_some_and(|press| press.ends(-side.sign(), back, beyond));
+        if back > STAYS * self.fastest && !ends {
             let row = Row { rate: side.sign() * back, ..pair.row(&freedom.along, Kind::Position) };
             return Some(Arrival::Rebounds(Box::new(row)));
         }
