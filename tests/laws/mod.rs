@@ -15,6 +15,7 @@ mod cradle;
 mod critical_tick;
 mod crowds;
 mod dashpot;
+mod dead_points;
 mod drives;
 mod energy;
 mod estimated;

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::context::Tick;
+use super::drifted::Drifted;
 use super::failure::{Trouble, Wrong};
 use super::stopwatch::Part;
 use super::{Ledger, Model, State};
@@ -79,6 +80,9 @@ const MOST_TO_STICK: f64 = 2.0;
 /// A rate that differs by less than this share of the speeds from the one to be held is held already.
 const STUCK: f64 = 1e-12;
 
+/// Searches with new directions where those of the beginning of a drift do not lead back onto a loop.
+const MOST_TURNS: usize = 8;
+
 /// Which rows velocities jump to.
 #[derive(Clone, Copy, Debug)]
 enum Jump<'a> {
@@ -135,15 +139,47 @@ impl State {
 
     /// Moves bodies along the directions of `along`, rows that hold places, until no joint has a gap.
     fn hold_places(&mut self, along: &mut Rows, time: f64, stay: Standing) {
+        let gap = self.close(along, time, stay);
+        self.note_gap_of(gap, along, time);
+    }
+
+    fn close(&mut self, along: &mut Rows, time: f64, stay: Standing) -> Gap {
         let Self { models, roles, bodies, projection, .. } = self;
         let (rows, solver) = along.prepared(bodies);
-        let gap = projection.place(rows, solver, (bodies, stay), |found, bodies| {
+        projection.place(rows, solver, (bodies, stay), |found, bodies| {
             find_rows(models, &roles.rows, (bodies, time), found);
             keep_places(found);
-        });
-        if let Some(row) = along.all().get(gap.row) {
+        })
+    }
+
+    fn note_gap_of(&mut self, gap: Gap, rows: &Rows, time: f64) {
+        if let Some(row) = rows.all().get(gap.row) {
             self.note_gap(gap, *row, time);
         }
+    }
+
+    /// Moves bodies that have drifted for `elapsed` seconds back along the directions of the beginning, and velocities follow. Across a
+    /// dead point these directions lead away from what a loop holds: those of the end are taken in their place. Returns the impulse from
+    /// outside.
+    fn hold_drifted(&mut self, along: &mut Rows, (elapsed, time): (f64, f64), stay: Standing) -> FromOutside {
+        let loops = along.prepared(&self.bodies).1.least_pivot().is_some();
+        let drifted = loops.then(|| Drifted::of(&self.bodies));
+        let gap = self.close(along, time, stay);
+        let Some(drifted) = drifted.filter(|_| gap.failed) else {
+            self.note_gap_of(gap, along, time);
+            return self.follow_places(along, elapsed);
+        };
+        drifted.put_back(&mut self.bodies);
+        let (mut rows, mut gap) = (Rows::default(), gap);
+        for _ in 0..MOST_TURNS {
+            self.find_places(&mut rows, time);
+            gap = self.close(&mut rows, time, Standing::Moves);
+            if !gap.failed {
+                break;
+            }
+        }
+        self.note_gap_of(gap, &rows, time);
+        drifted.follow(&mut self.bodies, elapsed)
     }
 
     fn note_gap(&mut self, gap: Gap, row: Row, time: f64) {
@@ -343,8 +379,7 @@ impl State {
         }
         // Where the directions were found: bodies have moved since.
         self.note_levers(&rows, elapsed);
-        self.hold_places(&mut rows, time, Standing::Stays);
-        self.follow_places(&rows, elapsed).book(&mut self.ledger);
+        self.hold_drifted(&mut rows, (elapsed, time), Standing::Stays).book(&mut self.ledger);
         self.rows = rows;
         self.turn_to(Part::Integrate);
     }
@@ -357,8 +392,7 @@ impl State {
         self.find_places(&mut rows, time);
         self.note_levers(&rows, 0.0);
         self.bodies.coast(length);
-        self.hold_places(&mut rows, time + length, Standing::Moves);
-        let mut outside = self.follow_places(&rows, length);
+        let mut outside = self.hold_drifted(&mut rows, (length, time + length), Standing::Moves);
         if settled {
             self.find_places(&mut rows, time + length);
             outside.include(self.hold_velocities(&mut rows, time + length));
