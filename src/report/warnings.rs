@@ -85,10 +85,9 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let located = state.located();
     if located.given_up > 0 {
         warnings.push(format!(
-            "in {} of {} ticks contacts were too many to locate their events one by one: those went on under velocity Verlet, \
+            "in {} of {} ticks events were too many to locate them one by one: those went on under velocity Verlet, \
              whose order is 2, and 1 where forces jump",
-            located.given_up,
-            clock.ticks,
+            located.given_up, clock.ticks,
         ));
     }
     warnings

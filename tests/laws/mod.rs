@@ -3,6 +3,7 @@
 
 mod support;
 
+mod assembly;
 mod belt;
 mod bounce;
 mod clumps;
@@ -15,6 +16,7 @@ mod cradle;
 mod critical_tick;
 mod crowds;
 mod dashpot;
+mod dead_points;
 mod drives;
 mod energy;
 mod estimated;
@@ -25,8 +27,10 @@ mod friction;
 mod hard;
 mod hulls;
 mod impacts;
+mod joint_blows;
 mod joint_friction;
 mod joint_limits;
+mod joint_motors;
 mod joints;
 mod joints_at_rest;
 mod kinematic;

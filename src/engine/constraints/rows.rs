@@ -130,6 +130,7 @@ impl Rows {
     /// Adds a row.
     pub fn add(&mut self, row: Row) {
         self.joints += usize::from(row.kind != Kind::Acceleration);
+        self.prepared = false;
         self.rows.push(row);
     }
 

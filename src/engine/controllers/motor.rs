@@ -6,13 +6,13 @@ use bevy_ecs::prelude::*;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::driven::{self, Driven, DrivenForce, DrivenSpeed};
+use super::driven::{self, Driven, DrivenForce, DrivenSpeed, Motion};
 use super::output::{self, Output};
-use crate::constraints::Rows;
+use crate::constraints::{Kind, Rows};
 use crate::joints::bounded::Bounded;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Blow, Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
 /// Turns a hinge at a constant rate, or moves a slide at a constant speed, with as much torque or force as that takes.
@@ -108,8 +108,16 @@ impl Model for MotorRow {
     /// Between ticks the torque of the last evaluation decides, and the rate that is reached.
     fn begin_step(&mut self, state: &mut State) {
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        if state.evaluation().style != Style::Frozen && self.held.follow(&motion.pair, &motion.along) {
+        if state.evaluation().style == Style::Frozen {
+            return;
+        }
+        let Motion { pair, along, .. } = &motion;
+        let acceleration = pair.row(along, Kind::Velocity).acceleration(&state.bodies);
+        if self.held.follow(pair, along) || self.held.reaches(pair, along, (acceleration, state.span().length)) {
             state.change_rows();
+            if self.held.given().is_none() {
+                state.strike(Blow::Grips);
+            }
         }
     }
 

@@ -75,9 +75,9 @@ impl Bounded {
         self.farthest = self.farthest.max(missing.abs());
         let mode = match self.mode {
             _ if !self.is_bounded() => Mode::Holds,
-            Mode::Holds if missing.abs() > same => Mode::Gives(missing.signum()),
+            // A blow may have turned the rate round: then the torque turns with it.
+            _ if missing.abs() > same => Mode::Gives(missing.signum()),
             Mode::Holds if self.torque.abs() > self.limit * (1.0 + SAME) => Mode::Gives(self.torque.signum()),
-            Mode::Gives(sign) if sign * missing < -same => Mode::Holds,
             mode => mode,
         };
         self.set(mode)
@@ -88,6 +88,16 @@ impl Bounded {
         match self.mode {
             Mode::Holds if self.torque.abs() > self.limit => self.set(Mode::Gives(self.torque.signum())),
             Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) < 0.0 => self.set(Mode::Holds),
+            _ => false,
+        }
+    }
+
+    /// Between ticks: a rate that comes to the one to be held within the tick is held from now on. Says whether it is so.
+    pub fn reaches(&mut self, pair: &Pair, along: &Along, (acceleration, tick): (f64, f64)) -> bool {
+        match self.mode {
+            Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) <= sign * acceleration * tick => {
+                self.set(Mode::Holds)
+            }
             _ => false,
         }
     }

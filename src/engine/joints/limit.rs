@@ -61,6 +61,24 @@ pub enum Arrival {
     Rebounds(Box<Row>),
 }
 
+/// What pushes a joint from tick to tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Press {
+    /// The acceleration along what is free, in rad/s2 or m/s2.
+    pub acceleration: f64,
+    /// The length of the tick in s.
+    pub tick: f64,
+}
+
+impl Press {
+    /// Whether a rebound with a speed, from a place so far beyond a limit, ends before it is seen: it is pushed back `outwards` within the
+    /// tick, or before it comes to the limit.
+    fn ends(self, outwards: f64, speed: f64, beyond: f64) -> bool {
+        let press = outwards * self.acceleration;
+        2.0 * speed <= press * self.tick || speed * speed <= 2.0 * press * beyond
+    }
+}
+
 impl Limit {
     /// Limits in rad or m, either of them infinite where there is none.
     pub fn new(bounds: [f64; 2], restitution: f64) -> Self {
@@ -127,20 +145,26 @@ impl Limit {
         (self.at, self.force, self.greatest) = (None, 0.0, 0.0);
     }
 
-    /// Before a step: whether the joint has come to a limit, and leaves it.
-    pub fn begin_step(&mut self, pair: &Pair, freedom: &Freedom) -> Option<Arrival> {
+    /// Before a step: whether the joint has come to a limit, and leaves it. From tick to tick `press` says what pushes the joint along its
+    /// freedom.
+    pub fn begin_step(&mut self, pair: &Pair, freedom: &Freedom, press: Option<Press>) -> Option<Arrival> {
         let reached = self.reached.take();
-        self.left = None;
+        let left = self.left.take();
         let rate = pair.rate(&freedom.along);
+        let still = rate.abs() <= PULL * pair.speeds(&freedom.along);
         let arrives = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
             let there = reached == Some(*side) || room <= AT * size;
-            there && side.sign() * rate < 0.0 && self.at.is_none()
+            let pressed = press.is_some_and(|press| side.sign() * press.acceleration < 0.0);
+            let rests = still && pressed && left != Some(*side);
+            there && self.at.is_none() && (side.sign() * rate < 0.0 || rests)
         };
         let side = self.sides().find(arrives)?;
         self.fastest = self.fastest.max(rate.abs());
         let back = self.restitution * rate.abs();
-        if back > STAYS * self.fastest {
+        let beyond = -self.room(side, pair, freedom).0;
+        let ends = press.is_some_and(|press| press.ends(-side.sign(), back, beyond));
+        if back > STAYS * self.fastest && !ends {
             let row = Row { rate: side.sign() * back, ..pair.row(&freedom.along, Kind::Position) };
             return Some(Arrival::Rebounds(Box::new(row)));
         }

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::bounded::Bounded;
 use super::ends::Pair;
 use super::law::Law;
-use super::limit::{Arrival, Limit};
-use crate::constraints::Rows;
+use super::limit::{Arrival, Limit, Press};
+use crate::constraints::{Kind, Rows};
 use crate::scene::Report;
 use crate::scene::units::{Dimension, Quantity, Scalar};
 use crate::tick::{Blow, Indicator, State, Style};
@@ -139,7 +139,9 @@ impl Parts {
         let mut changed = false;
         if let Some(limit) = &mut self.limit {
             changed |= !located && limit.follow();
-            match limit.begin_step(pair, &freedom) {
+            let acceleration = || pair.row(&freedom.along, Kind::Position).acceleration(state.bodies());
+            let press = (!located).then(|| Press { acceleration: acceleration(), tick: state.span().length });
+            match limit.begin_step(pair, &freedom, press) {
                 Some(Arrival::Stays) => state.strike(Blow::Stops),
                 Some(Arrival::Rebounds(row)) => state.strike(Blow::Rebounds(row)),
                 None => {}

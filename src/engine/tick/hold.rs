@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::context::Tick;
+use super::drifted::Drifted;
 use super::failure::{Trouble, Wrong};
 use super::stopwatch::Part;
 use super::{Ledger, Model, State};
@@ -68,6 +69,8 @@ pub enum Blow {
     Rebounds(Box<Row>),
     /// They become those that all rows allow. The energy counts as friction.
     Sticks,
+    /// The same where a motor has reached its rate: the energy counts as its work.
+    Grips,
 }
 
 /// A bounded row sticks if that takes no more of an impulse than so many times what its bound gives in a tick: in the tick before it
@@ -76,6 +79,12 @@ const MOST_TO_STICK: f64 = 2.0;
 
 /// A rate that differs by less than this share of the speeds from the one to be held is held already.
 const STUCK: f64 = 1e-12;
+
+/// Searches with new directions where those of the beginning of a drift do not lead back onto a loop.
+const MOST_TURNS: usize = 8;
+
+/// A gap in m that rounding of a full turn may leave.
+const FULL_TURN: f64 = 1e-12;
 
 /// Which rows velocities jump to.
 #[derive(Clone, Copy, Debug)]
@@ -133,15 +142,47 @@ impl State {
 
     /// Moves bodies along the directions of `along`, rows that hold places, until no joint has a gap.
     fn hold_places(&mut self, along: &mut Rows, time: f64, stay: Standing) {
+        let gap = self.close(along, time, stay);
+        self.note_gap_of(gap, along, time);
+    }
+
+    fn close(&mut self, along: &mut Rows, time: f64, stay: Standing) -> Gap {
         let Self { models, roles, bodies, projection, .. } = self;
         let (rows, solver) = along.prepared(bodies);
-        let gap = projection.place(rows, solver, (bodies, stay), |found, bodies| {
+        projection.place(rows, solver, (bodies, stay), |found, bodies| {
             find_rows(models, &roles.rows, (bodies, time), found);
             keep_places(found);
-        });
-        if let Some(row) = along.all().get(gap.row) {
+        })
+    }
+
+    fn note_gap_of(&mut self, gap: Gap, rows: &Rows, time: f64) {
+        if let Some(row) = rows.all().get(gap.row) {
             self.note_gap(gap, *row, time);
         }
+    }
+
+    /// Moves bodies that have drifted for `elapsed` seconds back along the directions of the beginning, and velocities follow. Across a
+    /// dead point these directions lead away from what a loop holds: those of the end are taken in their place. Returns the impulse from
+    /// outside.
+    fn hold_drifted(&mut self, along: &mut Rows, (elapsed, time): (f64, f64), stay: Standing) -> FromOutside {
+        let loops = along.prepared(&self.bodies).1.least_pivot().is_some();
+        let drifted = loops.then(|| Drifted::of(&self.bodies));
+        let gap = self.close(along, time, stay);
+        let Some(drifted) = drifted.filter(|_| gap.failed) else {
+            self.note_gap_of(gap, along, time);
+            return self.follow_places(along, elapsed);
+        };
+        drifted.put_back(&mut self.bodies);
+        let (mut rows, mut gap) = (Rows::default(), gap);
+        for _ in 0..MOST_TURNS {
+            self.find_places(&mut rows, time);
+            gap = self.close(&mut rows, time, Standing::Moves);
+            if !gap.failed {
+                break;
+            }
+        }
+        self.note_gap_of(gap, &rows, time);
+        drifted.follow(&mut self.bodies, elapsed)
     }
 
     fn note_gap(&mut self, gap: Gap, row: Row, time: f64) {
@@ -250,18 +291,22 @@ impl State {
         }
         self.bodies.catch_up();
         let blows = std::mem::take(&mut self.blows);
-        let sticks = blows.contains(&Blow::Sticks);
+        let (sticks, grips) = (blows.contains(&Blow::Sticks), blows.contains(&Blow::Grips));
         let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(**row) } else { None };
         let back: Vec<Row> = blows.iter().filter_map(back).collect();
-        if blows.iter().any(|blow| *blow != Blow::Sticks) {
+        if blows.iter().any(|blow| !matches!(blow, Blow::Sticks | Blow::Grips)) {
             let lost = self.jump(time, Jump::Stops(&back));
             self.ledger.inelasticity.add(lost);
             self.tell_of_blow();
         }
-        if sticks {
+        if sticks || grips {
             let slip = self.rows_that_slip(time);
             let lost = self.jump(time, Jump::Sticks(&slip));
-            self.ledger.friction.add(lost);
+            if sticks {
+                self.ledger.friction.add(lost)
+            } else {
+                self.ledger.book_work(-lost)
+            }
             if !slip.is_empty() {
                 self.tell_of_blow();
             }
@@ -279,13 +324,28 @@ impl State {
         let all = rows.all().iter().copied().enumerate();
         let bounded: Vec<(usize, Row)> = all.filter(|(_, row)| row.gives_way()).collect();
         rows.retain(|row| !row.gives_way());
+        let driven = rows.all().iter().chain(bounded.iter().map(|(_, row)| row)).any(|row| row.rate != 0.0);
         let (others, solver) = rows.prepared(bodies);
-        let slips = |(_, row): &(usize, Row)| {
-            let missing = (row.rate - row.velocity(bodies)).abs();
-            missing > STUCK * row.speeds(bodies)
-                && missing > most * row.bound * projection.compliance(row, others, solver, bodies)
+        let missing = |row: &Row| (row.rate - row.velocity(bodies)).abs();
+        let held = |row: &Row| missing(row) <= STUCK * row.speeds(bodies);
+        let mut slips = |row: &Row| {
+            !held(row) && missing(row) > most * row.bound * projection.compliance(row, others, solver, bodies)
         };
-        bounded.into_iter().filter(slips).map(|(index, _)| index).collect()
+        let (mut slip, mut stick): (Vec<_>, Vec<_>) = bounded.into_iter().partition(|(_, row)| slips(row));
+        if driven {
+            // Two rates that follow from each other are not held both, if they do not agree: that which was held before goes on.
+            stick.iter().filter(|(_, row)| held(row)).for_each(|(_, row)| rows.add(*row));
+            stick.retain(|(_, row)| !held(row));
+            for (index, row) in stick {
+                let (others, solver) = rows.prepared(bodies);
+                if projection.compliance(&row, others, solver, bodies) > 0.0 {
+                    rows.add(row);
+                } else {
+                    slip.push((index, row));
+                }
+            }
+        }
+        slip.into_iter().map(|(index, _)| index).collect()
     }
 
     /// Velocities jump to those that rows allow. Returns the energy in J that this takes.
@@ -304,12 +364,36 @@ impl State {
     /// What makes that impossible, and the body where it shows.
     pub(crate) fn assemble(&mut self) -> Result<(), (Wrong, Option<usize>)> {
         self.find_roles();
+        let turned = self.bodies.angle.clone();
         self.project_with(0.0, Some(Jump::Stops(&[])));
+        self.take_back_turns(&turned);
         // The velocities of the scene may have been others: friction and motors look at those that there are now.
         self.tell_of_blow();
         let trouble = self.progress.trouble.take();
         self.joint_drift = JointDrift::default();
         trouble.map_or(Ok(()), |trouble| Err((trouble.wrong, trouble.body)))
+    }
+
+    /// Full turns by which the search for closed joints has turned bodies on the way are taken back, where joints allow.
+    fn take_back_turns(&mut self, before: &[f64]) {
+        let mut rows = Rows::default();
+        let mut worst = |state: &mut Self| {
+            state.find_places(&mut rows, 0.0);
+            rows.all().iter().fold(0.0_f64, |most, row| most.max(row.gap.abs()))
+        };
+        let closed = worst(self).max(FULL_TURN);
+        for body in 0..before.len() {
+            let after = self.bodies.angle[body];
+            let turns = ((after - before[body]) / std::f64::consts::TAU).round();
+            if turns == 0.0 {
+                continue;
+            }
+            self.bodies.angle[body] -= turns * std::f64::consts::TAU;
+            if worst(self) > closed {
+                self.bodies.angle[body] = after;
+            }
+        }
+        (self.bodies.posed, self.bodies.recorded) = (false, false);
     }
 
     /// In the midst of a tick of `elapsed` seconds so far: places are brought back along the directions of the beginning, and velocities
@@ -322,8 +406,7 @@ impl State {
         }
         // Where the directions were found: bodies have moved since.
         self.note_levers(&rows, elapsed);
-        self.hold_places(&mut rows, time, Standing::Stays);
-        self.follow_places(&rows, elapsed).book(&mut self.ledger);
+        self.hold_drifted(&mut rows, (elapsed, time), Standing::Stays).book(&mut self.ledger);
         self.rows = rows;
         self.turn_to(Part::Integrate);
     }
@@ -336,8 +419,7 @@ impl State {
         self.find_places(&mut rows, time);
         self.note_levers(&rows, 0.0);
         self.bodies.coast(length);
-        self.hold_places(&mut rows, time + length, Standing::Moves);
-        let mut outside = self.follow_places(&rows, length);
+        let mut outside = self.hold_drifted(&mut rows, (length, time + length), Standing::Moves);
         if settled {
             self.find_places(&mut rows, time + length);
             outside.include(self.hold_velocities(&mut rows, time + length));

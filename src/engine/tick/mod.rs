@@ -32,6 +32,7 @@ pub mod bounds;
 pub mod clock;
 mod components;
 mod context;
+mod drifted;
 pub mod energy;
 mod failure;
 mod flight;
