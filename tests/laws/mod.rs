@@ -3,6 +3,7 @@
 
 mod support;
 
+mod assembly;
 mod belt;
 mod bounce;
 mod clumps;

@@ -83,6 +83,9 @@ const STUCK: f64 = 1e-12;
 /// Searches with new directions where those of the beginning of a drift do not lead back onto a loop.
 const MOST_TURNS: usize = 8;
 
+/// A gap in m that rounding of a full turn may leave.
+const FULL_TURN: f64 = 1e-12;
+
 /// Which rows velocities jump to.
 #[derive(Clone, Copy, Debug)]
 enum Jump<'a> {
@@ -361,12 +364,36 @@ impl State {
     /// What makes that impossible, and the body where it shows.
     pub(crate) fn assemble(&mut self) -> Result<(), (Wrong, Option<usize>)> {
         self.find_roles();
+        let turned = self.bodies.angle.clone();
         self.project_with(0.0, Some(Jump::Stops(&[])));
+        self.take_back_turns(&turned);
         // The velocities of the scene may have been others: friction and motors look at those that there are now.
         self.tell_of_blow();
         let trouble = self.progress.trouble.take();
         self.joint_drift = JointDrift::default();
         trouble.map_or(Ok(()), |trouble| Err((trouble.wrong, trouble.body)))
+    }
+
+    /// Full turns by which the search for closed joints has turned bodies on the way are taken back, where joints allow.
+    fn take_back_turns(&mut self, before: &[f64]) {
+        let mut rows = Rows::default();
+        let mut worst = |state: &mut Self| {
+            state.find_places(&mut rows, 0.0);
+            rows.all().iter().fold(0.0_f64, |most, row| most.max(row.gap.abs()))
+        };
+        let closed = worst(self).max(FULL_TURN);
+        for (body, before) in before.iter().enumerate() {
+            let after = self.bodies.angle[body];
+            let turns = ((after - before) / std::f64::consts::TAU).round();
+            if turns == 0.0 {
+                continue;
+            }
+            self.bodies.angle[body] -= turns * std::f64::consts::TAU;
+            if worst(self) > closed {
+                self.bodies.angle[body] = after;
+            }
+        }
+        (self.bodies.posed, self.bodies.recorded) = (false, false);
     }
 
     /// In the midst of a tick of `elapsed` seconds so far: places are brought back along the directions of the beginning, and velocities
