@@ -382,9 +382,9 @@ impl State {
             rows.all().iter().fold(0.0_f64, |most, row| most.max(row.gap.abs()))
         };
         let closed = worst(self).max(FULL_TURN);
-        for body in 0..before.len() {
+        for (body, before) in before.iter().enumerate() {
             let after = self.bodies.angle[body];
-            let turns = ((after - before[body]) / std::f64::consts::TAU).round();
+            let turns = ((after - before) / std::f64::consts::TAU).round();
             if turns == 0.0 {
                 continue;
             }
