@@ -41,6 +41,7 @@ mod long_steps;
 mod measured;
 mod mechanisms;
 mod momentum;
+mod motors_on_ground;
 mod oblique;
 mod orbit;
 mod problems;

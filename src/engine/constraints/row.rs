@@ -66,6 +66,8 @@ pub struct Row {
     /// The greatest force in N, or torque in N m, that it can give; infinite for joints and motors without a limit. A row with a bound
     /// gives no impulse.
     pub bound: f64,
+    /// Whether it gives its bound at once where it would need more, from tick to tick: motors with a limit.
+    pub yields: bool,
     /// Whether its forces on both sides do not balance, because other joints pass the rest on to the world: gears and racks.
     pub grounded: bool,
 }
@@ -84,6 +86,7 @@ impl Default for Row {
             size: 0.0,
             rate: 0.0,
             bound: f64::INFINITY,
+            yields: false,
             grounded: false,
         }
     }

@@ -60,6 +60,8 @@ pub struct Rows {
     work: Vec<f64>,
     /// How many rows are not those of contacts.
     joints: usize,
+    /// Rows that give their bounds in this evaluation, as their rates would take more.
+    given: Vec<usize>,
     /// In a box, as rows are taken out and put back in each tick. None before rows of joints are first solved.
     #[serde(skip)]
     solver: Option<Box<Solver>>,
@@ -73,6 +75,7 @@ impl Rows {
     pub fn clear(&mut self) {
         self.rows.clear();
         self.answer.clear();
+        self.given.clear();
         (self.joints, self.prepared) = (0, false);
     }
 
@@ -100,6 +103,7 @@ impl Rows {
     pub fn retain(&mut self, keep: impl FnMut(&Row) -> bool) {
         self.rows.retain(keep);
         self.joints = self.rows.iter().filter(|row| row.kind != Kind::Acceleration).count();
+        self.given.clear();
         self.prepared = false;
     }
 
@@ -155,6 +159,47 @@ impl Rows {
         self.answer.clear();
         self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies)));
         redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share), &mut self.work);
+    }
+
+    /// After [`Rows::solve`]: rows that yield and would need more than their bounds give just these. The others are solved for anew. That
+    /// may bring another one to its bound, so this goes on until none is beyond.
+    pub fn give_way(&mut self, bodies: &Bodies) {
+        loop {
+            let before = self.given.len();
+            for (index, row) in self.rows.iter().enumerate() {
+                if row.yields && self.answer[index].abs() > row.bound && !self.given.contains(&index) {
+                    self.answer[index] = row.bound.copysign(self.answer[index]);
+                    self.given.push(index);
+                }
+            }
+            if self.given.len() == before {
+                return;
+            }
+            let mut others = Self::default();
+            let kept: Vec<usize> = (0..self.rows.len()).filter(|index| !self.gives_its_bound(*index)).collect();
+            kept.iter().for_each(|index| others.add(self.rows[*index]));
+            let given = |row: &Row| -> f64 {
+                self.given.iter().map(|other| row.response(&self.rows[*other], bodies) * self.answer[*other]).sum()
+            };
+            others.answer = others.rows.iter().map(|row| -row.acceleration(bodies) - given(row)).collect();
+            others.solve_joined(bodies, |row| row.share);
+            kept.iter().zip(&others.answer).for_each(|(index, force)| self.answer[*index] = *force);
+        }
+    }
+
+    /// Whether a row gives its bound in this evaluation, as its rate would take more.
+    pub fn gives_its_bound(&self, index: usize) -> bool {
+        self.given.contains(&index)
+    }
+
+    /// Whether some rows give their bounds.
+    pub fn some_give_their_bounds(&self) -> bool {
+        !self.given.is_empty()
+    }
+
+    /// Whether some rows may give their bounds.
+    pub fn some_yield(&self) -> bool {
+        self.rows.iter().any(|row| row.yields)
     }
 
     /// Joints and held contacts: each island with held contacts at once, all others sparsely.

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::driven::{self, Driven, DrivenForce, DrivenSpeed, Motion};
 use super::output::{self, Output};
-use crate::constraints::{Kind, Rows};
+use crate::constraints::{Kind, Row, Rows};
 use crate::joints::bounded::Bounded;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
@@ -131,7 +131,7 @@ impl Model for MotorRow {
         self.driven.refresh(bodies);
         let row = self.driven.motion(bodies).and_then(|motion| self.held.row(&motion.pair, &motion.along));
         self.row = row.map(|row| {
-            rows.add(row);
+            rows.add(Row { yields: self.held.is_bounded(), ..row });
             rows.len() - 1
         });
     }
@@ -151,7 +151,11 @@ impl Model for MotorRow {
         state.apply_rows(row..row + 1);
         let power = torque * motion.rate;
         state.bodies_and_rates().1.work += power;
-        self.held.note(torque);
+        if state.rows().gives_its_bound(row) {
+            self.held.give(torque);
+        } else {
+            self.held.note(torque);
+        }
         self.output.note(torque, power);
     }
 

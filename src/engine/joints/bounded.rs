@@ -67,6 +67,11 @@ impl Bounded {
         self.torque = torque;
     }
 
+    /// Its row has given its bound, with this sign: it does so from now on.
+    pub fn give(&mut self, torque: f64) {
+        self.set(Mode::Gives(torque.signum()));
+    }
+
     /// Chooses the mode of a state. Says whether that is another one.
     pub fn choose(&mut self, pair: &Pair, along: &Along) -> bool {
         let missing = self.speed - pair.rate(along);

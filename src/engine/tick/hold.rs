@@ -473,8 +473,21 @@ impl State {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.rows);
         self.look_for_dead_points(&mut rows, self.evaluation.time);
-        let outside = self.hold_velocities(&mut rows, self.evaluation.time);
+        let time = self.evaluation.time;
+        let outside = if rows.some_give_their_bounds() {
+            // What gives its bound gives no impulse beside it.
+            let mut others = std::mem::take(&mut self.projected);
+            others.clear();
+            let held = rows.all().iter().enumerate().filter(|(index, _)| !rows.gives_its_bound(*index));
+            held.for_each(|(_, row)| others.add(*row));
+            let outside = self.hold_velocities(&mut others, time);
+            self.projected = others;
+            outside
+        } else {
+            self.hold_velocities(&mut rows, time)
+        };
         outside.book(&mut self.ledger);
+        self.ledger.book_work(outside.work);
         rows.still(&mut self.bodies, self.clock.dt);
         self.rows = rows;
         self.turn_to(Part::Integrate);

@@ -182,6 +182,9 @@ impl State {
         }
         self.turn_to(Part::Constraints);
         self.rows.solve(&self.bodies);
+        if !self.evaluation.style.is_staged() {
+            self.rows.give_way(&self.bodies);
+        }
         each!(self, rows, model => model.take_rows(self));
         let Self { rows, bodies, balance, .. } = self;
         rows.cancel(bodies, |bodies, Cancelled { body, force, torque }| {

@@ -2,7 +2,7 @@
 
 use crate::constraints::islands::{Link, Members};
 use crate::constraints::rest_solver::{Mover, Tie, TieSide};
-use crate::constraints::{Kind, Rows};
+use crate::constraints::{Kind, Row, Rows};
 use crate::world::Bodies;
 use glam::DVec2;
 
@@ -31,7 +31,8 @@ pub(super) fn find_joined(rows: &Rows, bodies: &Bodies, joined: &mut Vec<Joined>
     if !rows.has_joints() {
         return;
     }
-    for (index, row) in rows.all().iter().enumerate().filter(|(_, row)| row.kind != Kind::Acceleration) {
+    let holds = |index: usize, row: &Row| row.kind != Kind::Acceleration && !rows.gives_its_bound(index);
+    for (index, row) in rows.all().iter().enumerate().filter(|(index, row)| holds(*index, row)) {
         let [a, b] = row.sides.map(|side| side.map(|side| side.body));
         let moves = [a, b].into_iter().flatten().any(|body| bodies.dynamic[body]);
         if let (Some(own), true) = (b.or(a), moves) {

@@ -116,7 +116,11 @@ impl<N: NormalForce> Model for Contacts<N> {
         let PenaltyState { contacts, rolling } = &mut self.own;
         let shared = Shared { bodies, balance, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
-        choose::<N>(shared, (clock, span), own, known, &mut self.scratch);
+        let changed = choose::<N>(shared, (clock, span), own, known, &mut self.scratch);
+        // Joints still have the forces of before. A motor with a limit would take the difference by an impulse beyond it.
+        if changed && state.rows.some_yield() {
+            state.change_rows();
+        }
     }
 
     fn apply_forces(&mut self, state: &mut State) {

@@ -39,22 +39,22 @@ pub(super) struct Scratch {
 }
 
 /// Touching pairs choose loading, unloading or hold for the coming step; where that changes a force, the sums are corrected by the
-/// difference.
+/// difference. Says whether a force has changed on a body that joints hold.
 pub(super) fn choose<N: NormalForce>(
     Shared { bodies, balance, ledger, evaluation, rows }: Shared,
     (clock, span): (&Clock, &Span),
     Own { pairs, contacts, rolling, forces }: Own,
     (stability, steady): (&Stability, &SteadySprings),
     scratch: &mut Scratch,
-) {
+) -> bool {
     contacts.watch::<N>(bodies, pairs, clock, stability, balance, steady);
     if evaluation.style.is_staged() {
-        return;
+        return false;
     }
     let sink = Sink { bodies, balance, forces };
     let Scratch { touching, cases, joined, moved, islands, members, island } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
-    let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, losses };
+    let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, losses, changed: false };
     choice.wake_touched(pairs);
     // A law whose normal force may have several values at rest needs the search to know which: without it contacts load and
     // unload in turns.
@@ -62,7 +62,7 @@ pub(super) fn choose<N: NormalForce>(
     if !choice.contacts.patience.searches(restless, ticks) {
         choice.let_go::<N>(pairs, touching);
         choice.book(ledger);
-        return;
+        return choice.changed;
     }
     choice.sink.bodies.catch_up();
     cases.clear();
@@ -104,6 +104,7 @@ pub(super) fn choose<N: NormalForce>(
     }
     choice.contacts.patience.note(found, restless, ticks);
     choice.book(ledger);
+    choice.changed
 }
 
 /// The choice of modes under way.
@@ -114,6 +115,8 @@ struct Choice<'a> {
     rows: &'a Rows,
     dt: f64,
     losses: Losses,
+    /// Whether a force has changed on a body that joints hold.
+    changed: bool,
 }
 
 impl Choice<'_> {
@@ -265,12 +268,17 @@ impl Choice<'_> {
         if let Some(before) = before {
             let difference = after.force(&law, case.normal) - before.force(&law, case.normal);
             case.push(&mut self.sink, &law, after.overlap, difference);
+            let mut changed = difference != DVec2::ZERO;
             if let Some((slider, rolling_law)) = self.roller(case, &law) {
                 let before = slider.force(&rolling_law);
                 losses.friction += slider.take_on(&rolling_law, rolling, after.normal_force);
                 let difference = slider.force(&rolling_law) - before;
                 twist(self.sink.bodies, self.sink.balance, case.other_end(), &case.b, difference);
+                changed |= difference != 0.0;
             }
+            let jointed = &self.sink.bodies.jointed;
+            let mut sides = case.other_body().into_iter().chain([case.b.body]);
+            self.changed |= changed && sides.any(|body| jointed.get(body).is_some_and(|is| *is));
         }
         self.losses = losses;
     }
