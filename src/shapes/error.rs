@@ -106,6 +106,15 @@ pub enum ShapeError {
         /// Least number possible.
         least: usize,
     },
+    /// A regular polygon, gear or rack has too many sides or teeth.
+    TooMany {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Number given.
+        found: usize,
+        /// Greatest number possible.
+        most: usize,
+    },
     /// An angle lies outside its range.
     AngleOutOfRange {
         /// Name of the quantity.
@@ -151,6 +160,7 @@ impl fmt::Display for ShapeError {
                 write!(text, "a rounding of {found} m is too large: at most {greatest} m")
             }
             Self::TooFew { quantity, found, least } => write!(text, "{quantity}: at least {least}, found {found}"),
+            Self::TooMany { quantity, found, most } => write!(text, "{quantity}: at most {most}, found {found}"),
             Self::AngleOutOfRange { quantity, found, above, below } => {
                 let [found, above, below] = [found, above, below].map(f64::to_degrees);
                 write!(text, "{quantity} must lie between {above} deg and {below} deg, found {found} deg")

@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use glam::DVec2;
 
 use crate::error::ShapeError;
-use crate::hull::{Free, Hull, check_number};
+use crate::hull::{Free, Hull, check_count, check_number};
 use crate::shape::{Shape, positive};
 
 /// A spur gear about the origin; one tooth points along +x.
@@ -34,6 +34,10 @@ pub struct Gear {
     /// chord misses the involute by about u d^2 / 8 base radii.
     pub chords: usize,
 }
+
+/// Teeth and chords at most: each tooth is a part with twice as many corners as a flank has chords.
+pub(crate) const MOST_TEETH: usize = 1000;
+const MOST_CHORDS: usize = 64;
 
 impl Gear {
     /// A gear with so many teeth of a module in metres, a pressure angle of 20 degrees, no backlash, 8 chords.
@@ -82,15 +86,11 @@ impl Gear {
     /// The body and the teeth as convex parts.
     ///
     /// # Errors
-    /// Numbers that are not finite, not above zero or out of range; fewer than three teeth; no chord; a pressure angle not
+    /// Numbers that are not finite, not above zero or out of range; fewer than three teeth or more than 1000; no chord or more than 64; a pressure angle not
     /// between 0 and 45 degrees; a negative backlash; flanks that meet at a tip or at a root.
     pub fn shape(&self) -> Result<Shape, ShapeError> {
-        if self.teeth < 3 {
-            return Err(ShapeError::TooFew { quantity: "the number of teeth", found: self.teeth, least: 3 });
-        }
-        if self.chords < 1 {
-            return Err(ShapeError::TooFew { quantity: "the number of chords", found: self.chords, least: 1 });
-        }
+        check_count("the number of teeth", self.teeth, 3, MOST_TEETH)?;
+        check_count("the number of chords", self.chords, 1, MOST_CHORDS)?;
         check_tooth(self.module, self.pressure_angle, self.backlash)?;
         let tip_width = 2.0 * self.tip_radius() * self.half_angle(self.tip_radius());
         if tip_width <= 0.0 {

@@ -316,6 +316,18 @@ pub(crate) fn check_number(number: f64, quantity: &'static str) -> Result<(), Sh
 }
 
 /// # Errors
+/// A number of sides or teeth that is too small or too large.
+pub(crate) fn check_count(quantity: &'static str, found: usize, least: usize, most: usize) -> Result<(), ShapeError> {
+    if found < least {
+        return Err(ShapeError::TooFew { quantity, found, least });
+    }
+    if found > most {
+        return Err(ShapeError::TooMany { quantity, found, most });
+    }
+    Ok(())
+}
+
+/// # Errors
 /// A radius that is not finite, below zero, or out of range.
 pub(crate) fn check_radius(radius: f64) -> Result<(), ShapeError> {
     check_number(radius, "the radius")?;

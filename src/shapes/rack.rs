@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use crate::error::ShapeError;
-use crate::gear::check_tooth;
+use crate::gear::{MOST_TEETH, check_tooth};
+use crate::hull::check_count;
 use crate::shape::{Shape, polygon, positive};
 
 /// A rack of so many teeth. A [`crate::Gear`] of the same module and pressure angle rolls on it.
@@ -46,12 +47,10 @@ impl Rack {
     /// The bar and the teeth as convex parts.
     ///
     /// # Errors
-    /// Numbers that are not finite, not above zero or out of range; no tooth; a pressure angle not between 0 and 45 degrees; a
+    /// Numbers that are not finite, not above zero or out of range; no tooth or more than 1000; a pressure angle not between 0 and 45 degrees; a
     /// negative backlash; flanks that meet at a tip or at a root.
     pub fn shape(&self) -> Result<Shape, ShapeError> {
-        if self.teeth < 1 {
-            return Err(ShapeError::TooFew { quantity: "the number of teeth", found: self.teeth, least: 1 });
-        }
+        check_count("the number of teeth", self.teeth, 1, MOST_TEETH)?;
         check_tooth(self.module, self.pressure_angle, self.backlash)?;
         positive(self.back, "the thickness of the bar")?;
         let (tip, root) = (self.module, -1.25 * self.module);

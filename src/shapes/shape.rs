@@ -8,7 +8,7 @@ use glam::DVec2;
 use crate::compound::mark_inner;
 use crate::convex_parts::hulls;
 use crate::error::{Mended, ShapeError};
-use crate::hull::{Hull, LEAST, check_number, check_radius};
+use crate::hull::{Hull, LEAST, check_count, check_number, check_radius};
 use crate::outline::{inset, lost_area, simple};
 
 /// What a shape becomes.
@@ -81,16 +81,17 @@ pub fn rectangle(width: f64, height: f64, rounding: f64) -> Result<Shape, ShapeE
     Ok(Shape { lost_area, ..Shape::of(hull) })
 }
 
+/// Sides of a regular polygon at most: more would be a disc that costs much.
+const MOST_SIDES: usize = 10_000;
+
 /// A regular polygon about the origin, with one corner at +x. `radius` is that of the circle through the corners before these
 /// are rounded, in metres.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; fewer than three sides; a radius that is not above zero; a rounding below zero
+/// Numbers that are not finite or out of range; fewer than three sides or more than 10 000; a radius that is not above zero; a rounding below zero
 /// or above the radius of the inscribed circle.
 pub fn regular(sides: usize, radius: f64, rounding: f64) -> Result<Shape, ShapeError> {
-    if sides < 3 {
-        return Err(ShapeError::TooFew { quantity: "the number of sides", found: sides, least: 3 });
-    }
+    check_count("the number of sides", sides, 3, MOST_SIDES)?;
     positive(radius, "the radius")?;
     let half = std::f64::consts::PI / sides as f64;
     let (sin, cos) = libm::sincos(half);

@@ -57,7 +57,7 @@ fn nested_and_truncated_scenes_are_refused_with_a_place() {
 fn an_unknown_example_is_answered_with_the_known_ones() {
     let ended = Folder::new("example").jostle("run example:chess").code(2);
     assert!(ended.err.starts_with("error: there is no example `chess`\n"), "{ended:?}");
-    assert!(ended.err.contains("= help: examples: billiards, "), "{ended:?}");
+    assert!(ended.err.contains("= help: examples: arch, billiards, "), "{ended:?}");
 }
 
 /// The scene is read once, though the camera looks ahead: a pipe has nothing left the second time.

@@ -1,4 +1,4 @@
-//! Bodies that do not touch each other, because a joint holds them together.
+//! Bodies that do not touch each other: a joint holds them together, or one ignores the group of the other.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -14,6 +14,13 @@ impl Apart {
         if let Err(place) = self.0.binary_search(&pair) {
             self.0.insert(place, pair);
         }
+    }
+
+    /// Adds many pairs.
+    pub fn extend(&mut self, pairs: impl IntoIterator<Item = (u64, u64)>) {
+        self.0.extend(pairs.into_iter().map(|(a, b)| (a.min(b), a.max(b))));
+        self.0.sort_unstable();
+        self.0.dedup();
     }
 
     /// All pairs, the lower key first, in order.

@@ -144,14 +144,12 @@ impl Crossings {
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
             return;
         }
-        let poses = || bodies.position.iter().copied().zip(bodies.angle.iter().copied());
-        let way = |(body, ((place, angle), (before, turned))): (usize, ((DVec2, f64), (DVec2, f64)))| {
-            let turn = angle - turned;
-            place.distance(before) + turn.abs() * bodies.extent(body)
+        let way = |(body, (place, turned)): (usize, &(DVec2, f64))| {
+            bodies.position[body].distance(*place) + (bodies.angle[body] - turned).abs() * bodies.extent(body)
         };
-        self.path += poses().zip(self.seen.iter().copied()).enumerate().map(way).fold(0.0, f64::max);
+        self.path += self.seen.iter().enumerate().take(bodies.len()).map(way).fold(0.0, f64::max);
         self.seen.clear();
-        self.seen.extend(poses());
+        self.seen.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
     }
 
     /// The first body with an atom that has crossed a wall since, and the index of the wall.

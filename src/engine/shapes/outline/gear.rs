@@ -9,7 +9,7 @@ use crate::scene::units::{Angle, Length};
 sided! {
     /// A spur gear about its origin; one tooth points along +x. Its pitch diameter is teeth times module.
     GearShape, "Gear" {
-        /// How many teeth it has. Three or more.
+        /// How many teeth it has. From 3 to 1000.
         teeth: usize,
         /// Pitch diameter over number of teeth, in m. Above zero.
         module: Length,
@@ -19,7 +19,7 @@ sided! {
         /// Play in m between two such gears along the pitch circle; each gives half of it. Default: 0.
         #[serde(default)]
         backlash: Length,
-        /// How many chords stand for the involute of each flank. Default: 8.
+        /// How many chords stand for the involute of each flank. From 1 to 64. Default: 8.
         #[serde(default)]
         chords: Option<usize>,
     }

@@ -9,7 +9,7 @@ use crate::scene::units::{Angle, Length};
 sided! {
     /// A bar with teeth above; its pitch line lies along x through its origin, the middle of its length.
     RackShape, "RackShape" {
-        /// How many teeth it has. One or more.
+        /// How many teeth it has. From 1 to 1000.
         teeth: usize,
         /// Distance of the teeth over pi, in m. Above zero.
         module: Length,

@@ -9,7 +9,7 @@ use crate::scene::units::Length;
 sided! {
     /// A regular polygon about its origin, with a corner at +x.
     RegularShape, "Regular" {
-        /// How many sides it has. Three or more.
+        /// How many sides it has. From 3 to 10 000.
         sides: usize,
         /// The radius in m of the circle through its corners, before they are rounded. Above zero.
         radius: Length,

@@ -10,9 +10,9 @@ use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::shapes::outline::Shape;
 use crate::shapes::{AtomSpec, Atoms};
-use crate::world::{Kinematic, material, sections};
+use crate::world::{Apart, Kinematic, material, sections};
 
-use crate::world::sections::KinematicEntry;
+use crate::world::sections::{KinematicEntry, ignored};
 
 pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 
@@ -54,6 +54,12 @@ pub struct BodyEntry {
     /// Whether it touches others; without, it still feels forces. Default: `true`.
     #[serde(default = "yes")]
     pub collides: bool,
+    /// The groups to which it belongs, names of your choice. Default: none.
+    #[serde(default)]
+    pub groups: Vec<String>,
+    /// The groups whose bodies it does not touch. Default: none.
+    #[serde(default)]
+    pub ignores: Vec<String>,
     /// What the atoms' places are counted from. Default: `CenterOfMass`.
     #[serde(default)]
     pub datum: Datum,
@@ -97,9 +103,14 @@ impl Section for BodiesSection {
         for (index, body) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| body.check(outline, report));
         }
+        ignored::check(&self.0, report);
     }
 
     fn install(self, outline: &Outline, app: &mut App) {
+        let apart = ignored::pairs(&self.0, outline);
+        if !apart.is_empty() {
+            app.world_mut().get_resource_or_init::<Apart>().extend(apart);
+        }
         sections::spawn_bodies(self, outline, app.world_mut());
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod bodies;
 pub mod fill;
+mod ignored;
 pub mod kinematic;
 pub mod packing;
 pub mod region;

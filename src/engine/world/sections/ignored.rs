@@ -1,0 +1,54 @@
+//! `groups` and `ignores` of bodies: who does not touch whom.
+
+use std::collections::BTreeMap;
+
+use super::bodies::BodyEntry;
+use crate::scene::{Kind, Outline, Report, suggest};
+
+/// Pairs of bodies that ignore each other, at most: they take 16 bytes each.
+const MOST: usize = 1 << 22;
+
+/// The places of the bodies of each group.
+fn groups(bodies: &[BodyEntry]) -> BTreeMap<&str, Vec<usize>> {
+    let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (place, body) in bodies.iter().enumerate() {
+        body.groups.iter().for_each(|group| groups.entry(group).or_default().push(place));
+    }
+    groups
+}
+
+/// Reports groups to which no body belongs, and too many pairs.
+pub(super) fn check(bodies: &[BodyEntry], report: &mut Report) {
+    let groups = groups(bodies);
+    let mut count = 0;
+    for (place, body) in bodies.iter().enumerate() {
+        for (number, ignored) in body.ignores.iter().enumerate() {
+            let path = format!("[{place}].ignores[{number}]");
+            match groups.get(&**ignored) {
+                None => {
+                    let help = suggest::among(ignored, groups.keys().copied(), "groups", '"');
+                    report.error(&path, format!("no body belongs to a group \"{ignored}\"")).help(help);
+                }
+                Some(group) if count <= MOST && count + group.len() > MOST => {
+                    let message = format!("more than {MOST} pairs of bodies ignore each other");
+                    report
+                        .error(&path, message)
+                        .help("use smaller groups, or give bodies that are to touch nothing `collides: false`");
+                    count += group.len();
+                }
+                Some(group) => count += group.len(),
+            }
+        }
+    }
+}
+
+/// The pairs of bodies of which one ignores a group of the other, by their keys.
+pub(super) fn pairs(bodies: &[BodyEntry], outline: &Outline) -> Vec<(u64, u64)> {
+    let groups = groups(bodies);
+    let key = |place: usize| outline.position(Kind::BODY, &bodies[place].name).map(|place| place as u64);
+    let of_body = |(place, body): (usize, &BodyEntry)| {
+        let ignored = body.ignores.iter().filter_map(|group| groups.get(&**group)).flatten();
+        ignored.filter(|&&other| other != place).filter_map(|&other| Some((key(place)?, key(other)?))).collect()
+    };
+    bodies.iter().enumerate().flat_map(|each| -> Vec<(u64, u64)> { of_body(each) }).collect()
+}
