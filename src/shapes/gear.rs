@@ -86,7 +86,8 @@ impl Gear {
     /// The body and the teeth as convex parts.
     ///
     /// # Errors
-    /// Numbers that are not finite, not above zero or out of range; fewer than three teeth or more than 1000; no chord or more than 64; a pressure angle not
+    /// Numbers that are not finite, not above zero or out of range; fewer than three teeth or more than 1000; no chord or more than
+    /// 64; a pressure angle not
     /// between 0 and 45 degrees; a negative backlash; flanks that meet at a tip or at a root.
     pub fn shape(&self) -> Result<Shape, ShapeError> {
         check_count("the number of teeth", self.teeth, 3, MOST_TEETH)?;

@@ -36,8 +36,8 @@ fn two_wheels(tick: f64) -> Simulation {
 /// at most, over a way of `v dt`. So a touch misses up to `k v^2 dt^2`, and the residual is of order 2.
 ///
 /// Tolerance: `v` is the speed of the rims, 2.24 m/s; no fall in this scene is faster. Some sixteen touches have errors of either sign, so
-/// four of them remain. Motor impulses that nobody books would each miss `limit dt` times the rate. As contacts change in a share of all
-/// ticks, that is of order 0.
+/// four of them remain. A motor impulse that the ledger leaves out misses `limit dt` times the rate. Contacts change in a share of all
+/// ticks, so such an error is of order 0.
 #[test]
 fn motors_on_wheels_keep_to_their_limits_and_book_their_work() {
     let speed = RATE * RADIUS;
