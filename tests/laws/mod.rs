@@ -36,6 +36,7 @@ mod joints_at_rest;
 mod kinematic;
 mod ledger;
 mod lines;
+mod loads_by_the_clock;
 mod located;
 mod long_steps;
 mod measured;

@@ -11,7 +11,7 @@ use super::target::Target;
 use crate::scene::units::dimension::{OfForce, OfTorque};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, ForceOn, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{Energies, ForceOn, Model, Rhythm, State, SteadySpring, TickAppExt};
 
 /// Turns a hinge by a torque, or pushes a slide by a force, that follows a course in time.
 #[derive(Deserialize, JsonSchema)]
@@ -83,6 +83,10 @@ impl Model for ActuatorForce {
 
     fn has_edges(&self) -> bool {
         true
+    }
+
+    fn rhythm(&self) -> Option<Rhythm> {
+        Some(Rhythm { path: self.output.path.clone(), angular_frequency: self.force.rhythm() })
     }
 
     fn next_edge(&self, time: f64) -> f64 {

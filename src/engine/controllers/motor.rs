@@ -191,7 +191,7 @@ impl Events for MotorRow {
 
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         if let Some(motion) = self.driven.motion(state.bodies()) {
-            self.held.tell(&motion.pair, &motion.along, state.bodies(), told);
+            self.held.tell(&motion.pair, &motion.along, state, told);
         }
     }
 

@@ -21,7 +21,7 @@ use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Energies, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
 
 /// Drives a hinge to an angle, or a slide to a place: its torque (force) is `kp (target - angle) + ki` times the integral of that
 /// `+ kd (rate of the target - rate)`, bounded by `limit`.
@@ -271,6 +271,10 @@ impl Model for ServoForce {
 
     fn has_edges(&self) -> bool {
         true
+    }
+
+    fn rhythm(&self) -> Option<Rhythm> {
+        Some(Rhythm { path: self.output.path.clone(), angular_frequency: self.target.rhythm() })
     }
 
     fn next_edge(&self, time: f64) -> f64 {

@@ -102,6 +102,14 @@ impl<A, B> Target<A, B> {
         }
     }
 
+    /// The angular frequency in rad/s of a sine; zero if it is none.
+    pub fn rhythm(&self) -> f64 {
+        match &self.value {
+            Value::Constant(_) => 0.0,
+            Value::Course(course) => course.rhythm(),
+        }
+    }
+
     /// The first time after `time` seconds at which it has a kink; infinity if there is none.
     pub fn next_point(&self, time: f64) -> f64 {
         match &self.value {

@@ -221,7 +221,7 @@ impl Course {
     }
 
     /// The angular frequency of a sine in rad/s; zero, if it is none.
-    fn rhythm(&self) -> f64 {
+    pub fn rhythm(&self) -> f64 {
         let Self::Sine { frequency, angular_frequency, .. } = self else { return 0.0 };
         frequency.map_or(0.0, |rate| TAU * rate.si()) + angular_frequency.map_or(0.0, Spin::si)
     }

@@ -6,6 +6,10 @@
 //! happens. Where they meet below, the step is looked at there. The gap of two discs bends downwards only by their relative
 //! acceleration: on straight ways it bends upwards everywhere. What `c` is between two moments is guessed from both: the
 //! greater, and as much again as they differ by.
+//!
+//! An indicator whose rate is not known, such as the force of a row, lies above the parabola `chord - c t (T - t)/2` through both moments
+//! (the error of linear interpolation). Where it is below zero at the later moment, it may have passed zero three times, unless the
+//! chord falls faster than such a parabola turns.
 
 use super::locate::{Moment, vanished};
 use crate::tick::Indicator;
@@ -75,16 +79,38 @@ impl Inside {
 fn suspect(from: &Moment, to: &Moment, length: f64) -> Option<f64> {
     let way = to.share - from.share;
     let meet = |(a, b): (&Indicator, &Indicator)| {
+        let bend = (a.bend.max(b.bend) + (a.bend - b.bend).abs()) * length * length;
+        let known = !(a.slope.is_nan() || b.slope.is_nan());
+        if !known && a.value > 0.0 && b.value < 0.0 {
+            // Where the rate may change its sign, there may be more than one passage.
+            let turns = a.value - b.value < 0.5 * bend * way * way;
+            return turns.then_some(from.share + 0.5 * way);
+        }
         if !(a.value >= 0.0 && b.value >= 0.0 && a.value + b.value > 0.0) {
             return None;
         }
-        let (first, second) = (a.slope * length, b.slope * length);
-        let bend = (a.bend.max(b.bend) + (a.bend - b.bend).abs()) * length * length;
-        let after = (b.value - a.value - second * way - 0.5 * bend * way * way) / (first - second - bend * way);
-        let inside = after > 0.0 && after < way && a.value + (first - 0.5 * bend * after) * after < 0.0;
+        let (after, least) = match known {
+            true => between_rates([a, b], bend, (way, length)),
+            false => below_chord([a.value, b.value], bend, way),
+        };
+        let inside = after > 0.0 && after < way && least < 0.0;
         inside.then_some(from.share + after).filter(|share| *share > from.share && *share < to.share)
     };
     from.indicators.iter().zip(&to.indicators).filter_map(meet).reduce(f64::min)
+}
+
+/// Where the two parabolas that begin at both ends of a piece meet, as a share of the step after its beginning, and how high.
+fn between_rates([a, b]: [&Indicator; 2], bend: f64, (way, length): (f64, f64)) -> (f64, f64) {
+    let (first, second) = (a.slope * length, b.slope * length);
+    let after = (b.value - a.value - second * way - 0.5 * bend * way * way) / (first - second - bend * way);
+    (after, a.value + (first - 0.5 * bend * after) * after)
+}
+
+/// The lowest point that a value of unknown rate may reach on a piece: `g >= chord - c t (way - t)/2`.
+fn below_chord([a, b]: [f64; 2], bend: f64, way: f64) -> (f64, f64) {
+    let rise = (b - a) / way;
+    let after = 0.5 * way - rise / bend;
+    (after, a + (rise - 0.5 * bend * (way - after)) * after)
 }
 
 #[cfg(test)]
@@ -152,6 +178,34 @@ mod tests {
     fn a_step_ends_where_it_stays_open_whether_bodies_meet() {
         let (_, high, looks) = look(|_| vec![Indicator { value: 1e-6, slope: 0.0, bend: 1.0, ..Indicator::default() }]);
         assert!(high.share > 0.0 && high.share < 1.0 && looks == MOST_LOOKS, "{high:?} {looks}");
+    }
+
+    /// A force that swings, and passes its bound for a hundredth of the step.
+    #[test]
+    fn a_peak_of_unknown_rate_is_seen() {
+        for (begin, length) in [(0.0, 3.0), (0.4, 2.5), (1.5, 6.0)] {
+            let omega = std::f64::consts::FRAC_PI_2;
+            let room = |t: f64| Indicator {
+                value: 1.0 - 1.0001 * libm::sin(omega * (begin + t)),
+                slope: f64::NAN,
+                bend: 2.0 * omega * omega,
+                ..Indicator::default()
+            };
+            let (_, high, looks) = look_within(length, |t| vec![room(t)]);
+            let time = begin + length * high.share;
+            assert!((time - time.round()).abs() < 0.01 && high.indicators[0].value < 0.0, "{begin}: {time} {looks}");
+        }
+    }
+
+    /// A force that swings beyond its bounds several times: the first passage counts, although the last one is open at the end.
+    #[test]
+    fn the_first_of_several_passages_of_unknown_rate_counts() {
+        let room =
+            |t: f64| Indicator { value: 1.0 - 1.5 * libm::sin(t), slope: f64::NAN, bend: 2.0, ..Indicator::default() };
+        let length = 2.5 * std::f64::consts::PI;
+        let (low, high, _) = look_within(length, |t| vec![room(t)]);
+        let first = libm::asin(1.0 / 1.5);
+        assert!(low.share * length < first && (first..1.6).contains(&(high.share * length)), "{low:?} {high:?}");
     }
 
     #[test]

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ends::{Along, Pair};
 use crate::constraints::{Kind, Row};
-use crate::tick::Indicator;
-use crate::world::Bodies;
+use crate::tick::{Indicator, State};
 
 /// A rate that differs by less than this share of the spins and speeds that it is found from is held.
 const SAME: f64 = 1e-9;
@@ -116,7 +115,7 @@ impl Bounded {
     }
 
     /// Adds the indicators of the mode: how far the torque is from its bounds, or the rate from the one to be held.
-    pub fn tell(&mut self, pair: &Pair, along: &Along, bodies: &Bodies, told: &mut Vec<Indicator>) {
+    pub fn tell(&mut self, pair: &Pair, along: &Along, state: &State, told: &mut Vec<Indicator>) {
         let rounding = ROUNDING * self.limit;
         let missing = self.speed - pair.rate(along);
         self.farthest = self.farthest.max(missing.abs());
@@ -125,6 +124,7 @@ impl Bounded {
             Mode::Holds => told.extend([1.0, -1.0].map(|sign| Indicator {
                 value: self.limit - sign * self.torque,
                 slope: f64::NAN,
+                bend: pair.bend(2.0 * self.limit, state),
                 rounding,
                 ..Indicator::default()
             })),
@@ -132,7 +132,7 @@ impl Bounded {
                 let row = pair.row(along, Kind::Velocity);
                 told.push(Indicator {
                     value: sign * missing,
-                    slope: -sign * row.acceleration(bodies),
+                    slope: -sign * row.acceleration(state.bodies()),
                     rounding: ROUNDING * self.farthest,
                     ..Indicator::default()
                 });

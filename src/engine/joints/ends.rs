@@ -205,6 +205,13 @@ impl Pair {
         of(&self.a, along.sides[0]) + of(&self.b, along.sides[1])
     }
 
+    /// How strongly what holds the pair may bend: the second derivative of a force that swings with `amplitude`, per second squared.
+    /// Forces swing as fast as the clock drives one, or as either body turns.
+    pub fn bend(&self, amplitude: f64, state: &State) -> f64 {
+        let fastest = state.fastest_rhythm().max(self.a.spin.abs()).max(self.b.spin.abs());
+        amplitude * fastest * fastest
+    }
+
     /// Adds a force in N, or a torque in N m, along a direction. Returns the power in W that it gives to bodies that move by forces.
     pub fn push(&self, along: &Along, amount: f64, state: &mut State) -> f64 {
         let (bodies, rates) = state.bodies_and_rates();

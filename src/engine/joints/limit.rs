@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::ends::Pair;
 use super::law::Freedom;
 use crate::constraints::{Kind, Row};
-use crate::tick::Indicator;
+use crate::tick::{Indicator, State};
 use crate::world::Bodies;
 
 /// A share of its size within which a value is at the limit.
@@ -186,12 +186,13 @@ impl Limit {
     }
 
     /// Adds the indicators of its mode: the way to each limit, or the force of the one that holds.
-    pub fn tell(&self, pair: &Pair, freedom: &Freedom, bodies: &Bodies, told: &mut Vec<Indicator>) {
+    pub fn tell(&self, pair: &Pair, freedom: &Freedom, state: &State, told: &mut Vec<Indicator>) {
         if self.at.is_some() {
             let rounding = PULL * self.greatest;
-            return told.push(Indicator { value: self.force, slope: f64::NAN, rounding, ..Indicator::default() });
+            let bend = pair.bend(2.0 * self.greatest, state);
+            return told.push(Indicator { value: self.force, slope: f64::NAN, bend, rounding, swings: 0.0 });
         }
-        let bend = pair.row(&freedom.along, Kind::Position).acceleration(bodies).abs();
+        let bend = pair.row(&freedom.along, Kind::Position).acceleration(state.bodies()).abs();
         let rate = pair.rate(&freedom.along);
         told.extend(self.sides().map(|side| {
             let (value, size) = self.room(side, pair, freedom);

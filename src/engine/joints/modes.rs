@@ -16,7 +16,7 @@ impl Events for Joint {
 
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         if let Some(pair) = self.pair(state.bodies()) {
-            self.parts.tell(&*self.law, &pair, self.reaction.0.length(), state.bodies(), told);
+            self.parts.tell(&*self.law, &pair, self.reaction.0.length(), state, told);
         }
     }
 

@@ -10,7 +10,6 @@ use crate::constraints::{Kind, Rows};
 use crate::scene::Report;
 use crate::scene::units::{Dimension, Quantity, Scalar};
 use crate::tick::{Blow, Indicator, State, Style};
-use crate::world::Bodies;
 
 /// What the scene asks for, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -173,16 +172,18 @@ impl Parts {
     }
 
     /// Adds the indicators of all modes, where the joint bears this force in N.
-    pub fn tell(&mut self, law: &dyn Law, pair: &Pair, force: f64, bodies: &Bodies, told: &mut Vec<Indicator>) {
+    pub fn tell(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &State, told: &mut Vec<Indicator>) {
         if let Some(most) = self.break_force {
-            told.push(Indicator { value: most - force, slope: f64::NAN, rounding: 1e-13 * most, ..Default::default() });
+            let bend = pair.bend(2.0 * most, state);
+            let rounding = 1e-13 * most;
+            told.push(Indicator { value: most - force, slope: f64::NAN, bend, rounding, ..Default::default() });
         }
         let Some(freedom) = law.freedom(pair) else { return };
         if let Some(limit) = &self.limit {
-            limit.tell(pair, &freedom, bodies, told);
+            limit.tell(pair, &freedom, state, told);
         }
         if let Some(friction) = &mut self.friction {
-            friction.tell(pair, &freedom.along, bodies, told);
+            friction.tell(pair, &freedom.along, state, told);
         }
     }
 

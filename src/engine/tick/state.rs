@@ -85,6 +85,8 @@ pub(super) struct Roles {
     velocity_beside_joints: bool,
     changing_forces: bool,
     flies: bool,
+    /// The fastest angular frequency in rad/s at which a force swings by the clock; zero if none does.
+    rhythm: f64,
     /// [`Progress::version`] for which all of this was found out.
     version: Option<u64>,
 }
@@ -117,6 +119,7 @@ impl Roles {
             velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
             changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
             flies: models.iter().all(|model| model.flies()),
+            rhythm: models.iter().filter_map(|model| model.rhythm()).map(|r| r.angular_frequency).fold(0.0, f64::max),
             version: None,
         }
     }
@@ -392,6 +395,11 @@ impl State {
     /// Whether forces have times at which they or their rates jump.
     pub(crate) fn has_edges(&self) -> bool {
         !self.roles.edges.is_empty()
+    }
+
+    /// The fastest angular frequency in rad/s at which a force swings by the clock; zero if none does.
+    pub(crate) fn fastest_rhythm(&self) -> f64 {
+        self.roles.rhythm
     }
 
     /// Whether models have state of their own or events.
