@@ -19,6 +19,7 @@ mod outline;
 mod pose;
 mod rack;
 mod ray;
+mod region;
 mod shape;
 mod time_of_impact;
 
@@ -33,6 +34,7 @@ pub use nearest::{Feature, Nearest, distance_to, nearest};
 pub use pose::{Bounds, Pose};
 pub use rack::Rack;
 pub use ray::ray;
+pub use region::beyond;
 pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
 pub use time_of_impact::{Motion, time_of_impact};
 

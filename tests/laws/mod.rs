@@ -20,6 +20,7 @@ mod dead_points;
 mod drives;
 mod energy;
 mod estimated;
+mod features;
 mod flight;
 mod forces;
 mod frames;

@@ -5,7 +5,7 @@
 
 use bevy_ecs::entity::Entity;
 use glam::DVec2;
-use jostle_shapes::Hull;
+use jostle_shapes::{Feature, Hull};
 
 use super::{AtomPair, Probe, Surface, SurfacePair};
 use crate::constraints::islands::Link;
@@ -196,8 +196,10 @@ impl PairGeometry {
                 let geometry = Self::wall(bodies, index, wall, pair.probe);
                 (geometry, -geometry.overlap)
             }
-            (Surface::Hull(hull), Probe::Atom(atom)) => Self::hull(bodies, index, hull, atom as u32),
-            (Surface::Hull(hull), Probe::End(wall, right)) => Self::end(bodies, index, hull, (wall, right)),
+            (Surface::Hull(hull), Probe::Atom(atom)) => Self::hull(bodies, index, (hull, pair.kept()), atom as u32),
+            (Surface::Hull(hull), Probe::End(wall, right)) => {
+                Self::end(bodies, index, (hull, pair.kept()), (wall, right))
+            }
         }
     }
 
@@ -216,9 +218,9 @@ impl PairGeometry {
         }
     }
 
-    fn hull(bodies: &Bodies, index: usize, hull: usize, atom: u32) -> (Self, f64) {
+    fn hull(bodies: &Bodies, index: usize, (hull, kept): (usize, Option<Feature>), atom: u32) -> (Self, f64) {
         let (shape, place, radius) = bodies.meeting(hull, atom as usize);
-        let (found, distance) = bodies.touched_on(hull, shape, place);
+        let (found, distance) = bodies.touched_on((hull, kept), shape, place);
         let a = End::on_hull(bodies, hull, shape, &found);
         let body = bodies.atom_body(atom as usize);
         let b = End { body, arm: place - bodies.position[body], radius };
@@ -235,10 +237,15 @@ impl PairGeometry {
     }
 
     /// An end of a wall near a hull: the hull is side B.
-    fn end(bodies: &Bodies, index: usize, hull: usize, (wall, right): (usize, bool)) -> (Self, f64) {
+    fn end(
+        bodies: &Bodies,
+        index: usize,
+        (hull, kept): (usize, Option<Feature>),
+        (wall, right): (usize, bool),
+    ) -> (Self, f64) {
         let (center, radius) = bodies.walls[wall].end(right);
         let shape = &bodies.hulls[hull].hull;
-        let (found, distance) = bodies.touched_on(hull, shape, center);
+        let (found, distance) = bodies.touched_on((hull, kept), shape, center);
         let b = End::on_hull(bodies, hull, shape, &found);
         let spin = bodies.spin[b.body];
         let geometry = Self {

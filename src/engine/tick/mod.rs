@@ -49,6 +49,7 @@ pub mod pairs;
 mod progress;
 mod registered;
 pub mod response;
+mod roles;
 pub mod snapshot;
 pub mod stability;
 pub mod stages;

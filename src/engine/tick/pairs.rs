@@ -1,6 +1,7 @@
 //! Candidate pairs: who may touch whom. The search for them fills the lists, contact laws go by them.
 
 use glam::DVec2;
+use jostle_shapes::Feature;
 
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -40,6 +41,8 @@ pub struct SurfacePair {
     pub surface: u32,
     /// Place of an atom: a corner, or a disc; or, behind all atoms, of an end of a wall.
     pub probe: u32,
+    /// See [`SurfacePair::kept`].
+    kept: u32,
 }
 
 /// What a probe is near to.
@@ -61,6 +64,34 @@ pub enum Probe {
 }
 
 impl SurfacePair {
+    /// A pair of which the nearest feature counts.
+    #[inline]
+    pub fn new(surface: u32, probe: u32) -> Self {
+        Self { surface, probe, kept: 0 }
+    }
+
+    /// The feature of the hull that counts in a step with stages. Default: none, the nearest counts.
+    #[inline]
+    pub fn kept(&self) -> Option<Feature> {
+        let index = self.kept.checked_sub(1)? as usize;
+        Some(if index.is_multiple_of(2) { Feature::Corner(index / 2) } else { Feature::Side(index / 2) })
+    }
+
+    /// From now on this corner or side counts, or the nearest.
+    pub fn keep(&mut self, feature: Option<Feature>) {
+        self.kept = match feature {
+            Some(Feature::Corner(corner)) => 1 + 2 * corner as u32,
+            Some(Feature::Side(side)) => 2 + 2 * side as u32,
+            _ => 0,
+        };
+    }
+
+    /// Surface and probe, by which pairs are in order.
+    #[inline]
+    pub fn names(&self) -> (u32, u32) {
+        (self.surface, self.probe)
+    }
+
     /// The surface.
     #[inline(always)]
     pub fn surface(self, bodies: &Bodies) -> Surface {
@@ -123,6 +154,8 @@ pub struct CandidatePairs {
     pub group_ends: [usize; 2],
     /// Atoms near walls and hulls, and ends of walls near hulls.
     pub surfaces: Vec<SurfacePair>,
+    /// Whether some of them keep a feature.
+    pub keeps: bool,
     /// For each item of `atoms` its place in the list before, or [`NEW`].
     pub atoms_before: Vec<u32>,
     /// For each item of `surfaces` its place in the list before, or [`NEW`].

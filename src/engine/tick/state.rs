@@ -9,9 +9,10 @@ use super::balance::Totals;
 use super::bounds::Bounds;
 use super::failure::{Trouble, Wrong};
 use super::hold::{Blow, JointDrift};
-use super::model::{Dependence, Energies, Model};
+use super::model::{Energies, Model};
 use super::pairs::CandidatePairs;
 use super::progress::{LocatedEvents, Progress, StepCount};
+use super::roles::{Roles, belongs_to_contacts};
 use super::stopwatch::{Part, Stopwatch};
 use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
 use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
@@ -62,72 +63,6 @@ pub struct State {
     pub(super) models: Vec<Box<dyn Model>>,
     #[serde(skip)]
     pub(super) roles: Roles,
-}
-
-/// What models do, as far as it does not change while they act.
-#[derive(Default)]
-pub(super) struct Roles {
-    /// Places of those that take part in a stage.
-    find_pairs: Vec<usize>,
-    pub(super) rows: Vec<usize>,
-    settle: Vec<usize>,
-    begin_step: Vec<usize>,
-    end_tick: Vec<usize>,
-    events: Vec<usize>,
-    edges: Vec<usize>,
-    /// Places of models with an account of their own, and of that account in the ledger.
-    accounts: Vec<(usize, usize)>,
-    /// How many are neither contact laws nor their search for pairs; those follow.
-    others: usize,
-    velocity_dependent: bool,
-    velocity_forces: bool,
-    /// Whether forces depend on velocities where rows of joints do not.
-    velocity_beside_joints: bool,
-    changing_forces: bool,
-    flies: bool,
-    /// The fastest angular frequency in rad/s at which a force swings by the clock; zero if none does.
-    rhythm: f64,
-    /// [`Progress::version`] for which all of this was found out.
-    version: Option<u64>,
-}
-
-impl Roles {
-    fn of(models: &mut [Box<dyn Model>]) -> Self {
-        let with_events = models.iter_mut().enumerate().filter_map(|(place, model)| model.events().map(|_| place));
-        let events = with_events.collect();
-        let places = |is: fn(&dyn Model) -> bool| -> Vec<usize> {
-            models.iter().enumerate().filter(|(_, model)| is(&***model)).map(|(place, _)| place).collect()
-        };
-        let others = models.iter().filter(|model| !belongs_to_contacts(&***model)).count();
-        let depends =
-            |models: &[Box<dyn Model>], on: &[Dependence]| models.iter().any(|m| on.contains(&m.dependence()));
-        Self {
-            find_pairs: places(|model| model.finds_pairs()),
-            rows: places(|model| model.has_rows()),
-            settle: places(|model| model.settles()),
-            begin_step: places(|model| model.has_modes()),
-            end_tick: places(|model| model.looks_at_ticks()),
-            events,
-            edges: places(|model| model.has_edges()),
-            accounts: Vec::new(),
-            others,
-            velocity_dependent: depends(models, &[Dependence::Velocity]),
-            velocity_beside_joints: models
-                .iter()
-                .filter(|model| !model.has_rows() || model.contact_law().is_some())
-                .any(|model| model.dependence() == Dependence::Velocity),
-            velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
-            changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
-            flies: models.iter().all(|model| model.flies()),
-            rhythm: models.iter().filter_map(|model| model.rhythm()).map(|r| r.angular_frequency).fold(0.0, f64::max),
-            version: None,
-        }
-    }
-}
-
-/// Whether a model is a contact law, or the search for pairs that contact laws go by: these act last.
-fn belongs_to_contacts(model: &dyn Model) -> bool {
-    model.contact_law().is_some() || model.finds_pairs()
 }
 
 /// Lets some models act on the state that holds them.

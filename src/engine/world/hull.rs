@@ -4,7 +4,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use jostle_shapes::{Hull, Pose, Rounded, nearest};
+use jostle_shapes::{Feature, Hull, Nearest, Pose, Rounded, distance_to, nearest};
 use serde::{Deserialize, Serialize};
 
 use super::Bodies;
@@ -69,6 +69,28 @@ pub struct NearestOnHull {
     pub flat: bool,
     /// Whether it lies on the outline of the body; otherwise another hull of the body is touched there.
     pub owned: bool,
+}
+
+impl NearestOnHull {
+    /// A place found in the frame of a hull, as the world sees it. `at` is the point to which it is the nearest.
+    #[inline]
+    fn of(found: &Nearest, pose: &Pose, hull: &Hull, at: DVec2) -> Self {
+        let (distance, normal, foot) = match found.feature {
+            // Two corners are near to each other, and far from the centres of their bodies. Both find the same normal to the last bit
+            // only if neither place is seen from the other body: else two equal contacts seem to differ.
+            Feature::Corner(corner) if found.distance > 0.0 => {
+                let corner = pose.point_to_world(hull.corners()[corner]);
+                let away = at - corner;
+                let distance = away.length();
+                (distance, away / distance, corner - pose.position)
+            }
+            _ => {
+                let normal = pose.direction_to_world(found.normal);
+                (found.distance, normal, at - pose.position - normal * found.distance)
+            }
+        };
+        Self { distance, normal, foot, flat: found.feature.is_side(), owned: true }
+    }
 }
 
 impl PackedHull {
@@ -168,16 +190,23 @@ impl Bodies {
     pub(crate) fn nearest_on(&self, body: usize, hull: &Hull, at: DVec2) -> NearestOnHull {
         let pose = self.pose_with_hulls(body);
         let found = nearest(hull, pose.point_to_local(at));
-        let normal = pose.direction_to_world(found.normal);
-        let foot = at - pose.position - normal * found.distance;
-        let flat = found.feature.is_side();
-        NearestOnHull { distance: found.distance, normal, foot, flat, owned: hull.owns(&found) }
+        NearestOnHull { owned: hull.owns(&found), ..NearestOnHull::of(&found, &pose, hull, at) }
     }
 
     /// The same for a contact, with the distance: where the nearest place belongs to another part of the body, there is none, and the hull is
-    /// far.
-    pub(crate) fn touched_on(&self, hull: usize, shape: &Hull, at: DVec2) -> (NearestOnHull, f64) {
+    /// far. A feature that the contact keeps counts instead of the nearest.
+    pub(crate) fn touched_on(
+        &self,
+        (hull, kept): (usize, Option<Feature>),
+        shape: &Hull,
+        at: DVec2,
+    ) -> (NearestOnHull, f64) {
         let packed = &self.hulls[hull];
+        if let Some(feature) = kept {
+            let pose = self.pose_with_hulls(packed.body as usize);
+            let found = NearestOnHull::of(&distance_to(shape, feature, pose.point_to_local(at)), &pose, shape, at);
+            return (found, found.distance);
+        }
         let found = self.nearest_on(packed.body as usize, shape, at);
         let distance = found.distance;
         let far = if found.owned { distance } else { distance.abs() + 2.0 * packed.extent };

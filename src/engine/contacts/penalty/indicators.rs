@@ -99,6 +99,8 @@ impl View<'_> {
             if let Some(roller) = roller {
                 rolling_stages::tell(&roller, &contact, pressure, &geometry, bodies, say);
             }
+            drop(contact);
+            self.tell_borders(place, &mut what, told);
         }
         self.contacts.told = what;
     }

@@ -6,6 +6,7 @@ pub mod contact;
 pub mod coulomb;
 mod critical;
 pub mod dashpot;
+mod features;
 mod follow;
 mod handover;
 mod held;

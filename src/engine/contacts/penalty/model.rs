@@ -9,7 +9,7 @@ use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
-use super::{Penalty, RollingLaw, handover, limits, meetings, patience, staged, watched};
+use super::{Penalty, RollingLaw, features, handover, limits, meetings, patience, staged, watched};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
@@ -114,6 +114,11 @@ impl<N: NormalForce> Model for Contacts<N> {
         };
         let (forces, known) = (state.contact_forces.as_mut(), (&state.stability, &state.springs));
         let PenaltyState { contacts, rolling } = &mut self.own;
+        if evaluation.style == Style::Frozen {
+            features::keep(pairs, &contacts.surfaces, bodies);
+        } else {
+            features::release(pairs);
+        }
         let shared = Shared { bodies, balance, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
         let changed = choose::<N>(shared, (clock, span), own, known, &mut self.scratch);

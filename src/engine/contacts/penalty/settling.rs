@@ -2,9 +2,23 @@
 //! an event, where forces have jumped.
 
 use super::coulomb::{Grip, Slider, SliderLaw};
+use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
 use super::rolling_stages;
 use super::switching::{Base, View, standing};
+use crate::contacts::geometry::PairGeometry;
+use crate::world::Bodies;
+
+/// A share of the accelerations at a held contact that is rounding.
+const HOLDS: f64 = 1e-6;
+
+/// The mode of a contact that is not held although it should be: two contacts at one place with different curvatures cannot both stay.
+fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<Mode> {
+    let rate = geometry.parting_rate(law.shares(), bodies);
+    let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
+    let size = pushed + geometry.inertial(law.shares(), bodies).0.abs();
+    (rate.abs() > HOLDS * size).then_some(if rate > 0.0 { Mode::Unloading } else { Mode::Loading })
+}
 
 impl View<'_> {
     /// Corrects modes that cannot last under the forces just evaluated. Says whether there were any.
@@ -24,13 +38,13 @@ impl View<'_> {
         corrected
     }
 
-    /// Lets go of contacts that are held by forces out of their bounds. Says whether there were any.
+    /// Lets go of contacts that are held by forces out of their bounds, and of those that no force holds. Says whether there were any.
     fn settle_normals<N: NormalForce>(&mut self) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
         for place in 0..self.len() {
             let before = springs.get(place).copied().unwrap_or_default();
-            let geometry = self.look(place);
+            let (geometry, bodies) = (self.look(place), self.bodies);
             let (mut contact, law, mut roller) = self.whole(place, &geometry);
             if contact.mode != Mode::Hold {
                 continue;
@@ -50,6 +64,13 @@ impl View<'_> {
                     continue;
                 }
                 contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
+                contact.come_loose(law, &geometry);
+                if let Some((slider, law)) = &mut roller {
+                    rolling_stages::come_loose((slider, *law), &contact, &geometry);
+                }
+                corrected = true;
+            } else if let Some(mode) = moves_on(law, &geometry, bodies) {
+                contact.mode = mode;
                 contact.come_loose(law, &geometry);
                 if let Some((slider, law)) = &mut roller {
                     rolling_stages::come_loose((slider, *law), &contact, &geometry);

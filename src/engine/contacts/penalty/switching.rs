@@ -9,6 +9,7 @@
 //! | held | the normal force is within the bounds of the law | loading or unloading |
 //! | stick | the tangential force is within the static cone | slip |
 //! | slip | the sides slide the same way | stick, for a first try |
+//! | touching a feature of a hull | no other one is nearer | touching that one |
 //!
 //! A mode that begins at rest is decided by accelerations, not by velocities: it is tried as held, and where the forces that
 //! would hold it are out of bounds it takes the mode beyond the bound.
@@ -44,6 +45,8 @@ pub(super) enum What {
     /// The rolling spring gives way with a torque of this sign.
     RollingGive(bool),
     RollingStop,
+    /// The first border of the feature that is kept, or the second, is passed.
+    Border(bool),
 }
 
 /// The indicators of the present modes: candidate pairs (pairs of atoms first, then surfaces) and what is watched of them.
@@ -395,7 +398,7 @@ impl Contact {
                 let held = law.exact || self.mode == Mode::Hold;
                 self.tangential.grip = if held { Grip::Hold } else { Grip::Stick };
             }
-            What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop => {}
+            What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop | What::Border(_) => {}
         }
     }
 

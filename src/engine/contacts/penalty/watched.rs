@@ -4,7 +4,7 @@ use super::handover;
 use super::model::{Contacts, PenaltyState, is_crowded};
 use super::normal::NormalForce;
 use super::switching::{self, View};
-use super::{Penalty, RollingLaw, TangentialLaw, rolling_stages};
+use super::{Penalty, RollingLaw, TangentialLaw, features, rolling_stages};
 use crate::tick::{Events, Indicator, Objection, State, Style};
 use crate::world::Materials;
 
@@ -89,6 +89,7 @@ impl<N: NormalForce> Events for Contacts<N> {
         switching::stand_still((bodies, ledger, rows), contacts, clock.dt);
         let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
         view.switch::<N>(fired, ledger, touches.as_mut());
+        features::cross(fired, (bodies, pairs), contacts, rolling.as_mut());
     }
 
     fn settle(&mut self, state: &State) -> bool {

@@ -113,14 +113,14 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
                 let at = bodies.atom_place(atom);
                 let near = || bodies.nearest_on_hull(place, at).distance < packed.hull.radius() + margin + reach;
                 if !is_far(center, at, circle + reach) && near() {
-                    see(SurfacePair { surface, probe: atom as u32 });
+                    see(SurfacePair::new(surface, atom as u32));
                 }
             }
         }
         let mut near_ends = |(number, end, half): (u32, DVec2, f64)| {
             let near = || bodies.nearest_on_hull(place, end).distance < packed.hull.radius() + margin + half;
             if !is_far(center, end, circle + half) && near() {
-                see(SurfacePair { surface, probe: ends_from + number });
+                see(SurfacePair::new(surface, ends_from + number));
             }
         };
         if bodies.dynamic[body] {

@@ -29,9 +29,7 @@ pub(super) fn known(
 /// A pair under the name of the piece where its atom is now.
 fn present(pair: SurfacePair, bodies: &Bodies) -> SurfacePair {
     match (pair.surface(bodies), pair.probe(bodies)) {
-        (Surface::Wall(wall), Probe::Atom(atom)) => {
-            SurfacePair { surface: bodies.piece_now(wall, atom) as u32, ..pair }
-        }
+        (Surface::Wall(wall), Probe::Atom(atom)) => SurfacePair::new(bodies.piece_now(wall, atom) as u32, pair.probe),
         _ => pair,
     }
 }
@@ -59,7 +57,7 @@ pub(super) fn each_place(
             let mut is_near = false;
             line.each_near(bodies.position[body], bodies.extent(body) + margin, &mut |_| is_near = true);
             for atom in bodies.atoms_of(body).filter(|_| is_near) {
-                let pair = |piece: usize| SurfacePair { surface: piece as u32, probe: atom as u32 };
+                let pair = |piece: usize| SurfacePair::new(piece as u32, atom as u32);
                 let was_near = |piece: usize| place(known, pair(piece)) != NEW;
                 bodies.each_place_on_line(line, (atom, margin), was_near, |piece, height| see(pair(piece), height));
             }

@@ -167,9 +167,8 @@ impl PairSearch {
             None => place(old),
             Some(end) => Some(bodies.atom_count() as u32 + end),
         };
-        let old_surface = |old: SurfacePair| {
-            same_walls.then(|| Some(SurfacePair { surface: surface(old.surface)?, probe: probe(old.probe)? }))?
-        };
+        let old_surface =
+            |old: SurfacePair| same_walls.then(|| Some(SurfacePair::new(surface(old.surface)?, probe(old.probe)?)))?;
         let known = lines::known(bodies, &old_surfaces, old_surface);
         pairs.surfaces.clear();
         each_wall_pair(bodies, bounds.margin, 0..bodies.len(), |pair| {
@@ -202,6 +201,11 @@ impl PairSearch {
         } else {
             pairs.surfaces.iter().map(|pair| lines::place(&known, *pair)).collect()
         };
+        if pairs.keeps {
+            for (pair, before) in pairs.surfaces.iter_mut().zip(&pairs.surfaces_before) {
+                pair.keep(old_surfaces.get(*before as usize).and_then(SurfacePair::kept));
+            }
+        }
         if pairs.search == Search::Cells {
             group(pairs, bodies, bounds.margin);
         }
@@ -313,7 +317,7 @@ fn each_wall_pair(
             }
             for atom in bodies.atoms_of(body).filter(|&atom| bodies.probes(atom)) {
                 if wall.nearest(bodies.atom_place(atom)).height < bodies.atom_radius[atom] + margin {
-                    see(SurfacePair { surface: place as u32, probe: atom as u32 });
+                    see(SurfacePair::new(place as u32, atom as u32));
                 }
             }
         }
