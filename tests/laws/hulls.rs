@@ -191,16 +191,25 @@ fn a_stack_of_boxes_rests_exactly() {
     }
 }
 
-/// Law: a stack of sharp boxes that is too heavy for its stiffness ends the run with two names: corners sink in so deep that the way they
-/// came is not known. It never falls through in silence.
+/// Law: a stack of sharp boxes that is too heavy for its stiffness never falls through in silence. From tick to tick the run ends with two
+/// names: corners sink in so deep that the way they came is not known. Steps with stages keep the sides that were touched, so the stack comes
+/// to rest, and the floor bears its weight. Tolerance: rounding of a sum of forces.
 #[test]
-fn a_stack_that_is_too_soft_ends_the_run() {
+fn a_stack_that_is_too_soft_ends_the_run_or_stands() {
     let materials = "\"default\": (stiffness: 1000, restitution: 0.2, friction: 0.5)";
-    for clock in ["method: VelocityVerlet, tick: \"1 ms\"", "method: Dop853, tick: \"1 ms\""] {
-        let mut simulation = scene(clock, materials, &stack("Rectangle(width: 0.4, height: 0.2)", 4));
-        let failure = simulation.run_to_tick(3000).expect_err("corners sink in").to_string();
-        assert!(failure.contains("a sharp corner has sunk") && failure.contains("`box_"), "{clock}: {failure}");
+    let stack = |clock: &str| scene(clock, materials, &stack("Rectangle(width: 0.4, height: 0.2)", 4));
+    let failure =
+        stack("method: VelocityVerlet, tick: \"1 ms\"").run_to_tick(3000).expect_err("corners sink in").to_string();
+    assert!(failure.contains("a sharp corner has sunk") && failure.contains("`box_"), "{failure}");
+    let mut simulation = stack("method: Dop853, tick: \"1 ms\"");
+    run_to(&mut simulation, 3.0);
+    let bodies = simulation.bodies();
+    for body in 0..bodies.len() {
+        assert_eq!((bodies.velocity[body], bodies.spin[body]), (DVec2::ZERO, 0.0), "body {body}");
     }
+    assert!(bodies.position.windows(2).all(|two| two[1].y > two[0].y + 0.1), "{:?}", bodies.position);
+    let channel = jostle::sensors::find(simulation.world_mut(), "floor.force.y").expect("the sensor is there");
+    assert!((simulation.value(&channel) + 8.0 * 9.81).abs() < 1e-9);
 }
 
 /// Law: what passes through a shape ends the run with both names, whether it lies in it at the end of a tick or is behind it. Scene: a bullet at
