@@ -49,6 +49,7 @@ mod properties;
 mod rest;
 mod restitution;
 mod reversal;
+mod rigid_limit;
 mod rolling;
 mod rolling_resistance;
 mod sensed;

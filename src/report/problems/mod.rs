@@ -16,6 +16,7 @@ pub mod catenary;
 pub mod cluster_rotation;
 pub mod compound_pendulum;
 pub mod constant_acceleration;
+pub mod corner_impact;
 pub mod coulomb_oscillator;
 pub mod cradle;
 pub mod damped_oscillator;
@@ -24,6 +25,7 @@ pub mod double_pendulum;
 pub mod driven_oscillator;
 pub mod elastic_bounce;
 pub mod falling_chain;
+pub mod falling_ladder;
 pub mod falling_rod;
 pub mod figure_eight;
 pub mod firing;
@@ -34,6 +36,7 @@ pub mod hard;
 pub mod incline;
 pub mod inelastic_impact;
 pub mod kepler;
+pub mod leaving_cylinder;
 pub mod linear_drag;
 pub mod linkage;
 pub mod loaded_rope;
@@ -109,6 +112,9 @@ pub const ALL: &[Problem] = &[
     parallelogram::PROBLEM,
     loaded_rope::PROBLEM,
     rigid_ring::PROBLEM,
+    falling_ladder::PROBLEM,
+    leaving_cylinder::PROBLEM,
+    corner_impact::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.
