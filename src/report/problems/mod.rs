@@ -35,6 +35,7 @@ pub mod frictional_collision;
 pub mod hard;
 pub mod incline;
 pub mod inelastic_impact;
+pub mod jamming_rod;
 pub mod kepler;
 pub mod leaving_cylinder;
 pub mod linear_drag;
@@ -115,6 +116,7 @@ pub const ALL: &[Problem] = &[
     falling_ladder::PROBLEM,
     leaving_cylinder::PROBLEM,
     corner_impact::PROBLEM,
+    jamming_rod::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.
