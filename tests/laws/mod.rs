@@ -44,6 +44,7 @@ mod momentum;
 mod motors_on_ground;
 mod oblique;
 mod orbit;
+mod plank;
 mod problems;
 mod properties;
 mod rest;

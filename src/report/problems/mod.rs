@@ -45,6 +45,7 @@ pub mod oblique_collision;
 pub mod overlap_release;
 pub mod parallelogram;
 pub mod pendulum;
+pub mod plank;
 pub mod quadratic_drag;
 pub mod rigid_ring;
 pub mod rotating_ring;
@@ -53,12 +54,14 @@ pub mod settling_bounce;
 pub mod slide_to_roll;
 pub mod slider_crank;
 pub mod sliding_stop;
+pub mod spool;
 pub mod spring_mass;
 pub mod stick_slip;
 pub mod tangential_impact;
 pub mod triple_pendulum;
 pub mod truth;
 pub mod two_link_arm;
+pub mod wedge;
 
 use std::error::Error;
 
@@ -117,6 +120,9 @@ pub const ALL: &[Problem] = &[
     leaving_cylinder::PROBLEM,
     corner_impact::PROBLEM,
     jamming_rod::PROBLEM,
+    spool::PROBLEM,
+    wedge::PROBLEM,
+    plank::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.
