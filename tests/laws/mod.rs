@@ -6,6 +6,7 @@ mod support;
 mod assembly;
 mod belt;
 mod bounce;
+mod box_stack;
 mod clumps;
 mod compounds;
 mod conditioned;
