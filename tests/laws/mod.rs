@@ -64,6 +64,7 @@ mod sticking;
 mod stiff;
 mod strips;
 mod tolerance;
+mod topple;
 mod uniform_motion;
 mod unlocated;
 mod unwatched;

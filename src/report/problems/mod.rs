@@ -58,6 +58,7 @@ pub mod spool;
 pub mod spring_mass;
 pub mod stick_slip;
 pub mod tangential_impact;
+pub mod tilted_box;
 pub mod triple_pendulum;
 pub mod truth;
 pub mod two_link_arm;
@@ -122,6 +123,7 @@ pub const ALL: &[Problem] = &[
     jamming_rod::PROBLEM,
     spool::PROBLEM,
     wedge::PROBLEM,
+    tilted_box::PROBLEM,
     plank::PROBLEM,
 ];
 
