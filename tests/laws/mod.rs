@@ -63,6 +63,7 @@ mod standing;
 mod sticking;
 mod stiff;
 mod strips;
+mod thresholds;
 mod tolerance;
 mod topple;
 mod uniform_motion;
