@@ -48,6 +48,7 @@ pub mod pendulum;
 pub mod plank;
 pub mod quadratic_drag;
 pub mod rigid_ring;
+pub mod rocking_block;
 pub mod rotating_ring;
 pub mod servo_wheel;
 pub mod settling_bounce;
@@ -120,6 +121,7 @@ pub const ALL: &[Problem] = &[
     falling_ladder::PROBLEM,
     leaving_cylinder::PROBLEM,
     corner_impact::PROBLEM,
+    rocking_block::PROBLEM,
     jamming_rod::PROBLEM,
     spool::PROBLEM,
     wedge::PROBLEM,
