@@ -129,7 +129,7 @@ fn two_cards_stand_where_friction_holds_their_feet() {
 #[test]
 fn a_rope_over_a_drum_holds_up_to_the_ratio_of_its_ends() {
     let truth = Truth::read(include_str!("../../assets/truths/F08_capstan_atoms.json"));
-    let (points, friction, stiffness, radius, drum) = (12, 0.3, 1e8, 0.02, 0.5);
+    let (points, friction, stiffness, radius, drum) = (12, 0.3, 1e7, 0.02, 0.5);
     let between = PI / f64::from(points);
     let (sin, cos) = libm::sincos(0.5 * between);
     let factor = (cos + friction * sin) / (cos - friction * sin);
@@ -137,7 +137,7 @@ fn a_rope_over_a_drum_holds_up_to_the_ratio_of_its_ends() {
     assert_near("ratio", greatest, truth.number("discrete ratio"), 1e-14);
     // All friction, 1.6 N, on twelve springs.
     let give = 1.6 / (12.0 * 0.8 * stiffness) / (2.0 * SHARE);
-    assert_threshold("rope", [0.1, give, 1e-5], |clock, tangential, share| {
+    assert_threshold("rope", [0.1, give, 3e-5], |clock, tangential, share| {
         let pull = greatest / share;
         let step = pull.powf(1.0 / f64::from(points));
         let (mut discs, mut links) = (String::new(), String::new());

@@ -14,7 +14,7 @@ const SHARE: f64 = 1e-4;
 
 /// The way of the box in a second in m, and its turning in rad.
 fn after(slope: f64, friction: f64) -> (f64, f64) {
-    let setting = Setting { method: "Dop853", tick: 1e-3, ..Setting::default() };
+    let setting = Setting { method: "Dop853", tick: 2e-4, ..Setting::default() };
     let incline = Incline { slope, friction, stiffness: 1e8, restitution: 0.2 };
     let mut simulation = load(&scene(&setting, 1.0, &incline));
     let angle = simulation.bodies().angle[0];
