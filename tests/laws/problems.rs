@@ -266,4 +266,25 @@ fn closed_forms_agree_with_the_truth_files() {
     assert_near("pull in it", problems::rigid_ring::tension(), truth.number("rigid-link ring: tension"), ULPS * 5.0);
     let truth = Truth::read(problems::falling_rod::TRUTH);
     assert_near("when the rod is level", problems::falling_rod::LEVEL, truth.number("time to horizontal"), ULPS);
+    let truth = Truth::read(problems::wedge::TRUTH);
+    for (degrees, _) in problems::wedge::GROOVES {
+        let number = |what: &str| truth.number(&format!("{degrees} deg: {what}"));
+        let [force, overlap, sinking, swing] = problems::wedge::statics(degrees);
+        assert_near("force of a wedge", force, number("wall normal force"), ULPS * force);
+        let frequency = number("vertical oscillation angular frequency sqrt(2k sin^2 a/m)");
+        assert_near("swing between wedges", swing, frequency, ULPS * swing);
+        let depths = truth.numbers(&format!("{degrees} deg: overlap, vertical sinking"));
+        assert_near("overlap", overlap, depths[0], ULPS * overlap);
+        assert_near("sinking", sinking, depths[1], ULPS * sinking);
+    }
+    let truth = Truth::read(problems::plank::TRUTH);
+    for (found, exact) in problems::plank::forces().into_iter().zip(truth.numbers("reactions")) {
+        assert_near("force of a foot", found, exact, ULPS * problems::plank::WEIGHT);
+    }
+    let truth = Truth::read(problems::spool::TRUTH);
+    for angle in problems::spool::ANGLES {
+        let found = problems::spool::acceleration(0.12, angle.parse::<f64>().expect("a number").to_radians());
+        // The angle in degrees has 16 digits.
+        assert_near("spool", found, truth.number(&format!("{angle} deg rolling acceleration")), 2.0 * ULPS);
+    }
 }

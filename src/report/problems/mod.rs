@@ -16,6 +16,7 @@ pub mod catenary;
 pub mod cluster_rotation;
 pub mod compound_pendulum;
 pub mod constant_acceleration;
+pub mod corner_impact;
 pub mod coulomb_oscillator;
 pub mod cradle;
 pub mod damped_oscillator;
@@ -24,6 +25,7 @@ pub mod double_pendulum;
 pub mod driven_oscillator;
 pub mod elastic_bounce;
 pub mod falling_chain;
+pub mod falling_ladder;
 pub mod falling_rod;
 pub mod figure_eight;
 pub mod firing;
@@ -33,7 +35,9 @@ pub mod frictional_collision;
 pub mod hard;
 pub mod incline;
 pub mod inelastic_impact;
+pub mod jamming_rod;
 pub mod kepler;
+pub mod leaving_cylinder;
 pub mod linear_drag;
 pub mod linkage;
 pub mod loaded_rope;
@@ -41,20 +45,25 @@ pub mod oblique_collision;
 pub mod overlap_release;
 pub mod parallelogram;
 pub mod pendulum;
+pub mod plank;
 pub mod quadratic_drag;
 pub mod rigid_ring;
+pub mod rocking_block;
 pub mod rotating_ring;
 pub mod servo_wheel;
 pub mod settling_bounce;
 pub mod slide_to_roll;
 pub mod slider_crank;
 pub mod sliding_stop;
+pub mod spool;
 pub mod spring_mass;
 pub mod stick_slip;
 pub mod tangential_impact;
+pub mod tilted_box;
 pub mod triple_pendulum;
 pub mod truth;
 pub mod two_link_arm;
+pub mod wedge;
 
 use std::error::Error;
 
@@ -109,6 +118,15 @@ pub const ALL: &[Problem] = &[
     parallelogram::PROBLEM,
     loaded_rope::PROBLEM,
     rigid_ring::PROBLEM,
+    falling_ladder::PROBLEM,
+    leaving_cylinder::PROBLEM,
+    corner_impact::PROBLEM,
+    rocking_block::PROBLEM,
+    jamming_rod::PROBLEM,
+    spool::PROBLEM,
+    wedge::PROBLEM,
+    tilted_box::PROBLEM,
+    plank::PROBLEM,
 ];
 
 /// How smooth the forces of a problem are: it decides which order a method of order p can show.

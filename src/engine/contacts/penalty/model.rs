@@ -9,7 +9,7 @@ use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
-use super::{Penalty, RollingLaw, features, handover, limits, meetings, patience, staged, watched};
+use super::{Penalty, RollingLaw, TangentialLaw, features, handover, limits, meetings, patience, staged, watched};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
@@ -69,8 +69,10 @@ impl<N: NormalForce> Model for Contacts<N> {
         Some("Penalty")
     }
 
+    /// Friction that sticks without any give turns with the body that it holds: so it depends on how fast the body turns.
     fn dependence(&self) -> Dependence {
-        if N::DEPENDS_ON_VELOCITY { Dependence::Velocity } else { Dependence::Position }
+        let turns = self.own.contacts.settings.tangential == TangentialLaw::Exact;
+        if N::DEPENDS_ON_VELOCITY || turns { Dependence::Velocity } else { Dependence::Position }
     }
 
     fn flies(&self) -> bool {
