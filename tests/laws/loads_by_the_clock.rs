@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use jostle::scene::Source;
-use jostle::{Simulation, SimulationExt};
+use jostle::Simulation;
 
 const INERTIA: f64 = 0.1;
 const SPEED: f64 = -6.0;
