@@ -267,3 +267,46 @@ fn the_deepest_overlap_and_the_largest_share_are_of_different_pairs() {
         assert!(card.to_string().contains("largest share"), "{card}");
     }
 }
+
+/// Law: a ball that loses nothing meets the floor after `t = sqrt(2 h/g)` and then each `2 t`, `h` the height of its fall: with 0.5 m that is
+/// five times in 3 s. A counter counts contacts of its own two groups alone; it is read far from any contact.
+#[test]
+fn a_counter_counts_contacts_of_its_groups() {
+    let scene = "walls: [(name: \"floor\", left: (9, 0), right: (-9, 0))],
+        materials: {\"default\": (stiffness: 1e6, restitution: 1)},
+        bodies: [(name: \"ball_0\", at: (0, 0.6), mass: 1, atoms: Disc(radius: 0.1)),
+                 (name: \"ball_1\", at: (2, 0.6), mass: 1, atoms: Disc(radius: 0.1)),
+                 (name: \"other\", at: (4, 0.6), mass: 1, atoms: Disc(radius: 0.1))],
+        sensors: [Counter(name: \"one\", of: \"ball_0\", touching: \"floor\"), Counter(name: \"both\", of: \"ball_*\", touching: [\"floor\", \"other\"]),
+                  Counter(name: \"none\", of: \"ball_*\", touching: \"other\")]";
+    let text = format!(
+        "Scene(format: 1, clock: (duration: 3, tick: \"0.1 ms\", method: VelocityVerlet), gravity: (0, -9.81), {scene})"
+    );
+    let source = Source::new("counter.ron", text);
+    let mut simulation = Simulation::load(&source).unwrap_or_else(|errors| panic!("{errors}"));
+    let mut read = |tick: u64| {
+        simulation.run_to_tick(tick).unwrap();
+        ["one", "both", "none"].map(|name| {
+            let channel = jostle::sensors::find(simulation.world_mut(), &format!("{name}.count")).expect("it is there");
+            simulation.value(&channel)
+        })
+    };
+    assert_eq!(read(3_000), [0.0, 0.0, 0.0]);
+    assert_eq!(read(6_000), [1.0, 2.0, 0.0]);
+    assert_eq!(read(30_000), [5.0, 10.0, 0.0]);
+}
+
+/// Law: an oscillator with a period of 1 s passes its middle twice in each, and a gate beside its path never. Passages to both sides cancel.
+#[test]
+fn a_gate_counts_those_that_pass() {
+    let scene = "forces: [Spring(a: \"bob\", b: World, anchor_b: (0, 0), stiffness: 39.47841760435743, length: 0)],
+        bodies: [(name: \"bob\", at: (1, 0), mass: 1, atoms: Disc(radius: 0.1)), (name: \"post\", at: (0, 9), fixed: true, atoms: Disc(radius: 0.1))],
+        sensors: [Counter(name: \"middle\", of: \"*\", gate: ((0, -9), (0, 9))), Counter(name: \"beside\", of: \"bob\", gate: ((0, 1), (0, 9))),
+                  Counter(name: \"turned\", of: \"bob\", gate: ((0, 9), (0, -9)))]";
+    let read = |tick: u64, name: &str| read("VelocityVerlet", tick, scene, name);
+    for (tick, count, net) in [(200, 0.0, 0.0), (300, 1.0, 1.0), (800, 2.0, 0.0), (9_800, 20.0, 0.0)] {
+        assert_eq!(read(tick, "middle.count"), count, "tick {tick}");
+        assert_eq!([read(tick, "middle.count.net"), read(tick, "turned.count.net")], [net, -net], "tick {tick}");
+        assert_eq!(read(tick, "beside.count"), 0.0);
+    }
+}
