@@ -79,11 +79,10 @@ impl Outlines {
             let rings = contours.iter().map(|contour| chained(contour, chords, SAME * tolerance / unit));
             rings.map(|ring| ring.into_iter().map(placed).collect()).collect()
         };
-        let count: usize =
-            contours.iter().flat_map(|contour| &contour.curves).map(|curve| curve.chords(tolerance / unit)).sum();
+        let few = |curve: &curve::Curve| curve.chords(tolerance / unit).min(MOST_POINTS + 1);
+        let count: usize = contours.iter().flat_map(|contour| &contour.curves).map(few).sum();
         if count > MOST_POINTS {
-            let message =
-                format!("{count} points are needed for a tolerance of {tolerance} m, more than {MOST_POINTS}");
+            let message = format!("more than {MOST_POINTS} points are needed for a tolerance of {tolerance} m");
             return Err((message, "a larger `tolerance`, or a simpler drawing".to_owned(), "tolerance"));
         }
         let mut polygons = flattened(tolerance);
@@ -195,6 +194,7 @@ mod tests {
             ("<path d=\"M0 0 L1 0\"/>", None, "has no outline"),
             ("<g transform=\"turn(3)\"><circle r=\"3\"/></g>", None, "`transform` means nothing"),
             ("<g>", None, "is no SVG file"),
+            ("<path d=\"M0 0 L1e300 0 C1e308 1e308 -1e308 1e308 0 1e300 Z\"/>", None, "more than 2000 points"),
         ] {
             let (message, ..) = read(body, id).unwrap_err();
             assert!(message.contains(words), "{body}: {message}");
