@@ -31,6 +31,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("projectile", include_str!("../../scenes/projectile.ron")),
     ("rocket_thrust", include_str!("../../scenes/rocket_thrust.ron")),
     ("rolling_shapes", include_str!("../../scenes/rolling_shapes.ron")),
+    ("rooms", include_str!("../../scenes/rooms.ron")),
     ("rope_bridge", include_str!("../../scenes/rope_bridge.ron")),
     ("slider_crank", include_str!("../../scenes/slider_crank.ron")),
     ("snow_globe", include_str!("../../scenes/snow_globe.ron")),

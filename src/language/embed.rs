@@ -13,8 +13,21 @@ pub use super::expand::{Door, Wanted, told};
 pub enum EmbeddingPlace {
     /// As `atoms: NAME(..)`.
     Atoms,
+    /// As `shape: NAME(..)`, or in a list there.
+    Shape,
     /// In the section `NAME`, a list.
     Section,
+}
+
+impl EmbeddingPlace {
+    /// The field that such an entry is the value of, if it is one's.
+    pub(crate) fn field(self) -> Option<&'static str> {
+        match self {
+            Self::Atoms => Some("atoms"),
+            Self::Shape => Some("shape"),
+            Self::Section => None,
+        }
+    }
 }
 
 /// An entry that names a file.

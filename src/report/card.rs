@@ -10,6 +10,7 @@ use super::advice::{Known, Remedy, rounded_down};
 use super::estimate::EstimatedError;
 use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
+use jostle_engine::contacts::{DeepestOverlap, Overlap};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::StepCount;
 use jostle_engine::joints::Joint;
@@ -33,6 +34,13 @@ pub struct LargestOverlap {
     pub bodies: Vec<String>,
     /// When, in seconds.
     pub time: f64,
+}
+
+impl fmt::Display for LargestOverlap {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let (meters, share, time) = (number(self.meters), self.share_of_radius * 100.0, number(self.time));
+        write!(f, "{meters} m, {share:.1} % of the smaller radius, {} at t = {time} s", self.bodies.join(" and "))
+    }
 }
 
 /// How far the two bodies of a joint were from where it holds them, at most.
@@ -67,8 +75,10 @@ pub struct Card {
     pub momentum_residual: [f64; 2],
     /// Angular momentum about the origin that is missing, in N m s.
     pub angular_momentum_residual: f64,
-    /// The deepest overlap.
+    /// The deepest overlap in metres.
     pub largest_overlap: LargestOverlap,
+    /// The deepest overlap as a share of the smaller radius.
+    pub largest_overlap_share: LargestOverlap,
     /// The largest drift of a joint; nothing without joints.
     pub largest_joint_drift: Option<LargestDrift>,
     /// Greatest travel of any point in one tick over the smallest radius.
@@ -154,7 +164,8 @@ impl Card {
             energy,
             momentum_residual: [momentum.x - ledger.impulse[0].value(), momentum.y - ledger.impulse[1].value()],
             angular_momentum_residual: now.angular_momentum - start.angular_momentum - ledger.angular_impulse.value(),
-            largest_overlap: largest_overlap(world),
+            largest_overlap: told_overlap(world, |deepest| deepest.in_meters),
+            largest_overlap_share: told_overlap(world, |deepest| deepest.in_share),
             largest_joint_drift: largest_joint_drift(state),
             largest_travel_share: share(largest_travel(state)),
             real_time_factor: if seconds_spent > 0.0 { clock.time() / seconds_spent } else { 0.0 },
@@ -245,8 +256,8 @@ fn largest_joint_drift(state: &State) -> Option<LargestDrift> {
     Some(LargestDrift { meters: drift.meters, joint, time: drift.time })
 }
 
-fn largest_overlap(world: &World) -> LargestOverlap {
-    let deepest = world.resource::<State>().deepest_overlap();
+fn told_overlap(world: &World, which: fn(&DeepestOverlap) -> Overlap) -> LargestOverlap {
+    let deepest = which(world.resource::<State>().deepest_overlap());
     let name = |entity| name(world, entity);
     LargestOverlap {
         meters: deepest.overlap,
@@ -303,17 +314,11 @@ impl fmt::Display for Card {
             format!("({x:.1e}, {y:.1e}) N s, angular {:.1e} N m s", self.angular_momentum_residual),
         )?;
         let overlap = &self.largest_overlap;
-        if overlap.meters > 0.0 {
-            row(
-                "largest overlap",
-                format!(
-                    "{} m, {:.1} % of the smaller radius, {} at t = {} s",
-                    number(overlap.meters),
-                    overlap.share_of_radius * 100.0,
-                    overlap.bodies.join(" and "),
-                    number(overlap.time)
-                ),
-            )?;
+        let share = Some(&self.largest_overlap_share).filter(|share| share.share_of_radius > overlap.share_of_radius);
+        for (label, told) in [("largest overlap", Some(overlap)), ("largest share", share)] {
+            if let Some(told) = told.filter(|told| told.meters > 0.0) {
+                row(label, told.to_string())?;
+            }
         }
         if let Some(LargestDrift { meters, joint, time }) = &self.largest_joint_drift {
             let when = if *meters > 0.0 { format!(", `{joint}` at t = {} s", number(*time)) } else { String::new() };

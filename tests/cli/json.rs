@@ -44,11 +44,12 @@ fn the_result_has_exactly_the_promised_fields() {
         has_exactly(
             card,
             "method tick critical_tick events_located energy momentum_residual angular_momentum_residual \
-             largest_overlap largest_joint_drift largest_travel_share real_time_factor ns_per_atom_tick hash verdict \
+             largest_overlap largest_overlap_share largest_joint_drift largest_travel_share real_time_factor ns_per_atom_tick hash verdict \
              notes error",
         );
         has_exactly(&card["energy"], "kinetic potential elastic friction inelasticity drag work residual");
         has_exactly(&card["largest_overlap"], "meters share_of_radius bodies time");
+        has_exactly(&card["largest_overlap_share"], "meters share_of_radius bodies time");
         assert!(card["events_located"].is_u64() && is_pair(&card["momentum_residual"]));
         assert!(card["hash"].as_str().is_some_and(|hash| hash.len() == 16 && u64::from_str_radix(hash, 16).is_ok()));
         assert!(card["notes"].as_array().is_some_and(|notes| notes.iter().all(Value::is_string)));

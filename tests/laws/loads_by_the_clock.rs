@@ -8,8 +8,8 @@
 
 use std::f64::consts::TAU;
 
-use jostle::scene::Source;
 use jostle::Simulation;
+use jostle::scene::Source;
 
 const INERTIA: f64 = 0.1;
 const SPEED: f64 = -6.0;

@@ -2,7 +2,9 @@
 
 mod authoring;
 mod authoring_files;
+mod drawings;
 mod extremes;
+mod fills;
 mod film;
 mod layers;
 mod manual;

@@ -99,7 +99,8 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "largest overlap",
-        "how deep two bodies, or a body and a wall, were in each other at worst, in m and as a share of the smaller radius. \
+        "how deep two bodies, or a body and a wall, were in each other at worst, in m and as a share of the smaller radius. Another \
+         pair may have a greater share: then that stands in `largest share`. \
          Contacts are springs, so some overlap is what carries the load; a higher `stiffness` makes it smaller, and asks for \
          a shorter tick.",
     ),

@@ -49,6 +49,7 @@ fn note(setting: &Setting) -> String {
         Outcome::Failed(failure) => {
             let what = match failure.wrong {
                 Wrong::Crossed(_) => format!("`{}` passes through the wall `{}`", failure.body, failure.other),
+                Wrong::Behind(_) => format!("`{}` comes through `{}` from behind", failure.body, failure.other),
                 Wrong::Sunk(_) => format!("corners sink too deep, between `{}` and `{}`", failure.body, failure.other),
                 Wrong::NotFinite(quantity) => {
                     format!("the {quantity} of `{}` is no longer a finite number", failure.body)

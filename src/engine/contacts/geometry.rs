@@ -42,6 +42,14 @@ impl End {
         Self { body: bodies.hulls[hull].body as usize, arm: found.foot, radius: shape.radius() }
     }
 
+    /// An atom as a wall sees it.
+    #[inline]
+    pub fn at_wall(bodies: &Bodies, wall: usize, atom: u32) -> Self {
+        let body = bodies.atom_body(atom as usize);
+        let (place, radius) = bodies.meeting_wall(&bodies.walls[wall], atom as usize);
+        Self { body, arm: place - bodies.position[body], radius }
+    }
+
     #[inline(always)]
     pub fn of(bodies: &Bodies, atom: u32) -> Self {
         let atom = atom as usize;
@@ -204,7 +212,8 @@ impl PairGeometry {
     }
 
     fn wall(bodies: &Bodies, index: usize, wall: usize, atom: u32) -> Self {
-        let (end, place) = (End::of(bodies, atom), bodies.atom_place(atom as usize));
+        let end = End::at_wall(bodies, wall, atom);
+        let place = bodies.meeting_wall(&bodies.walls[wall], atom as usize).0;
         let NearestPoint { height, normal, distance } = bodies.nearest_on_wall(wall, atom as usize, place);
         let wall = bodies.whole_wall(wall);
         let belt = bodies.belts.get(wall).copied().unwrap_or(DVec2::ZERO);

@@ -13,7 +13,7 @@ use crate::tick::kept::SnapshotAppExt;
 use crate::world::{Body, Wall, atom};
 
 pub use crate::tick::pairs::{AtomPair, CandidatePairs, Probe, Surface, SurfacePair};
-pub use crate::tick::touch::{ContactForces, ContactPoint, DeepestOverlap, Other, Touches};
+pub use crate::tick::touch::{ContactForces, ContactPoint, DeepestOverlap, Other, Overlap, Touches};
 pub use events::{ContactEvents, ContactEventsAppExt};
 pub use law::{Law, LawSide, LawTouch, add_law};
 

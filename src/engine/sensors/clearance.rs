@@ -1,5 +1,7 @@
 //! `Clearance(name: "gap", a: "arm", b: "wall")`: the least distance of the surfaces of two bodies, or of a body and a wall; below zero
 //! where they overlap.
+//!
+//! Surfaces are those of contacts: where two sharp shapes would meet, corners are as round as contacts make them.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -11,13 +13,15 @@ use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, place_of};
-use crate::world::Bodies;
+use crate::world::{Bodies, Intangible, PackedWall};
 use jostle_shapes::{Hull, Pose, distance};
 
 const QUANTITIES: &[&str] = &["clearance"];
 
-/// The least distance in m of the surfaces of two bodies, or of a body and a wall: `gap.clearance`. Below zero where they overlap: then it is
-/// the depth of the deepest pair of atoms. All pairs of their atoms are looked at.
+/// The least distance in m of the surfaces of two bodies, or of a body and a wall: `gap.clearance`. All pairs of their parts are looked at.
+/// Below zero where they overlap: then it is the depth of the deepest pair. It is below zero in a half-plane too, and in a block of ground that a
+/// line goes around clockwise; behind another line, or a strip with one side, it is the distance again. Corners of sharp shapes are as round as where contacts meet them. Of a body
+/// with parts that touch, only those count.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Clearance {
@@ -72,21 +76,79 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let (_, a, b) = *world.get_resource::<Asked>()?.0.iter().find(|(name, ..)| name == owner)?;
     let value = move |world: &World| {
         let bodies = world.resource::<State>().bodies();
-        let Some(first) = place_of(world, a) else { return f64::NAN };
-        match (place_of(world, b), bodies.walls.iter().position(|wall| wall.entity == b)) {
-            (Some(second), _) => between_bodies(bodies, first, second),
-            (None, Some(wall)) => from_wall(bodies, first, wall),
+        let Some(first) = Side::of(world, a) else { return f64::NAN };
+        match (Side::of(world, b), bodies.walls.iter().position(|wall| wall.entity == b)) {
+            (Some(second), _) => between_bodies(bodies, &first, &second),
+            (None, Some(wall)) => from_wall(bodies, &first, wall),
             (None, None) => f64::NAN,
         }
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "m", value))
 }
 
-fn between_bodies(bodies: &Bodies, first: usize, second: usize) -> f64 {
-    if [first, second].iter().any(|&body| bodies.hulls_of(body).next().is_some()) {
-        return between_shapes(bodies, first, second);
+/// A body, and its parts that touch nothing if it has no others.
+struct Side<'a> {
+    body: usize,
+    intangible: &'a [Hull],
+}
+
+/// A hull, and the same where it meets another that is sharp too.
+struct Surface {
+    hull: Hull,
+    rounded: Option<Hull>,
+}
+
+impl<'a> Side<'a> {
+    fn of(world: &'a World, entity: Entity) -> Option<Self> {
+        let (bodies, body) = (world.resource::<State>().bodies(), place_of(world, entity)?);
+        let intangible = world.get::<Intangible>(entity).filter(|_| bodies.atoms_of(body).is_empty());
+        Some(Self { body, intangible: intangible.map_or(&[], |intangible| &intangible.hulls) })
     }
-    let pairs = bodies.atoms_of(first).flat_map(|a| bodies.atoms_of(second).map(move |b| (a, b)));
+
+    fn is_of_discs(&self, bodies: &Bodies) -> bool {
+        self.intangible.is_empty() && bodies.hulls_of(self.body).next().is_none()
+    }
+
+    /// Its discs and hulls, about its centre of mass.
+    fn surfaces(&self, bodies: &Bodies) -> Vec<Surface> {
+        let discs = bodies.atoms_of(self.body).filter(|atom| !bodies.is_corner(*atom));
+        let discs = discs.filter_map(|atom| Hull::disc(bodies.atom_offset(atom), bodies.atom_radius[atom]).ok());
+        let sharp = |hull: Hull| Surface { hull, rounded: None };
+        let hulls = bodies.hulls_of(self.body).map(|packed| Surface {
+            hull: packed.hull.clone(),
+            rounded: packed.rounded.as_ref().map(|rounded| rounded.hull.clone()),
+        });
+        discs.chain(self.intangible.iter().cloned()).map(sharp).chain(hulls).collect()
+    }
+
+    /// Places in the world and radii of its discs and corners, in metres.
+    fn places(&self, bodies: &Bodies) -> Vec<(DVec2, f64)> {
+        let atoms = bodies.atoms_of(self.body).map(|atom| (bodies.atom_place(atom), bodies.atom_radius[atom]));
+        let pose = self.pose(bodies);
+        let corners = self
+            .intangible
+            .iter()
+            .flat_map(|hull| hull.corners().iter().map(move |corner| (pose.point_to_world(*corner), hull.radius())));
+        atoms.chain(corners).collect()
+    }
+
+    fn pose(&self, bodies: &Bodies) -> Pose {
+        Pose::new(bodies.position[self.body], bodies.angle[self.body])
+    }
+}
+
+impl Surface {
+    /// Both as contacts see them.
+    fn meets<'a>(&'a self, other: &'a Self) -> (&'a Hull, &'a Hull) {
+        self.rounded.as_ref().zip(other.rounded.as_ref()).unwrap_or((&self.hull, &other.hull))
+    }
+}
+
+fn between_bodies(bodies: &Bodies, first: &Side, second: &Side) -> f64 {
+    if ![first, second].iter().all(|side| side.is_of_discs(bodies)) {
+        return least((&first.surfaces(bodies), first.pose(bodies)), (&second.surfaces(bodies), second.pose(bodies)));
+    }
+    let pairs = bodies.atoms_of(first.body).flat_map(|a| bodies.atoms_of(second.body).map(move |b| (a, b)));
     let gap = |(a, b): (usize, usize)| {
         let reach = bodies.atom_radius[a] + bodies.atom_radius[b];
         (bodies.atom_place(a) - bodies.atom_place(b)).length() - reach
@@ -94,44 +156,35 @@ fn between_bodies(bodies: &Bodies, first: usize, second: usize) -> f64 {
     pairs.map(gap).fold(f64::INFINITY, f64::min)
 }
 
-/// The same where one of them has sides.
-fn between_shapes(bodies: &Bodies, first: usize, second: usize) -> f64 {
-    least((&parts(bodies, first), pose(bodies, first)), (&parts(bodies, second), pose(bodies, second)))
-}
-
-/// The discs and hulls of a body.
-fn parts(bodies: &Bodies, body: usize) -> Vec<Hull> {
-    let discs = bodies.atoms_of(body).filter(|atom| !bodies.is_corner(*atom));
-    let discs = discs.filter_map(|atom| Hull::disc(bodies.atom_offset(atom), bodies.atom_radius[atom]).ok());
-    discs.chain(bodies.hulls_of(body).map(|packed| packed.hull.clone())).collect()
-}
-
-fn pose(bodies: &Bodies, body: usize) -> Pose {
-    Pose::new(bodies.position[body], bodies.angle[body])
-}
-
-fn least((first, at): (&[Hull], Pose), (second, there): (&[Hull], Pose)) -> f64 {
-    let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
+fn least((first, at): (&[Surface], Pose), (second, there): (&[Surface], Pose)) -> f64 {
+    let pairs = first.iter().flat_map(|a| second.iter().map(move |b| a.meets(b)));
     pairs.map(|(a, b)| distance(a, &at, b, &there)).fold(f64::INFINITY, f64::min)
 }
 
-fn from_wall(bodies: &Bodies, body: usize, wall: usize) -> f64 {
-    let pieces = match bodies.walls[wall].line {
-        Some(line) => bodies.lines[line as usize].pieces(),
-        None => wall..wall + 1,
+fn from_wall(bodies: &Bodies, side: &Side, wall: usize) -> f64 {
+    let Some(line) = bodies.walls[wall].line.map(|line| &bodies.lines[line as usize]) else {
+        return from_pieces(bodies, side, wall..wall + 1);
     };
-    pieces.map(|piece| from_piece(bodies, body, piece)).fold(f64::INFINITY, f64::min)
+    let nearest = from_pieces(bodies, side, line.pieces());
+    let height = |(at, radius): (DVec2, f64)| bodies.height_over_line(line, at) - radius;
+    let inside = side.places(bodies).into_iter().filter(|_| line.is_block()).map(height);
+    inside.filter(|height| *height < 0.0).fold(nearest, f64::min)
 }
 
-fn from_piece(bodies: &Bodies, body: usize, wall: usize) -> f64 {
-    let wall = &bodies.walls[wall];
-    if wall.ends.is_some() && bodies.hulls_of(body).next().is_some() {
+/// The least distance from a few walls, or pieces of a line.
+fn from_pieces(bodies: &Bodies, side: &Side, pieces: std::ops::Range<usize>) -> f64 {
+    let (places, surfaces) = (side.places(bodies), side.surfaces(bodies));
+    let from_piece = |wall: &PackedWall| {
+        if wall.ends.is_none() || side.is_of_discs(bodies) {
+            let gap = |(at, radius): &(DVec2, f64)| wall.nearest(*at).height - radius;
+            return places.iter().map(gap).fold(f64::INFINITY, f64::min);
+        }
         let [(from, radius), (to, _)] = [false, true].map(|right| wall.end(right));
-        let strip = Hull::capsule(from, to, radius).map_or_else(|_| Vec::new(), |strip| vec![strip]);
-        return least((&parts(bodies, body), pose(bodies, body)), (&strip, Pose::new(DVec2::ZERO, 0.0)));
-    }
-    let gap = |atom: usize| wall.nearest(bodies.atom_place(atom)).height - bodies.atom_radius[atom];
-    bodies.atoms_of(body).map(gap).fold(f64::INFINITY, f64::min)
+        let Ok(hull) = Hull::capsule(from, to, radius) else { return f64::INFINITY };
+        let strip = [Surface { rounded: wall.is_thin().then(|| hull.clone()), hull }];
+        least((&surfaces, side.pose(bodies)), (&strip, Pose::new(DVec2::ZERO, 0.0)))
+    };
+    bodies.walls[pieces].iter().map(from_piece).fold(f64::INFINITY, f64::min)
 }
 
 pub(super) fn plugin(app: &mut App) {

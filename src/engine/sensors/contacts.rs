@@ -32,21 +32,24 @@ struct Contacts {
 #[derive(Resource, Default, Serialize, Deserialize)]
 struct Begun(Vec<(Entity, u64)>);
 
-impl Contacts {
-    /// Names of what it measures, each once, in the order of the file.
-    fn owners(&self, outline: &Outline, report: &mut Report) -> Vec<String> {
-        let mut owners: Vec<String> = Vec::new();
-        for (pattern, path) in self.of.with_paths("of") {
-            let bodies = outline.matching(Kind::BODY, pattern);
-            if bodies.is_empty() && outline.require_any(&[Kind::WALL, Kind::BODY], pattern, &path, report) {
-                owners.push(pattern.clone());
-            }
-            owners.extend(bodies.into_iter().map(|place| outline.names(Kind::BODY)[place].clone()));
+/// Names of bodies, `*` matches, and of walls, which are named in full: each once, in the order of the file.
+pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Report) -> Vec<String> {
+    let mut owners: Vec<String> = Vec::new();
+    for (pattern, path) in names.with_paths(field) {
+        let bodies = outline.matching(Kind::BODY, pattern);
+        if bodies.is_empty() && outline.require_any(&[Kind::WALL, Kind::BODY], pattern, &path, report) {
+            owners.push(pattern.clone());
         }
-        let mut known = BTreeSet::new();
-        owners.retain(|owner| known.insert(owner.clone()));
-        owners
+        owners.extend(bodies.into_iter().map(|place| outline.names(Kind::BODY)[place].clone()));
     }
+    let mut known = BTreeSet::new();
+    owners.retain(|owner| known.insert(owner.clone()));
+    if owners.is_empty() && names.patterns.is_empty() {
+        report
+            .error(field, "must name at least one body or wall")
+            .help(format!("write `{field}: \"*\"` for all bodies"));
+    }
+    owners
 }
 
 impl Entry for Contacts {
@@ -59,14 +62,12 @@ impl Entry for Contacts {
     }
 
     fn check(&self, outline: &Outline, report: &mut Report) {
-        if self.owners(outline, report).is_empty() && self.of.patterns.is_empty() {
-            report.error("of", "must name at least one body or wall").help("write `of: \"*\"` for all bodies");
-        }
+        owners(&self.of, "of", outline, report);
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let owners = entry.value.owners(outline, &mut Report::new());
+            let owners = owners(&entry.value.of, "of", outline, &mut Report::new());
             let names = owners.iter().flat_map(|owner| QUANTITIES.iter().map(move |q| format!("{owner}.{q}")));
             add_found(app.world_mut(), names);
         }

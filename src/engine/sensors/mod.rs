@@ -7,6 +7,7 @@ mod acceleration;
 mod clearance;
 mod contact_force;
 mod contacts;
+mod counter;
 pub(crate) mod energy;
 mod force;
 mod joint;
@@ -323,4 +324,5 @@ pub fn plugin(app: &mut App) {
     period::plugin(app);
     clearance::plugin(app);
     range::plugin(app);
+    counter::plugin(app);
 }

@@ -1,4 +1,5 @@
-//! `Overlap()`: the deepest overlap so far, `overlap.deepest` in metres and `overlap.share` of the smaller radius.
+//! `Overlap()`: the deepest overlap so far, `overlap.deepest` in metres and `overlap.share` of the smaller radius, each
+//! of the pair that has most of it.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -12,7 +13,8 @@ use crate::tick::State;
 
 const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
 
-/// The deepest overlap so far: `overlap.deepest` in m, `overlap.share` of the smaller radius.
+/// The deepest overlap so far: `overlap.deepest` in m, `overlap.share` of the smaller radius. Each is that of its own pair: a small body may
+/// be pressed in by more of its radius, a large one by more metres.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Overlap {}
@@ -33,8 +35,8 @@ impl Entry for Overlap {
 
 fn find(_: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let (part, unit): (fn(&DeepestOverlap) -> f64, _) = match (owner, quantity) {
-        ("overlap", "deepest") => (|deepest| deepest.overlap, "m"),
-        ("overlap", "share") => (|deepest| deepest.share, ""),
+        ("overlap", "deepest") => (|deepest| deepest.in_meters.overlap, "m"),
+        ("overlap", "share") => (|deepest| deepest.in_share.share, ""),
         _ => return None,
     };
     let value = move |state: &State| part(state.deepest_overlap());

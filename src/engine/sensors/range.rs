@@ -1,7 +1,8 @@
 //! `Range(name: "eye", of: "car", at: (0.2, 0), angle: 0)`: how far a ray from a place of a body goes until it meets something.
 //!
 //! The ray begins at a place of the body and turns with it. It meets discs, shapes and walls, those of its own body and such as touch
-//! nothing left out. Half-planes and lines are met from their open side.
+//! nothing left out. Half-planes, lines, and strips with one side are met from their open side, where their surface is: a strip half its
+//! thickness in front of its middle line. What a line goes around clockwise is a block of ground.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -14,13 +15,14 @@ use crate::scene::units::{Angle, Length, Position};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, place_of};
-use crate::world::{Bodies, PackedWall};
+use crate::world::{Bodies, PackedLine};
 use jostle_shapes::{Hull, Pose, ray};
 
 const QUANTITIES: &[&str] = &["range"];
 
 /// How far in m a ray from a place of a body goes until it meets another body or a wall: `eye.range`. It is infinite if the ray meets nothing
-/// within its `reach`, and zero if it begins inside something.
+/// within its `reach`, and zero if it begins inside something. Lines, and strips with one side, are open from behind; what a
+/// line goes around clockwise is a block of ground.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Range {
@@ -113,28 +115,39 @@ impl Beam {
             let discs = discs.filter_map(move |disc| ray(&disc, from, direction));
             discs.chain(bodies.hulls_of(body).filter_map(move |packed| ray(&packed.hull, from, direction)))
         });
-        let walls = bodies.walls.iter().filter_map(|wall| to_wall(wall, from, direction));
-        let nearest = met.chain(walls).fold(f64::INFINITY, f64::min);
+        let walls = (0..bodies.walls.len()).filter_map(|wall| to_wall(bodies, wall, from, direction));
+        let is_inside = |line: &&PackedLine| line.is_block() && bodies.is_behind_line(line, from);
+        let inside = bodies.lines.iter().find(is_inside).map(|_| 0.0);
+        let nearest = met.chain(walls).chain(inside).fold(f64::INFINITY, f64::min);
         if nearest <= self.reach { nearest } else { f64::INFINITY }
     }
 }
 
-/// The distance in m along a ray to where it meets a wall.
-fn to_wall(wall: &PackedWall, from: DVec2, direction: DVec2) -> Option<f64> {
-    if let (None, Some(_)) = (wall.line, wall.ends) {
-        let [(start, radius), (end, _)] = [false, true].map(|right| wall.end(right));
-        return ray(&Hull::capsule(start, end, radius).ok()?, from, direction);
+/// The distance in m along a ray to where it meets a wall, or a piece of a line.
+fn to_wall(bodies: &Bodies, wall: usize, from: DVec2, direction: DVec2) -> Option<f64> {
+    let packed = &bodies.walls[wall];
+    let Some(ends) = packed.ends else {
+        let (height, sinks) = (packed.normal.dot(from - packed.point), -packed.normal.dot(direction));
+        return if height <= 0.0 { Some(0.0) } else { (sinks > 0.0).then(|| height / sinks) };
+    };
+    let round = [false, true].map(|right| packed.end(right));
+    let Some(line) = packed.line else {
+        return ray(&Hull::capsule(round[0].0, round[1].0, ends.half).ok()?, from, direction);
+    };
+    if ends.half > 0.0 && packed.nearest(from).height <= 0.0 {
+        return Some(0.0);
     }
-    let (height, sinks) = (wall.normal.dot(from - wall.point), -wall.normal.dot(direction));
-    match wall.ends {
-        None if height <= 0.0 => Some(0.0),
-        None => (sinks > 0.0).then(|| height / sinks),
-        Some(ends) => {
-            let way = height / sinks;
-            let along = (from + direction * way - wall.point).dot(wall.normal.perp());
-            (sinks > 0.0 && height >= 0.0 && (0.0..=ends.length).contains(&along)).then_some(way)
-        }
-    }
+    let along = |at: DVec2| (at - packed.point).dot(packed.normal.perp());
+    let (height, sinks) = (packed.normal.dot(from - packed.point) - ends.half, -packed.normal.dot(direction));
+    let way = height / sinks;
+    let is_met = sinks > 0.0 && height >= 0.0 && (0.0..=ends.length).contains(&along(from + direction * way));
+    let is_free = bodies.lines[line as usize].round_ends(wall);
+    let to_end = |((center, radius), is_free): ((DVec2, f64), bool)| {
+        let way = ray(&Hull::disc(center, radius).ok()?, from, direction).filter(|_| is_free && radius > 0.0)?;
+        // The other half of the disc lies behind the strip, or in it.
+        (!(0.0..=ends.length).contains(&along(from + direction * way))).then_some(way)
+    };
+    round.into_iter().zip(is_free).filter_map(to_end).chain(is_met.then_some(way)).min_by(f64::total_cmp)
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -236,6 +236,23 @@ pub fn reach(specs: &[AtomSpec], rule: InertiaRule) -> f64 {
     widest(of(specs, None, rule, 1.0).center)
 }
 
+/// The same of a body that has parts with sides.
+pub fn reach_of_parts(specs: &[AtomSpec], parts: &[Part]) -> f64 {
+    let disc = |atom: &AtomSpec| Hull::disc(atom.offset, atom.radius).ok();
+    let hulls: Vec<Hull> =
+        parts.iter().flat_map(|part| part.hulls.iter().cloned()).chain(specs.iter().filter_map(disc)).collect();
+    let widest =
+        |center: DVec2| hulls.iter().map(|hull| hull.reach_of_core(center) + hull.radius()).fold(0.0, f64::max);
+    let own = parts.iter().filter(|part| part.mass.is_some() || part.density.is_some()).count();
+    if own != 0 && (own != parts.len() || !specs.is_empty()) {
+        // The centre of mass lies among those of the parts, and the farthest distance is a convex function of it.
+        let atoms: Vec<Hull> = specs.iter().filter_map(disc).collect();
+        let each = parts.iter().map(|part| &part.hulls).chain((!atoms.is_empty()).then_some(&atoms));
+        return each.map(|hulls| widest(AreaMoments::union_of(hulls).centre)).fold(0.0, f64::max);
+    }
+    widest(of_parts(specs, parts, None, InertiaRule::Union, 1.0).center)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

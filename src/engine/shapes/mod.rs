@@ -9,6 +9,7 @@ pub mod outline;
 pub mod picture;
 pub mod png;
 pub(crate) mod silhouette;
+pub(crate) mod svg;
 mod union;
 
 use glam::DVec2;

@@ -57,6 +57,8 @@ pub enum Wrong {
     },
     /// The centre of an atom has passed the middle line of the wall with this entity.
     Crossed(Entity),
+    /// The centre of an atom has come through the line with this entity from behind, where it is open.
+    Behind(Entity),
     /// A sharp corner lies so deep in the body with this entity that the side that it came through is not known.
     Sunk(Entity),
     /// Motors and joints ask for different motions of a body.
@@ -130,7 +132,12 @@ impl std::fmt::Display for Failure {
             Wrong::Crossed(_) => write!(
                 f,
                 "`{body}` has passed through `{other}`: its contact is too soft for that speed, or the tick too long; give it more \
-                 `stiffness`, or a shorter `tick`,"
+                 `stiffness`, a strip more `thickness`, or a shorter `tick`,"
+            )?,
+            Wrong::Behind(_) => write!(
+                f,
+                "`{body}` has come through `{other}` from behind, where it is open: only its other side holds what comes; let `{body}` \
+                 begin on that side, turn the points of `{other}` around, or give a strip `sides: Both`,"
             )?,
             Wrong::Sunk(_) => write!(
                 f,

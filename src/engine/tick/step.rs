@@ -174,7 +174,10 @@ impl Trouble {
         let entity = self.entity.or_else(placed);
         let name = |entity: Option<Entity>| world.get::<Name>(entity?).map(Name::to_string);
         let body = name(entity).unwrap_or_default();
-        let other = if let Wrong::Crossed(other) | Wrong::Sunk(other) = self.wrong { name(Some(other)) } else { None };
+        let other = match self.wrong {
+            Wrong::Crossed(other) | Wrong::Behind(other) | Wrong::Sunk(other) => name(Some(other)),
+            _ => None,
+        };
         Failure { body, other: other.unwrap_or_default(), wrong: self.wrong, tick: self.tick, time: self.time }
     }
 }

@@ -6,10 +6,10 @@ use glam::DVec2;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// The deepest overlap so far, as a share of the smaller radius.
+/// An overlap: how deep, whose and when.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct DeepestOverlap {
-    /// Overlap in metres.
+pub struct Overlap {
+    /// In metres.
     pub overlap: f64,
     /// The same as a share of the smaller of the two radii.
     pub share: f64,
@@ -19,12 +19,36 @@ pub struct DeepestOverlap {
     pub time: f64,
 }
 
+/// The deepest overlaps so far. Where bodies have different sizes, a small one may be pressed in by more of its radius than a large one by
+/// more metres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DeepestOverlap {
+    /// The deepest in metres.
+    pub in_meters: Overlap,
+    /// The deepest as a share of the smaller radius.
+    pub in_share: Overlap,
+}
+
 impl DeepestOverlap {
     /// Takes note of an overlap.
     #[inline]
     pub fn note(&mut self, overlap: f64, smaller_radius: f64, time: f64, between: impl FnOnce() -> (Entity, Entity)) {
-        if overlap > self.share * smaller_radius {
-            *self = Self { overlap, share: overlap / smaller_radius, between: Some(between()), time };
+        if overlap > self.in_meters.overlap || overlap > self.in_share.share * smaller_radius {
+            self.merge(&Self::of(Overlap { overlap, share: overlap / smaller_radius, between: Some(between()), time }));
+        }
+    }
+
+    fn of(overlap: Overlap) -> Self {
+        Self { in_meters: overlap, in_share: overlap }
+    }
+
+    /// Takes over what is deeper than before.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        if other.in_meters.overlap > self.in_meters.overlap {
+            self.in_meters = other.in_meters;
+        }
+        if other.in_share.share > self.in_share.share {
+            self.in_share = other.in_share;
         }
     }
 }

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::Bodies;
 use super::body::mark_changed;
 use super::material::MaterialIndex;
+use super::wall::PackedWall;
 
 /// The hulls of a body with two corners and more, about its centre of mass, in metres. The last atoms of the body are their corners, hull by
 /// hull.
@@ -174,15 +175,26 @@ impl Bodies {
     #[inline]
     pub(crate) fn meeting(&self, hull: usize, atom: usize) -> (&Hull, DVec2, f64) {
         let packed = &self.hulls[hull];
-        if let (Some(surface), Some(of_atom)) = (&packed.rounded, self.hull_of(atom)) {
-            let own = &self.hulls[of_atom];
-            if let Some(probe) = &own.rounded {
-                let corner = probe.hull.corners()[atom - own.first_atom as usize];
-                let place = self.pose_with_hulls(own.body as usize).point_to_world(corner);
-                return (&surface.hull, place, probe.hull.radius());
-            }
+        match packed.rounded.as_ref().zip(self.round_corner(atom)) {
+            Some((surface, (place, radius))) => (&surface.hull, place, radius),
+            None => (&packed.hull, self.atom_place(atom), self.atom_radius[atom]),
         }
-        (&packed.hull, self.atom_place(atom), self.atom_radius[atom])
+    }
+
+    /// Where an atom stands in metres as a wall sees it, and its radius in metres: a sharp corner is round where it meets a strip without
+    /// thickness.
+    #[inline]
+    pub(crate) fn meeting_wall(&self, wall: &PackedWall, atom: usize) -> (DVec2, f64) {
+        let sharp = (self.atom_place(atom), self.atom_radius[atom]);
+        if self.hulls.is_empty() || !wall.is_thin() { sharp } else { self.round_corner(atom).unwrap_or(sharp) }
+    }
+
+    /// The centre in metres and the radius in metres of a sharp corner that is rounded off, if an atom is one.
+    pub(crate) fn round_corner(&self, atom: usize) -> Option<(DVec2, f64)> {
+        let own = &self.hulls[self.hull_of(atom)?];
+        let round = &own.rounded.as_ref()?.hull;
+        let corner = round.corners()[atom - own.first_atom as usize];
+        Some((self.pose_with_hulls(own.body as usize).point_to_world(corner), round.radius()))
     }
 
     /// The nearest place of the core of a hull of a body to a point in the world, in metres. `hull` is one of the body's, or rounded.

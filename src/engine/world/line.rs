@@ -28,8 +28,9 @@ pub const SHARP: f64 = 0.1;
 /// joints do, so that a hill is not stiffer where it has more pieces. A side lies in a hill of radius `R` by up to `R` times its square
 /// over 8.
 const APART: f64 = 0.01;
-/// How far behind the line a corner without a radius may lie where it is found, as a share of half the width of its hull.
-const BEHIND: f64 = 0.1;
+/// How far behind the line a corner without a radius may lie where bodies begin, as a share of half the width of its hull. Later on a corner
+/// that is found there has come from behind.
+pub(crate) const BEHIND: f64 = 0.1;
 /// Pieces, or boxes, in a box of the tree.
 const IN_BOX: usize = 8;
 
@@ -57,6 +58,8 @@ pub struct PackedLine {
     pub count: u32,
     /// Before each piece, and behind the last; none where the line ends.
     joints: Vec<Option<Joint>>,
+    /// Whether it is closed and open to the outside.
+    is_block: bool,
     /// Of each joint, whether it pushes sides of hulls.
     sticks_out: Vec<bool>,
     /// Boxes about groups of pieces, then about groups of those, up to one box.
@@ -103,6 +106,9 @@ impl PackedLine {
             joints[0] = Some(joint(&pieces[count - 1], &pieces[0]));
             joints[count] = joints[0];
         }
+        let origin = pieces[0].point;
+        let twice_area: f64 =
+            pieces.windows(2).map(|two| (two[0].point - origin).perp_dot(two[1].point - origin)).sum();
         let mut turned = 0.0_f64;
         let sticks_out = joints
             .iter()
@@ -131,7 +137,26 @@ impl PackedLine {
             level = level.chunks(IN_BOX).map(about).collect();
             boxes.push(level.clone());
         }
-        Self { first: first as u32, count: count as u32, joints, sticks_out, boxes }
+        Self {
+            first: first as u32,
+            count: count as u32,
+            joints,
+            is_block: closed && twice_area < 0.0,
+            sticks_out,
+            boxes,
+        }
+    }
+
+    /// Whether it goes clockwise around a block of ground.
+    pub(crate) fn is_block(&self) -> bool {
+        self.is_block
+    }
+
+    /// Whether the round ends of a piece are parts of the surface: of the wall's left point, and of its right one. They are not where the
+    /// line bends towards its open side.
+    pub(crate) fn round_ends(&self, wall: usize) -> [bool; 2] {
+        let piece = wall - self.first as usize;
+        [piece + 1, piece].map(|place| self.joints[place].is_none_or(|joint| joint.tangent < 0.0))
     }
 
     /// The places of its pieces among the walls.
@@ -347,11 +372,12 @@ impl Bodies {
     }
 
     /// Shows the places on a line that are nearer to an atom than `margin` metres, and nearer than their neighbourhoods: by the walls in which
-    /// they lie, with the height of the atom. What is behind a line counts only where it was `known` to be near.
+    /// they lie, with the height of the atom. What is behind a line counts only where it was `known` to be near; of corners without a radius
+    /// also what is so by less than the share `behind` of half their width.
     pub(crate) fn each_place_on_line(
         &self,
         line: &PackedLine,
-        (atom, margin): (usize, f64),
+        (atom, margin, behind): (usize, f64, f64),
         known: impl Fn(usize) -> bool,
         mut see: impl FnMut(usize, f64),
     ) {
@@ -361,7 +387,7 @@ impl Bodies {
         line.each_near(probe.at, probe.radius.max(probe.size) + margin, &mut |piece| {
             let Some(found) = line.home(&self.walls, piece, probe) else { return };
             let half = half(&self.walls[first + piece]);
-            let behind = if probe.radius + half > 0.0 { 0.0 } else { BEHIND * probe.size };
+            let behind = if probe.radius + half > 0.0 { 0.0 } else { behind * probe.size };
             let seen = found.height + half > -behind || known(first + piece);
             if seen && found.height < probe.radius + margin {
                 see(first + piece, found.height);
@@ -369,8 +395,8 @@ impl Bodies {
         });
     }
 
-    /// Whether a place in m lies behind a line: behind the piece that is nearest.
-    pub(crate) fn is_behind_line(&self, line: &PackedLine, at: DVec2) -> bool {
+    /// The distance in m of a place from the middle of a line, below zero if it lies behind the piece that is nearest.
+    pub(crate) fn height_over_line(&self, line: &PackedLine, at: DVec2) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0_f64);
         for wall in &self.walls[line.pieces()] {
             let from = at - wall.point;
@@ -382,7 +408,12 @@ impl Bodies {
                 nearest = (square, height);
             }
         }
-        nearest.1 < 0.0
+        nearest.0.sqrt().copysign(nearest.1)
+    }
+
+    /// Whether a place in m lies behind a line: behind the piece that is nearest.
+    pub(crate) fn is_behind_line(&self, line: &PackedLine, at: DVec2) -> bool {
+        self.height_over_line(line, at) < 0.0
     }
 
     /// Shows the ends and joints of a line that may touch sides of hulls, nearer to a place than `reach` metres: as numbers of ends of walls.

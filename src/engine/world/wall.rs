@@ -111,6 +111,12 @@ impl PackedWall {
         NearestPoint { height: distance - half, normal: apart / distance, distance }
     }
 
+    /// Whether it is a strip without thickness that is hit from both sides: a corner without a radius has no place in it.
+    #[inline]
+    pub fn is_thin(&self) -> bool {
+        self.line.is_none() && self.ends.is_some_and(|ends| ends.half == 0.0)
+    }
+
     /// Centre in metres and radius in metres of one of its round ends: of a wall with ends.
     pub fn end(&self, right: bool) -> (DVec2, f64) {
         let Ends { length, half } = self.ends.unwrap_or(Ends { length: 0.0, half: 0.0 });

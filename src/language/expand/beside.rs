@@ -3,15 +3,15 @@
 use super::emit::{Context, WORK};
 use super::write::Buffer;
 use super::{Expander, Outcome};
-use crate::embed::{EmbeddingPlace, Unfit};
+use crate::embed::Unfit;
 use crate::tree::Id;
 
 impl Expander {
     /// The number of the reader for an entry with this leading name, under this key.
     pub(super) fn reader_of(&self, name: &str, key: &str, is_entry: bool) -> Option<usize> {
-        self.readers.iter().position(|(known, _)| match known.place {
-            EmbeddingPlace::Atoms => key == "atoms" && name == known.name,
-            EmbeddingPlace::Section => is_entry && key == known.name,
+        self.readers.iter().position(|(known, _)| match known.place.field() {
+            Some(field) => key == field && name == known.name,
+            None => is_entry && key == known.name,
         })
     }
 
@@ -25,7 +25,7 @@ impl Expander {
     ) -> Outcome<()> {
         let known = self.readers[reader].0;
         self.fields(context, id, known.fields, known.example)?;
-        let name = if known.place == EmbeddingPlace::Atoms { known.name.len() } else { 0 };
+        let name = known.place.field().map_or(0, |_| known.name.len());
         let entry = format!("{})", &out.text[start + name..]);
         let folder = context.file.source.folder.as_deref();
         let read =

@@ -6,7 +6,6 @@ use std::rc::Rc;
 use super::scope::{Failed, Filled, Value, is_quantity};
 use super::write::Buffer;
 use super::{Expander, File, Outcome, Reader, table};
-use crate::embed::EmbeddingPlace;
 use crate::outline::fits;
 use crate::scan::skip_blank;
 use crate::tree::{Form, Id, Tree};
@@ -116,7 +115,7 @@ pub(super) fn plain(tree: &Tree, text: &str, readers: &[Reader]) -> Vec<bool> {
     let mut plain = vec![true; tree.next() as usize];
     for id in (0..tree.next()).rev() {
         let name = tree.name(id, text);
-        let read = |(known, _): &Reader| known.place == EmbeddingPlace::Atoms && known.name == name;
+        let read = |(known, _): &Reader| known.place.field().is_some() && known.name == name;
         let changes =
             tree.node(id).form == Form::Text || matches!(name, "Repeat" | table::NAME) || readers.iter().any(read);
         plain[id as usize] = !changes && tree.children(id).iter().all(|&child| plain[child as usize]);

@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::embed::{Embed, Embedding, EmbeddingPlace};
+use super::embed::{Embed, Embedding};
 use super::error::{Mark, SceneError, SceneErrors};
 use super::scan::{Scan, scan};
 use super::source::{LARGEST_SCENE, Source};
@@ -110,7 +110,7 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree, embeddings: &[Embedding]) 
         || sections.any(|name| SECTIONS.contains(&name) || embeddings.iter().any(|known| known.name == name))
         || source.text.contains("Repeat")
         || source.text.contains("repeat(")
-        || embeddings.iter().any(|known| known.place == EmbeddingPlace::Atoms && source.text.contains(known.name))
+        || embeddings.iter().any(|known| known.place.field().is_some() && source.text.contains(known.name))
         || source.text.contains(table::NAME)
         || source.text.contains(heights::FIELD)
         || (0..tree.next()).any(|id| tree.node(id).form == Form::Text && is_expression(&source.text[tree.span(id)]))

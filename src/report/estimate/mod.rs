@@ -214,7 +214,7 @@ fn expected_order(simulation: &Simulation) -> f64 {
 
 /// Whether anything has touched in a run.
 fn touches(simulation: &Simulation) -> bool {
-    simulation.resource::<State>().deepest_overlap().overlap > 0.0
+    simulation.resource::<State>().deepest_overlap().in_meters.overlap > 0.0
 }
 
 /// The error that finite steps make.

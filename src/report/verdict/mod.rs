@@ -121,6 +121,9 @@ impl Evidence<'_> {
         if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
             return "look at what the plugin does to the world".to_owned();
         }
+        if matches!(failure.wrong, Wrong::Behind(_)) {
+            return "neither stiffness nor tick matter here: the wall is open on the side that was hit".to_owned();
+        }
         let deep = matches!(failure.wrong, Wrong::Crossed(_) | Wrong::Sunk(_));
         let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, place::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {

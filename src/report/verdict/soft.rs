@@ -19,12 +19,12 @@ const HARDLY: f64 = 0.1;
 /// sqrt(m/k)`, and so do critical ticks.
 pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
-    let overlap = &card.largest_overlap;
+    let overlap = &card.largest_overlap_share;
     if overlap.share_of_radius <= 1.0 {
         return None;
     }
     let by = overlap.share_of_radius * 100.0;
-    let deepest = world.resource::<State>().deepest_overlap().between?;
+    let deepest = world.resource::<State>().deepest_overlap().in_share.between?;
     let bodies = world.resource::<State>().bodies();
     let mass = |entity| {
         let slot = place_of(world, entity)?;

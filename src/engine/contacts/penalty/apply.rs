@@ -332,9 +332,9 @@ fn follow_surfaces<N: NormalForce>(
                 continue;
             };
             let atom = pair.probe as usize;
-            let passing = sink.bodies.passing(atom);
-            let at = passing.map_or_else(|| sink.bodies.atom_place(atom), |passing| passing.position);
-            let apart = sink.bodies.nearest_on_wall(wall, atom, at).height - sink.bodies.atom_radius[atom];
+            let (at, radius) = sink.bodies.meeting_wall(&sink.bodies.walls[wall], atom);
+            let at = sink.bodies.passing(atom).map_or(at, |passing| passing.position);
+            let apart = sink.bodies.nearest_on_wall(wall, atom, at).height - radius;
             if apart >= 0.0 && !list.is_touching(place) {
                 gap = gap.min(apart);
             } else {
@@ -395,8 +395,8 @@ fn follow_wall<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     (time, elapsed): (f64, f64),
 ) {
-    let end = End::of(sink.bodies, atom);
-    let place_of_atom = sink.bodies.atom_place(atom as usize);
+    let end = End::at_wall(sink.bodies, wall, atom);
+    let place_of_atom = sink.bodies.meeting_wall(&sink.bodies.walls[wall], atom as usize).0;
     let NearestPoint { height, normal, distance } = sink.bodies.nearest_on_wall(wall, atom as usize, place_of_atom);
     let wall = sink.bodies.whole_wall(wall);
     let mut contact = list.get(place);

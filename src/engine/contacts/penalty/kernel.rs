@@ -105,9 +105,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
         sink.balance.add(&part.balance);
         losses.friction += part.losses.friction;
         losses.inelasticity += part.losses.inelasticity;
-        if part.deepest.share > deepest.share {
-            *deepest = part.deepest;
-        }
+        deepest.merge(&part.deepest);
     }
     losses
 }
@@ -262,7 +260,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             }
             for geometry in &ahead[..near] {
                 let (mut lane, mut touching, mut deeper) = (0, 0, 0);
-                let deepest = found.deepest.share;
+                let deepest = (found.deepest.in_share.share, found.deepest.in_meters.overlap);
                 while lane < BLOCK {
                     if !(sparse && none_of::<V>(geometry.among, lane)) {
                         let (touch, deep) =
@@ -363,7 +361,7 @@ impl<N: NormalForce> Pairs<'_, N> {
         lane: usize,
         geometry: &Geometry,
         only: &PairLaw<V>,
-        deepest: f64,
+        (share, meters): (f64, f64),
         pushes: &mut Pushes,
         lost: &mut PartialLosses,
     ) -> (u8, u8) {
@@ -422,7 +420,8 @@ impl<N: NormalForce> Pairs<'_, N> {
         let pushing = (contacts.loading | contacts.unloading) & among;
         let touching = V::bits(pushing) & lanes_of::<V>();
         let smaller = V::select(radius.0.lt(radius.1), radius.0, radius.1);
-        let deeper = V::bits(contacts.overlap.gt(V::splat(deepest) * smaller)) & touching;
+        let deeper = contacts.overlap.gt(V::splat(share) * smaller) | contacts.overlap.gt(V::splat(meters));
+        let deeper = V::bits(deeper) & touching;
         let (normal_force, tangential) = (contacts.normal_force, contacts.tangential_force(&law));
         let arm_a = radius.0 - law.share_a * contacts.overlap;
         let arm_b = radius.1 - law.share_b * contacts.overlap;

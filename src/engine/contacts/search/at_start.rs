@@ -8,6 +8,7 @@ use jostle_shapes::distance;
 use super::{cells, hulls, lines, most_pairs};
 use crate::scene::SceneError;
 use crate::tick::{LoadErrors, Notes, State};
+use crate::world::line::BEHIND;
 use crate::world::{Bodies, Name};
 use jostle_language::numbers::number;
 
@@ -67,12 +68,12 @@ impl Overlaps {
             let height = |at: DVec2| wall.nearest(at).height;
             let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
             for atom in near.flat_map(|&body| bodies.atoms_of(body)).filter(|&atom| bodies.probes(atom)) {
-                let (radius, size) = (bodies.atom_radius[atom], bodies.size_of_atom(atom));
+                let (at, radius) = bodies.meeting_wall(wall, atom);
                 let whose = Pair::Wall(bodies.atom_body(atom) as u32, place as u32);
-                found.add(radius - height(bodies.atom_place(atom)), size, whose);
+                found.add(radius - height(at), bodies.size_of_atom(atom), whose);
             }
         }
-        lines::each_place(bodies, 0.0, &[], |pair, height| {
+        lines::each_place(bodies, (0.0, BEHIND), &[], |pair, height| {
             let atom = pair.probe as usize;
             let line = pair.wall(bodies).unwrap_or_default();
             let whose = Pair::Wall(bodies.atom_body(atom) as u32, line as u32);

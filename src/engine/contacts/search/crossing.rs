@@ -33,6 +33,8 @@ const DEEPEST: f64 = 0.9;
 struct Crossings {
     /// Places of atoms in m, where there are walls with ends.
     before: Vec<DVec2>,
+    /// The same as strips without thickness see them, where there are shapes with sides.
+    before_round: Vec<DVec2>,
     /// Probes near hulls and lines, of the lists of this version.
     near: Vec<Watched>,
     version: u64,
@@ -98,6 +100,10 @@ impl Model for Crossings {
         if has_ends(bodies) {
             self.before.extend((0..bodies.atom_count()).map(|atom| bodies.atom_place(atom)));
         }
+        self.before_round.clear();
+        if let Some(thin) = bodies.walls.iter().find(|wall| wall.is_thin() && !bodies.hulls.is_empty()) {
+            self.before_round.extend((0..bodies.atom_count()).map(|atom| bodies.meeting_wall(thin, atom).0));
+        }
         let path = self.path;
         if self.version == pairs.version {
             let due = self.near.iter_mut().filter(|watched| watched.until <= path);
@@ -120,8 +126,8 @@ impl Model for Crossings {
 
 impl Crossings {
     fn look(&mut self, state: &mut State) {
-        if let Some((body, wall)) = self.first(&state.bodies) {
-            state.end_run(body, Wrong::Crossed(state.bodies.walls[wall].entity));
+        if let Some((body, wrong)) = self.first(&state.bodies) {
+            state.end_run(body, wrong);
         }
         let bodies = &state.bodies;
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
@@ -152,16 +158,33 @@ impl Crossings {
         self.seen.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
     }
 
-    /// The first body with an atom that has crossed a wall since, and the index of the wall.
-    fn first(&self, bodies: &Bodies) -> Option<(usize, usize)> {
+    /// Whether a corner without a radius was near a line as the step began, or that is not known yet.
+    fn knows(&self, bodies: &Bodies, atom: usize, wall: usize) -> bool {
+        let is_sharp = bodies.atom_radius[atom] == 0.0;
+        is_sharp && (self.version == 0 || self.near.iter().any(|near| near.is_near_line(bodies, atom, wall)))
+    }
+
+    /// The first body with an atom that has crossed a wall since, and how.
+    fn first(&self, bodies: &Bodies) -> Option<(usize, Wrong)> {
         let moves = |body: &usize| bodies.dynamic[*body] && bodies.collides[*body];
         let atoms =
             (0..bodies.len()).filter(moves).flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
         for (body, atom) in atoms {
             let (Some(&before), now) = (self.before.get(atom), bodies.atom_place(atom)) else { continue };
-            let strip = bodies.single_walls().find(|wall| bodies.walls[*wall].is_crossed(before, now));
-            if let Some(wall) = strip.or_else(|| crossed_line(bodies, atom, before, now)) {
-                return Some((body, wall));
+            let is_crossed = |wall: &usize| {
+                let wall = &bodies.walls[*wall];
+                let round = self.before_round.get(atom).filter(|_| wall.is_thin());
+                wall.is_crossed(*round.unwrap_or(&before), bodies.meeting_wall(wall, atom).0)
+            };
+            if let Some(wall) = bodies.single_walls().find(is_crossed) {
+                return Some((body, Wrong::Crossed(bodies.walls[wall].entity)));
+            }
+            let crossed = crossed_line(bodies, atom, before, now);
+            // A corner without a radius is pressed behind a line and comes back: then they were known to be near.
+            let is_known = |from_behind: &(usize, bool)| from_behind.1 && self.knows(bodies, atom, from_behind.0);
+            if let Some((wall, from_behind)) = crossed.filter(|crossed| !is_known(crossed)) {
+                let entity = bodies.walls[wall].entity;
+                return Some((body, if from_behind { Wrong::Behind(entity) } else { Wrong::Crossed(entity) }));
             }
         }
         None
@@ -169,6 +192,12 @@ impl Crossings {
 }
 
 impl Watched {
+    /// Whether it is an atom near any piece of the line to which a wall belongs.
+    fn is_near_line(&self, bodies: &Bodies, atom: usize, wall: usize) -> bool {
+        let near = self.pair.wall(bodies) == Some(bodies.whole_wall(wall));
+        near && self.pair.probe(bodies) == Probe::Atom(atom)
+    }
+
     /// None: it is near a wall that cannot be crossed in this way.
     fn at(pair: SurfacePair, bodies: &Bodies, path: f64) -> Option<Self> {
         let (place, left) = if let Some((packed, place)) = place_at_hull(pair, bodies) {
@@ -292,8 +321,8 @@ fn is_behind(bodies: &Bodies, wall: usize, atom: usize) -> bool {
 }
 
 /// The piece of a line through which an atom went straight from one place to another, if it is now farther from it than half the width of
-/// what it belongs to; or from behind, if it has a radius.
-fn crossed_line(bodies: &Bodies, atom: usize, before: DVec2, now: DVec2) -> Option<usize> {
+/// what it belongs to; or from behind. The second says whether it came from behind.
+fn crossed_line(bodies: &Bodies, atom: usize, before: DVec2, now: DVec2) -> Option<(usize, bool)> {
     let (middle, reach) = (0.5 * (before + now), 0.5 * before.distance(now));
     let mut crossed = None;
     for line in &bodies.lines {
@@ -301,10 +330,10 @@ fn crossed_line(bodies: &Bodies, atom: usize, before: DVec2, now: DVec2) -> Opti
             let wall = line.first as usize + piece;
             let packed = &bodies.walls[wall];
             let height = |at: DVec2| (at - packed.point).dot(packed.normal);
-            let from_behind = height(before) < 0.0 && bodies.atom_radius[atom] > 0.0;
+            let from_behind = height(before) < 0.0;
             let is_deep = height(now) < -DEEPEST * bodies.size_of_atom(atom);
             if crossed.is_none() && (from_behind || is_deep) && packed.is_crossed(before, now) {
-                crossed = Some(wall);
+                crossed = Some((wall, from_behind));
             }
         });
     }

@@ -4,9 +4,10 @@ use bevy_ecs::world::World;
 use glam::DVec2;
 
 use super::{SurfacePair, ordered};
-use crate::tick::{Notes, State};
+use crate::scene::SceneError;
+use crate::tick::{LoadErrors, Notes, State};
 use crate::world::hull::{Mended, ROUNDING};
-use crate::world::{Bodies, PackedHull};
+use crate::world::{Bodies, Name, PackedHull, PackedWall};
 
 /// Says on the card what was mended in shapes.
 pub(super) fn note_mended(world: &mut World) {
@@ -15,17 +16,45 @@ pub(super) fn note_mended(world: &mut World) {
     }
 }
 
-/// Says on the card that sharp corners are rounded off where they meet sharp shapes, if they can.
+/// Says on the card that sharp corners are rounded off where they meet sharp shapes, or strips without thickness, if they can.
 pub(super) fn note_sharp(world: &mut World) {
     let bodies = world.resource::<State>().bodies();
     let sharp = |body: usize| bodies.collides[body] && bodies.hulls_of(body).any(|hull| hull.rounded.is_some());
     let among: Vec<usize> = (0..bodies.len()).filter(|&body| sharp(body)).collect();
-    if among.len() > 1 && among.iter().any(|&body| bodies.dynamic[body]) {
+    let is_thin = bodies.walls.iter().any(PackedWall::is_thin);
+    let meets = match (among.len() > 1, is_thin) {
+        (true, false) => "two sharp shapes meet, their corners are",
+        (false, true) => "a sharp shape meets a strip without thickness, its corners are",
+        (true, true) => "two sharp shapes meet, or one meets a strip without thickness, corners are",
+        (false, false) => return,
+    };
+    if among.iter().any(|&body| bodies.dynamic[body]) {
+        let percent = 100.0 * ROUNDING;
         world.resource_mut::<Notes>().0.push(format!(
-            "where two sharp shapes meet, their corners are round, with {} % of half their width; give them `rounding` to choose it",
-            100.0 * ROUNDING
+            "where {meets} round, with {percent} % of half their width; give them `rounding` to choose it"
         ));
     }
+}
+
+/// Refuses sharp corners that cannot be rounded off beside strips without thickness: they would pass through.
+pub(super) fn refuse_pointed(world: &mut World) {
+    let bodies = world.resource::<State>().bodies();
+    let Some(thin) = bodies.walls.iter().find(|wall| wall.is_thin()) else { return };
+    let is_pointed = |atom: usize| {
+        bodies.is_corner(atom)
+            && bodies.probes(atom)
+            && bodies.atom_radius[atom] == 0.0
+            && bodies.round_corner(atom).is_none()
+    };
+    let mut moving = (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]);
+    let Some(body) = moving.find(|&body| bodies.atoms_of(body).any(is_pointed)) else { return };
+    let name = |entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
+    let (body, wall) = (name(bodies.entity[body]), name(thin.entity));
+    let message = format!("`{body}` has sharp corners, and `{wall}` no thickness: they would pass through each other");
+    let help =
+        format!("give `{wall}` a `thickness`, or `sides: Left` or `Right`; or the parts of `{body}` a `rounding`");
+    let error = SceneError::new("bodies", message).with_help(help);
+    world.get_resource_or_init::<LoadErrors>().0.push(error);
 }
 
 /// The box about a body, grown by half the margin.

@@ -8,8 +8,9 @@ use bevy_ecs::world::World;
 use super::{NEW, SurfacePair};
 use crate::tick::pairs::{Probe, Surface};
 use crate::tick::snapshot::Memory;
-use crate::tick::{Dependence, Energies, Model, Notes, State, SteadySpring};
-use crate::world::{Bodies, Name, PackedLine};
+use crate::tick::{Dependence, Energies, Model, State, SteadySpring};
+use crate::world::Bodies;
+use crate::world::line::BEHIND;
 
 /// Pairs of a list before under their present names, each with its place there, in order. Empty without lines.
 pub(super) fn known(
@@ -40,15 +41,20 @@ pub(super) fn place(known: &[(SurfacePair, u32)], pair: SurfacePair) -> u32 {
     known.get(first).filter(|(other, _)| *other == pair).map_or(NEW, |(_, place)| *place)
 }
 
-/// Shows the atoms near lines: line by line, for each in the order of the atoms.
-pub(super) fn each_pair(bodies: &Bodies, margin: f64, known: &[(SurfacePair, u32)], mut see: impl FnMut(SurfacePair)) {
-    each_place(bodies, margin, known, |pair, _| see(pair));
+/// Shows the atoms near lines: line by line, for each in the order of the atoms. Where bodies have just `begun` corners may lie behind lines.
+pub(super) fn each_pair(
+    bodies: &Bodies,
+    (margin, begun): (f64, bool),
+    known: &[(SurfacePair, u32)],
+    mut see: impl FnMut(SurfacePair),
+) {
+    each_place(bodies, (margin, if begun { BEHIND } else { 0.0 }), known, |pair, _| see(pair));
 }
 
 /// The same with the heights of the atoms over the line, in metres.
 pub(super) fn each_place(
     bodies: &Bodies,
-    margin: f64,
+    (margin, behind): (f64, f64),
     known: &[(SurfacePair, u32)],
     mut see: impl FnMut(SurfacePair, f64),
 ) {
@@ -59,7 +65,8 @@ pub(super) fn each_place(
             for atom in bodies.atoms_of(body).filter(|_| is_near) {
                 let pair = |piece: usize| SurfacePair::new(piece as u32, atom as u32);
                 let was_near = |piece: usize| place(known, pair(piece)) != NEW;
-                bodies.each_place_on_line(line, (atom, margin), was_near, |piece, height| see(pair(piece), height));
+                let reach = (atom, margin, behind);
+                bodies.each_place_on_line(line, reach, was_near, |piece, height| see(pair(piece), height));
             }
         }
     }
@@ -74,30 +81,6 @@ pub(super) fn watch(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     if !state.bodies().lines.is_empty() {
         state.add_model(Walks);
-    }
-}
-
-/// Places that are compared with pieces for the note, at most: a second is enough.
-const MOST_LOOKS: usize = 1 << 27;
-
-/// Says on the card which lines have all bodies behind them: their points may stand in the wrong order.
-pub(super) fn note_behind(world: &mut World) {
-    let bodies = &world.resource::<State>().bodies;
-    let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
-    let is_turned = |line: &&PackedLine| {
-        !touching.is_empty()
-            && touching.len().saturating_mul(line.pieces().len()) <= MOST_LOOKS
-            && touching.iter().all(|&body| bodies.is_behind_line(line, bodies.position[body]))
-    };
-    let turned: Vec<_> =
-        bodies.lines.iter().filter(is_turned).map(|line| bodies.walls[line.first as usize].entity).collect();
-    for entity in turned {
-        let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
-        let note = format!(
-            "all bodies are behind `{name}`, and enter it without a force: it is open to the left of the way from its first point to its \
-             last; perhaps its points stand in the wrong order"
-        );
-        world.resource_mut::<Notes>().0.push(note);
     }
 }
 

@@ -8,6 +8,7 @@
 //! those that are awake have come near to others (`still.rs`).
 
 mod at_start;
+mod behind;
 mod cells;
 mod crossing;
 mod hulls;
@@ -60,9 +61,10 @@ pub fn plugin(app: &mut App) {
         at_start::note_overlaps as fn(&mut World),
         crossing::watch,
         lines::watch,
-        lines::note_behind,
+        behind::note_behind,
         hulls::note_mended,
         hulls::note_sharp,
+        hulls::refuse_pointed,
     ]);
 }
 
@@ -176,7 +178,7 @@ impl PairSearch {
                 pairs.surfaces.push(pair);
             }
         });
-        lines::each_pair(bodies, bounds.margin, &known, |pair| {
+        lines::each_pair(bodies, (bounds.margin, !same), &known, |pair| {
             if pairs.surfaces.len() <= most {
                 pairs.surfaces.push(pair);
             }
@@ -316,7 +318,8 @@ fn each_wall_pair(
                 continue;
             }
             for atom in bodies.atoms_of(body).filter(|&atom| bodies.probes(atom)) {
-                if wall.nearest(bodies.atom_place(atom)).height < bodies.atom_radius[atom] + margin {
+                let (at, radius) = bodies.meeting_wall(wall, atom);
+                if wall.nearest(at).height < radius + margin {
                     see(SurfacePair::new(place as u32, atom as u32));
                 }
             }

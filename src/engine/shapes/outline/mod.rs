@@ -9,6 +9,9 @@ mod polygon;
 mod rack;
 mod rectangle;
 mod regular;
+mod svg;
+
+pub(crate) use svg::SvgShape;
 
 use glam::DVec2;
 use jostle_shapes as shapes;
@@ -41,7 +44,7 @@ pub struct Parts {
 }
 
 /// Where a shape stands in its body, and how heavy it is.
-struct Common {
+pub(crate) struct Common {
     at: DVec2,
     angle: f64,
     mass: Option<f64>,
@@ -50,12 +53,12 @@ struct Common {
 }
 
 /// The fields that all shapes have.
-trait Placed {
+pub(crate) trait Placed {
     fn common(&self) -> Common;
 }
 
 /// A shape with sides.
-trait Sided: Placed {
+pub(crate) trait Sided: Placed {
     /// Its hulls about its own origin.
     ///
     /// # Errors
@@ -145,6 +148,8 @@ list! {
     Regular(regular::RegularShape),
     /// `Polygon(points: [(0, 0), (1, 0), (0, 1)])`: a polygon; a concave one is cut into convex parts.
     Polygon(polygon::PolygonShape),
+    /// `Svg(file: "part.svg", height: 0.2)`: the outlines of a drawing, cut into convex parts.
+    Svg(svg::SvgShape),
     /// `Gear(teeth: 24, module: "5 mm")`: a spur gear with involute teeth about the origin; one tooth points along +x.
     Gear(gear::GearShape),
     /// `Rack(teeth: 12, module: "5 mm")`: a bar with teeth above, its pitch line along x through the origin.

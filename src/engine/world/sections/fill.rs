@@ -1,4 +1,4 @@
-//! `fill`: many equal bodies in a box or polygon, none touching another, by seeded chance.
+//! `fill`: many equal bodies in a box or polygon, of atoms or with sides, none touching another, by seeded chance.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -10,8 +10,9 @@ use serde::Deserialize;
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
-use crate::shapes::Atoms;
-use crate::shapes::mass_properties;
+use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
+use crate::shapes::outline::Shape;
+use crate::shapes::{AtomSpec, Atoms};
 use crate::world::sections::Region;
 use crate::world::{material, sections};
 
@@ -38,8 +39,12 @@ const CELLS: usize = 512;
 pub struct FillEntry {
     /// What their names begin with.
     pub name: String,
-    /// The atoms of each.
-    pub atoms: Atoms,
+    /// The atoms of each. Default: none; then it has a `shape`.
+    #[serde(default)]
+    pub atoms: Option<Atoms>,
+    /// The shape with sides of each. Default: none.
+    #[serde(default)]
+    pub shape: Option<Shape>,
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
@@ -73,7 +78,7 @@ pub struct Placed {
 /// `gas_1` and so on.
 ///
 /// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about the
-/// bodies' centres of mass that hold all their atoms do not touch each other, other bodies, walls or the region's border.
+/// bodies' centres of mass that hold all their atoms and shapes do not touch each other, other bodies, walls or the region's border.
 /// The same seed gives the same places on every machine.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);
@@ -140,7 +145,7 @@ impl Section for FillSection {
                 let (apart, smaller) = if gap > 0.0 {
                     (format!("{gap} m apart from any other"), "`gap`")
                 } else {
-                    ("without touching anything".to_owned(), "atoms")
+                    ("without touching anything".to_owned(), if entry.shape.is_some() { "shapes" } else { "atoms" })
                 };
                 let radius = entry.radius() + gap / 2.0;
                 let share = entry.count.0 as f64 * std::f64::consts::PI * radius * radius / entry.within.area();
@@ -169,8 +174,22 @@ impl Section for FillSection {
 
 impl FillEntry {
     fn check(&self, outline: &Outline, report: &mut Report) {
-        report.within("atoms", |report| self.atoms.check(report));
-        mass_properties::of(&self.atoms.specs(), None, self.atoms.own_rule(), 1.0).check(report);
+        if let Some(atoms) = &self.atoms {
+            report.within("atoms", |report| atoms.check(report));
+        }
+        if let Some(shape) = &self.shape {
+            report.within("shape", |report| shape.check(report));
+            if self.specs().iter().any(|atom| atom.mass.is_some()) {
+                let message = "beside a `shape` discs have no masses of their own: all are of one area";
+                report.error("atoms", message).help("remove the atoms' `mass`");
+            }
+        }
+        if self.atoms.is_none() && self.shape.is_none() {
+            report.missing("atoms", "say what they are made of: write `atoms: Disc(radius: 0.1)`, or a `shape`");
+        }
+        if report.is_clean() {
+            self.mass_properties(1.0).check(report);
+        }
         material::require(self.material.as_deref(), outline, report);
         if !(1..=LARGEST_COUNT).contains(&self.count.0) {
             report.error("count", format!("must be from 1 to {LARGEST_COUNT}, got {}", self.count.0));
@@ -180,9 +199,33 @@ impl FillEntry {
         report.not_negative("gap", self.gap);
     }
 
-    /// The radius of a circle that holds the atoms of one body, in m.
+    /// Mass, centre of mass, inertia and atoms of each, given the density of their material in kg/m2.
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        let (specs, rule) = (self.specs(), self.atoms.as_ref().map_or_else(InertiaRule::default, Atoms::own_rule));
+        match &self.shape {
+            Some(shape) => mass_properties::of_parts(&specs, &shape.parts().parts, None, InertiaRule::Union, density),
+            None => mass_properties::of(&specs, None, rule, density),
+        }
+    }
+
+    /// Whether they touch others.
+    pub fn touches(&self) -> bool {
+        let parts = self.shape.as_ref().map_or_else(Vec::new, |shape| shape.parts().parts);
+        self.atoms.is_some() || parts.iter().any(|part| part.collides)
+    }
+
+    /// The discs of each, without those of its shape.
+    fn specs(&self) -> Vec<AtomSpec> {
+        self.atoms.as_ref().map_or_else(Vec::new, Atoms::specs)
+    }
+
+    /// The radius of a circle about the centre of mass that holds the atoms and shapes of one body, in m, whatever the density of its material.
     fn radius(&self) -> f64 {
-        mass_properties::reach(&self.atoms.specs(), self.atoms.own_rule())
+        match (&self.atoms, &self.shape) {
+            (_, Some(shape)) => mass_properties::reach_of_parts(&self.specs(), &shape.parts().parts),
+            (Some(atoms), None) => mass_properties::reach(&atoms.specs(), atoms.own_rule()),
+            (None, None) => 0.0,
+        }
     }
 
     fn place(&self, radius: f64, taken: &[Obstacle]) -> Vec<Placed> {
@@ -334,7 +377,8 @@ mod tests {
         let disc = OneDisc { radius: Length::new(radius), mass: None, stiffness: None };
         FillSection(vec![FillEntry {
             name: "gas".into(),
-            atoms: Atoms::Disc(disc),
+            atoms: Some(Atoms::Disc(disc)),
+            shape: None,
             material: None,
             count: WholeNumber(count),
             within: vec![Position::new(0.0, 0.0), Position::new(2.0, 1.0)].into(),

@@ -25,8 +25,8 @@ use super::spawn::{NextKey, Series, after_others, spawn_series};
 use super::{Atom, Intangible, Line, Motion, Name, NewBody, Origin, Wall};
 use crate::scene::names::of_series;
 use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
-use crate::shapes::mass_properties::{self, MassProperties};
-use crate::shapes::{AtomSpec, silhouette};
+use crate::shapes::mass_properties::MassProperties;
+use crate::shapes::{AtomSpec, silhouette, svg};
 
 /// Registers the sections. Materials come first: the others name them.
 pub fn plugin(app: &mut App) {
@@ -38,6 +38,7 @@ pub fn plugin(app: &mut App) {
     app.register_section::<PackingsSection>();
     register_embedding(app, packing::EMBEDDING);
     register_embedding(app, silhouette::EMBEDDING);
+    register_embedding(app, svg::EMBEDDING);
     app.register_section::<FillSection>();
 }
 
@@ -123,14 +124,22 @@ pub fn spawn_packings(section: PackingsSection, outline: &Outline, world: &mut W
 pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
     for (entry, placed) in section.0.iter().zip(section.place(outline)) {
         let made_of = MadeOf::named(world, entry.material.as_deref());
-        let properties = mass_properties::of(&entry.atoms.specs(), None, entry.atoms.own_rule(), made_of.density);
+        let mut properties = entry.mass_properties(made_of.density);
+        if !entry.touches() {
+            properties.intangible.append(&mut properties.hulls);
+        }
+        let mended = entry.shape.iter().flat_map(|shape| shape.parts().mended);
+        let mended = mended.map(|mended| format!("`{}`: {mended}", entry.name));
+        world.get_resource_or_init::<Mended>().0.extend(mended);
         let body = |number: usize| NewBody {
+            collides: entry.touches(),
             position: placed[number].position,
             angle: placed[number].angle,
             velocity: placed[number].velocity,
             ..made_of.body(&properties)
         };
-        let lone_discs = matches!(properties.atoms[..], [AtomSpec { offset: DVec2::ZERO, .. }]);
+        let is_disc = matches!(properties.atoms[..], [AtomSpec { offset: DVec2::ZERO, .. }]);
+        let lone_discs = is_disc && properties.hulls.is_empty();
         spawn_series(world, series(entry.name.clone(), placed.len(), lone_discs, outline), body);
     }
 }

@@ -1,0 +1,202 @@
+//! `Counter(name: "hits", of: "ball", touching: "pin_*")`: how often bodies began to touch others, or passed a gate.
+//!
+//! A gate is a line between two places. A body passes where its centre of mass crosses that line, on the straight way from one tick to the
+//! next. To the left is seen on the way from the first place to the second.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+use super::contacts::owners;
+use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
+use crate::contacts::ContactEvents;
+use crate::contacts::events::{FindContactEvents, watch};
+use crate::scene::units::Position;
+use crate::scene::values::Names;
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::kept::SnapshotAppExt;
+use crate::tick::{State, add_looker, add_packed_observer, place_of};
+
+const QUANTITIES: &[&str] = &["count", "count.net"];
+
+/// How often bodies began to touch others since the start, or passed a gate: `hits.count`. Of a gate `grains.count.net` is how often they passed it
+/// to the left, less how often to the right. Contacts are counted as `Contacts` does; passages are seen from tick to tick. How often a channel
+/// crosses a value is counted by `Period`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Counter {
+    /// Its name: that of its channels.
+    name: String,
+    /// The bodies, `*` matches.
+    of: Names,
+    /// What they touch: bodies, `*` matches, and walls, which are named in full. Either this or `gate`. Default: `gate` says what is counted.
+    touching: Option<Names>,
+    /// The two ends of a gate, in m. Either this or `touching`. Default: `touching` says what is counted.
+    gate: Option<(Position, Position)>,
+}
+
+/// What a counter looks at.
+enum Looked {
+    /// Contacts of bodies with others, both lists sorted.
+    Contacts(Vec<Entity>, Vec<Entity>),
+    /// Passages of bodies through a gate.
+    Gate(Vec<Entity>, (DVec2, DVec2)),
+}
+
+/// The counters of the scene.
+#[derive(Resource, Default)]
+struct Counted(Vec<(String, Looked)>);
+
+/// What the counters of a run have seen.
+#[derive(Resource, Default, Serialize, Deserialize)]
+struct Counts(Vec<Count>);
+
+#[derive(Clone, Default, Serialize, Deserialize)]
+struct Count {
+    count: u64,
+    net: i64,
+    /// Of a gate: where each body was at the last tick, in m.
+    before: Vec<Option<DVec2>>,
+}
+
+impl Entry for Counter {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Counter";
+    const EXAMPLE: &'static str = "Counter(name: \"hits\", of: \"ball\", touching: \"pin_*\")";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        outline.declare(Kind::SENSOR, &self.name, "name");
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        self.of.require(Kind::BODY, outline, "of", report);
+        if let Some(touching) = &self.touching {
+            owners(touching, "touching", outline, report);
+        }
+        if let Some((from, to)) = self.gate.map(|(from, to)| (from.si(), to.si())) {
+            let finite = report.finite_pair("gate", from) && report.finite_pair("gate", to);
+            if finite && from == to {
+                let message = format!("the ends of a gate must differ, got ({}, {}) for both", to.x, to.y);
+                report.error("gate", message).help("for example `gate: ((-0.1, 0), (0.1, 0))`");
+            }
+        }
+        let help = "`touching: \"pin_*\"` counts contacts, `gate: ((-0.1, 0), (0.1, 0))` passages";
+        match (&self.touching, &self.gate) {
+            (Some(_), Some(_)) => {
+                report.error("gate", "`touching` and `gate` cannot both be given").help(help);
+            }
+            (None, None) => {
+                report.error("", "what is counted is missing").help(help);
+            }
+            _ => {}
+        }
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let world = app.world_mut();
+        for Written { value: Self { name, of, touching, gate }, .. } in entries {
+            let places = of.matching(Kind::BODY, outline).into_iter();
+            let bodies: Vec<Entity> =
+                places.filter_map(|place| body_named(world, &outline.names(Kind::BODY)[place])).collect();
+            let looked = match (touching, gate) {
+                (_, Some((from, to))) => Looked::Gate(bodies, (from.si(), to.si())),
+                (touching, None) => {
+                    let names =
+                        touching.map_or_else(Vec::new, |names| owners(&names, "touching", outline, &mut Report::new()));
+                    let entity = |name: &String| body_named(world, name).or_else(|| wall_named(world, name));
+                    Looked::Contacts(sorted(bodies), sorted(names.iter().filter_map(entity).collect()))
+                }
+            };
+            look(world, &looked);
+            let quantities = if matches!(looked, Looked::Gate(..)) { QUANTITIES } else { &QUANTITIES[..1] };
+            world.get_resource_or_init::<Counts>().0.push(Count::default());
+            world.get_resource_or_init::<Counted>().0.push((name.clone(), looked));
+            add_found(world, quantities.iter().map(|quantity| format!("{name}.{quantity}")));
+        }
+    }
+}
+
+fn sorted(mut entities: Vec<Entity>) -> Vec<Entity> {
+    entities.sort_unstable();
+    entities
+}
+
+/// Sees to it that ticks are looked at, once for each kind of counter.
+fn look(world: &mut World, looked: &Looked) {
+    let is_alike = |(_, other): &(String, Looked)| std::mem::discriminant(other) == std::mem::discriminant(looked);
+    if world.get_resource_or_init::<Counted>().0.iter().any(is_alike) {
+        return;
+    }
+    match looked {
+        Looked::Contacts(..) => {
+            watch(world);
+            add_packed_observer(world, count_contacts.after(FindContactEvents));
+        }
+        Looked::Gate(..) => add_looker(world, count_passages),
+    }
+}
+
+fn count_contacts(events: Res<ContactEvents>, counted: Res<Counted>, mut counts: ResMut<Counts>) {
+    for ((_, looked), count) in counted.0.iter().zip(&mut counts.0) {
+        let Looked::Contacts(of, others) = looked else { continue };
+        let has = |list: &[Entity], entity: Entity| list.binary_search(&entity).is_ok();
+        let counts = |a: Entity, b: Entity| has(of, a) && has(others, b);
+        count.count +=
+            events.begun.iter().filter(|pair| counts(pair.a, pair.b) || counts(pair.b, pair.a)).count() as u64;
+    }
+}
+
+fn count_passages(world: &mut World) {
+    world.resource_scope(|world, mut counts: Mut<Counts>| {
+        for ((_, looked), count) in world.resource::<Counted>().0.iter().zip(&mut counts.0) {
+            let Looked::Gate(of, gate) = looked else { continue };
+            let bodies = world.resource::<State>().bodies();
+            let now = of.iter().map(|body| place_of(world, *body).map(|place| bodies.position[place])).collect();
+            let before = std::mem::replace(&mut count.before, now);
+            let ways = before.iter().zip(&count.before).filter_map(|(before, now)| before.zip(*now));
+            let passed: Vec<i64> = ways.filter_map(|(before, now)| passage(*gate, before, now)).collect();
+            count.count += passed.len() as u64;
+            count.net += passed.iter().sum::<i64>();
+        }
+    });
+}
+
+/// Whether a way crosses a gate: 1 to the left of the way from its first end to the second, else -1.
+fn passage((from, to): (DVec2, DVec2), before: DVec2, now: DVec2) -> Option<i64> {
+    let along = to - from;
+    let [first, last] = [before, now].map(|at| along.perp_dot(at - from));
+    if (first < 0.0) == (last < 0.0) {
+        return None;
+    }
+    let crossing = before + (now - before) * (first / (first - last));
+    let within = (0.0..=along.length_squared()).contains(&(crossing - from).dot(along));
+    within.then_some(if last < 0.0 { -1 } else { 1 })
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
+    let counted = &world.get_resource::<Counted>()?.0;
+    let place = counted.iter().position(|(name, _)| name == owner)?;
+    let is_net = quantity == "count.net";
+    if is_net && !matches!(counted[place].1, Looked::Gate(..)) {
+        return None;
+    }
+    let read = move |world: &World| {
+        let count = world.get_resource::<Counts>().and_then(|counts| counts.0.get(place));
+        count.map_or(f64::NAN, |count| if is_net { count.net as f64 } else { count.count as f64 })
+    };
+    Some(Channel::of_resources(format!("{owner}.{quantity}"), "", read))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_quantities(QUANTITIES, find);
+    app.register_entry::<Counter>();
+    app.keep_resource::<Counts>();
+    app.follows_from_scene::<Counted>();
+}
