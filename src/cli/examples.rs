@@ -19,6 +19,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("four_bar", include_str!("../../scenes/four_bar.ron")),
     ("galton_sweep", include_str!("../../scenes/galton_sweep.ron")),
     ("hatch", include_str!("../../scenes/hatch.ron")),
+    ("hopper", include_str!("../../scenes/hopper.ron")),
     ("hourglass", include_str!("../../scenes/hourglass.ron")),
     ("incline", include_str!("../../scenes/incline.ron")),
     ("kepler", include_str!("../../scenes/kepler.ron")),
