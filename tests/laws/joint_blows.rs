@@ -188,3 +188,65 @@ fn what_begins_at_rest_at_a_limit_stays() {
         }
     }
 }
+
+const ALL_METHODS: [(&str, bool); 4] =
+    [("VelocityVerlet", false), ("SemiImplicitEuler", false), ("RungeKutta4", true), ("Dop853", true)];
+
+/// Law: a limit that holds gives no impulse that pulls. A cart with a pole runs into its stop at `V`, and the pole leans on its limit, pressed by a
+/// torque. The stop gives the pole the rate `m l sin(a) V / (I + m l^2)` away from its limit; then the torque slows it evenly. Tolerance: from
+/// tick to tick what the torque changes in two ticks; else rounding of the event.
+#[test]
+fn a_limit_that_holds_does_not_pull_in_a_blow() {
+    let (mass, length, inertia, angle, torque) = (0.5, 0.6, 0.06, 1.2_f64, 0.5);
+    let about_pin = inertia + mass * length * length;
+    for (method, located) in ALL_METHODS {
+        let scene = format!(
+            "bodies: [(name: \"cart\", at: (0, 0), velocity: (-1, 0), mass: 1, atoms: Disc(radius: 0.05)),
+                (name: \"pole\", at: ({:?}, {:?}), angle: {angle:?}, velocity: (-1, 0), mass: {mass:?}, inertia: {inertia:?},
+                    atoms: Disc(radius: 0.03))],
+            joints: [Prismatic(a: World, b: \"cart\", axis: (1, 0), limits: (-0.1, 1)),
+                Revolute(name: \"pin\", a: \"cart\", anchor_a: (0, 0), b: \"pole\", anchor_b: (-{length:?}, 0), limits: (1.2, 3))],
+            controllers: [Actuator(of: \"pin\", force: -{torque:?})]",
+            length * angle.cos(),
+            length * angle.sin()
+        );
+        let mut simulation = load(method, &scene);
+        run_to(&mut simulation, 0.15);
+        let exact = mass * length * angle.sin() / about_pin - torque / about_pin * 0.05;
+        let tolerance = if located { 1e-9 } else { 2.0 * TICK * torque / about_pin };
+        near(simulation.bodies().spin[1], exact, tolerance, method);
+        near(simulation.bodies().velocity[0].x, 0.0, 1e-15, method);
+    }
+}
+
+/// Law: a ball swings on one rope until a second one becomes taut. The blow takes the velocity along the second rope, and the first goes
+/// slack: it cannot push. The loss is `m (v n)^2 / 2`. Tolerance: from tick to tick the way of a tick, over which `v n` changes by less than
+/// its share of the length; else rounding of the event.
+#[test]
+fn a_taut_rope_does_not_push_in_a_blow() {
+    let (first, second, long, short) = ((0.0, 0.0), (-0.5, -0.6), 1.0, 0.9);
+    // The angle from straight down at which the ball, on its circle, is as far from the second anchor as that rope is long.
+    let place = |angle: f64| (long * angle.sin(), -long * angle.cos());
+    let room = |angle: f64| short - (place(angle).0 - second.0).hypot(place(angle).1 - second.1);
+    let (mut low, mut high) = (-0.6_f64, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if room(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    let (x, y) = place(low);
+    let speed = (2.0 * 9.81 * (-0.8 - y)).sqrt();
+    let velocity = (speed * low.cos(), speed * low.sin());
+    let along = (velocity.0 * (x - second.0) + velocity.1 * (y - second.1)) / short;
+    for (method, located) in ALL_METHODS {
+        let scene = format!(
+            "gravity: (0, -9.81), bodies: [(name: \"ball\", at: (-0.6, -0.8), mass: 1, atoms: Disc(radius: 0.03))],
+            joints: [Rope(a: World, anchor_a: {first:?}, b: \"ball\", length: {long:?}),
+                Rope(a: World, anchor_a: {second:?}, b: \"ball\", length: {short:?})]"
+        );
+        let mut simulation = load(method, &scene);
+        run_to(&mut simulation, 0.9);
+        let lost = simulation.card().energy.inelasticity;
+        let tolerance = if located { 1e-9 } else { 4.0 * along * speed * speed * TICK / short };
+        near(lost, 0.5 * along * along, tolerance, method);
+    }
+}

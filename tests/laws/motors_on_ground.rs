@@ -62,3 +62,31 @@ fn motors_on_wheels_keep_to_their_limits_and_book_their_work() {
         assert!(energy.work > 100.0 * most, "tick {tick}: {energy:?}");
     }
 }
+
+/// Law: friction takes what the work of the motor does not leave to the bodies, whatever ends a step. A ball falls on a roller that a motor with a
+/// limit drives: the motor comes to its bound and off it while the ball slips. Tolerance: the fourth power of the tick over a touch, which lasts 6
+/// ms, of the energy that changes form, for RungeKutta4; 1e-9 of it for Dop853.
+#[test]
+fn friction_is_booked_whole_where_a_motor_comes_to_its_limit() {
+    for (clock, share) in [
+        ("method: RungeKutta4, tick: \"50 us\"", (50e-6_f64 / 6e-3).powi(4)),
+        ("method: RungeKutta4, tick: \"200 us\"", (200e-6_f64 / 6e-3).powi(4)),
+        ("method: Dop853, tick: \"100 us\"", 1e-9),
+    ] {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 0.5, {clock}), gravity: (0, -9.81),
+                materials: {{ \"default\": (stiffness: 1e5, friction: 0.4, restitution: 0.3) }},
+                bodies: [(name: \"roll\", at: (0, 0), spin: 9.42, atoms: Disc(radius: 0.1, mass: 1)),
+                    (name: \"ball\", at: (0.01, 0.25), atoms: Disc(radius: 0.1, mass: 2))],
+                joints: [Revolute(name: \"hub\", a: World, anchor_a: (0, 0), b: \"roll\")],
+                controllers: [Motor(of: \"hub\", speed: 9.42, limit: 6)])"
+        );
+        let mut simulation =
+            Simulation::load(&Source::new("roller.ron", scene)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_end().unwrap();
+        let energy = simulation.card().energy;
+        assert!(energy.friction > 0.1, "{clock}: {energy:?}");
+        let changed = energy.friction + energy.inelasticity;
+        assert!(energy.residual.abs() < share * changed, "{clock}: {energy:?}");
+    }
+}

@@ -68,6 +68,8 @@ pub struct Row {
     pub bound: f64,
     /// Whether it gives its bound at once where it would need more, from tick to tick: motors with a limit.
     pub yields: bool,
+    /// The sign of the only force and impulse that it gives: a limit pushes, and never pulls. Zero: both signs.
+    pub pushes: f64,
     /// Whether its forces on both sides do not balance, because other joints pass the rest on to the world: gears and racks.
     pub grounded: bool,
 }
@@ -87,6 +89,7 @@ impl Default for Row {
             rate: 0.0,
             bound: f64::INFINITY,
             yields: false,
+            pushes: 0.0,
             grounded: false,
         }
     }

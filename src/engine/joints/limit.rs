@@ -131,7 +131,7 @@ impl Limit {
     pub fn row(&self, pair: &Pair, freedom: &Freedom) -> Option<Row> {
         let side = self.at?;
         let (room, size) = self.room(side, pair, freedom);
-        Some(Row { gap: side.sign() * room, size, ..pair.row(&freedom.along, Kind::Position) })
+        Some(Row { gap: side.sign() * room, size, pushes: side.sign(), ..pair.row(&freedom.along, Kind::Position) })
     }
 
     /// Takes the force of its row.
@@ -170,6 +170,14 @@ impl Limit {
         }
         (self.at, self.force, self.greatest) = (Some(side), 0.0, 0.0);
         Some(Arrival::Stays)
+    }
+
+    /// Velocities have jumped: leaves the limit that the joint goes away from.
+    pub fn after_blow(&mut self, pair: &Pair, freedom: &Freedom) {
+        let away = self.at.map_or(0.0, |side| side.sign() * pair.rate(&freedom.along));
+        if away > PULL * pair.speeds(&freedom.along) {
+            self.leave();
+        }
     }
 
     /// Between ticks: leaves a limit that would have to pull. Says whether it did.

@@ -158,8 +158,11 @@ impl Parts {
         changed
     }
 
-    /// Velocities have jumped: friction may not suffice to hold them.
+    /// Velocities have jumped: friction may not suffice to hold them, and limits let go.
     pub fn after_blow(&mut self, law: &dyn Law, pair: &Pair) {
+        if let (Some(limit), Some(freedom)) = (&mut self.limit, law.freedom(pair)) {
+            limit.after_blow(pair, &freedom);
+        }
         self.start(law, pair);
     }
 

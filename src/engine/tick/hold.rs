@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::blows::Jump;
 use super::context::Tick;
 use super::drifted::Drifted;
 use super::failure::{Trouble, Wrong};
@@ -53,32 +54,12 @@ impl FromOutside {
         self.work += other.work;
     }
 
-    fn book(&self, ledger: &mut Ledger) {
+    pub(super) fn book(&self, ledger: &mut Ledger) {
         ledger.impulse[0].add(self.impulse.x);
         ledger.impulse[1].add(self.impulse.y);
         ledger.angular_impulse.add(self.angular);
     }
 }
-
-/// A jump of velocities.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Blow {
-    /// They become those that all joints allow, but for rows that give way. The energy counts as inelasticity.
-    Stops,
-    /// The same with a row whose rate is part of that, without force from then on.
-    Rebounds(Box<Row>),
-    /// They become those that all rows allow. The energy counts as friction.
-    Sticks,
-    /// The same where a motor has reached its rate: the energy counts as its work.
-    Grips,
-}
-
-/// A bounded row sticks if that takes no more of an impulse than so many times what its bound gives in a tick: in the tick before it
-/// gave its bound, and what drove it as much again at most.
-const MOST_TO_STICK: f64 = 2.0;
-
-/// A rate that differs by less than this share of the speeds from the one to be held is held already.
-const STUCK: f64 = 1e-12;
 
 /// Searches with new directions where those of the beginning of a drift do not lead back onto a loop.
 const MOST_TURNS: usize = 8;
@@ -86,22 +67,18 @@ const MOST_TURNS: usize = 8;
 /// A gap in m that rounding of a full turn may leave.
 const FULL_TURN: f64 = 1e-12;
 
-/// Which rows velocities jump to.
-#[derive(Clone, Copy, Debug)]
-enum Jump<'a> {
-    /// Those without a bound, and these.
-    Stops(&'a [Row]),
-    /// All but those with these indices.
-    Sticks(&'a [usize]),
-}
-
 /// Rows that hold places only.
 fn keep_places(rows: &mut Rows) {
     rows.retain(|row| row.kind == Kind::Position);
 }
 
 /// Adds the rows of joints in the present places and velocities of bodies.
-fn find_rows(models: &mut [Box<dyn Model>], places: &[usize], (bodies, time): (&Bodies, f64), rows: &mut Rows) {
+pub(super) fn find_rows(
+    models: &mut [Box<dyn Model>],
+    places: &[usize],
+    (bodies, time): (&Bodies, f64),
+    rows: &mut Rows,
+) {
     places.iter().for_each(|place| models[*place].add_rows(bodies, time, rows));
 }
 
@@ -224,18 +201,33 @@ impl State {
 
     /// Changes velocities until those that `rows` hold are what they should be. Returns the impulse from outside.
     fn hold_velocities(&mut self, rows: &mut Rows, time: f64) -> FromOutside {
+        let (outside, refused) = self.change_velocities(rows, |_, _| {});
+        self.note_contradiction(refused, rows, time);
+        outside
+    }
+
+    /// The same, told the impulses of each row; with the index of a row whose rate the others do not allow.
+    pub(super) fn change_velocities(
+        &mut self,
+        rows: &mut Rows,
+        mut told: impl FnMut(usize, f64),
+    ) -> (FromOutside, Option<usize>) {
         let Self { bodies, projection, .. } = self;
         let (rows, solver) = rows.prepared(bodies);
         let mut outside = FromOutside::default();
         let refused = projection.speed(rows, solver, bodies, |bodies, row, impulse| {
             outside.add(&rows[row], impulse, bodies);
+            told(row, impulse);
         });
+        (outside, refused)
+    }
+
+    pub(super) fn note_contradiction(&mut self, refused: Option<usize>, rows: &Rows, time: f64) {
         if let Some(row) = refused {
-            let body = rows[row].sides.iter().flatten().map(|side| side.body).next_back();
+            let body = rows.all()[row].sides.iter().flatten().map(|side| side.body).next_back();
             let trouble = Trouble { body, entity: None, wrong: Wrong::Contradiction, tick: self.clock.ticks + 1, time };
             self.progress.trouble.get_or_insert(trouble);
         }
-        outside
     }
 
     /// Brings the present state back onto the joints: places along the directions in which these push, then velocities. Returns the
@@ -245,7 +237,7 @@ impl State {
     }
 
     /// The same, in a jump of velocities.
-    fn project_with(&mut self, time: f64, jump: Option<Jump>) -> FromOutside {
+    pub(super) fn project_with(&mut self, time: f64, jump: Option<Jump>) -> FromOutside {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.projected);
         for hold_places in [true, false] {
@@ -268,94 +260,18 @@ impl State {
             None => {}
         }
         self.look_for_dead_points(&mut rows, time);
-        let outside = self.hold_velocities(&mut rows, time);
+        let outside = match jump {
+            Some(Jump::Stops(_)) => self.push_apart(&mut rows, time),
+            _ => self.hold_velocities(&mut rows, time),
+        };
         self.projected = rows;
         self.turn_to(Part::Integrate);
         outside
     }
 
-    /// From [`Model::begin_step`](super::Model::begin_step): before the step begins, velocities jump, and places with them.
-    pub fn strike(&mut self, blow: Blow) {
-        self.blows.push(blow);
-    }
-
     /// From [`Model::begin_step`](super::Model::begin_step): a model holds something else from now on.
     pub fn change_rows(&mut self) {
         (self.evaluation.stale, self.evaluation.other_rows) = (true, true);
-    }
-
-    /// Velocities jump where models ask for it.
-    pub(super) fn take_blows(&mut self, time: f64) {
-        if self.blows.is_empty() {
-            return;
-        }
-        self.bodies.catch_up();
-        let blows = std::mem::take(&mut self.blows);
-        let (sticks, grips) = (blows.contains(&Blow::Sticks), blows.contains(&Blow::Grips));
-        let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(**row) } else { None };
-        let back: Vec<Row> = blows.iter().filter_map(back).collect();
-        if blows.iter().any(|blow| !matches!(blow, Blow::Sticks | Blow::Grips)) {
-            let lost = self.jump(time, Jump::Stops(&back));
-            self.ledger.inelasticity.add(lost);
-            self.tell_of_blow();
-        }
-        if sticks || grips {
-            let slip = self.rows_that_slip(time);
-            let lost = self.jump(time, Jump::Sticks(&slip));
-            if sticks {
-                self.ledger.friction.add(lost)
-            } else {
-                self.ledger.book_work(-lost)
-            }
-            if !slip.is_empty() {
-                self.tell_of_blow();
-            }
-        }
-        self.change_rows();
-    }
-
-    /// The indices of the rows with a bound that do not stick: alone among the rows without one they would need more of an impulse to hold their rates than
-    /// their bounds give in a tick. Where the rate of a joint changes its sign while the others move on, friction turns round.
-    fn rows_that_slip(&mut self, time: f64) -> Vec<usize> {
-        let most = MOST_TO_STICK * self.clock.dt;
-        let mut rows = Rows::default();
-        let Self { models, roles, bodies, projection, .. } = self;
-        find_rows(models, &roles.rows, (bodies, time), &mut rows);
-        let all = rows.all().iter().copied().enumerate();
-        let bounded: Vec<(usize, Row)> = all.filter(|(_, row)| row.gives_way()).collect();
-        rows.retain(|row| !row.gives_way());
-        let driven = rows.all().iter().chain(bounded.iter().map(|(_, row)| row)).any(|row| row.rate != 0.0);
-        let (others, solver) = rows.prepared(bodies);
-        let missing = |row: &Row| (row.rate - row.velocity(bodies)).abs();
-        let held = |row: &Row| missing(row) <= STUCK * row.speeds(bodies);
-        let mut slips = |row: &Row| {
-            !held(row) && missing(row) > most * row.bound * projection.compliance(row, others, solver, bodies)
-        };
-        let (mut slip, mut stick): (Vec<_>, Vec<_>) = bounded.into_iter().partition(|(_, row)| slips(row));
-        if driven {
-            // Two rates that follow from each other are not held both, if they do not agree: that which was held before goes on.
-            stick.iter().filter(|(_, row)| held(row)).for_each(|(_, row)| rows.add(*row));
-            stick.retain(|(_, row)| !held(row));
-            for (index, row) in stick {
-                let (others, solver) = rows.prepared(bodies);
-                if projection.compliance(&row, others, solver, bodies) > 0.0 {
-                    rows.add(row);
-                } else {
-                    slip.push((index, row));
-                }
-            }
-        }
-        slip.into_iter().map(|(index, _)| index).collect()
-    }
-
-    /// Velocities jump to those that rows allow. Returns the energy in J that this takes.
-    fn jump(&mut self, time: f64, jump: Jump) -> f64 {
-        let kinetic = |bodies: &Bodies| (0..bodies.len()).map(|body| bodies.kinetic_energy(body)).sum::<f64>();
-        let before = kinetic(&self.bodies);
-        let outside = self.project_with(time, Some(jump));
-        outside.book(&mut self.ledger);
-        self.ledger.book_work(outside.work);
-        before + outside.work - kinetic(&self.bodies)
     }
 
     /// Before the first tick: brings the bodies of a scene onto its joints.

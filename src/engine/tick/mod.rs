@@ -28,6 +28,7 @@
 pub mod after_load;
 pub mod balance;
 mod batch;
+mod blows;
 pub mod bounds;
 pub mod clock;
 mod components;
@@ -69,6 +70,7 @@ pub use after_load::{AfterLoad, LoadErrors};
 pub use balance::{Balance, Ledger, Totals};
 pub use batch::step;
 pub(crate) use batch::{advance, foresee_components, open, rebuild};
+pub use blows::Blow;
 pub use clock::{Clock, Evaluation, Span, Style};
 pub use components::place_of;
 pub use context::Tick;
@@ -76,7 +78,7 @@ pub use failure::{Failure, Wrong};
 pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
-pub use hold::{Blow, FromOutside, JointDrift, Noted};
+pub use hold::{FromOutside, JointDrift, Noted};
 pub use method::{Integrator, Method};
 pub use model::{
     Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,

@@ -6,9 +6,10 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::balance::Totals;
+use super::blows::Blow;
 use super::bounds::Bounds;
 use super::failure::{Trouble, Wrong};
-use super::hold::{Blow, JointDrift};
+use super::hold::JointDrift;
 use super::model::{Energies, Model};
 use super::pairs::CandidatePairs;
 use super::progress::{LocatedEvents, Progress, StepCount};

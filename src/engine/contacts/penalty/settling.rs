@@ -26,7 +26,9 @@ impl View<'_> {
     /// Friction waits for the normal forces: a contact that is tried as held has a force of its own until it is let go.
     pub fn settle<N: NormalForce>(&mut self) -> bool {
         if self.contacts.held_before.is_none() {
-            self.contacts.held_before = Some(self.stored(|_| true));
+            // Another model may have ended the step: what springs that slip have given in it is lost too.
+            let slid = self.close_slides();
+            self.contacts.held_before = Some(self.stored(|_| true) + slid);
             self.contacts.before.clear();
         }
         let corrected = self.settle_normals::<N>()

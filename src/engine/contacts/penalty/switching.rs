@@ -251,7 +251,7 @@ impl View<'_> {
     }
 
     /// What the springs that slip have given since the step began, in J: it is lost beside what slipping took.
-    fn close_slides(&mut self) -> f64 {
+    pub(super) fn close_slides(&mut self) -> f64 {
         let now = self.sliding_energy();
         std::mem::replace(&mut self.contacts.slid, now) - now
     }
