@@ -148,3 +148,28 @@ fn a_joint_breaks_when_the_load_of_the_clock_reaches_its_bound() {
         }
     }
 }
+
+/// Law: where a joint stands at its limit the limit bears what presses it. When the load turns round, friction alone holds the joint, and it slips
+/// when the load exceeds the bound: `I a'' = A sin(w t - 90 deg) - f` from `w t = 90 deg + asin(f / A)` on.
+#[test]
+fn friction_holds_a_joint_that_its_limit_lets_go() {
+    let (amplitude, bound, omega, time) = (2.0_f64, 1.0, TAU, 0.48);
+    let begin = (0.25 * TAU + (bound / amplitude).asin()) / omega;
+    let phase = |time: f64| omega * time - 0.25 * TAU;
+    let way = time - begin;
+    let swing = amplitude / omega * (phase(begin).cos() * way - (phase(time).sin() - phase(begin).sin()) / omega);
+    let truth = (swing - 0.5 * bound * way * way) / INERTIA;
+    for (clock, share) in CLOCKS.into_iter().chain([("tick: 1e-3, method: RungeKutta4", 1e-11)]) {
+        let scene = format!(
+            "bodies: [(name: \"w\", at: (0, 0), mass: 2, inertia: {INERTIA:?}, atoms: Disc(radius: 0.3))],
+            joints: [Revolute(name: \"h\", a: World, b: \"w\", friction: {bound:?}, limits: (0, 3))],
+            controllers: [Actuator(of: \"h\", force: Sine(amplitude: {amplitude:?}, frequency: 1, phase: \"-90 deg\"))]"
+        );
+        let text = format!("Scene(format: 1, clock: (duration: {time:?}, {clock}), contacts: None, {scene})");
+        let mut simulation =
+            Simulation::load(&Source::new("load.ron", text)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_end().unwrap();
+        let found = simulation.state().bodies().angle[0];
+        assert!((found - truth).abs() < allowed(share, amplitude), "{clock}: {found}, {truth}");
+    }
+}

@@ -365,6 +365,10 @@ impl Events for ServoForce {
         numbers.fill(self.integral);
     }
 
+    fn measures(&self, numbers: &mut [f64]) {
+        numbers.fill(self.integral.abs());
+    }
+
     fn write(&mut self, numbers: &[f64]) {
         numbers.iter().for_each(|integral| self.integral = *integral);
     }

@@ -169,7 +169,7 @@ impl Control {
 
     /// The estimated error of the step that was just made, over what is allowed; nothing if the method knows no estimate.
     /// `made`: the reach at its beginning, its length in seconds, and the change it made of the state.
-    pub fn error(&mut self, method: &dyn OneStep, flow: &WorldFlow, made: (Reach, f64, &[f64])) -> Option<f64> {
+    pub fn error(&mut self, method: &dyn OneStep, flow: &mut WorldFlow, made: (Reach, f64, &[f64])) -> Option<f64> {
         let (reach, length, change) = made;
         let (distance, speed) = self.sizes(reach, length);
         // Bodies on which nothing acted at the beginning go as far as the step took them.
@@ -180,6 +180,7 @@ impl Control {
         let least = rounding.max(share * f64::MIN_POSITIVE);
         self.bounded = distance > STILL * flow.farthest() && (rounding > share * distance);
         flow.measures((share * distance).max(least), (share * speed).max(least / length), &mut self.measures);
+        flow.measure_own(share, &mut self.measures);
         method.error(&self.measures)
     }
 

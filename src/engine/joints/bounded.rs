@@ -106,6 +106,11 @@ impl Bounded {
         }
     }
 
+    /// It holds the rate from now on, for a first try.
+    pub fn hold(&mut self) {
+        self.set(Mode::Holds);
+    }
+
     fn set(&mut self, mode: Mode) -> bool {
         let other = mode != self.mode;
         if other {

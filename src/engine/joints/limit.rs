@@ -127,6 +127,11 @@ impl Limit {
         self.sides().map(beyond).fold(0.0, f64::max)
     }
 
+    /// Whether the joint is held at one of them.
+    pub fn holds(&self) -> bool {
+        self.at.is_some()
+    }
+
     /// The row that keeps the joint at its limit.
     pub fn row(&self, pair: &Pair, freedom: &Freedom) -> Option<Row> {
         let side = self.at?;

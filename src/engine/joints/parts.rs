@@ -72,6 +72,13 @@ impl Parts {
         self.limit.is_none() && self.friction.is_none() && self.break_force.is_none()
     }
 
+    /// The friction that acts. What a limit holds needs none: how both would share a load, statics does not say, and a share beyond the
+    /// bound would push the joint away from its limit.
+    fn acting(&mut self) -> Option<&mut Bounded> {
+        let held = self.limit.as_ref().is_some_and(Limit::holds);
+        self.friction.as_mut().filter(|_| !held)
+    }
+
     /// Whether there are limits.
     pub fn has_limits(&self) -> bool {
         self.limit.is_some()
@@ -95,7 +102,7 @@ impl Parts {
         self.rows = [0, 0];
         let Some(freedom) = law.freedom(pair) else { return };
         let limit = self.limit.as_ref().and_then(|limit| limit.row(pair, &freedom));
-        let friction = self.friction.as_ref().and_then(|friction| friction.row(pair, &freedom.along));
+        let friction = self.acting().and_then(|friction| friction.row(pair, &freedom.along));
         self.rows = [limit, friction].map(|row| {
             row.map_or(0, |row| {
                 rows.add(row);
@@ -117,7 +124,7 @@ impl Parts {
 
     /// Adds the friction of a joint that slips. Returns its torque in N m, or force in N.
     pub fn apply_forces(&mut self, law: &dyn Law, pair: &Pair, state: &mut State) -> Option<(super::ends::Along, f64)> {
-        let amount = self.friction.as_ref()?.given()?;
+        let amount = self.acting()?.given()?;
         let along = law.freedom(pair)?.along;
         let into = pair.push(&along, amount, state);
         let lost = -amount * pair.rate(&along);
@@ -137,7 +144,11 @@ impl Parts {
         let Some(freedom) = law.freedom(pair) else { return false };
         let mut changed = false;
         if let Some(limit) = &mut self.limit {
-            changed |= !located && limit.follow();
+            let lets_go = !located && limit.follow();
+            changed |= lets_go;
+            if lets_go && let Some(friction) = &mut self.friction {
+                friction.hold();
+            }
             let acceleration = || pair.row(&freedom.along, Kind::Position).acceleration(state.bodies());
             let press = (!located).then(|| Press { acceleration: acceleration(), tick: state.span().length });
             match limit.begin_step(pair, &freedom, press) {
@@ -146,7 +157,7 @@ impl Parts {
                 None => {}
             }
         }
-        if let Some(friction) = &mut self.friction
+        if let Some(friction) = self.acting()
             && !located
             && friction.follow(pair, &freedom.along)
         {
@@ -185,7 +196,7 @@ impl Parts {
         if let Some(limit) = &self.limit {
             limit.tell(pair, &freedom, state, told);
         }
-        if let Some(friction) = &mut self.friction {
+        if let Some(friction) = self.acting() {
             friction.tell(pair, &freedom.along, state, told);
         }
     }
@@ -196,7 +207,11 @@ impl Parts {
         let limits = breaking + self.limit.as_ref().map_or(0, Limit::count);
         match (&mut self.limit, &mut self.friction) {
             _ if place < breaking => self.broken = Some(now),
-            (Some(limit), _) if place < limits => limit.switch(place - breaking),
+            (Some(limit), friction) if place < limits => {
+                let held = limit.holds();
+                limit.switch(place - breaking);
+                friction.iter_mut().filter(|_| held).for_each(Bounded::hold);
+            }
             (_, Some(friction)) => friction.switch(place - limits),
             _ => {}
         }
@@ -208,8 +223,10 @@ impl Parts {
             return true;
         }
         let Some(freedom) = law.freedom(pair) else { return false };
-        let limit = self.limit.as_mut().is_some_and(|limit| limit.settle(pair, &freedom, state.bodies()));
-        let friction = |friction: &mut Bounded| friction.choose(pair, &freedom.along);
-        limit | self.friction.as_mut().is_some_and(friction)
+        if self.limit.as_mut().is_some_and(|limit| limit.settle(pair, &freedom, state.bodies())) {
+            self.friction.iter_mut().for_each(Bounded::hold);
+            return true;
+        }
+        self.acting().is_some_and(|friction| friction.choose(pair, &freedom.along))
     }
 }

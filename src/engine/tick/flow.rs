@@ -186,6 +186,17 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         sizes.resize(self.dimension, f64::INFINITY);
     }
 
+    /// The same for numbers of models' own that measure their errors by themselves: a share of that is allowed at least.
+    pub fn measure_own(&mut self, share: f64, sizes: &mut [f64]) {
+        let places = self.places_of_own();
+        if places.is_empty() {
+            return;
+        }
+        let mut own = vec![0.0; places.len()];
+        self.each_own(&mut own, |model, _, numbers| model.measures(numbers));
+        sizes[places].iter_mut().zip(own).for_each(|(size, own)| *size = size.max(share * own));
+    }
+
     /// Brings the state just written back onto the joints; `change` and `state` follow, with the impulse from outside.
     pub fn hold(&mut self, time: f64, change: &mut [f64], state: &mut [f64]) -> bool {
         if !self.tick.has_joints() {

@@ -251,6 +251,10 @@ pub trait Events {
     /// Model -> state.
     fn read(&self, numbers: &mut [f64]);
 
+    /// What errors of its numbers are measured by, where that is more than the way of bodies: an integral grows while nothing moves. All are
+    /// zero before. Default: nothing.
+    fn measures(&self, _: &mut [f64]) {}
+
     /// State -> model, before an evaluation.
     fn write(&mut self, numbers: &[f64]);
 
