@@ -114,7 +114,7 @@ mod tests {
         /// Law: as long as both borders are positive, and only then, a feature is the nearest; beyond the one that is passed lies the
         /// feature that is nearest then.
         #[test]
-        fn borders_part_the_regions(turn in 0.0..6.28_f64, step in 0.001..0.3_f64, which in 0..3_usize) {
+        fn borders_part_the_regions(turn in 0.0..std::f64::consts::TAU, step in 0.001..0.3_f64, which in 0..3_usize) {
             let shape = match which {
                 0 => capsule(DVec2::new(-0.4, 0.0), DVec2::new(0.4, 0.0), 0.1),
                 1 => rectangle(1.0, 0.6, 0.1),
