@@ -56,6 +56,7 @@ mod reversal;
 mod rigid_limit;
 mod rolling;
 mod rolling_resistance;
+mod sampled_servos;
 mod sensed;
 mod sleep;
 mod slope;
