@@ -30,7 +30,7 @@ const MINIMISING: Duration = Duration::from_secs(120);
 const STORED: u64 = 3;
 
 /// Mutates scenes, reads them, runs and draws the good ones for a few ticks, and stores every scene that breaks a
-/// promise: a panic, more than 5 s of processor time, more than 1 GiB of memory, an undocumented exit code, a mistake
+/// promise: a panic, more than 60 s of processor time, more than 1 GiB of memory, an undocumented exit code, a mistake
 /// without a place, a state that is not finite and nobody says so. Needs Linux.
 ///
 /// Exit codes: 0 nothing found, 1 something found, 2 wrong command line or a file cannot be written.

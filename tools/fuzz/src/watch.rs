@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 
 use crate::worker::BROKEN;
 
-/// Processor time that one scene may take, in seconds. Not time on the clock: machines are busy.
-pub const SECONDS: f64 = 5.0;
+/// Processor time that one scene may take, in seconds. Not time on the clock: machines are busy. Under a tolerance the engine itself ends a
+/// tick after ten million steps, which take half a minute.
+pub const SECONDS: f64 = 60.0;
 /// A child that says nothing for so long is stuck even if it computes nothing.
 const SILENCE: Duration = Duration::from_secs(120);
 /// Memory that a child may ask for, in KiB.
