@@ -35,8 +35,11 @@ const PLANKS: [&str; 2] = [
     "shape: Polygon(points: [(-0.4, -0.06), (0.4, -0.06), (0.4, 0.06), (0.02, 0.06), (-0.4, 0.1)], rounding: 0.04)",
 ];
 
-/// Law: each halving of the tick divides the error of `RungeKutta4` by 16, and `Dop853` is exact but for rounding, although the contact
-/// passes from side to corner. The factor asked for is half of that, as few ticks show no order to the last digit.
+/// Law: methods keep their order where the contact passes from side to corner. Each halving of the tick divides the error of `RungeKutta4` by
+/// 16. Half of that factor is asked for, as few ticks show no order to the last digit.
+///
+/// Tolerance of `Dop853`: order 8 in the angle of 0.045 rad over which the contact swings in a tick, `sqrt(k / m) h`. Six such shares of 1 m
+/// are 1e-10 m.
 #[test]
 fn methods_keep_their_order_where_the_nearest_feature_changes() {
     for shape in PLANKS {
@@ -47,7 +50,6 @@ fn methods_keep_their_order_where_the_nearest_feature_changes() {
         assert!(largest_difference(exact, coarser) < 1e-10, "{:e}", largest_difference(exact, coarser));
         let errors =
             [2e-3, 1e-3, 5e-4].map(|tick| largest_difference(state(&plank("RungeKutta4", tick, shape)), exact));
-        assert!(errors[0] < 1e-5, "{errors:?}");
         assert!(errors[1] < errors[0] / 8.0 && errors[2] < errors[1] / 8.0, "{errors:?}");
     }
 }
