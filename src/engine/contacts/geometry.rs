@@ -42,12 +42,12 @@ impl End {
         Self { body: bodies.hulls[hull].body as usize, arm: found.foot, radius: shape.radius() }
     }
 
-    /// An atom as a wall sees it.
+    /// An atom as a wall sees it, and its centre in metres.
     #[inline]
-    pub fn at_wall(bodies: &Bodies, wall: usize, atom: u32) -> Self {
+    pub fn at_wall(bodies: &Bodies, wall: usize, atom: u32) -> (Self, DVec2) {
         let body = bodies.atom_body(atom as usize);
         let (place, radius) = bodies.meeting_wall(&bodies.walls[wall], atom as usize);
-        Self { body, arm: place - bodies.position[body], radius }
+        (Self { body, arm: place - bodies.position[body], radius }, place)
     }
 
     #[inline(always)]
@@ -212,8 +212,7 @@ impl PairGeometry {
     }
 
     fn wall(bodies: &Bodies, index: usize, wall: usize, atom: u32) -> Self {
-        let end = End::at_wall(bodies, wall, atom);
-        let place = bodies.meeting_wall(&bodies.walls[wall], atom as usize).0;
+        let (end, place) = End::at_wall(bodies, wall, atom);
         let NearestPoint { height, normal, distance } = bodies.nearest_on_wall(wall, atom as usize, place);
         let wall = bodies.whole_wall(wall);
         let belt = bodies.belts.get(wall).copied().unwrap_or(DVec2::ZERO);

@@ -395,8 +395,7 @@ fn follow_wall<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     (time, elapsed): (f64, f64),
 ) {
-    let end = End::at_wall(sink.bodies, wall, atom);
-    let place_of_atom = sink.bodies.meeting_wall(&sink.bodies.walls[wall], atom as usize).0;
+    let (end, place_of_atom) = End::at_wall(sink.bodies, wall, atom);
     let NearestPoint { height, normal, distance } = sink.bodies.nearest_on_wall(wall, atom as usize, place_of_atom);
     let wall = sink.bodies.whole_wall(wall);
     let mut contact = list.get(place);

@@ -31,10 +31,9 @@ pub(super) fn keep(pairs: &mut CandidatePairs, touching: &ContactList, bodies: &
     pairs.keeps = true;
     for place in 0..pairs.surfaces.len() {
         let pair = pairs.surfaces[place];
-        pairs.surfaces[place].keep(match Seen::of(pair, bodies) {
-            Some(seen) if touching.is_touching(place) => pair.kept().or_else(|| seen.nearest()),
-            _ => None,
-        });
+        let found = || Seen::of(pair, bodies).and_then(|seen| seen.nearest());
+        let kept = touching.is_touching(place).then(|| pair.kept().or_else(found));
+        pairs.surfaces[place].keep(kept.flatten());
     }
 }
 
