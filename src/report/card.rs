@@ -18,7 +18,7 @@ use jostle_engine::simulation::Simulation;
 use jostle_engine::simulation::error::{ErrorEstimate, KnownError};
 use jostle_engine::tick::Notes;
 use jostle_engine::tick::energy::EnergyLedger;
-use jostle_engine::tick::{Failure, State, largest_travel};
+use jostle_engine::tick::{Failure, State, largest_travel, stands};
 use jostle_engine::world::Name;
 use jostle_engine::world::hash::state_hash;
 use jostle_language::numbers::{number, percent};
@@ -117,6 +117,9 @@ pub struct Card {
     seconds_spent: f64,
     #[serde(skip)]
     pub(super) energy_scale: f64,
+    /// Whether nothing moves in it.
+    #[serde(skip)]
+    stands: bool,
     /// Whether its steps were chosen for an error, and which that was.
     #[serde(skip)]
     asked: Option<Option<f64>>,
@@ -184,6 +187,7 @@ impl Card {
             time: clock.time(),
             seconds_spent,
             energy_scale,
+            stands: stands(state),
             asked: known.map(|known| known.tolerance),
         };
         card.notes.extend(estimated.notes);
@@ -206,9 +210,10 @@ impl Card {
         self.verdict.starts_with(DISTRUST)
     }
 
-    /// Energy residual over the energy that went round; zero where the residual is rounding of the energies it is found from.
+    /// Energy residual over the energy that went round; zero where the residual is rounding of the energies it is found from, or
+    /// nothing moves.
     pub fn energy_error(&self) -> f64 {
-        if self.energy.residual.abs() <= ROUNDING * self.energy.potential.abs() {
+        if self.stands || self.energy.residual.abs() <= ROUNDING * self.energy.potential.abs() {
             return 0.0;
         }
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
@@ -326,7 +331,9 @@ impl fmt::Display for Card {
         }
         row("largest travel", format!("{:.1} % of the smallest radius per tick", self.largest_travel_share * 100.0))?;
         if let Some(error) = &self.error {
-            row("error", error.to_string())?;
+            // How chaos grows tells a horizon even where that lies behind the end of the run.
+            let horizon = error.horizon.filter(|horizon| *horizon < self.time);
+            row("error", ErrorEstimate { horizon, ..*error }.to_string())?;
         }
         row("state hash", self.hash.clone())?;
         for note in &self.notes {

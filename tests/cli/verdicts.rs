@@ -8,7 +8,7 @@ type Broken = (&'static str, &'static str, &'static str, &'static [&'static str]
 
 const FLOOR: &str = r#"walls: [(name: "floor", left: (1, 0), right: (0, 0), material: "m")]"#;
 
-const BROKEN: [Broken; 26] = [
+const BROKEN: [Broken; 27] = [
     (
         "a tick above the critical one of a contact",
         r#"clock: (duration: 1, tick: 0.02, method: VelocityVerlet), gravity: (0, -10), FLOOR,
@@ -217,6 +217,20 @@ const BROKEN: [Broken; 26] = [
         "",
         &["Do not trust it", "longer than the springs can bear", "`light`"],
     ),
+    (
+        "a motor that drives a slider and crank into the dead point",
+        r#"clock: (duration: 2, tick: 0.01, method: Dop853), contacts: None,
+           bodies: [(name: "crank", at: (0.09078691764006462, 0.062110672073453894), angle: 0.6, mass: 0.5, inertia: 0.004, atoms: Disc(radius: 0.03)),
+                    (name: "rod", at: (0.48018271728899364, 0.062110672073453894), angle: -0.2050759793984942, mass: 0.35, inertia: 0.012, atoms: Disc(radius: 0.03)),
+                    (name: "piston", at: (0.778791599297858, 0), mass: 0.7, atoms: Disc(radius: 0.05))],
+           joints: [Revolute(name: "hub", a: World, anchor_a: (0, 0), b: "crank", anchor_b: (-0.11, 0)),
+                    Revolute(name: "pin", a: "crank", anchor_a: (0.11, 0), b: "rod", anchor_b: (-0.305, 0)),
+                    Revolute(name: "wrist", a: "rod", anchor_a: (0.305, 0), b: "piston", anchor_b: (0, 0)),
+                    Prismatic(name: "slide", a: World, b: "piston", axis: (1, 0))],
+           controllers: [Motor(name: "drive", of: "slide", speed: 0.4)]"#,
+        "",
+        &["Do not trust it", "a motor without a `limit`", "a dead point"],
+    ),
 ];
 
 #[test]
@@ -269,4 +283,16 @@ fn nothing_is_blamed_where_nothing_is_wrong() {
     for scene in ["projectile", "bounce", "incline", "kepler", "solar_system"] {
         folder.jostle(&format!("run example:{scene} --estimate")).code(0).says("\n  Trust it: places to about ");
     }
+}
+
+/// A mechanism that stands is not blamed for the rounding of the forces that hold it.
+#[test]
+fn what_stands_is_not_blamed_for_rounding() {
+    let folder = Folder::new("verdict_still");
+    let scene = r#"Scene(format: 1, clock: (duration: 6, method: Dop853, tick: "10 ms"), contacts: None, gravity: (0, -9.81),
+        bodies: [(name: "arm", at: (0.6, 0), mass: 2, inertia: 0.1, atoms: Disc(radius: 0.1))],
+        joints: [Revolute(name: "pin", a: World, anchor_a: (0, 0), b: "arm", anchor_b: (-0.6, 0), friction: 1.5, limits: (0, 3))],
+        controllers: [Actuator(of: "pin", force: Sine(amplitude: 13.1, frequency: 0.25))])"#;
+    std::fs::write(folder.path("still.ron"), scene).unwrap();
+    folder.jostle("run still.ron").code(0).says("\n  Trust it: places to about ").says("all energy is accounted for");
 }

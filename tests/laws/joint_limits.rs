@@ -306,6 +306,32 @@ fn a_soft_joint_is_a_damped_spring() {
     }
 }
 
+/// Law: soft joints between two free bodies of unlike mass, struck and damped, keep momentum and angular momentum however far they open, and
+/// what their dashpots take is booked. Tolerance: rounding of a thousand steps; Runge-Kutta methods keep angular momentum, a quadratic invariant,
+/// to their error, which for springs of 2 Hz is `(4 pi dt)^4` under `RungeKutta4`.
+#[test]
+fn soft_joints_keep_angular_momentum() {
+    for joint in ["Weld(a: \"a\", b: \"b\", softness: (1, 0.2))", "Revolute(a: \"a\", b: \"b\", softness: (2, 0.3))"] {
+        let scene = format!(
+            "bodies: [(name: \"a\", at: (0, 0), mass: 1, inertia: 0.1, atoms: Disc(radius: 0.1)),
+                (name: \"b\", at: (0.5, 0.1), mass: 2, inertia: 0.3, velocity: (1, 1), spin: 2, atoms: Disc(radius: 0.1))],
+             joints: [{joint}]"
+        );
+        for method in ["Dop853", "RungeKutta4", "VelocityVerlet"] {
+            let mut simulation = load(method, 0.001, &scene);
+            run_to(&mut simulation, 1.0);
+            let card = simulation.card();
+            let kept = if method == "RungeKutta4" { (4.0 * PI * 0.001).powi(4) } else { 1e-12 };
+            near(card.angular_momentum_residual, 0.0, kept, &format!("{method}, {joint}"));
+            near(card.momentum_residual[0].hypot(card.momentum_residual[1]), 0.0, 1e-12, method);
+            assert!(card.energy.accounts["damping"] > 0.05, "{:?}", card.energy);
+            // Some 2 J.
+            let kept = if method == "VelocityVerlet" { 1e-3 } else { 2.0 * kept.max(1e-10) };
+            near(card.energy.residual, 0.0, kept, method);
+        }
+    }
+}
+
 /// Slack again, a rope pulls nothing.
 #[test]
 fn a_slack_rope_has_no_force() {

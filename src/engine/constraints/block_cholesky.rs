@@ -137,15 +137,13 @@ impl BlockCholesky {
         &mut self.numbers
     }
 
-    /// Replaces the matrix by its factor, with `share` of its diagonal added to that. Says whether all unknowns are determined.
-    pub fn factor(&mut self, share: f64) -> bool {
+    /// Replaces the matrix by its factor. Says whether all unknowns are determined.
+    pub fn factor(&mut self) -> bool {
         let Self { size, first, order, diagonal, below, targets, numbers, whole, watch, least_pivot } = self;
         *least_pivot = 1.0;
         for (node, &own) in size.iter().enumerate() {
             for place in 0..own {
-                let number = &mut numbers[(diagonal[node] + place * (own + 1)) as usize];
-                whole[(first[node] + place) as usize] = *number;
-                *number += share * *number;
+                whole[(first[node] + place) as usize] = numbers[(diagonal[node] + place * (own + 1)) as usize];
             }
         }
         let mut regular = true;
@@ -240,7 +238,7 @@ fn factor_block(block: &mut [f64], size: usize, whole: &[f64]) -> bool {
         }
         if pivot.is_nan() || pivot <= DEPENDENT * whole[column] {
             regular = false;
-            // Where `share` was added pivots are above it, but for rounding.
+            // Where a share of the diagonal was added pivots are above it, but for rounding.
             if pivot.is_nan() || pivot <= 0.0 {
                 pivot = whole[column].max(f64::MIN_POSITIVE);
             }
@@ -299,7 +297,7 @@ mod tests {
                 }
             }
         }
-        assert!(factor.factor(0.0));
+        assert!(factor.factor());
         let exact: Vec<f64> = (0..count).map(|place| 1.0 + place as f64).collect();
         let mut values: Vec<f64> =
             (0..count).map(|row| (0..count).map(|column| value(row, column) * exact[column]).sum()).collect();
@@ -331,6 +329,6 @@ mod tests {
     fn dependent_rows_are_noticed() {
         let mut factor = BlockCholesky::new(vec![1, 1], [(0, 1)].into_iter());
         factor.numbers().fill(1.0);
-        assert!(!factor.factor(0.0));
+        assert!(!factor.factor());
     }
 }

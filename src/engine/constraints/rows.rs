@@ -148,6 +148,11 @@ impl Rows {
         self.answer[index]
     }
 
+    /// The accelerations of a row by the forces of each of these rows, in m/s2 or rad/s2, added up without signs: rounding is a share of that.
+    pub fn pulls(&self, row: &Row, bodies: &Bodies) -> f64 {
+        self.rows.iter().zip(&self.answer).map(|(other, force)| (row.response(other, bodies) * force).abs()).sum()
+    }
+
     /// Finds the forces of all rows, given all others.
     pub fn solve(&mut self, bodies: &Bodies) {
         if self.has_joints() {

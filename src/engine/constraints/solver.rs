@@ -3,7 +3,7 @@
 //!
 //! Rows of joints have `F = J^T`, so that their matrix is symmetric and never negative. Where it is singular, because rows depend on each
 //! other, it is factored with a share of its diagonal added, and the answer is refined until the rows are satisfied: it tends to the
-//! solution of least norm, each unknown measured by its diagonal (proximal iteration, Rockafellar 1976).
+//! solution of least norm, each unknown measured by its diagonal and by its [`Share`] (proximal iteration, Rockafellar 1976).
 
 use super::block_cholesky::BlockCholesky;
 use super::borders::Borders;
@@ -104,11 +104,12 @@ impl Solver {
         self.dependent = self.sparse.len() > 3 * self.moved.len();
         if !self.dependent {
             self.fill(rows, bodies);
-            self.dependent = !self.factor.factor(0.0);
+            self.dependent = !self.factor.factor();
         }
         if self.dependent {
             self.fill(rows, bodies);
-            self.factor.factor(SHARE);
+            self.soften(rows);
+            self.factor.factor();
         }
     }
 
@@ -127,6 +128,15 @@ impl Solver {
         numbers.fill(0.0);
         for &(a, b, place) in &self.entries {
             numbers[place as usize] = rows[a as usize].response(&rows[b as usize], bodies);
+        }
+    }
+
+    /// Adds a share of the diagonal, the more the less a row is to bear where rows depend on each other.
+    fn soften(&mut self, rows: &[Row]) {
+        let numbers = self.factor.numbers();
+        for &(row, _, place) in self.entries.iter().filter(|(a, b, _)| a == b) {
+            let number = &mut numbers[place as usize];
+            *number += SHARE / rows[row as usize].share.measure.powi(2) * *number;
         }
     }
 

@@ -123,7 +123,7 @@ impl Model for MotorRow {
 
     fn after_blow(&mut self, state: &mut State) {
         if let Some(motion) = self.driven.motion(&state.bodies) {
-            self.held.choose(&motion.pair, &motion.along);
+            self.held.after_blow(&motion.pair, &motion.along);
         }
     }
 
@@ -197,6 +197,10 @@ impl Events for MotorRow {
 
     fn switch(&mut self, _: &mut State, fired: &[usize]) {
         fired.iter().take(1).for_each(|place| self.held.switch(*place));
+    }
+
+    fn look_again(&mut self) -> bool {
+        self.held.look_again()
     }
 
     fn settle(&mut self, state: &State) -> bool {

@@ -4,13 +4,17 @@
 use serde::{Deserialize, Serialize};
 
 use super::ends::{Along, Pair};
-use crate::constraints::{Kind, Row};
+use crate::constraints::{Kind, Row, Share};
 use crate::tick::{Indicator, State};
 
 /// A rate that differs by less than this share of the spins and speeds that it is found from is held.
 const SAME: f64 = 1e-9;
 /// A share of torques and rates that is rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// Where others hold the same rate, a bounded row bears about the square of this share of the load: gears and limits have no bound, and two
+/// bounded rows do not push against each other through a gear.
+const LESS: f64 = 0.1;
 
 /// What it does in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -34,12 +38,16 @@ pub struct Bounded {
     torque: f64,
     /// By how much the rate has differed at most from the one to be held.
     farthest: f64,
+    /// Whether it gives its bound and the rate stays all the same, because others hold it.
+    stands: bool,
+    /// Whether it holds for a try, among others that give their bounds: at its bound it gives it.
+    tries: bool,
 }
 
 impl Bounded {
     /// Holds a speed in rad/s or m/s with at most a torque in N m or a force in N.
     pub fn new(speed: f64, limit: f64) -> Self {
-        Self { speed, limit, mode: Mode::Holds, torque: 0.0, farthest: 0.0 }
+        Self { speed, limit, mode: Mode::Holds, torque: 0.0, farthest: 0.0, stands: false, tries: false }
     }
 
     /// Whether its torque has a bound.
@@ -57,7 +65,8 @@ impl Bounded {
 
     /// The row that holds the rate, while it is held.
     pub fn row(&self, pair: &Pair, along: &Along) -> Option<Row> {
-        let row = Row { rate: self.speed, bound: self.limit, ..pair.row(along, Kind::Velocity) };
+        let share = Share { natural: 0.0, measure: if self.is_bounded() { LESS } else { 1.0 } };
+        let row = Row { rate: self.speed, bound: self.limit, share, ..pair.row(along, Kind::Velocity) };
         (self.mode == Mode::Holds).then_some(row)
     }
 
@@ -71,20 +80,49 @@ impl Bounded {
         self.set(Mode::Gives(torque.signum()));
     }
 
-    /// Chooses the mode of a state. Says whether that is another one.
-    pub fn choose(&mut self, pair: &Pair, along: &Along) -> bool {
+    /// How far the rate is from the one to be held; nothing if rounding makes it so.
+    fn missing(&self, pair: &Pair, along: &Along) -> f64 {
         let missing = self.speed - pair.rate(along);
         let share = if self.farthest == 0.0 { ROUNDING } else { SAME };
         let same = share * (self.farthest + self.speed.abs() + pair.speeds(along));
-        self.farthest = self.farthest.max(missing.abs());
+        if missing.abs() > same { missing } else { 0.0 }
+    }
+
+    /// Modes of others change. If it gave its bound while others held the rate, it may hold the rate with the other sign. Says whether so.
+    pub fn look_again(&mut self) -> bool {
+        let tries = std::mem::take(&mut self.stands);
+        if tries {
+            self.hold();
+        }
+        tries
+    }
+
+    /// The greatest torque with which it holds. In a try the bound itself is too much: it is reached now, or others bear more.
+    fn most(&self) -> f64 {
+        self.limit * if self.tries { 1.0 - SAME } else { 1.0 + SAME }
+    }
+
+    /// Chooses the mode of a state. Says whether that is another one.
+    pub fn choose(&mut self, pair: &Pair, along: &Along) -> bool {
+        let missing = self.missing(pair, along);
+        self.farthest = self.farthest.max((self.speed - pair.rate(along)).abs());
         let mode = match self.mode {
             _ if !self.is_bounded() => Mode::Holds,
             // A blow may have turned the rate round: then the torque turns with it.
-            _ if missing.abs() > same => Mode::Gives(missing.signum()),
-            Mode::Holds if self.torque.abs() > self.limit * (1.0 + SAME) => Mode::Gives(self.torque.signum()),
+            _ if missing != 0.0 => Mode::Gives(missing.signum()),
+            Mode::Holds if self.torque.abs() > self.most() => Mode::Gives(self.torque.signum()),
             mode => mode,
         };
         self.set(mode)
+    }
+
+    /// Velocities have jumped. A rate that is the one to be held is held for a try: its torque may have to turn round.
+    pub fn after_blow(&mut self, pair: &Pair, along: &Along) {
+        if self.is_bounded() && self.missing(pair, along) == 0.0 {
+            self.hold();
+        } else {
+            self.choose(pair, along);
+        }
     }
 
     /// Between ticks: a rate that has passed the one to be held is held from now on.
@@ -109,6 +147,7 @@ impl Bounded {
     /// It holds the rate from now on, for a first try.
     pub fn hold(&mut self) {
         self.set(Mode::Holds);
+        self.tries = true;
     }
 
     fn set(&mut self, mode: Mode) -> bool {
@@ -121,6 +160,7 @@ impl Bounded {
 
     /// Adds the indicators of the mode: how far the torque is from its bounds, or the rate from the one to be held.
     pub fn tell(&mut self, pair: &Pair, along: &Along, state: &State, told: &mut Vec<Indicator>) {
+        (self.stands, self.tries) = (false, false);
         let rounding = ROUNDING * self.limit;
         let missing = self.speed - pair.rate(along);
         self.farthest = self.farthest.max(missing.abs());
@@ -135,9 +175,12 @@ impl Bounded {
             })),
             Mode::Gives(sign) => {
                 let row = pair.row(along, Kind::Velocity);
+                let acceleration = row.acceleration(state.bodies());
+                let own = self.limit * row.response(&row, state.bodies());
+                self.stands = self.missing(pair, along) == 0.0 && acceleration.abs() <= SAME * own;
                 told.push(Indicator {
                     value: sign * missing,
-                    slope: -sign * row.acceleration(state.bodies()),
+                    slope: -sign * acceleration,
                     rounding: ROUNDING * self.farthest,
                     ..Indicator::default()
                 });
@@ -151,6 +194,7 @@ impl Bounded {
             Mode::Holds => Mode::Gives(if place == 0 { 1.0 } else { -1.0 }),
             Mode::Gives(_) => Mode::Holds,
         };
+        self.stands = self.mode == Mode::Holds;
         self.set(mode);
     }
 }

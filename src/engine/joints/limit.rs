@@ -8,7 +8,6 @@ use super::ends::Pair;
 use super::law::Freedom;
 use crate::constraints::{Kind, Row};
 use crate::tick::{Indicator, State};
-use crate::world::Bodies;
 
 /// A share of its size within which a value is at the limit.
 const AT: f64 = 1e-14;
@@ -156,13 +155,13 @@ impl Limit {
         let reached = self.reached.take();
         let left = self.left.take();
         let rate = pair.rate(&freedom.along);
-        let still = rate.abs() <= PULL * pair.speeds(&freedom.along);
+        let still = rate.abs() <= PULL * pair.speeds(&freedom.along).max(self.fastest);
         let arrives = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
             let there = reached == Some(*side) || room <= AT * size;
             let pressed = press.is_some_and(|press| side.sign() * press.acceleration < 0.0);
             let rests = still && pressed && left != Some(*side);
-            there && self.at.is_none() && (side.sign() * rate < 0.0 || rests)
+            there && self.at.is_none() && (side.sign() * rate < 0.0 && !still || rests)
         };
         let side = self.sides().find(arrives)?;
         self.fastest = self.fastest.max(rate.abs());
@@ -227,19 +226,22 @@ impl Limit {
     }
 
     /// Corrects the mode after an evaluation.
-    pub fn settle(&mut self, pair: &Pair, freedom: &Freedom, bodies: &Bodies) -> bool {
+    pub fn settle(&mut self, pair: &Pair, freedom: &Freedom, state: &State) -> bool {
         if self.at.is_some() {
             return self.follow();
         }
         let rate = pair.rate(&freedom.along);
-        let acceleration = pair.row(&freedom.along, Kind::Position).acceleration(bodies);
+        let row = pair.row(&freedom.along, Kind::Position);
+        let acceleration = row.acceleration(state.bodies());
         // What was left just now pushes away by no more than rounding.
         let rests = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
             let still = rate.abs() <= PULL * pair.speeds(&freedom.along);
             self.left != Some(*side) && room.abs() <= AT * size && still && side.sign() * acceleration < 0.0
         };
-        let side = self.sides().find(rests);
+        // Friction that holds the joint, or another one, leaves rounding of the forces of all rows.
+        let presses = |side: &Side| -side.sign() * acceleration > PULL * state.rows().pulls(&row, state.bodies());
+        let side = self.sides().find(rests).filter(presses);
         if side.is_some() {
             (self.at, self.force, self.greatest) = (side, 0.0, 0.0);
         }

@@ -26,6 +26,10 @@ impl Events for Joint {
         self.see_whether_broken();
     }
 
+    fn look_again(&mut self) -> bool {
+        self.parts.look_again()
+    }
+
     fn settle(&mut self, state: &State) -> bool {
         let Some(pair) = self.pair(state.bodies()) else { return false };
         let changed = self.parts.settle(&*self.law, &pair, self.reaction.0.length(), state);

@@ -174,7 +174,9 @@ impl Parts {
         if let (Some(limit), Some(freedom)) = (&mut self.limit, law.freedom(pair)) {
             limit.after_blow(pair, &freedom);
         }
-        self.start(law, pair);
+        if let (Some(friction), Some(freedom)) = (&mut self.friction, law.freedom(pair)) {
+            friction.after_blow(pair, &freedom.along);
+        }
     }
 
     fn breaks(&mut self, force: f64, now: f64) -> bool {
@@ -217,13 +219,18 @@ impl Parts {
         }
     }
 
+    /// Modes of something else change. Says whether its own do too.
+    pub fn look_again(&mut self) -> bool {
+        self.acting().is_some_and(Bounded::look_again)
+    }
+
     /// Corrects modes after an evaluation.
     pub fn settle(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &State) -> bool {
         if self.breaks(force, state.evaluation().time) {
             return true;
         }
         let Some(freedom) = law.freedom(pair) else { return false };
-        if self.limit.as_mut().is_some_and(|limit| limit.settle(pair, &freedom, state.bodies())) {
+        if self.limit.as_mut().is_some_and(|limit| limit.settle(pair, &freedom, state)) {
             self.friction.iter_mut().for_each(Bounded::hold);
             return true;
         }

@@ -1,6 +1,8 @@
 //! A joint that the scene asks to be soft: each direction that it holds becomes a damped spring. Stiffness and damping follow from a
-//! frequency `f` and a damping ratio `D`, with the effective mass `m` of the direction at the start: `k = m (2 pi f)^2` and
-//! `c = 2 D m 2 pi f`.
+//! frequency `f` and a damping ratio `D`, with the effective mass `m` at the start: `k = m (2 pi f)^2` and `c = 2 D m 2 pi f`.
+//!
+//! Where two directions hold a point, both have one stiffness, by the mean of both responses, and both forces act at the anchor on B. So no
+//! direction of the world counts more than another, and a joint that is open makes no angular momentum.
 
 use glam::DVec2;
 use schemars::JsonSchema;
@@ -45,20 +47,28 @@ impl Soft {
     /// Springs that swing at a frequency in Hz with a damping ratio, for the bodies as they stand.
     pub fn new([frequency, ratio]: [f64; 2], law: &dyn Law, pair: &Pair, bodies: &Bodies) -> Self {
         let angular = std::f64::consts::TAU * frequency;
-        let mut springs = Vec::new();
+        let mut responses = Vec::new();
         law.hold(pair, &mut |held: Held| {
             let row = pair.row(&held.along, Kind::Position);
-            let mass = 1.0 / row.response(&row, bodies);
-            springs.push((mass * angular * angular, 2.0 * ratio * mass * angular));
+            responses.push((turns(&held), row.response(&row, bodies)));
         });
-        Self { springs, power: 0.0 }
+        let of_kind = |(turns, _): &(bool, f64)| {
+            let alike = || responses.iter().filter(|(other, _)| other == turns).map(|(_, response)| response);
+            let mass = alike().count() as f64 / alike().sum::<f64>();
+            (mass * angular * angular, 2.0 * ratio * mass * angular)
+        };
+        Self { springs: responses.iter().map(of_kind).collect(), power: 0.0 }
     }
 
     /// Shows each direction that is held with its stiffness and its damping.
     fn each(&self, law: &dyn Law, pair: &Pair, mut see: impl FnMut(Held, f64, f64)) {
         let mut springs = self.springs.iter();
-        law.hold(pair, &mut |held| {
+        law.hold(pair, &mut |mut held| {
             if let Some(&(stiffness, damping)) = springs.next() {
+                let [(direction, lever), _] = &mut held.along.sides;
+                if *direction != DVec2::ZERO {
+                    *lever = (pair.b.position - pair.a.position + pair.a.arm).perp_dot(*direction);
+                }
                 see(held, stiffness, damping);
             }
         });
@@ -86,7 +96,7 @@ impl Soft {
         };
         self.each(law, pair, |held, stiffness, damping| {
             let normal = held.along.sides[1].0;
-            let turns = normal == DVec2::ZERO;
+            let turns = turns(&held);
             let of = |applies: bool, amount: f64| if applies { amount } else { 0.0 };
             let spring = response::Spring {
                 a,
@@ -117,4 +127,9 @@ impl Soft {
         self.power = power;
         reaction
     }
+}
+
+/// Whether a direction that is held is a turn.
+fn turns(held: &Held) -> bool {
+    held.along.sides[1].0 == DVec2::ZERO
 }

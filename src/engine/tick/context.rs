@@ -242,15 +242,23 @@ impl Tick<'_> {
         if !fired.is_empty() {
             let told = std::mem::take(&mut self.state.progress.told);
             let (mut first, mut counts) = (0, told.iter());
+            let mut tries = false;
             self.state.each_with_events(|model, state| {
                 let end = first + counts.next().copied().unwrap_or_default();
                 let own = |place: &&usize| (first..end).contains(*place);
                 let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
-                if !own.is_empty() {
+                if own.is_empty() {
+                    tries |= model.look_again();
+                } else {
                     model.switch(state, &own);
                 }
                 first = end;
             });
+            if tries {
+                self.state.each_with_events(|model, _| {
+                    model.look_again();
+                });
+            }
             self.state.progress.told = told;
             self.evaluate_stage(time);
             self.settle();

@@ -92,7 +92,7 @@ pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
 pub use step::{energy_seen, set_method};
-pub use travel::{FarTravel, far_travel, largest_travel};
+pub use travel::{FarTravel, far_travel, largest_travel, stands};
 pub use undo::Undo;
 
 /// The schedule of one tick.

@@ -267,6 +267,12 @@ pub trait Events {
     /// Changes the modes whose indicators vanished, given by their places in the model's own list of the present modes.
     fn switch(&mut self, state: &mut State, fired: &[usize]);
 
+    /// At an event: tries another of its modes if that did not matter before, because others held what it holds. Says whether it does.
+    /// Default: it does not.
+    fn look_again(&mut self) -> bool {
+        false
+    }
+
     /// Looks at accelerations just evaluated in the present modes and corrects modes that cannot last; says whether it did.
     fn settle(&mut self, state: &State) -> bool;
 

@@ -23,6 +23,15 @@ pub fn largest_travel(state: &State) -> f64 {
     state.progress.travel
 }
 
+/// A way in the whole run, as a share of the smallest radius, that is no motion: forces that cancel leave rounding.
+const STANDS: f64 = 1e-9;
+
+/// Whether bodies have done nothing but stand so far.
+pub fn stands(state: &State) -> bool {
+    let way = state.progress.travel * state.clock.ticks as f64;
+    way <= STANDS * state.bodies.smallest_radius && state.bodies.smallest_radius.is_finite()
+}
+
 /// The first body that travelled farther in one tick than the smallest radius.
 pub fn far_travel(state: &State) -> Option<FarTravel> {
     state.progress.far

@@ -22,7 +22,7 @@ use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use jostle_engine::simulation::{Overrides, Plan};
-use jostle_engine::tick::State;
+use jostle_engine::tick::{State, stands};
 use jostle_language::numbers::number;
 use twins::{Finer, Told};
 
@@ -262,6 +262,10 @@ fn discretisation(
             tell_part(simulation, &second, until, found);
         }
         told.add(finer, order, Seen::between(run, &twin), motion);
+    }
+    if stands(simulation.resource::<State>()) {
+        // What differs is rounding, however little the motion is that it is compared with.
+        (told.share, told.chaotic, told.horizon, found.began) = (None, false, None, None);
     }
     let known = |error: f64| ErrorParts {
         discretisation: told.horizon.is_none_or(|horizon| horizon > 0.0).then_some(error),

@@ -16,6 +16,8 @@ mod ticks;
 use bevy_ecs::prelude::*;
 
 use super::card::{Card, name};
+use crate::estimate::EstimatedError;
+use jostle_engine::constraints::Kind;
 use jostle_engine::simulation::error::ErrorEstimate;
 use jostle_engine::tick::{Failure, State, Wrong};
 use jostle_language::numbers::{number, percent, rough};
@@ -118,6 +120,13 @@ impl Evidence<'_> {
             return "give the motor a `limit`, move the limits of the joint that stops it, or leave out one of the two"
                 .to_owned();
         }
+        let rows = self.world.resource::<State>().rows().all();
+        let driven = rows.iter().any(|row| row.kind == Kind::Velocity && !row.gives_way());
+        if matches!(failure.wrong, Wrong::Joint { .. }) && driven {
+            return "a motor without a `limit` drives on with any force, also into a dead point, where bars are in line: give it a \
+                    `limit`, or let it turn back before"
+                .to_owned();
+        }
         if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
             return "look at what the plugin does to the world".to_owned();
         }
@@ -134,6 +143,11 @@ impl Evidence<'_> {
             return energy::of_unknown_cause(self);
         };
         remedy.map_or_else(|| what.clone(), |remedy| format!("{what}: try {remedy}"))
+    }
+
+    /// Until when the run was made again with finer steps, in s, if not to its end: nothing is known of how wrong the rest is.
+    fn known_until(&self) -> Option<f64> {
+        self.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.known_until)
     }
 
     /// What a body or wall is called.

@@ -88,27 +88,27 @@ pub(super) fn good(evidence: &Evidence) -> String {
         return of_a_tolerance(known, card);
     }
     let energy = energy::accounted(evidence);
-    match places(card) {
-        Some(places) if card.energy_error() > MISSING => {
+    match (places(card), evidence.known_until()) {
+        (Some(places), Some(until)) => {
+            let advice =
+                if card.energy_error() > MISSING { evidence.advice("; ", " would improve it") } else { String::new() };
+            format!(
+                "Trust its beginning: {places} until {}, as far as it was run again with finer steps. Nothing is known of the \
+                 rest; `--estimate` runs it all again; {energy}{advice}.",
+                at(until)
+            )
+        }
+        (Some(places), None) if card.energy_error() > MISSING => {
             let advice = evidence.advice("; ", " would improve it");
             format!("Trust it to about {} of energy: {places}{advice}.", percent(card.energy_error()))
         }
-        Some(places) => {
-            match evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.known_until) {
-                Some(until) => format!(
-                    "Trust its beginning: {places} until {}, as far as it was run again with finer steps. Nothing is known of the \
-                     rest; `--estimate` runs it all again; {energy}.",
-                    at(until)
-                ),
-                None => {
-                    let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
-                    let share = share.filter(|share| *share > 0.0);
-                    let share = share.map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
-                    format!("Trust it: {places}{share}, as runs with finer steps tell; {energy}.")
-                }
-            }
+        (Some(places), None) => {
+            let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
+            let share = share.filter(|share| *share > 0.0);
+            let share = share.map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
+            format!("Trust it: {places}{share}, as runs with finer steps tell; {energy}.")
         }
-        None => format!(
+        (None, _) => format!(
             "How wrong places are is not known: {energy}, which says nothing of a light body among heavy ones. Use `--estimate`."
         ),
     }

@@ -65,6 +65,10 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     } else {
         what
     };
+    let what = match evidence.known_until() {
+        Some(until) => format!("{what}; the numbers were run again with finer steps until {} alone", super::at(until)),
+        None => what,
+    };
     Some(Cause { trust: Trust::NotTheModel, what, remedy: Some(remedy) })
 }
 

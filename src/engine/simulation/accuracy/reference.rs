@@ -69,7 +69,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
         // Stretches of whole ticks are alike in both runs.
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
         plan.warning = Some(
-            "contacts were too many to be located one by one in some ticks, where the runs that are compared are alike: their \
+            "events were too many to be located one by one in some ticks, where the runs that are compared are alike: their \
              error is not known; write a tick, and compare with a tenth of it"
                 .to_owned(),
         );
