@@ -72,6 +72,14 @@ fn merged(left: &[usize], right: &[usize], from: usize, to: usize) -> Vec<usize>
     ring
 }
 
+/// A turn in rad by which an outline may bend inwards and still is straight.
+const STRAIGHT: f64 = 1e-9;
+
+/// Whether an outline bends inwards from one outward normal to the next.
+fn is_hollow((from, to): (DVec2, DVec2)) -> bool {
+    from.perp_dot(to) < -STRAIGHT
+}
+
 /// The parts as hulls grown by `radius` in metres. Cuts are inner; each convex corner of the outline probes once.
 pub(crate) fn hulls(corners: &[DVec2], radius: f64) -> Vec<Hull> {
     let mut to_probe = convex_corners(corners);
@@ -85,11 +93,14 @@ pub(crate) fn hulls(corners: &[DVec2], radius: f64) -> Vec<Hull> {
         let mut hull = Hull::of_corners(part.iter().map(|index| corners[*index]).collect(), radius);
         for (at, &index) in part.iter().enumerate() {
             let [before, after] = [part[(at + part.len() - 1) % part.len()], part[(at + 1) % part.len()]];
-            hull.set_inner(at, after != (index + 1) % count);
-            let free = match (std::mem::take(&mut to_probe[index]), of_outline(index)) {
-                (false, _) => Free::Nowhere,
-                (true, _) if after == (index + 1) % count && index == (before + 1) % count => Free::Whole,
-                (true, (from, to)) => Free::Between(from, to),
+            let [ends_side, begins_side] = [index == (before + 1) % count, after == (index + 1) % count];
+            hull.set_inner(at, !begins_side);
+            let normals @ (from, to) = of_outline(index);
+            let free = match std::mem::take(&mut to_probe[index]) {
+                true if ends_side && begins_side => Free::Whole,
+                true => Free::Between(from, to),
+                false if is_hollow(normals) && (ends_side || begins_side) => Free::Hollow,
+                false => Free::Nowhere,
             };
             hull.set_free(at, free);
         }

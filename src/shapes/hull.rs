@@ -35,7 +35,10 @@ pub enum Free {
     Whole,
     /// Counter-clockwise from the first unit normal to the second.
     Between(DVec2, DVec2),
-    /// In none: it is concave, lies inside, or belongs to another part.
+    /// In all of them, as the end of a side: the outline bends inwards there, and goes on at another part. Such a corner touches nothing by
+    /// itself. What rolls out of the hollow leaves the side at its end, without a jump of the force.
+    Hollow,
+    /// In none: it lies inside, or belongs to another part.
     Nowhere,
 }
 
@@ -43,7 +46,7 @@ impl Free {
     /// Whether an outward direction belongs to the corner, given that no side of its hull is nearer.
     pub fn holds(&self, direction: DVec2) -> bool {
         match self {
-            Self::Whole => true,
+            Self::Whole | Self::Hollow => true,
             Self::Between(from, to) => from.perp_dot(direction) >= 0.0 && direction.perp_dot(*to) >= 0.0,
             Self::Nowhere => false,
         }
@@ -170,7 +173,7 @@ impl Hull {
     /// Whether a corner is a convex vertex of the outline of its shape, so that contacts look where it touches others. Where
     /// several parts of a shape share the vertex, one of them has it.
     pub fn probes(&self, corner: usize) -> bool {
-        self.free[corner] != Free::Nowhere
+        !matches!(self.free[corner], Free::Nowhere | Free::Hollow)
     }
 
     /// In which directions a corner is the outline of its shape.

@@ -28,7 +28,7 @@ impl Hull {
                 let at = self.corners()[corner];
                 let [first, second] = match self.free(corner) {
                     Free::Between(from, to) => [from.perp(), to.perp()],
-                    Free::Whole | Free::Nowhere => [along(self.side_before(corner)), along(corner)],
+                    Free::Whole | Free::Hollow | Free::Nowhere => [along(self.side_before(corner)), along(corner)],
                 };
                 Some([seen(at, first), seen(at, -second)])
             }
@@ -52,14 +52,18 @@ impl Hull {
 }
 
 /// What a point comes to that leaves the region of a feature of `hulls[hull]`, by its first or second border. Hulls that share a corner
-/// are parts of one shape; the outline goes on at the part that owns it. None where the outline is concave: no feature is nearest there.
+/// are parts of one shape; the outline goes on at the part that owns it. None beyond the end of a side in a hollow: another part is nearest
+/// there.
 pub fn beyond(hulls: &[&Hull], hull: usize, feature: Feature, second: bool) -> Option<Beyond> {
     let of = hulls[hull];
     match feature {
         Feature::Side(side) => {
-            let (from, to) = of.ends(side);
-            let at = if second { to } else { from };
-            let owner = corners_at(hulls, at).find(|(part, corner)| hulls[*part].free(*corner) != Free::Nowhere);
+            let own = if second { (side + 1) % of.corners().len() } else { side };
+            let at = of.corners()[own];
+            if of.free(own) == Free::Hollow {
+                return Some((hull, Feature::Corner(own)));
+            }
+            let owner = corners_at(hulls, at).find(|(part, corner)| hulls[*part].probes(*corner));
             match owner {
                 Some((part, corner)) => Some((part, Feature::Corner(corner))),
                 // A straight place of the outline: the side of the next part.
@@ -68,6 +72,10 @@ pub fn beyond(hulls: &[&Hull], hull: usize, feature: Feature, second: bool) -> O
         }
         Feature::Corner(corner) => {
             let at = of.corners()[corner];
+            if of.free(corner) == Free::Hollow {
+                let side = if second { corner } else { of.side_before(corner) };
+                return (!of.sides()[side].inner).then_some((hull, Feature::Side(side)));
+            }
             // The outer side of a part that begins there follows, one that ends there precedes.
             corners_at(hulls, at).find_map(|(part, corner)| {
                 let side = if second { corner } else { hulls[part].side_before(corner) };
@@ -146,8 +154,8 @@ mod tests {
         }
     }
 
-    /// Law: an L is cut into parts. Once round its outline each part hands over to the next where they meet, and no feature follows in the
-    /// concave corner alone.
+    /// Law: an L is cut into parts. Once round its outline each part hands over to the next where they meet, and none follows beyond
+    /// the concave corner, where a side of another part is nearest.
     #[test]
     fn parts_hand_over_along_the_outline() {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(DVec2::from);
@@ -169,7 +177,7 @@ mod tests {
             assert_eq!(back, Some(now));
             now = next;
         }
-        assert_eq!(corners, [points[4], points[5], points[0], points[1], points[2]]);
+        assert_eq!(corners, [points[4], points[5], points[0], points[1], points[2], points[3]]);
         parts.dedup();
         assert!(parts.len() > 1, "{parts:?}");
     }

@@ -265,3 +265,31 @@ fn a_sharp_box_from_behind_ends_the_run() {
         }
     }
 }
+
+/// Law: a straight line is a half-plane too for shapes whose round corners sink in deeper than they are round, and for concave ones, of
+/// which parts share corners. Tolerance: as above.
+#[test]
+fn a_line_is_a_wall_for_soft_and_concave_shapes() {
+    let ell = "Polygon(points: [(0, 0), (0.2, 0), (0.2, 0.05), (0.05, 0.05), (0.05, 0.2), (0, 0.2)], rounding: 0.002)";
+    for shape in
+        ["Rectangle(width: 0.2, height: 0.1, rounding: 0.002)", "Regular(sides: 5, radius: 0.1, rounding: 0.001)", ell]
+    {
+        for clock in METHODS {
+            let end = |wall: &str| {
+                let body = format!(
+                    "bodies: [(name: \"b\", at: (0, 0.3), angle: 0.4, velocity: (0.3, -1), mass: 0.4, shape: {shape})]"
+                );
+                let material = "stiffness: 2e4, restitution: 0.9, friction: 0.2";
+                let mut simulation = scene(clock, material, &format!("walls: [{wall}], {body}"));
+                run_to(&mut simulation, 0.6);
+                let deepest = simulation.card().largest_overlap.meters;
+                assert!(deepest > 0.002, "{deepest} m: the centre of no corner has sunk in");
+                first(&simulation)
+            };
+            let pieces = (0..=7).map(|piece| DVec2::new(0.5 * f64::from(piece) - 2.0, 0.0));
+            let (found, exact) = (end(&line(pieces)), end("(name: \"ground\", left: (1, 0), right: (0, 0))"));
+            let off = found.iter().zip(exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-9, "{shape} {clock}: off by {off:e}, {found:?} {exact:?}");
+        }
+    }
+}

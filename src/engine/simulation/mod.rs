@@ -28,6 +28,7 @@ use crate::threads::Threads;
 use crate::tick::{
     AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, open, rebuild,
 };
+use crate::world::hull::Mended;
 use crate::world::{Name, atom};
 use accuracy::Tell;
 use jostle_language::numbers::number;
@@ -358,6 +359,10 @@ pub fn begin(
     overrides: &Overrides,
 ) -> Result<u64, SceneErrors> {
     world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
+    if let Some(Mended(mut told)) = world.remove_resource() {
+        told.dedup();
+        world.resource_mut::<Notes>().0.extend(told);
+    }
     if let Some(factor) = overrides.stiffness {
         atom::stiffen(world, factor);
     }

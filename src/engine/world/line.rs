@@ -28,8 +28,8 @@ pub const SHARP: f64 = 0.1;
 /// joints do, so that a hill is not stiffer where it has more pieces. A side lies in a hill of radius `R` by up to `R` times its square
 /// over 8.
 const APART: f64 = 0.01;
-/// How far behind the line a corner without a radius may lie where bodies begin, as a share of half the width of its hull. Later on a corner
-/// that is found there has come from behind.
+/// How far behind the line the centre of a disc or corner may lie where bodies begin, as a share of half the width of what it belongs to. Later
+/// on a centre that is found there has come from behind.
 pub(crate) const BEHIND: f64 = 0.1;
 /// Pieces, or boxes, in a box of the tree.
 const IN_BOX: usize = 8;
@@ -372,8 +372,8 @@ impl Bodies {
     }
 
     /// Shows the places on a line that are nearer to an atom than `margin` metres, and nearer than their neighbourhoods: by the walls in which
-    /// they lie, with the height of the atom. What is behind a line counts only where it was `known` to be near; of corners without a radius
-    /// also what is so by less than the share `behind` of half their width.
+    /// they lie, with the height of the atom. What is behind a line counts only where it was `known` to be near, or is so by less than the share
+    /// `behind` of half its width.
     pub(crate) fn each_place_on_line(
         &self,
         line: &PackedLine,
@@ -387,8 +387,7 @@ impl Bodies {
         line.each_near(probe.at, probe.radius.max(probe.size) + margin, &mut |piece| {
             let Some(found) = line.home(&self.walls, piece, probe) else { return };
             let half = half(&self.walls[first + piece]);
-            let behind = if probe.radius + half > 0.0 { 0.0 } else { behind * probe.size };
-            let seen = found.height + half > -behind || known(first + piece);
+            let seen = found.height + half > -behind * probe.size || known(first + piece);
             if seen && found.height < probe.radius + margin {
                 see(first + piece, found.height);
             }

@@ -13,7 +13,7 @@
 use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
 use glam::DVec2;
-use jostle_shapes::{Feature, Nearest, nearest};
+use jostle_shapes::{Feature, Nearest, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
@@ -133,6 +133,12 @@ impl Crossings {
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
             return;
         }
+        let margin = state.bounds.as_ref().map_or(f64::INFINITY, |bounds| bounds.margin);
+        if let Some((body, hull)) = self.passed_unlisted(bodies, margin) {
+            let other = bodies.entity[bodies.hulls[hull].body as usize];
+            state.end_run(body, Wrong::Crossed(other));
+        }
+        let bodies = &state.bodies;
         self.follow(bodies);
         let mut due = self.near.iter().filter(|watched| watched.until <= self.path);
         if let Some((pair, wrong)) = due.find_map(|watched| Some((watched.pair, watched.wrong(bodies)?))) {
@@ -145,23 +151,55 @@ impl Crossings {
         }
     }
 
+    /// A body with an atom that went straight through a hull, and that hull, where bodies went farther in the step than lists of pairs reach.
+    #[cold]
+    fn through_any_hull(&self, bodies: &Bodies) -> Option<(usize, usize)> {
+        let pose = |body: usize| Pose::new(self.seen[body].0, self.seen[body].1);
+        let touches = |body: usize| bodies.collides[body];
+        let went = |body: usize| self.seen[body] != (bodies.position[body], bodies.angle[body]);
+        for (place, packed) in bodies.hulls.iter().enumerate().filter(|(_, packed)| touches(packed.body as usize)) {
+            let own = packed.body as usize;
+            let (began, ends) = (pose(own), bodies.pose_with_hulls(own));
+            let others =
+                (0..self.seen.len()).filter(|other| *other != own && touches(*other) && (went(*other) || went(own)));
+            for (body, atom) in others.flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom))) {
+                let offset = bodies.atom_offset(atom);
+                let before = began.point_to_local(pose(body).point_to_world(offset));
+                let now = ends.point_to_local(bodies.atom_place(atom));
+                if has_passed(packed, before, now) {
+                    return Some((body, place));
+                }
+            }
+        }
+        None
+    }
+
+    fn passed_unlisted(&self, bodies: &Bodies, margin: f64) -> Option<(usize, usize)> {
+        let far = self.seen.len() == bodies.len() && self.way(bodies) > 0.5 * margin;
+        if far { self.through_any_hull(bodies) } else { None }
+    }
+
+    /// The greatest way in m that any point of a body went since the last look.
+    fn way(&self, bodies: &Bodies) -> f64 {
+        let way = |(body, (place, turned)): (usize, &(DVec2, f64))| {
+            bodies.position[body].distance(*place) + (bodies.angle[body] - turned).abs() * bodies.extent(body)
+        };
+        self.seen.iter().enumerate().take(bodies.len()).map(way).fold(0.0, f64::max)
+    }
+
     /// Adds the greatest way that any point of a body went since the last look.
     fn follow(&mut self, bodies: &Bodies) {
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
             return;
         }
-        let way = |(body, (place, turned)): (usize, &(DVec2, f64))| {
-            bodies.position[body].distance(*place) + (bodies.angle[body] - turned).abs() * bodies.extent(body)
-        };
-        self.path += self.seen.iter().enumerate().take(bodies.len()).map(way).fold(0.0, f64::max);
+        self.path += self.way(bodies);
         self.seen.clear();
         self.seen.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
     }
 
-    /// Whether a corner without a radius was near a line as the step began, or that is not known yet.
+    /// Whether an atom was near a line as the step began, or that is not known yet: what comes from behind is in no list before.
     fn knows(&self, bodies: &Bodies, atom: usize, wall: usize) -> bool {
-        let is_sharp = bodies.atom_radius[atom] == 0.0;
-        is_sharp && (self.version == 0 || self.near.iter().any(|near| near.is_near_line(bodies, atom, wall)))
+        self.version == 0 || self.near.iter().any(|near| near.is_near_line(bodies, atom, wall))
     }
 
     /// The first body with an atom that has crossed a wall since, and how.
@@ -169,7 +207,7 @@ impl Crossings {
         let moves = |body: &usize| bodies.dynamic[*body] && bodies.collides[*body];
         let atoms =
             (0..bodies.len()).filter(moves).flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
-        for (body, atom) in atoms {
+        for (body, atom) in atoms.filter(|(_, atom)| bodies.probes(*atom)) {
             let (Some(&before), now) = (self.before.get(atom), bodies.atom_place(atom)) else { continue };
             let is_crossed = |wall: &usize| {
                 let wall = &bodies.walls[*wall];
@@ -180,7 +218,7 @@ impl Crossings {
                 return Some((body, Wrong::Crossed(bodies.walls[wall].entity)));
             }
             let crossed = crossed_line(bodies, atom, before, now);
-            // A corner without a radius is pressed behind a line and comes back: then they were known to be near.
+            // A centre is pressed behind a line and comes back: then they were known to be near.
             let is_known = |from_behind: &(usize, bool)| from_behind.1 && self.knows(bodies, atom, from_behind.0);
             if let Some((wall, from_behind)) = crossed.filter(|crossed| !is_known(crossed)) {
                 let entity = bodies.walls[wall].entity;
@@ -267,8 +305,14 @@ fn has_jumped(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
 
 /// Whether a probe has passed the middle line of a capsule since, or has gone through a polygon.
 fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
-    let Some((packed, now)) = place_at_hull(pair, bodies) else { return false };
-    let &[from, to] = packed.hull.corners() else { return has_gone_through(packed, before, now) };
+    place_at_hull(pair, bodies).is_some_and(|(packed, now)| has_passed(packed, before, now))
+}
+
+/// The same for its places in the frame of a hull.
+fn has_passed(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
+    let &[from, to] = packed.hull.corners() else {
+        return has_turned_over(packed, before, now) || has_gone_through(packed, before, now);
+    };
     let along = to - from;
     let heights = [before, now].map(|at| along.perp_dot(at - from));
     if (heights[0] < 0.0) == (heights[1] < 0.0) {
@@ -276,6 +320,31 @@ fn has_crossed(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
     }
     let crossing = before + (now - before) * (heights[0] / (heights[0] - heights[1]));
     (0.0..=along.length_squared()).contains(&(crossing - from).dot(along))
+}
+
+/// Whether a probe in the core of a polygon is nearer to the far side than to the one it came from.
+fn has_turned_over(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
+    let [came, found] = [before, now].map(|at| nearest(&packed.hull, at));
+    let owned = packed.hull.owns(&came) && packed.hull.owns(&found);
+    owned && came.normal.dot(found.normal) < -LEAST_COSINE && way_in_core(packed, before, now).is_some()
+}
+
+/// The part of the way from one place to another, as shares of it, that lies in the core of a polygon (Cyrus and Beck 1978).
+fn way_in_core(packed: &PackedHull, before: DVec2, now: DVec2) -> Option<(f64, f64)> {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for (side, corner) in packed.hull.sides().iter().zip(packed.hull.corners()) {
+        let [first, last] = [before, now].map(|at| side.normal.dot(at - *corner));
+        if first > 0.0 && last >= first {
+            return None;
+        }
+        let crosses = first / (first - last);
+        if first > last {
+            enters = enters.max(crosses);
+        } else if last > first {
+            leaves = leaves.min(crosses);
+        }
+    }
+    (enters < leaves).then_some((enters, leaves))
 }
 
 /// How far in m a probe at least goes before it is deep in a hull or through it, if it is at such a distance from the core.
@@ -287,25 +356,15 @@ fn left_to_cross(packed: &PackedHull, distance: f64) -> f64 {
     distance + (THROUGH * core).min(DEEPEST * packed.half_width - packed.hull.radius())
 }
 
-/// Whether the way from one place to another enters a polygon and leaves it, and is deep in it between (Cyrus and Beck 1978). A part of a
-/// concave one may be left by a cut, so the depth at both ends counts too.
+/// Whether the way from one place to another enters a polygon and leaves it, and is deep in it between. A part of a concave one may be left by
+/// a cut, so the depth at both ends counts too.
 fn has_gone_through(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     let hull = &packed.hull;
-    let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (side, corner) in hull.sides().iter().zip(hull.corners()) {
-        let [first, last] = [before, now].map(|at| side.normal.dot(at - *corner));
-        if first == last {
-            if first > 0.0 {
-                return false;
-            }
-            continue;
-        }
-        let crosses = first / (first - last);
-        if first > last { enters = enters.max(crosses) } else { leaves = leaves.min(crosses) }
-    }
-    if !(0.0 < enters && enters < leaves && leaves < 1.0) {
+    let Some((enters, leaves)) =
+        way_in_core(packed, before, now).filter(|(enters, leaves)| *enters > 0.0 && *leaves < 1.0)
+    else {
         return false;
-    }
+    };
     let is_deep = |share: f64| {
         let near = nearest(hull, before + (now - before) * share);
         -near.distance > THROUGH * (half_width_at(packed, near.feature) - hull.radius())

@@ -6,15 +6,8 @@ use glam::DVec2;
 use super::{SurfacePair, ordered};
 use crate::scene::SceneError;
 use crate::tick::{LoadErrors, Notes, State};
-use crate::world::hull::{Mended, ROUNDING};
+use crate::world::hull::ROUNDING;
 use crate::world::{Bodies, Name, PackedHull, PackedWall};
-
-/// Says on the card what was mended in shapes.
-pub(super) fn note_mended(world: &mut World) {
-    if let Some(Mended(told)) = world.remove_resource::<Mended>() {
-        world.resource_mut::<Notes>().0.extend(told);
-    }
-}
 
 /// Says on the card that sharp corners are rounded off where they meet sharp shapes, or strips without thickness, if they can.
 pub(super) fn note_sharp(world: &mut World) {

@@ -62,7 +62,7 @@ pub(super) fn each_place(
         for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
             let mut is_near = false;
             line.each_near(bodies.position[body], bodies.extent(body) + margin, &mut |_| is_near = true);
-            for atom in bodies.atoms_of(body).filter(|_| is_near) {
+            for atom in bodies.atoms_of(body).filter(|&atom| is_near && bodies.probes(atom)) {
                 let pair = |piece: usize| SurfacePair::new(piece as u32, atom as u32);
                 let was_near = |piece: usize| place(known, pair(piece)) != NEW;
                 let reach = (atom, margin, behind);

@@ -15,6 +15,7 @@ mod hulls;
 mod identity;
 mod lines;
 mod still;
+mod sunk;
 mod sweep;
 
 pub use at_start::OverlapAtStart;
@@ -62,7 +63,7 @@ pub fn plugin(app: &mut App) {
         crossing::watch,
         lines::watch,
         behind::note_behind,
-        hulls::note_mended,
+        sunk::refuse_sunk,
         hulls::note_sharp,
         hulls::refuse_pointed,
     ]);

@@ -10,7 +10,7 @@ use super::{Sided, sided};
 use crate::scene::units::Length;
 
 sided! {
-    /// The outlines of the paths, polygons, rectangles and ellipses of an SVG file. Its origin is the middle of the lowest edge.
+    /// The outlines of the paths, polygons, rectangles and ellipses of an SVG file. Its origin is the middle of the lower side of the box around them.
     SvgShape, "Svg" {
         /// The drawing: a path from the folder of the file in which this stands.
         file: String,

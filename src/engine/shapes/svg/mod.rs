@@ -27,7 +27,7 @@ pub(crate) enum Size {
 /// The outlines of a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Outlines {
-    /// Polygons, counter-clockwise, in m. The origin is the middle of the lowest edge.
+    /// Polygons, counter-clockwise, in m. The origin is the middle of the lower side of the box around them.
     pub polygons: Vec<Vec<DVec2>>,
     /// The tolerance in m.
     pub tolerance: f64,
