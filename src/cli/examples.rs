@@ -26,6 +26,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("marble_mills", include_str!("../../scenes/marble_mills.ron")),
     ("marble_run", include_str!("../../scenes/marble_run.ron")),
     ("newtons_cradle", include_str!("../../scenes/newtons_cradle.ron")),
+    ("one_after_another", include_str!("../../scenes/one_after_another.ron")),
     ("pendulum_clock", include_str!("../../scenes/pendulum_clock.ron")),
     ("pendulums", include_str!("../../scenes/pendulums.ron")),
     ("plinko", include_str!("../../scenes/plinko.ron")),

@@ -85,3 +85,19 @@ fn results_are_written_for_programs() {
     let report = String::from_utf8(folder.read("report.xml")).unwrap();
     assert!(report.contains("name=\"jostle\" tests=\"8\" failures=\"1\" errors=\"1\" skipped=\"2\""), "{report}");
 }
+
+/// Promise: what is expected at the last moment is judged, also where so many ticks of 0.15 ms round to a time below it.
+#[test]
+fn what_is_expected_at_the_end_is_judged() {
+    let mut folder = Folder::new("test_at_the_end");
+    for (number, end) in ["0.9", "1.5", "10.8"].into_iter().enumerate() {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: {end}, tick: \"0.15 ms\", method: VelocityVerlet),
+             bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 0.05))],
+             expect: [Position(of: \"ball\", at: {end}, is: (0, 0), within: 1e-3), AtRest(of: \"*\", from: {end}, speed_below: 1e-6)])"
+        );
+        folder = folder.with(&format!("scenes/end_{number}.ron"), scene);
+    }
+    let ended = folder.jostle("test scenes").code(0);
+    assert!(ended.out.contains("3 good"), "{ended:?}");
+}

@@ -309,5 +309,5 @@ fn every_shipped_scene_can_be_included() {
         assert_eq!(included.bodies().len(), alone.bodies().len(), "{name}");
         assert!((0..included.bodies().len()).all(|place| included.name(place).starts_with("p/")), "{name}");
     }
-    assert_eq!(count, 41);
+    assert_eq!(count, 42);
 }

@@ -64,7 +64,7 @@ impl Watch for Watching {
     }
 
     fn observe(&mut self, sight: &Sight) {
-        if sight.time < self.from {
+        if !sight.has_reached(self.from) {
             return;
         }
         let bodies = sight.bodies;

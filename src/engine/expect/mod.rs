@@ -32,6 +32,11 @@ impl<'a> Sight<'a> {
         Self { world, state, bodies: &state.bodies, time: state.clock.time() }
     }
 
+    /// Whether a moment in s has come. The time of a tick is a product, so that its last digit may be below.
+    pub fn has_reached(&self, moment: f64) -> bool {
+        self.time >= moment * (1.0 - 2.0 * f64::EPSILON)
+    }
+
     /// The energy ledger.
     pub fn energy(&self) -> EnergyLedger {
         EnergyLedger::of(self.state)

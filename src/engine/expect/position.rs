@@ -81,7 +81,7 @@ impl Watch for Watching {
         }
         let Some(place) = places(sight.bodies, &[self.key]).next() else { return };
         let now = Moment::of(sight.bodies, place, sight.time);
-        if sight.time >= self.at {
+        if sight.has_reached(self.at) {
             self.found = Some(self.before.map_or(now.position, |before| position_between(&before, &now, self.at)));
         }
         self.before = Some(now);
