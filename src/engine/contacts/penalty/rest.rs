@@ -137,7 +137,9 @@ impl Rest {
             }
             stays
         });
-        if self.resting.len() == bodies.dynamic_count() {
+        // A body that woke and was laid to rest again in one step stands here twice.
+        let all = |still: &[bool]| (0..bodies.len()).all(|body| still[body] || !bodies.dynamic[body]);
+        if self.resting.len() >= bodies.dynamic_count() && all(&self.still) {
             // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
             (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
         }
