@@ -7,9 +7,11 @@ use std::ops::{Deref, DerefMut, Range};
 
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
+use super::follow::Followed;
 use super::normal::Mode;
+use super::remembered::Remembered;
 use crate::tick::pairs::NEW;
-use jostle_simd::{BLOCK, PairBlocks};
+use jostle_simd::{BLOCK, Lanes, PairBlocks};
 use serde::{Deserialize, Serialize};
 
 /// The modes of eight contacts: a bit each in every byte.
@@ -86,7 +88,9 @@ pub struct ContactList {
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
     /// The same for each pair; empty where it is not told.
-    each_due: Vec<[f64; BLOCK]>,
+    pub(super) each_due: Vec<[f64; BLOCK]>,
+    /// What is remembered of each pair with a hull.
+    pub(super) remembered: Remembered,
     /// A bit each for pairs that an evaluation has to look at, where few of them are, touching ones among them; empty: all.
     looked_at: Vec<u8>,
     /// Blocks in which some are, in order; only then.
@@ -234,16 +238,78 @@ impl ContactList {
         path < self.due[block]
     }
 
-    /// Whether a pair cannot have begun to touch.
-    #[inline]
-    pub(super) fn is_too_early(&self, place: usize, path: f64) -> bool {
-        self.each_due.get(place / BLOCK).is_some_and(|due| path < due[place % BLOCK])
+    /// Which pairs of a block cannot have begun to touch, as far as it is told.
+    #[inline(always)]
+    pub(super) fn early_in(&self, block: usize, path: f64) -> u8 {
+        let bit = |lane: usize, due: &f64| u8::from(path < *due) << lane;
+        let bits = |due: &[f64; BLOCK]| due.iter().enumerate().fold(0, |bits, (lane, due)| bits | bit(lane, due));
+        self.each_due.get(block).map_or(0, bits)
     }
 
-    /// The same, at a place that is told up to which [`Bodies::path`](crate::world::Bodies::path) it cannot.
-    pub(super) fn each_due(&mut self, place: usize) -> &mut f64 {
+    /// How much farther in metres any point may go until one of the `early` pairs of a block can begin to touch.
+    #[inline]
+    pub(super) fn way_left(&self, block: usize, early: u8, path: f64) -> f64 {
+        lanes(early).fold(f64::INFINITY, |left, lane| left.min(self.each_due[block][lane] - path))
+    }
+
+    /// Makes room to tell of each pair when it can begin to touch.
+    pub(super) fn tell_each(&mut self) {
         self.each_due.resize(self.phases.len(), [f64::NEG_INFINITY; BLOCK]);
-        &mut self.each_due[place / BLOCK][place % BLOCK]
+    }
+
+    /// The histories of contacts at some places.
+    #[inline(always)]
+    pub(super) fn gather<V: Lanes>(&self, places: &[u32]) -> Followed<V> {
+        let mut numbers = [[0.0; BLOCK]; 4];
+        let mut bits = Phases::default();
+        for lane in 0..V::COUNT {
+            let (block, from) = split(places[lane] as usize);
+            let (history, phases) = (&self.histories[block], self.phases[block]);
+            numbers[0][lane] = history.overlap[from];
+            numbers[1][lane] = history.normal_force[from];
+            numbers[2][lane] = history.elongation[from];
+            numbers[3][lane] = self.held[block][from];
+            bits.loading |= (phases.loading >> from & 1) << lane;
+            bits.unloading |= (phases.unloading >> from & 1) << lane;
+            bits.slips |= (phases.slips >> from & 1) << lane;
+            bits.slides |= (phases.slides >> from & 1) << lane;
+        }
+        Followed {
+            overlap: V::load(&numbers[0]),
+            normal_force: V::load(&numbers[1]),
+            elongation: V::load(&numbers[2]),
+            held: V::load(&numbers[3]),
+            loading: V::mask(bits.loading),
+            unloading: V::mask(bits.unloading),
+            slips: V::mask(bits.slips),
+            slides: V::mask(bits.slides),
+        }
+    }
+
+    /// Writes the histories of contacts at some places, of those `among`.
+    #[inline(always)]
+    pub(super) fn scatter<V: Lanes>(&mut self, places: &[u32], among: u8, contacts: &Followed<V>) {
+        let mut numbers = [[0.0; BLOCK]; 4];
+        contacts.overlap.store(&mut numbers[0]);
+        contacts.normal_force.store(&mut numbers[1]);
+        contacts.elongation.store(&mut numbers[2]);
+        contacts.held.store(&mut numbers[3]);
+        let (loading, unloading) = (V::bits(contacts.loading), V::bits(contacts.unloading));
+        let (slips, slides) = (V::bits(contacts.slips), V::bits(contacts.slides));
+        for lane in lanes(among) {
+            let (block, to) = split(places[lane] as usize);
+            let history = &mut self.histories[block];
+            history.overlap[to] = numbers[0][lane];
+            history.normal_force[to] = numbers[1][lane];
+            history.elongation[to] = numbers[2][lane];
+            self.held[block][to] = numbers[3][lane];
+            let phases = &mut self.phases[block];
+            let write = |byte: &mut u8, bits: u8| *byte = *byte & !(1 << to) | (bits >> lane & 1) << to;
+            write(&mut phases.loading, loading);
+            write(&mut phases.unloading, unloading);
+            write(&mut phases.slips, slips);
+            write(&mut phases.slides, slides);
+        }
     }
 
     /// Which contacts of a block are asleep.
@@ -332,13 +398,28 @@ impl ContactList {
         }
     }
 
-    /// Becomes the list of other pairs: each has the history of the old place that it is told, or none ([`NEW`]).
-    pub(super) fn carry(&mut self, before: &[u32], mut law: impl FnMut(usize) -> u32) {
+    /// Becomes the list of other pairs: each has the history of the old place that it is told, or none ([`NEW`]). Of the `same` bodies as
+    /// before it keeps its law, and what is remembered of it.
+    pub(super) fn carry(&mut self, before: &[u32], same: bool, mut law: impl FnMut(usize) -> u32) {
         let old = std::mem::take(self);
         self.resize(before.len());
+        let remembers = same && !old.remembered.records.is_empty();
+        if remembers {
+            self.tell_each();
+            self.remembered.resize(before.len());
+        }
         for (place, &before) in before.iter().enumerate() {
             let history = if before == NEW { Contact::default() } else { old.get(before as usize) };
-            self.set(place, &Contact { law: law(place), ..history });
+            let known = before != NEW;
+            let law = if same && known { history.law } else { law(place) };
+            self.set(place, &Contact { law, ..history });
+            if remembers && known {
+                let ((block, lane), (from, old_lane)) = (split(place), split(before as usize));
+                self.remembered.carry(place, (&old.remembered, before as usize));
+                if let Some(due) = old.each_due.get(from) {
+                    self.each_due[block][lane] = due[old_lane];
+                }
+            }
         }
         let first = self.law.first().map(|laws| laws[0]);
         self.only_law =
@@ -355,6 +436,12 @@ impl ContactList {
         self.phases.resize(blocks, Phases::default());
         self.due.resize(blocks, f64::NEG_INFINITY);
     }
+}
+
+/// The block of a place, and the lane in it.
+#[inline(always)]
+fn split(place: usize) -> (usize, usize) {
+    (place / BLOCK, place % BLOCK)
 }
 
 /// The bits of a block from whose beginning on there are so many contacts.
