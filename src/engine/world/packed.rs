@@ -365,7 +365,7 @@ impl Bodies {
             travelled.sum += travel;
         }
         self.prescribed = Prescribed { time, ..prescribed };
-        // Nobody moves both by forces and as prescribed.
+        // A body moves by forces or as prescribed, never both.
         self.path += (travelled.greatest - std::mem::take(&mut self.advanced)).max(0.0);
         travelled
     }

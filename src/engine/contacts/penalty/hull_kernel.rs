@@ -280,7 +280,7 @@ impl<N: NormalForce> Follow<'_, N> {
         let swing = V::select(V::mask(waiting.flat >> lane), a.turn, around);
         let (rolled_a, rolled_b) = ((radius_a, a.turn), (radius_b, b.turn));
         let touch = Touch { normal, overlap, approach, displacement, swing, rolled_a, rolled_b };
-        let among = ((1_u16 << waiting.count.min(lane + V::COUNT)) - 1 >> lane) as u8;
+        let among = (((1_u16 << waiting.count.min(lane + V::COUNT)) - 1) >> lane) as u8;
         let places = &waiting.place[lane..];
         let mut contacts = self.list.gather::<V>(places);
         let lost = contacts.follow::<N>(&law, &touch, self.moment.elapsed, V::mask(among));

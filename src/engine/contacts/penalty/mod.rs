@@ -22,6 +22,7 @@ mod meetings;
 mod model;
 mod modes;
 pub mod normal;
+mod one_by_one;
 mod patience;
 mod records;
 mod remembered;

@@ -171,7 +171,7 @@ mod tests {
         let mut simulation =
             Simulation::load(&Source::new("tumble.ron", text)).unwrap_or_else(|error| panic!("{error}"));
         let (mut parted, mut touching) = (0, 0);
-        for round in 1..=60 {
+        for round in 1..=120 {
             simulation.run_to_tick(149 * round).unwrap();
             let state = simulation.state();
             let (contacts, pairs) = (&state.model::<PenaltyState>().unwrap().contacts, state.pairs.as_ref().unwrap());

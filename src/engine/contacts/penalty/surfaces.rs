@@ -30,8 +30,21 @@ pub(super) fn follow_surfaces<N: NormalForce>(
     moment: Moment,
 ) {
     if sink.bodies.hulls.is_empty() {
-        return follow_near::<N>((list, pairs), None, laws, (sink, losses), deepest, moment);
+        follow_near::<N>((list, pairs), None, laws, (sink, losses), deepest, moment);
+    } else {
+        follow_with_hulls::<N>((list, pairs), laws, (sink, losses), deepest, moment);
     }
+}
+
+/// The same where bodies have hulls. Apart, so that scenes without them need no room for what waits.
+#[inline(never)]
+fn follow_with_hulls<N: NormalForce>(
+    (list, pairs): (&mut ContactList, &[SurfacePair]),
+    laws: &LawTable,
+    (sink, losses): (&mut Sink, &mut Losses),
+    deepest: &mut DeepestOverlap,
+    moment: Moment,
+) {
     let mut waiting = Waiting::default();
     list.tell_each();
     follow_near::<N>((list, pairs), Some(&mut waiting), laws, (sink, losses), deepest, moment);
