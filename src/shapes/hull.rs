@@ -44,6 +44,7 @@ pub enum Free {
 
 impl Free {
     /// Whether an outward direction belongs to the corner, given that no side of its hull is nearer.
+    #[inline]
     pub fn holds(&self, direction: DVec2) -> bool {
         match self {
             Self::Whole | Self::Hollow => true,
@@ -134,21 +135,25 @@ impl Hull {
     }
 
     /// The corners of the core, counter-clockwise, in metres.
+    #[inline]
     pub fn corners(&self) -> &[DVec2] {
         &self.corners
     }
 
     /// The sides of the core: none of a disc, two of a capsule, else as many as corners. Side i begins at corner i.
+    #[inline]
     pub fn sides(&self) -> &[Side] {
         &self.sides
     }
 
     /// By how much the core is grown, in metres.
+    #[inline]
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
     /// The core of the concave polygon of which the hull is a part, counter-clockwise, in metres; empty if it is no such part.
+    #[inline]
     pub fn outline(&self) -> &[DVec2] {
         &self.outline
     }
@@ -172,11 +177,13 @@ impl Hull {
 
     /// Whether a corner is a convex vertex of the outline of its shape, so that contacts look where it touches others. Where
     /// several parts of a shape share the vertex, one of them has it.
+    #[inline]
     pub fn probes(&self, corner: usize) -> bool {
         !matches!(self.free[corner], Free::Nowhere | Free::Hollow)
     }
 
     /// In which directions a corner is the outline of its shape.
+    #[inline]
     pub fn free(&self, corner: usize) -> Free {
         self.free[corner]
     }

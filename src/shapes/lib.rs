@@ -30,7 +30,7 @@ pub use gear::Gear;
 pub use hull::{Free, Hull, Side};
 pub use inset::Rounded;
 pub use moments::AreaMoments;
-pub use nearest::{Feature, Nearest, distance_to, nearest};
+pub use nearest::{Feature, Nearest, distance_to, may_be_nearer, nearest};
 pub use pose::{Bounds, Pose};
 pub use rack::Rack;
 pub use ray::ray;

@@ -43,6 +43,7 @@ pub struct Nearest {
 
 impl Hull {
     /// Whether the nearest place lies on the outline of the hull's shape. Otherwise a contact there belongs to another part.
+    #[inline]
     pub fn owns(&self, near: &Nearest) -> bool {
         match near.feature {
             Feature::Side(side) => !self.sides()[side].inner,
@@ -65,11 +66,22 @@ pub fn nearest(hull: &Hull, point: DVec2) -> Nearest {
     }
 }
 
+/// Whether a point in the hull's frame may be nearer to the core than a `distance` in metres: what is as near is, and little else, near
+/// corners. It takes less than the distance.
+#[inline]
+pub fn may_be_nearer(hull: &Hull, point: DVec2, distance: f64) -> bool {
+    if hull.corners().len() < 3 {
+        return nearest(hull, point).distance < distance;
+    }
+    hull.sides().iter().zip(hull.corners()).all(|(side, corner)| side.normal.dot(point - *corner) < distance)
+}
+
 /// Signed distance and normal of one feature, whether or not it is the nearest: of the whole line of a side, or of the
 /// corner alone. The point is in the hull's frame. An integrator that freezes the feature in a step sees a smooth function.
 ///
 /// # Panics
 /// If the hull has no such feature.
+#[inline]
 pub fn distance_to(hull: &Hull, feature: Feature, point: DVec2) -> Nearest {
     match feature {
         Feature::Side(index) => {
@@ -119,16 +131,16 @@ fn nearest_on_segment(hull: &Hull, from: DVec2, to: DVec2, point: DVec2) -> Near
 
 fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
     let (corners, sides) = (hull.corners(), hull.sides());
-    let highest = |among: &mut dyn Iterator<Item = (usize, f64)>| {
-        among.fold((0, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
+    let heights = || {
+        let both = sides.iter().zip(corners).enumerate();
+        both.map(|(index, (side, corner))| (index, side, side.normal.dot(point - *corner)))
     };
-    let height = |index: usize| (index, sides[index].normal.dot(point - corners[index]));
-    let (index, distance) = highest(&mut (0..sides.len()).map(height));
+    let (index, distance) = highest(heights().map(|(index, _, height)| (index, height)));
     if distance <= 0.0 {
         if !hull.outline().is_empty() {
             return nearest_on_outline(hull, point);
         }
-        let outer = highest(&mut (0..sides.len()).filter(|side| !sides[*side].inner).map(height));
+        let outer = highest(heights().filter(|(_, side, _)| !side.inner).map(|(index, _, height)| (index, height)));
         let (index, distance) = if outer.1 > f64::NEG_INFINITY { outer } else { (index, distance) };
         return Nearest { distance, normal: sides[index].normal, feature: Feature::Side(index) };
     }
@@ -142,6 +154,12 @@ fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
     } else {
         Nearest { distance, normal: side.normal, feature: Feature::Side(index) }
     }
+}
+
+/// The first of the highest, with its height; none is lower than all.
+#[inline(always)]
+fn highest(among: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
+    among.fold((0, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
 }
 
 /// Both ends of a side of the outline of the whole polygon.
@@ -248,6 +266,21 @@ mod tests {
             if here.distance > 2.0 * step {
                 prop_assert!((here.normal - there.normal).length() <= 2.0 * step / here.distance + 1e-9);
             }
+        }
+
+        /// Law: the quick look at a point leaves out none that is near, and none of those within a core. Tolerance: rounding of both.
+        #[test]
+        fn what_is_near_may_be_near(
+            angles in prop::collection::vec(0.0..std::f64::consts::TAU, 1..9),
+            x in -3.0..3.0, y in -3.0..3.0, distance in 0.0..2.0,
+        ) {
+            let Some(hull) = hull(&angles, 0.7, 0.3) else { return Ok(()) };
+            let (point, rounding) = (DVec2::new(x, y), 64.0 * f64::EPSILON);
+            let found = nearest(&hull, point);
+            let may_be = may_be_nearer(&hull, point, distance);
+            prop_assert!(may_be || found.distance > distance - rounding);
+            // Over a side it is exact.
+            prop_assert!(!may_be || !found.feature.is_side() || found.distance < distance + rounding);
         }
 
         /// Law: the frozen distance of the nearest feature is the distance itself.

@@ -38,6 +38,7 @@ pub(crate) struct End {
 
 impl End {
     /// The place of a hull that is nearest to the other side.
+    #[inline(always)]
     fn on_hull(bodies: &Bodies, hull: usize, shape: &Hull, found: &NearestOnHull) -> Self {
         Self { body: bodies.hulls[hull].body as usize, arm: found.foot, radius: shape.radius() }
     }
@@ -198,6 +199,7 @@ impl PairGeometry {
     }
 
     /// The same, with the distance in metres of the probe from the surface, whether or not a contact belongs to that part of its body.
+    #[inline(always)]
     pub fn near(bodies: &Bodies, index: usize, pair: SurfacePair) -> (Self, f64) {
         match (pair.surface(bodies), pair.probe(bodies)) {
             (Surface::Wall(wall), _) => {
@@ -226,6 +228,7 @@ impl PairGeometry {
         }
     }
 
+    #[inline(always)]
     fn hull(bodies: &Bodies, index: usize, (hull, kept): (usize, Option<Feature>), atom: u32) -> (Self, f64) {
         let (shape, place, radius) = bodies.meeting(hull, atom as usize);
         let (found, distance) = bodies.touched_on((hull, kept), shape, place);
@@ -272,6 +275,11 @@ impl PairGeometry {
         (geometry, distance - radius - shape.radius())
     }
 
+    /// Whether the nearest place is on a flat side of a hull.
+    pub fn is_flat(&self) -> bool {
+        self.flat.is_some()
+    }
+
     /// Velocity in m/s with which the sides part.
     pub fn parting(&self) -> f64 {
         self.velocity.dot(self.pair.normal)
@@ -306,6 +314,7 @@ impl PairGeometry {
     }
 
     /// The turn in rad of the normal since the last accepted state, if side B was displaced against side A by so much.
+    #[inline]
     pub fn turned(&self, bodies: &Bodies, displacement: DVec2) -> f64 {
         let flat = match (self.flat, &self.pair.a) {
             // In the corner of a line it turns within the overlap, whatever the displacement.

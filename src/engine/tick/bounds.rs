@@ -22,6 +22,8 @@ const SEARCH_PER_ATOM: f64 = 12.0;
 const SEARCH_PER_PAIR: f64 = 3.0;
 /// Searches may cost this share of what pairs do; the margin shrinks where they cost less than a sixteenth of that.
 const SEARCH_SHARE: f64 = 1.0;
+/// The same where bodies have hulls: pairs that do not touch are looked at now and then, and each look costs as much as a pair of discs.
+const SEARCH_SHARE_OF_HULLS: f64 = 7.0;
 const FEW_SEARCHES: f64 = 16.0;
 /// Where most bodies fly: what a search costs for each atom, with landing and taking off, against what a pair costs in the time
 /// that its list lasts.
@@ -161,7 +163,8 @@ impl Bounds {
     /// Evaluations that lists should last.
     fn should_last(&self, bodies: &Bodies) -> f64 {
         let pairs = self.candidates.max(1) as f64;
-        (SEARCH_PER_ATOM * bodies.atom_count() as f64 / pairs + SEARCH_PER_PAIR) / SEARCH_SHARE
+        let share = if bodies.hulls.is_empty() { SEARCH_SHARE } else { SEARCH_SHARE_OF_HULLS };
+        (SEARCH_PER_ATOM * bodies.atom_count() as f64 / pairs + SEARCH_PER_PAIR) / share
     }
 
     /// The margin that suits how long the last boxes held.

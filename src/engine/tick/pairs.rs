@@ -113,6 +113,7 @@ impl SurfacePair {
     }
 
     /// Half the width in metres of the thinner side; walls do not count.
+    #[inline]
     pub fn size(self, bodies: &Bodies) -> f64 {
         let hull = |hull: usize| bodies.hulls[hull].half_width;
         match (self.surface(bodies), self.probe(bodies)) {

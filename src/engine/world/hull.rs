@@ -175,7 +175,8 @@ impl Bodies {
     #[inline]
     pub(crate) fn meeting(&self, hull: usize, atom: usize) -> (&Hull, DVec2, f64) {
         let packed = &self.hulls[hull];
-        match packed.rounded.as_ref().zip(self.round_corner(atom)) {
+        let rounded = packed.rounded.as_ref().and_then(|surface| Some((surface, self.round_corner(atom)?)));
+        match rounded {
             Some((surface, (place, radius))) => (&surface.hull, place, radius),
             None => (&packed.hull, self.atom_place(atom), self.atom_radius[atom]),
         }
@@ -207,6 +208,7 @@ impl Bodies {
 
     /// The same for a contact, with the distance: where the nearest place belongs to another part of the body, there is none, and the hull is
     /// far. A feature that the contact keeps counts instead of the nearest.
+    #[inline]
     pub(crate) fn touched_on(
         &self,
         (hull, kept): (usize, Option<Feature>),

@@ -85,7 +85,8 @@ impl Bodies {
             self.each(advance, found);
             self.recorded = !self.records.is_empty() && self.asleep.is_empty();
         }
-        self.path += self.farthest_way(travel.greatest);
+        self.advanced = self.farthest_way(travel.greatest);
+        self.path += self.advanced;
         self.add_flights(&mut travel, &mut weighed);
         self.weighed = weighed;
         // Done on the way; atoms beside the centre take turning.

@@ -165,6 +165,8 @@ pub struct Bodies {
     /// How far any point of a body can have gone since the beginning, in metres: the sum of the greatest ways of all ticks. Not a
     /// number to go by where others than [`Bodies::advance`] and [`Bodies::prescribe`] moved bodies.
     pub path: f64,
+    /// By how much of that bodies moved by forces since others moved as prescribed.
+    pub(crate) advanced: f64,
 
     /// The hulls of bodies, in the order of the bodies.
     pub hulls: Vec<PackedHull>,
@@ -363,7 +365,8 @@ impl Bodies {
             travelled.sum += travel;
         }
         self.prescribed = Prescribed { time, ..prescribed };
-        self.path += travelled.greatest;
+        // A body moves by forces or as prescribed, never both.
+        self.path += (travelled.greatest - std::mem::take(&mut self.advanced)).max(0.0);
         travelled
     }
 }

@@ -7,26 +7,27 @@ use super::Penalty;
 use super::contact::Losses;
 use super::coulomb::Slider;
 use super::critical::Watch;
-use super::follow::Touch;
 use super::held::Held;
 use super::kernel::{self, Moment};
 use super::law::{LawTable, Side};
-use super::list::{ContactList, lanes};
+use super::list::ContactList;
 use super::meetings::Meetings;
-use super::normal::{Approach, Mode, NormalForce};
+use super::normal::{Approach, NormalForce};
 use super::patience::Patience;
 use super::records::Records;
 use super::rest::{Rest, Sleep};
 use super::rolling::RollingContacts;
 use super::staged;
+use super::surfaces::follow_surfaces;
 use super::switching::Told;
 use crate::constraints::Rows;
 use crate::contacts::Touches;
 use crate::contacts::geometry::{End, PairGeometry, Shares, SideA, arms};
-use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface, SurfacePair};
+use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface};
 use crate::contacts::{ContactPoint, Other};
+use crate::tick::pairs::NEW;
 use crate::tick::{Balance, Evaluation, Ledger};
-use crate::world::{Bodies, Materials, NearestPoint};
+use crate::world::{Bodies, Materials};
 use jostle_simd::BLOCK;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +35,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Resource, Debug, Serialize, Deserialize)]
 pub struct PenaltyContacts {
     version: u64,
+    /// Of the bodies, as the lists were made.
+    generation: u64,
     #[serde(skip)]
     pub(super) settings: Penalty,
     #[serde(skip)]
@@ -67,6 +70,7 @@ impl Default for PenaltyContacts {
     fn default() -> Self {
         Self {
             version: 0,
+            generation: 0,
             settings: Penalty::default(),
             materials: Materials::default(),
             laws: LawTable::default(),
@@ -99,12 +103,13 @@ impl PenaltyContacts {
 /// Gives every pair of a new list its slot, with its history if it had one.
 fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
+    let same = std::mem::replace(&mut contacts.generation, bodies.generation) == bodies.generation;
     let side = |atom: u32| Side {
         stiffness: bodies.atom_stiffness(atom as usize),
         material: bodies.atom_material(atom as usize),
     };
     let PenaltyContacts { laws, materials, settings, atoms, surfaces, .. } = contacts;
-    atoms.carry(&pairs.atoms_before, |place| {
+    atoms.carry(&pairs.atoms_before, same, |place| {
         let pair = pairs.atoms[place];
         laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
     });
@@ -122,7 +127,7 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
         }
     }
     let wall = |wall: usize| Side { stiffness: f64::INFINITY, material: bodies.walls[wall].material };
-    surfaces.carry(&pairs.surfaces_before, |place| {
+    surfaces.carry(&pairs.surfaces_before, same, |place| {
         let pair = pairs.surfaces[place];
         let surface = match pair.surface(bodies) {
             Surface::Wall(place) => wall(place),
@@ -134,6 +139,15 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
         };
         laws.place::<N>(a, b, materials, settings)
     });
+    if bodies.hulls.is_empty() {
+        return;
+    }
+    surfaces.remembered.resize(pairs.surfaces.len());
+    for (place, (&pair, &before)) in pairs.surfaces.iter().zip(&pairs.surfaces_before).enumerate() {
+        if !same || before == NEW {
+            surfaces.remembered.name(place, bodies, pair);
+        }
+    }
 }
 
 /// How side B approaches side A; `None` is a wall.
@@ -288,140 +302,6 @@ pub(super) fn apply<N: NormalForce>(
     contacts.follow_flights(sink.bodies, pairs, elapsed);
     if let Some(touches) = touches {
         note_touches(contacts, sink.bodies, pairs, touches);
-    }
-}
-
-/// Probes near surfaces follow their motion.
-#[inline]
-fn follow_surfaces<N: NormalForce>(
-    (list, pairs): (&mut ContactList, &[SurfacePair]),
-    laws: &LawTable,
-    (sink, losses): (&mut Sink, &mut Losses),
-    deepest: &mut DeepestOverlap,
-    Moment { path, time, elapsed }: Moment,
-) {
-    for number in 0..list.awake_blocks() {
-        let block = list.awake_block(number);
-        // Nothing can have come near since it was looked at last.
-        if list.is_early(block, path) {
-            continue;
-        }
-        let pairs = &pairs[BLOCK * block..];
-        // Those that are asleep may touch.
-        let mut near = list.asleep_in(block) != 0;
-        let mut gap = f64::INFINITY;
-        for lane in lanes(list.awake_in(block)) {
-            let (pair, place) = (pairs[lane], BLOCK * block + lane);
-            let Surface::Wall(wall) = pair.surface(sink.bodies) else {
-                if list.is_too_early(place, path) {
-                    gap = gap.min(*list.each_due(place) - path);
-                    continue;
-                }
-                let (geometry, apart) = PairGeometry::near(sink.bodies, place, pair);
-                if geometry.overlap <= 0.0 && !list.is_touching(place) {
-                    // Both sides may move, so the gap closes by two ways at most. Half of that: more than rounding can take.
-                    let way = 0.25 * apart.max(0.0);
-                    gap = gap.min(way);
-                    *list.each_due(place) = path + way;
-                } else {
-                    near = true;
-                    *list.each_due(place) = f64::NEG_INFINITY;
-                    let size = pair.size(sink.bodies);
-                    follow_hull::<N>((list, place), (&geometry, size), laws, (sink, losses), deepest, (time, elapsed));
-                }
-                continue;
-            };
-            let atom = pair.probe as usize;
-            let (at, radius) = sink.bodies.meeting_wall(&sink.bodies.walls[wall], atom);
-            let at = sink.bodies.passing(atom).map_or(at, |passing| passing.position);
-            let apart = sink.bodies.nearest_on_wall(wall, atom, at).height - radius;
-            if apart >= 0.0 && !list.is_touching(place) {
-                gap = gap.min(apart);
-            } else {
-                near = true;
-                // What touches flies no more.
-                sink.bodies.bind(atom);
-                follow_wall::<N>((list, place), (wall, pair.probe), laws, (sink, losses), deepest, (time, elapsed));
-            }
-        }
-        // Half of it: more than rounding can take.
-        list.due[block] = if near { f64::NEG_INFINITY } else { path + 0.5 * gap };
-    }
-}
-
-/// A probe near a hull follows its motion, or the hull near an end of a wall.
-fn follow_hull<N: NormalForce>(
-    (list, place): (&mut ContactList, usize),
-    (geometry, size): (&PairGeometry, f64),
-    laws: &LawTable,
-    (sink, losses): (&mut Sink, &mut Losses),
-    deepest: &mut DeepestOverlap,
-    (time, elapsed): (f64, f64),
-) {
-    let mut contact = list.get(place);
-    let law = laws.get(contact.law);
-    let approach = if N::DEPENDS_ON_VELOCITY { geometry.approach(sink.bodies) } else { Approach::default() };
-    let (a, b) = (geometry.pair.other_end(), &geometry.pair.b);
-    let (displacement, turn) = b.displacement(sink.bodies);
-    let (by_a, turn_a) = a.map_or((DVec2::ZERO, 0.0), |a| a.displacement(sink.bodies));
-    let displacement = displacement - by_a;
-    let normal = geometry.pair.normal;
-    let touch = Touch {
-        normal: (normal.x, normal.y),
-        overlap: geometry.overlap,
-        approach,
-        displacement: (displacement.x, displacement.y),
-        swing: geometry.turned(sink.bodies, displacement),
-        rolled_a: (a.map_or(0.0, |a| a.radius), turn_a),
-        rolled_b: (b.radius, turn),
-    };
-    let lost = contact.follow::<N>(law, &touch, elapsed);
-    losses.friction += lost.friction;
-    losses.inelasticity += lost.inelasticity;
-    list.set(place, &contact);
-    if contact.mode != Mode::Open {
-        deepest.note(contact.overlap, size, time, || geometry.pair.entities(sink.bodies));
-        geometry.pair.push(sink, law, geometry.overlap, contact.force(law, normal));
-    }
-}
-
-/// An atom near a wall follows its motion.
-#[inline]
-fn follow_wall<N: NormalForce>(
-    (list, place): (&mut ContactList, usize),
-    (wall, atom): (usize, u32),
-    laws: &LawTable,
-    (sink, losses): (&mut Sink, &mut Losses),
-    deepest: &mut DeepestOverlap,
-    (time, elapsed): (f64, f64),
-) {
-    let (end, place_of_atom) = End::at_wall(sink.bodies, wall, atom);
-    let NearestPoint { height, normal, distance } = sink.bodies.nearest_on_wall(wall, atom as usize, place_of_atom);
-    let wall = sink.bodies.whole_wall(wall);
-    let mut contact = list.get(place);
-    let law = laws.get(contact.law);
-    let (mut displacement, turn) = end.displacement(sink.bodies);
-    if let Some(&belt) = sink.bodies.belts.get(wall) {
-        displacement -= belt * elapsed;
-    }
-    let approach = if N::DEPENDS_ON_VELOCITY { approach(sink.bodies, None, &end, normal) } else { Approach::default() };
-    let touch = Touch {
-        normal: (normal.x, normal.y),
-        overlap: end.radius - height,
-        approach,
-        displacement: (displacement.x, displacement.y),
-        swing: if (0.0..f64::INFINITY).contains(&distance) { normal.perp_dot(displacement) / distance } else { 0.0 },
-        rolled_a: (0.0, 0.0),
-        rolled_b: (end.radius, turn),
-    };
-    let lost = contact.follow::<N>(law, &touch, elapsed);
-    losses.friction += lost.friction;
-    losses.inelasticity += lost.inelasticity;
-    list.set(place, &contact);
-    if contact.mode != Mode::Open {
-        let size = sink.bodies.size_of_atom(atom as usize);
-        deepest.note(contact.overlap, size, time, || (sink.bodies.entity[end.body], sink.bodies.walls[wall].entity));
-        sink.wall_pushes(&end, wall as u32, normal, height, contact.force(law, normal));
     }
 }
 

@@ -12,6 +12,7 @@ use crate::world::Bodies;
 
 impl Pair {
     /// `force` acts on side B, the opposite on side A, where they touch.
+    #[inline]
     pub(super) fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {
         match &self.a {
             SideA::Atom(other) | SideA::Hull(other) => {

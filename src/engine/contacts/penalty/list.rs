@@ -8,6 +8,7 @@ use std::ops::{Deref, DerefMut, Range};
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
 use super::normal::Mode;
+use super::remembered::Remembered;
 use crate::tick::pairs::NEW;
 use jostle_simd::{BLOCK, PairBlocks};
 use serde::{Deserialize, Serialize};
@@ -77,16 +78,18 @@ pub struct ContactList {
     pub(super) law: Vec<[u32; BLOCK]>,
     /// The law of all of them, if there is one.
     pub(super) only_law: Option<u32>,
-    histories: Vec<Histories>,
+    pub(super) histories: Vec<Histories>,
     /// Forces that are held.
-    held: Vec<[f64; BLOCK]>,
+    pub(super) held: Vec<[f64; BLOCK]>,
     /// Damping in N s/m, where it is the same as long as the pairs are; else empty.
     pub(super) damping: Vec<[f64; BLOCK]>,
     pub(super) phases: Vec<Phases>,
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
     /// The same for each pair; empty where it is not told.
-    each_due: Vec<[f64; BLOCK]>,
+    pub(super) each_due: Vec<[f64; BLOCK]>,
+    /// What is remembered of each pair with a hull.
+    pub(super) remembered: Remembered,
     /// A bit each for pairs that an evaluation has to look at, where few of them are, touching ones among them; empty: all.
     looked_at: Vec<u8>,
     /// Blocks in which some are, in order; only then.
@@ -234,18 +237,6 @@ impl ContactList {
         path < self.due[block]
     }
 
-    /// Whether a pair cannot have begun to touch.
-    #[inline]
-    pub(super) fn is_too_early(&self, place: usize, path: f64) -> bool {
-        self.each_due.get(place / BLOCK).is_some_and(|due| path < due[place % BLOCK])
-    }
-
-    /// The same, at a place that is told up to which [`Bodies::path`](crate::world::Bodies::path) it cannot.
-    pub(super) fn each_due(&mut self, place: usize) -> &mut f64 {
-        self.each_due.resize(self.phases.len(), [f64::NEG_INFINITY; BLOCK]);
-        &mut self.each_due[place / BLOCK][place % BLOCK]
-    }
-
     /// Which contacts of a block are asleep.
     #[inline(always)]
     pub(super) fn asleep_in(&self, block: usize) -> u8 {
@@ -332,13 +323,28 @@ impl ContactList {
         }
     }
 
-    /// Becomes the list of other pairs: each has the history of the old place that it is told, or none ([`NEW`]).
-    pub(super) fn carry(&mut self, before: &[u32], mut law: impl FnMut(usize) -> u32) {
+    /// Becomes the list of other pairs: each has the history of the old place that it is told, or none ([`NEW`]). Of the `same` bodies as
+    /// before it keeps its law, and what is remembered of it.
+    pub(super) fn carry(&mut self, before: &[u32], same: bool, mut law: impl FnMut(usize) -> u32) {
         let old = std::mem::take(self);
         self.resize(before.len());
+        let remembers = same && !old.remembered.records.is_empty();
+        if remembers {
+            self.tell_each();
+            self.remembered.resize(before.len());
+        }
         for (place, &before) in before.iter().enumerate() {
             let history = if before == NEW { Contact::default() } else { old.get(before as usize) };
-            self.set(place, &Contact { law: law(place), ..history });
+            let known = before != NEW;
+            let law = if same && known { history.law } else { law(place) };
+            self.set(place, &Contact { law, ..history });
+            if remembers && known {
+                let ((block, lane), (from, old_lane)) = (split(place), split(before as usize));
+                self.remembered.carry(place, (&old.remembered, before as usize));
+                if let Some(due) = old.each_due.get(from) {
+                    self.each_due[block][lane] = due[old_lane];
+                }
+            }
         }
         let first = self.law.first().map(|laws| laws[0]);
         self.only_law =
@@ -355,6 +361,12 @@ impl ContactList {
         self.phases.resize(blocks, Phases::default());
         self.due.resize(blocks, f64::NEG_INFINITY);
     }
+}
+
+/// The block of a place, and the lane in it.
+#[inline(always)]
+pub(super) fn split(place: usize) -> (usize, usize) {
+    (place / BLOCK, place % BLOCK)
 }
 
 /// The bits of a block from whose beginning on there are so many contacts.

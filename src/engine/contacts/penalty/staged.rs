@@ -166,6 +166,7 @@ fn book(
 
 impl PairGeometry {
     /// How side B approaches side A.
+    #[inline]
     pub(super) fn approach(&self, bodies: &Bodies) -> Approach {
         approach(bodies, self.pair.other_end(), &self.pair.b, self.pair.normal)
     }

@@ -81,13 +81,13 @@ impl Overlaps {
         });
         let apart = super::places_apart(bodies);
         // Bars may cross without a corner of one inside the other.
-        hulls::each_pair_of_hulls(bodies, &apart, |a, b| {
+        hulls::each_pair_of_hulls(bodies, &apart, found.most, |a, b| {
             let [first, second] = [a, b].map(|hull| &bodies.hulls[hull]);
             let [pose, other] = [first, second].map(|packed| bodies.pose_with_hulls(packed.body as usize));
             let overlap = -distance(&first.hull, &pose, &second.hull, &other);
             found.add(overlap, first.half_width.min(second.half_width), Pair::Bodies(first.body, second.body));
         });
-        hulls::each_pair(bodies, 0.0, &apart, |pair| {
+        let complete_hulls = hulls::each_pair(bodies, 0.0, (&apart, found.most), |pair| {
             let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
                 ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
                 ((None, body), wall) => Pair::Wall(body as u32, wall.unwrap_or_default() as u32),
@@ -95,7 +95,7 @@ impl Overlaps {
             found.add(pair.overlap(bodies), pair.size(bodies), whose);
         });
         let single = bodies.single_walls().count();
-        found.more |= !complete || single > looked_at && !touching.is_empty();
+        found.more |= !complete || !complete_hulls || single > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();
         found

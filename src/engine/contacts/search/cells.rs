@@ -28,14 +28,15 @@ const CELLS_PER_ATOM: f64 = 4.0;
 /// With so many times as many fine cells what lies empty is looked for.
 const WASTE: f64 = 16.0;
 
-/// An atom as the search sees it.
+/// An atom or a hull as the search sees it: a circle.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-struct Entry {
-    center: DVec2,
+pub(super) struct Entry {
+    pub center: DVec2,
     /// Radius and half the margin.
-    reach: f64,
-    atom: u32,
-    body: u32,
+    pub reach: f64,
+    /// The atom, or the first corner of the hull.
+    pub atom: u32,
+    pub body: u32,
 }
 
 /// Atoms that touch something, sorted into cells; those much larger than most aside.
@@ -54,14 +55,13 @@ impl Sorted {
 
     /// Some of them.
     pub fn among(bodies: &Bodies, margin: f64, atoms: impl Iterator<Item = usize>) -> Self {
-        let entry = |atom: usize| Entry {
-            center: bodies.atom_place(atom),
-            reach: bodies.atom_radius[atom] + margin / 2.0,
-            atom: atom as u32,
-            body: bodies.atom_body(atom) as u32,
-        };
-        let touching = |atom: &usize| bodies.collides[bodies.atom_body(*atom)] && bodies.atom_place(*atom).is_finite();
-        let mut all: Vec<Entry> = atoms.filter(touching).map(entry).collect();
+        Self::entries(bodies, atoms.map(|atom| Entry::atom(bodies, margin, atom)))
+    }
+
+    /// Those that touch something.
+    pub fn entries(bodies: &Bodies, entries: impl Iterator<Item = Entry>) -> Self {
+        let touching = |entry: &Entry| bodies.collides[entry.body as usize] && entry.center.is_finite();
+        let mut all: Vec<Entry> = entries.filter(touching).collect();
         let limit = LARGE * usual_reach(&all);
         let large: Vec<Entry> = all.iter().copied().filter(|entry| entry.reach > limit).collect();
         all.retain(|entry| entry.reach <= limit);
@@ -149,6 +149,16 @@ fn moves(bodies: &Bodies, a: u32, b: u32) -> bool {
 }
 
 impl Entry {
+    /// An atom with half of the margin around it.
+    pub fn atom(bodies: &Bodies, margin: f64, atom: usize) -> Self {
+        Self {
+            center: bodies.atom_place(atom),
+            reach: bodies.atom_radius[atom] + margin / 2.0,
+            atom: atom as u32,
+            body: bodies.atom_body(atom) as u32,
+        }
+    }
+
     fn with(&self, other: &Self) -> AtomPair {
         AtomPair { a: self.atom.min(other.atom), b: self.atom.max(other.atom) }
     }

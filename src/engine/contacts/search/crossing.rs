@@ -13,7 +13,7 @@
 use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
 use glam::DVec2;
-use jostle_shapes::{Feature, Nearest, Pose, nearest};
+use jostle_shapes::{Feature, Hull, Nearest, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
@@ -37,7 +37,11 @@ struct Crossings {
     before_round: Vec<DVec2>,
     /// Probes near hulls and lines, of the lists of this version.
     near: Vec<Watched>,
+    /// Each stays outside up to this [`Crossings::path`].
+    until: Vec<f64>,
     version: u64,
+    /// Of the bodies, as those lists were made.
+    generation: u64,
     /// Places in m and angles in rad of all bodies when they were last looked at.
     seen: Vec<(DVec2, f64)>,
     /// The sum of the greatest ways in m between those looks.
@@ -50,10 +54,10 @@ struct Watched {
     pair: SurfacePair,
     /// Where it was in the frame of the hull, in m.
     place: DVec2,
-    /// The normal of the side in that frame, if it is a sharp corner near a sharp hull.
-    touched: Option<DVec2>,
-    /// It stays outside up to this [`Crossings::path`].
-    until: f64,
+    /// If it is a sharp corner near a sharp hull, as both meet: the normal of the side, and where the corner was, in that frame.
+    touched: Option<(DVec2, DVec2)>,
+    /// So far in m it has to go, seen from the hull, before anything can happen to it.
+    left: f64,
 }
 
 /// Watches for what passes through walls with ends and hulls, if the scene has some.
@@ -104,14 +108,13 @@ impl Model for Crossings {
         if let Some(thin) = bodies.walls.iter().find(|wall| wall.is_thin() && !bodies.hulls.is_empty()) {
             self.before_round.extend((0..bodies.atom_count()).map(|atom| bodies.meeting_wall(thin, atom).0));
         }
-        let path = self.path;
-        if self.version == pairs.version {
-            let due = self.near.iter_mut().filter(|watched| watched.until <= path);
-            due.for_each(|watched| *watched = Watched::at(watched.pair, bodies, path).unwrap_or(*watched));
-        } else {
+        if self.version != pairs.version {
             self.version = pairs.version;
-            self.near.clear();
-            self.near.extend(pairs.surfaces.iter().filter_map(|pair| Watched::at(*pair, bodies, path)));
+            self.take_up(&pairs.surfaces, bodies);
+        }
+        let path = self.path;
+        for (until, watched) in self.until.iter_mut().zip(&mut self.near).filter(|(until, _)| **until <= path) {
+            (*watched, *until) = Watched::at(watched.pair, bodies, path).unwrap_or((*watched, *until));
         }
     }
 
@@ -140,8 +143,17 @@ impl Crossings {
         }
         let bodies = &state.bodies;
         self.follow(bodies);
-        let mut due = self.near.iter().filter(|watched| watched.until <= self.path);
-        if let Some((pair, wrong)) = due.find_map(|watched| Some((watched.pair, watched.wrong(bodies)?))) {
+        let path = self.path;
+        let mut due = self.until.iter_mut().zip(&self.near).filter(|(until, _)| **until <= path);
+        let wrong = due.find_map(|(until, watched)| {
+            let left = watched.left_now(bodies);
+            // What has gone farther is due when the next step begins.
+            if left > 0.5 * watched.left {
+                *until = path + 0.5 * left;
+            }
+            if left > 0.0 { None } else { Some((watched.pair, watched.wrong(bodies)?)) }
+        });
+        if let Some((pair, wrong)) = wrong {
             let (a, b) = pair.bodies(bodies);
             let other =
                 a.map_or_else(|| pair.wall(bodies).map(|wall| bodies.walls[wall].entity), |a| Some(bodies.entity[a]));
@@ -181,10 +193,31 @@ impl Crossings {
 
     /// The greatest way in m that any point of a body went since the last look.
     fn way(&self, bodies: &Bodies) -> f64 {
-        let way = |(body, (place, turned)): (usize, &(DVec2, f64))| {
-            bodies.position[body].distance(*place) + (bodies.angle[body] - turned).abs() * bodies.extent(body)
+        let farther = |greatest: f64, (body, (place, turned)): (usize, &(DVec2, f64))| {
+            let (moved, turn) =
+                (bodies.position[body] - place, (bodies.angle[body] - turned).abs() * bodies.extent(body));
+            // No way is longer than along both axes: roots only of those that may be the longest so far.
+            let bound = moved.x.abs() + moved.y.abs() + turn;
+            if bound > greatest { greatest.max(moved.length() + turn) } else { greatest }
         };
-        self.seen.iter().enumerate().take(bodies.len()).map(way).fold(0.0, f64::max)
+        self.seen.iter().enumerate().take(bodies.len()).fold(0.0, farther)
+    }
+
+    /// Watches the pairs of a new list. Those that were in the old one are looked at when they are due.
+    fn take_up(&mut self, pairs: &[SurfacePair], bodies: &Bodies) {
+        // Places on lines move on to other pieces, and other bodies have other names.
+        let goes_on = bodies.lines.is_empty() && self.generation == bodies.generation;
+        self.generation = bodies.generation;
+        let known = std::mem::take(&mut self.near).into_iter().zip(std::mem::take(&mut self.until));
+        let mut known = known.filter(|_| goes_on).peekable();
+        for &pair in pairs {
+            while known.next_if(|(old, _)| old.pair.names() < pair.names()).is_some() {}
+            let same = known.next_if(|(old, _)| old.pair.names() == pair.names());
+            if let Some((watched, until)) = same.or_else(|| Watched::at(pair, bodies, self.path)) {
+                self.near.push(Watched { pair, ..watched });
+                self.until.push(until);
+            }
+        }
     }
 
     /// Adds the greatest way that any point of a body went since the last look.
@@ -204,6 +237,10 @@ impl Crossings {
 
     /// The first body with an atom that has crossed a wall since, and how.
     fn first(&self, bodies: &Bodies) -> Option<(usize, Wrong)> {
+        // Without walls with ends no places were noted.
+        if self.before.is_empty() {
+            return None;
+        }
         let moves = |body: &usize| bodies.dynamic[*body] && bodies.collides[*body];
         let atoms =
             (0..bodies.len()).filter(moves).flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
@@ -236,8 +273,8 @@ impl Watched {
         near && self.pair.probe(bodies) == Probe::Atom(atom)
     }
 
-    /// None: it is near a wall that cannot be crossed in this way.
-    fn at(pair: SurfacePair, bodies: &Bodies, path: f64) -> Option<Self> {
+    /// With the [`Crossings::path`] up to which it stays outside. None: it is near a wall that cannot be crossed in this way.
+    fn at(pair: SurfacePair, bodies: &Bodies, path: f64) -> Option<(Self, f64)> {
         let (place, left) = if let Some((packed, place)) = place_at_hull(pair, bodies) {
             (place, left_to_cross(packed, nearest(&packed.hull, place).distance))
         } else if let (Surface::Wall(wall), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) {
@@ -250,9 +287,17 @@ impl Watched {
         };
         let met = met_sharp(pair, bodies);
         // Before the centre of a corner enters the core, the side that it touches is noted.
-        let left = met.map_or(left, |(met, radius)| left.min(met.distance - radius));
+        let left = met.as_ref().map_or(left, |met| left.min(met.nearest.distance - met.radius)).max(0.0);
         // Both sides may move.
-        Some(Self { pair, place, touched: met.map(|(met, _)| met.normal), until: path + 0.5 * left.max(0.0) })
+        Some((Self { pair, place, touched: met.map(|met| (met.nearest.normal, met.place)), left }, path + 0.5 * left))
+    }
+
+    /// How far in m it has yet to go; nothing where that is not known.
+    fn left_now(&self, bodies: &Bodies) -> f64 {
+        let Some((_, now)) = place_at_hull(self.pair, bodies) else { return 0.0 };
+        let moved = now.distance(self.place);
+        let met = self.touched.zip(meeting_sharp(self.pair, bodies));
+        self.left - met.map_or(moved, |((_, before), (_, place, _))| place.distance(before).max(moved))
     }
 
     /// What happened to it since.
@@ -260,7 +305,7 @@ impl Watched {
         if is_deep(self.pair, bodies) || has_crossed(self.pair, self.place, bodies) {
             return Some(Wrong::Crossed);
         }
-        self.touched.is_some_and(|before| has_jumped(self.pair, before, bodies)).then_some(Wrong::Sunk)
+        self.touched.is_some_and(|(before, _)| has_jumped(self.pair, before, bodies)).then_some(Wrong::Sunk)
     }
 }
 
@@ -284,15 +329,29 @@ fn place_at_hull(pair: SurfacePair, bodies: &Bodies) -> Option<(&PackedHull, DVe
     Some((packed, pose.point_to_local(place(pair, bodies))))
 }
 
-/// The nearest place of a sharp hull to a sharp corner, both rounded off, and the radius in m of the corner.
-fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<(Nearest, f64)> {
+/// A sharp corner near a sharp hull, both rounded off.
+struct Met {
+    /// The nearest place of the hull.
+    nearest: Nearest,
+    /// Where the centre of the corner is in the frame of the hull, in m.
+    place: DVec2,
+    /// Of the corner, in m.
+    radius: f64,
+}
+
+/// The shape of a sharp hull as it meets a sharp corner, and the place in its frame and the radius of that, in m.
+fn meeting_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<(&Hull, DVec2, f64)> {
     let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return None };
     let (shape, place, radius) = bodies.meeting(hull, atom);
     if bodies.hulls[hull].rounded.is_none() || radius == bodies.atom_radius[atom] {
         return None;
     }
-    let found = nearest(shape, bodies.pose_with_hulls(bodies.hulls[hull].body as usize).point_to_local(place));
-    Some((found, radius))
+    Some((shape, bodies.pose_with_hulls(bodies.hulls[hull].body as usize).point_to_local(place), radius))
+}
+
+fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<Met> {
+    let (shape, place, radius) = meeting_sharp(pair, bodies)?;
+    Some(Met { nearest: nearest(shape, place), place, radius })
 }
 
 /// The cosine of the greatest angle between the normals of sides that a corner in the core of a hull passes on to.
@@ -300,7 +359,8 @@ const LEAST_COSINE: f64 = 0.7;
 
 /// Whether a corner in the core of a hull touches another side than before.
 fn has_jumped(pair: SurfacePair, before: DVec2, bodies: &Bodies) -> bool {
-    met_sharp(pair, bodies).is_some_and(|(now, _)| now.distance < 0.0 && now.normal.dot(before) < LEAST_COSINE)
+    met_sharp(pair, bodies)
+        .is_some_and(|Met { nearest: now, .. }| now.distance < 0.0 && now.normal.dot(before) < LEAST_COSINE)
 }
 
 /// Whether a probe has passed the middle line of a capsule since, or has gone through a polygon.

@@ -1,8 +1,11 @@
-//! Probes near hulls: corners and discs of other bodies, and ends of walls. Boxes of bodies are swept along x.
+//! Probes near hulls: corners and discs of other bodies, and ends of walls. Circles about hulls and discs are sorted into cells
+//! ([`super::cells`]).
 
 use bevy_ecs::world::World;
 use glam::DVec2;
+use jostle_shapes::may_be_nearer;
 
+use super::cells::{Entry, Sorted};
 use super::{SurfacePair, ordered};
 use crate::scene::SceneError;
 use crate::tick::{LoadErrors, Notes, State};
@@ -50,67 +53,97 @@ pub(super) fn refuse_pointed(world: &mut World) {
     world.get_resource_or_init::<LoadErrors>().0.push(error);
 }
 
-/// The box about a body, grown by half the margin.
-struct Boxed {
-    body: usize,
-    low: DVec2,
-    high: DVec2,
+/// Pairs of hulls, or of a hull and a disc, are looked at up to so many times the greatest number of candidate pairs.
+const LOOKS: usize = 8;
+
+/// A hull as the search sees it, with half of the margin around it.
+fn entry(bodies: &Bodies, margin: f64, packed: &PackedHull) -> Entry {
+    let (middle, radius) = packed.circle;
+    let spread = packed.rounded.as_ref().map_or(0.0, |rounded| rounded.spread);
+    Entry {
+        center: bodies.pose_with_hulls(packed.body as usize).point_to_world(middle),
+        reach: radius + spread + margin / 2.0,
+        atom: packed.first_atom,
+        body: packed.body,
+    }
 }
 
-/// For each body those whose boxes are nearer than the margin, in order. One of the two moves by forces.
-fn near_bodies(bodies: &Bodies, margin: f64) -> Vec<Vec<usize>> {
-    let mut boxes: Vec<Boxed> = (0..bodies.len())
-        .filter(|&body| bodies.collides[body] && !bodies.atoms_of(body).is_empty())
-        .map(|body| {
-            let (low, high) =
-                bodies.atoms_of(body).fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), atom| {
-                    let (at, reach) = (bodies.atom_place(atom), DVec2::splat(bodies.atom_radius[atom] + 0.5 * margin));
-                    (low.min(at - reach), high.max(at + reach))
-                });
-            Boxed { body, low, high }
-        })
-        .collect();
-    boxes.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.body.cmp(&b.body)));
-    let mut near: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
-    for (rank, a) in boxes.iter().enumerate() {
-        for b in boxes[rank + 1..].iter().take_while(|b| b.low.x <= a.high.x) {
-            let across = b.low.y <= a.high.y && a.low.y <= b.high.y;
-            if across && (bodies.dynamic[a.body] || bodies.dynamic[b.body]) {
-                near[a.body].push(b.body);
-                near[b.body].push(a.body);
+/// For each atom that is a disc, or the first corner of a hull, those others that are near.
+struct Neighbours {
+    /// Where those of each atom begin, and how many there are at the end.
+    first: Vec<u32>,
+    /// In order, for each atom.
+    others: Vec<u32>,
+    /// Whether these are all.
+    complete: bool,
+}
+
+impl Neighbours {
+    /// Of pairs in order; of each hull and disc it is told how many candidate pairs there may be.
+    fn of(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], most: usize) -> Self {
+        let most = most.saturating_mul(LOOKS);
+        let discs = (0..bodies.atom_count()).filter(|&atom| !bodies.is_corner(atom) && bodies.probes(atom));
+        let discs = discs.map(|atom| Entry::atom(bodies, margin, atom));
+        let hulls = bodies.hulls.iter().map(|packed| entry(bodies, margin, packed));
+        let mut pairs = Sorted::entries(bodies, hulls.chain(discs)).pairs(bodies, most);
+        let complete = pairs.len() <= most;
+        if !apart.is_empty() {
+            let body = |atom: u32| bodies.atom_body(atom as usize);
+            pairs.retain(|pair| apart.binary_search(&ordered(body(pair.a), body(pair.b))).is_err());
+        }
+        let mut first = vec![0; bodies.atom_count() + 2];
+        // Two places ahead, so that filling in leaves each where its atom begins.
+        pairs.iter().flat_map(|pair| [pair.a, pair.b]).for_each(|atom| first[atom as usize + 2] += 1);
+        for atom in 2..first.len() {
+            first[atom] += first[atom - 1];
+        }
+        let mut others = vec![0; 2 * pairs.len()];
+        // Those before an atom come first, as pairs are in order.
+        for pair in &pairs {
+            for (atom, other) in [(pair.a, pair.b), (pair.b, pair.a)] {
+                let next = &mut first[atom as usize + 1];
+                others[*next as usize] = other;
+                *next += 1;
             }
         }
+        Self { first, others, complete }
     }
-    near.iter_mut().for_each(|list| list.sort_unstable());
-    near
+
+    fn of_hull(&self, packed: &PackedHull) -> &[u32] {
+        let atom = packed.first_atom as usize;
+        &self.others[self.first[atom] as usize..self.first[atom + 1] as usize]
+    }
 }
 
 /// Shows the hulls of different bodies whose circles overlap, each pair once.
-pub(super) fn each_pair_of_hulls(bodies: &Bodies, apart: &[(usize, usize)], mut see: impl FnMut(usize, usize)) {
+pub(super) fn each_pair_of_hulls(
+    bodies: &Bodies,
+    apart: &[(usize, usize)],
+    most: usize,
+    mut see: impl FnMut(usize, usize),
+) {
     if bodies.hulls.is_empty() {
         return;
     }
-    let near = near_bodies(bodies, 0.0);
-    let center = |packed: &PackedHull| bodies.pose_with_hulls(packed.body as usize).point_to_world(packed.circle.0);
+    let near = Neighbours::of(bodies, 0.0, apart, most);
     for (place, packed) in bodies.hulls.iter().enumerate() {
-        let body = packed.body as usize;
-        let others = near[body].iter().filter(|&&other| other > body && apart.binary_search(&(body, other)).is_err());
-        for other in others.flat_map(|&other| bodies.places_of_hulls(other)) {
-            let second = &bodies.hulls[other];
-            if !is_far(center(packed), center(second), packed.circle.1 + second.circle.1) {
-                see(place, other);
-            }
-        }
+        let others = near.of_hull(packed).iter().filter_map(|&other| bodies.hull_of(other as usize));
+        others.filter(|other| *other > place).for_each(|other| see(place, other));
     }
 }
 
-/// Shows the probes that are nearer to hulls than the margin: hull by hull, for each in the order of the probes. Bodies `apart` do not touch
-/// each other.
-pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], mut see: impl FnMut(SurfacePair)) {
+/// Shows the probes that are nearer to hulls than the margin, and few others: hull by hull, for each in the order of the probes. Bodies
+/// `apart` do not touch each other. Says whether these are all: there are more than `most` pairs if they are not.
+pub(super) fn each_pair(
+    bodies: &Bodies,
+    margin: f64,
+    (apart, most): (&[(usize, usize)], usize),
+    mut see: impl FnMut(SurfacePair),
+) -> bool {
     if bodies.hulls.is_empty() {
-        return;
+        return true;
     }
-    let near = near_bodies(bodies, margin);
+    let near = Neighbours::of(bodies, margin, apart, most);
     let ends: Vec<(u32, DVec2, f64)> = bodies
         .single_walls()
         .filter(|&wall| bodies.walls[wall].ends.is_some())
@@ -124,24 +157,23 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
             continue;
         }
         let surface = walls + place as u32;
-        let (center, circle) = (bodies.pose_with_hulls(body).point_to_world(packed.circle.0), packed.circle.1 + margin);
-        let touches = |other: &&usize| apart.binary_search(&ordered(body, **other)).is_err();
-        for &other in near[body].iter().filter(touches) {
-            if is_far(center, bodies.position[other], circle + bodies.extent(other)) {
-                continue;
-            }
-            for atom in bodies.atoms_of(other).filter(|&atom| bodies.probes(atom)) {
-                let reach = bodies.atom_radius[atom] + bodies.spread(place, atom);
-                let at = bodies.atom_place(atom);
-                let near = || bodies.nearest_on_hull(place, at).distance < packed.hull.radius() + margin + reach;
-                if !is_far(center, at, circle + reach) && near() {
+        let pose = bodies.pose_with_hulls(body);
+        let (center, circle) = (pose.point_to_world(packed.circle.0), packed.circle.1 + margin);
+        let is_near = |at: DVec2, reach: f64| {
+            let apart = packed.hull.radius() + margin + reach;
+            !is_far(center, at, circle + reach) && may_be_nearer(&packed.hull, pose.point_to_local(at), apart)
+        };
+        for &other in near.of_hull(packed) {
+            let other = other as usize;
+            let atoms = bodies.hull_of(other).map_or(other..other + 1, |hull| bodies.hulls[hull].corners());
+            for atom in atoms.filter(|&atom| bodies.probes(atom)) {
+                if is_near(bodies.atom_place(atom), bodies.atom_radius[atom] + bodies.spread(place, atom)) {
                     see(SurfacePair::new(surface, atom as u32));
                 }
             }
         }
         let mut near_ends = |(number, end, half): (u32, DVec2, f64)| {
-            let near = || bodies.nearest_on_hull(place, end).distance < packed.hull.radius() + margin + half;
-            if !is_far(center, end, circle + half) && near() {
+            if is_near(end, half) {
                 see(SurfacePair::new(surface, ends_from + number));
             }
         };
@@ -155,6 +187,7 @@ pub(super) fn each_pair(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], 
             }
         }
     }
+    near.complete
 }
 
 /// Whether two places are farther apart than so many metres.

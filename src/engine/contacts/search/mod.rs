@@ -184,7 +184,7 @@ impl PairSearch {
                 pairs.surfaces.push(pair);
             }
         });
-        hulls::each_pair(bodies, bounds.margin, &apart, |pair| {
+        let complete = hulls::each_pair(bodies, bounds.margin, (&apart, most), |pair| {
             if pairs.surfaces.len() <= most {
                 pairs.surfaces.push(pair);
             }
@@ -192,7 +192,8 @@ impl PairSearch {
         if !bodies.lines.is_empty() {
             pairs.surfaces.sort_unstable();
         }
-        let most_of = (pairs.atoms.len() + pairs.surfaces.len() > most).then(|| body_with_most(pairs, bodies));
+        let too_many = !complete || pairs.atoms.len() + pairs.surfaces.len() > most;
+        let most_of = too_many.then(|| body_with_most(pairs, bodies));
         if most_of.is_some() {
             (pairs.atoms, pairs.surfaces) = (Vec::new(), Vec::new());
         }
