@@ -119,7 +119,7 @@ pub struct Card {
     pub(super) energy_scale: f64,
     /// Whether nothing moves in it.
     #[serde(skip)]
-    stands: bool,
+    pub(super) stands: bool,
     /// Whether its steps were chosen for an error, and which that was.
     #[serde(skip)]
     asked: Option<Option<f64>>,

@@ -173,3 +173,35 @@ fn friction_holds_a_joint_that_its_limit_lets_go() {
         assert!((found - truth).abs() < allowed(share, amplitude), "{clock}: {found}, {truth}");
     }
 }
+
+/// Law: frictions of two hinges that a gear of ratio `r` couples hold as much as `f + |r| g` together, also where one gives way before the
+/// other: the wheels of inertia `I/2` and `I/(2 r^2)` slip at the peaks of a load that exceeds it by little.
+#[test]
+fn coupled_frictions_slip_at_the_peak_of_the_load() {
+    for (amplitude, frequency, part, ratio) in
+        [(26.5, 0.8, 0.625, -0.6), (25.01, 2.2, 0.5, 1.5), (27.0, 0.7, 0.1, -2.0), (26.0, 1.0, 0.9, 0.5_f64)]
+    {
+        let truth = angle(amplitude, TAU * frequency, (0.0, 25.0));
+        let (first, second) = (part * 25.0, (1.0 - part) * 25.0 / ratio.abs());
+        for (clock, share) in CLOCKS {
+            let simulation = &run(
+                clock,
+                &format!(
+                    "bodies: [(name: \"w\", at: (0, 0), mass: 2, inertia: {:?}, atoms: Disc(radius: 0.3)),
+                        (name: \"v\", at: (2, 0), mass: 2, inertia: {:?}, atoms: Disc(radius: 0.3))],
+                    joints: [Revolute(name: \"h\", a: World, b: \"w\", friction: {first:?}),
+                        Revolute(name: \"k\", a: World, b: \"v\", friction: {second:?}), GearPair(of: (\"h\", \"k\"), ratio: {ratio:?})],
+                    controllers: [Actuator(of: \"h\", force: Sine(amplitude: {amplitude:?}, frequency: {frequency:?}))]",
+                    0.5 * INERTIA,
+                    0.5 * INERTIA / (ratio * ratio)
+                ),
+            );
+            let found = simulation.state().bodies().angle[0];
+            let most = allowed(share, amplitude);
+            assert!(
+                (found - truth).abs() < most,
+                "{amplitude} at {frequency} Hz, {part} {ratio}, {clock}: {found}, {truth}"
+            );
+        }
+    }
+}

@@ -166,13 +166,16 @@ impl Bounded {
         self.farthest = self.farthest.max(missing.abs());
         match self.mode {
             _ if !self.is_bounded() => {}
-            Mode::Holds => told.extend([1.0, -1.0].map(|sign| Indicator {
-                value: self.limit - sign * self.torque,
-                slope: f64::NAN,
-                bend: pair.bend(2.0 * self.limit, state),
-                rounding,
-                ..Indicator::default()
-            })),
+            Mode::Holds => {
+                let bend = pair.bend_of_row(&pair.row(along, Kind::Velocity), 2.0 * self.limit, state);
+                told.extend([1.0, -1.0].map(|sign| Indicator {
+                    value: self.limit - sign * self.torque,
+                    slope: f64::NAN,
+                    bend,
+                    rounding,
+                    ..Indicator::default()
+                }));
+            }
             Mode::Gives(sign) => {
                 let row = pair.row(along, Kind::Velocity);
                 let acceleration = row.acceleration(state.bodies());

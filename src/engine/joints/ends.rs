@@ -212,6 +212,16 @@ impl Pair {
         amplitude * fastest * fastest
     }
 
+    /// The same of the force of a row: where others give way, it also bears what they do not. So all that rows pull on it counts.
+    pub fn bend_of_row(&self, row: &Row, amplitude: f64, state: &State) -> f64 {
+        if state.fastest_rhythm() == 0.0 {
+            return self.bend(amplitude, state);
+        }
+        let bodies = state.bodies();
+        let pulled = state.rows().pulls(row, bodies) / row.response(row, bodies);
+        self.bend(amplitude + 2.0 * pulled, state)
+    }
+
     /// Adds a force in N, or a torque in N m, along a direction. Returns the power in W that it gives to bodies that move by forces.
     pub fn push(&self, along: &Along, amount: f64, state: &mut State) -> f64 {
         let (bodies, rates) = state.bodies_and_rates();

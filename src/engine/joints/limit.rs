@@ -201,7 +201,8 @@ impl Limit {
     pub fn tell(&self, pair: &Pair, freedom: &Freedom, state: &State, told: &mut Vec<Indicator>) {
         if self.at.is_some() {
             let rounding = PULL * self.greatest;
-            let bend = pair.bend(2.0 * self.greatest, state);
+            let row = pair.row(&freedom.along, Kind::Position);
+            let bend = pair.bend_of_row(&row, 2.0 * self.greatest, state);
             return told.push(Indicator { value: self.force, slope: f64::NAN, bend, rounding, swings: 0.0 });
         }
         let bend = pair.row(&freedom.along, Kind::Position).acceleration(state.bodies()).abs();

@@ -245,8 +245,10 @@ impl Model for Joint {
     }
 
     fn loss(&self) -> Option<Loss> {
-        let soft = self.soft.as_ref().filter(|soft| soft.is_damped())?;
-        Some(Loss { account: DAMPING, power: soft.power })
+        // Sensors ask before the joint has begun.
+        let asked = || self.setup.asked.softness.is_some_and(|[_, ratio]| ratio > 0.0);
+        let damped = self.soft.as_ref().map_or_else(asked, Soft::is_damped);
+        damped.then(|| Loss { account: DAMPING, power: self.soft.as_ref().map_or(0.0, |soft| soft.power) })
     }
 
     fn force_on(&self, state: &State, body: usize) -> Option<ForceOn> {

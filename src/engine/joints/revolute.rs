@@ -41,7 +41,7 @@ struct Revolute {
     friction: Option<Torque>,
     /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    /// Makes it a spring: the frequency in Hz with which it swings, by the mean of both directions, and its damping ratio. Default: it is not soft.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]

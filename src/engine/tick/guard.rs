@@ -5,7 +5,7 @@
 //! drives wherever it was positive. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`, fifty times at 99 %
 //! of it, so a factor that no stable run reaches must be far above: a run is stopped when it has created [`BEYOND`]
 //! times what was put in and its tick is above the critical one, or [`ENORMOUS`] times whatever the tick is. Rounding of
-//! large energies counts as put in.
+//! large energies counts as put in, and so does motion by a billionth of a size in a tick.
 //!
 //! It looks every [`EVERY`] ticks, when something travels farther in a tick than the smallest radius and whenever that
 //! has doubled, and at each tick since contacts were seen to respond nearly as fast as a method can bear: from the first
@@ -20,6 +20,8 @@ const ENORMOUS: f64 = 1e9;
 const EVERY: u64 = 256;
 /// What rounding may leave of energies that cancel.
 const ROUNDING: f64 = 1e-9;
+/// Motion by a billionth of the size of a body in a tick counts as put in, as a share of energy by its whole size: friction that stops creeps so.
+const IDLE: f64 = 1e-18;
 
 /// When energy is looked at next, and what was put in.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -67,7 +69,9 @@ impl EnergyGuard {
         self.released = self.released.max(start.potential - now.potential);
         self.greatest = self.greatest.max(now.kinetic + now.elastic);
         let rounding = ROUNDING * (start.potential.abs() + now.potential.abs() + work.abs());
-        let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding;
+        let dynamic = (0..bodies.len()).filter(|body| bodies.dynamic[*body]);
+        let idle: f64 = dynamic.map(|body| bodies.mass[body] * (bodies.extent(body) / clock.dt).powi(2)).sum();
+        let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding + IDLE * idle;
         let energy = now.energy() + lost - work - start.energy();
         let unstable =
             state.responses().fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(&state.stability));

@@ -14,8 +14,11 @@ const MISSING: f64 = 1e-3;
 
 /// The tolerance that was asked for is not reached.
 pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
-    let missed = evidence.card.missed.clone()?;
-    Some(Cause { trust: Trust::Partly("Do not trust its last digits".to_owned()), what: missed, remedy: None })
+    let missed = evidence.card.missed.clone().filter(|_| !evidence.card.stands)?;
+    // Where the runs that are compared say nothing, no digit is known.
+    let known = evidence.card.error.is_none_or(|error| error.position.discretisation.is_some());
+    let part = if known { "Do not trust its last digits" } else { "Do not trust its places" };
+    Some(Cause { trust: Trust::Partly(part.to_owned()), what: missed, remedy: None })
 }
 
 /// Where and when a finer run first went another way, in words.
@@ -84,6 +87,9 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
 /// What is said where nothing is wrong.
 pub(super) fn good(evidence: &Evidence) -> String {
     let card = evidence.card;
+    if card.stands {
+        return format!("Trust it: nothing moves; {}.", energy::accounted(evidence));
+    }
     if let Some(known) = card.error.as_ref().filter(|_| !card.by_ticks()) {
         return of_a_tolerance(known, card);
     }
