@@ -71,11 +71,11 @@ impl EnergyGuard {
         let rounding = ROUNDING * (start.potential.abs() + now.potential.abs() + work.abs());
         let dynamic = (0..bodies.len()).filter(|body| bodies.dynamic[*body]);
         let idle: f64 = dynamic.map(|body| bodies.mass[body] * (bodies.extent(body) / clock.dt).powi(2)).sum();
-        let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding + IDLE * idle;
+        let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding;
         let energy = now.energy() + lost - work - start.energy();
         let unstable =
             state.responses().fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(&state.stability));
-        let too_much = if unstable { BEYOND } else { ENORMOUS } * put_in;
+        let too_much = if unstable { BEYOND } else { ENORMOUS } * (put_in + IDLE * idle);
         // Written so that energies that are no numbers are too much; without anything put in there is no measure.
         if first && energy.is_finite() || put_in == 0.0 || energy <= too_much && put_in.is_finite() {
             return None;

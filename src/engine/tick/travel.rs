@@ -26,10 +26,10 @@ pub fn largest_travel(state: &State) -> f64 {
 /// A way in the whole run, as a share of the smallest radius, that is no motion: forces that cancel leave rounding.
 const STANDS: f64 = 1e-9;
 
-/// Whether bodies have done nothing but stand so far.
+/// Whether bodies have done nothing but stand so far. Before the first tick that is not known.
 pub fn stands(state: &State) -> bool {
-    let way = state.progress.travel * state.clock.ticks as f64;
-    way <= STANDS * state.bodies.smallest_radius && state.bodies.smallest_radius.is_finite()
+    let (ticks, smallest) = (state.clock.ticks, state.bodies.smallest_radius);
+    ticks > 0 && smallest.is_finite() && state.progress.travel * ticks as f64 <= STANDS * smallest
 }
 
 /// The first body that travelled farther in one tick than the smallest radius.
