@@ -21,6 +21,9 @@ use serde::Deserialize;
 
 use crate::scene::Report;
 
+/// Each shape of a compound is compared with each other: more of them would take minutes to read.
+const MOST_SHAPES: usize = 4000;
+
 /// A convex part of a body, or a concave one in convex pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
@@ -163,6 +166,11 @@ impl Shape {
             Err([]) => {
                 let help = "for example: Compound([Rectangle(width: 1, height: 0.2), Disc(at: (0.5, 0), radius: 0.1)])";
                 report.error("", "a compound needs at least one shape").help(help);
+                return;
+            }
+            Err(shapes) if shapes.len() > MOST_SHAPES => {
+                let message = format!("a compound of {} shapes: there can be {MOST_SHAPES} at most", shapes.len());
+                report.error("", message).help("make several bodies of it, or give it fewer and larger shapes");
                 return;
             }
             Err(shapes) => {
