@@ -207,6 +207,7 @@ impl Shape {
     fn add_to(&self, parts: &mut Parts, place: &str) {
         let shape = match self.as_sided() {
             Ok(shape) => shape,
+            Err(shapes) if shapes.len() > MOST_SHAPES => return,
             Err(shapes) => {
                 let each = shapes.iter().enumerate();
                 return each.for_each(|(index, shape)| shape.add_to(parts, &format!("part {}: ", index + 1)));
