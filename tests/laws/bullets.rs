@@ -1,6 +1,6 @@
 //! Laws of fast bodies and thin walls: nothing passes through unsaid.
 //!
-//! A contact stops a bullet if it is stiff enough and the tick is short enough. If not, the run ends, and names both. Not tested: discs that
+//! A contact stops a bullet if it is stiff enough and the tick is short enough. If not, the run ends, and names one of the two at least. Not tested: discs that
 //! pass each other in a tick, of which the card warns.
 
 use jostle::Simulation;
@@ -70,7 +70,7 @@ prop_compose! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Law: a bullet is on its side of the wall at the end, or the run ends before with both names.
+    /// Law: a bullet is on its side of the wall at the end, or the run ends before and names one of the two.
     #[test]
     fn no_bullet_passes_unsaid(shot in shots(), method in prop::sample::select(vec!["VelocityVerlet", "RungeKutta4"])) {
         let (mut simulation, ticks) = shot.fired(&format!("method: {method}"));

@@ -238,7 +238,7 @@ fn factor_block(block: &mut [f64], size: usize, whole: &[f64]) -> bool {
         }
         if pivot.is_nan() || pivot <= DEPENDENT * whole[column] {
             regular = false;
-            // Where a share of the diagonal was added pivots are above it, but for rounding.
+            // A share that was added to the diagonal bounds pivots from below. Only rounding makes them smaller.
             if pivot.is_nan() || pivot <= 0.0 {
                 pivot = whole[column].max(f64::MIN_POSITIVE);
             }

@@ -137,7 +137,7 @@ impl Rest {
             }
             stays
         });
-        // A body that woke and was laid to rest again in one step stands here twice.
+        // The list may hold a body twice, or one that has woken. So its length does not tell that all rest.
         let all = |still: &[bool]| (0..bodies.len()).all(|body| still[body] || !bodies.dynamic[body]);
         if self.resting.len() >= bodies.dynamic_count() && all(&self.still) {
             // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
