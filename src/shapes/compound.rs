@@ -195,7 +195,7 @@ mod tests {
     }
 
     /// Law: cutting marks by topology what geometry finds. Marked anew, no side and no corner of a rounded or sharp bracket
-    /// changes.
+    /// changes, but for its hollow: parts of a compound overlap at will, so that no corner of theirs is known to end a side there.
     #[test]
     fn marks_of_a_cut_polygon_are_those_of_its_geometry() {
         let bracket =
@@ -208,7 +208,16 @@ mod tests {
                 (0..hull.corners().len()).for_each(|corner| hull.set_free(corner, Free::Whole));
             }
             mark_inner(&mut hulls);
-            assert_eq!(hulls, cut.hulls, "{rounding}");
+            let (mut known, mut hollows) = (cut.hulls, 0);
+            for hull in &mut known {
+                for corner in 0..hull.corners().len() {
+                    if hull.free(corner) == Free::Hollow {
+                        hull.set_free(corner, Free::Nowhere);
+                        hollows += 1;
+                    }
+                }
+            }
+            assert_eq!((hulls, hollows), (known, 2), "{rounding}");
         }
     }
 }
