@@ -7,6 +7,7 @@ mod broken_world;
 mod components;
 mod contact_events;
 mod contact_law;
+mod escapement;
 mod film_layer;
 mod integrator;
 mod mixed;

@@ -143,7 +143,8 @@ pub trait Model: Any + Send + Sync {
     /// Velocities have jumped before the step ([`State::strike`]): what holds only as long as a bounded force suffices may give way.
     fn after_blow(&mut self, _: &mut State) {}
 
-    /// Before a step over [`State::span`]: chooses the modes that stay as they are in it. See [`Model::has_modes`].
+    /// Before a step over [`State::span`]: chooses the modes that stay as they are in it. In [`Style::Frozen`] events alone change the modes of
+    /// a model that has [`Model::events`]: it leaves them. See [`Model::has_modes`].
     fn begin_step(&mut self, _: &mut State) {}
 
     /// Whether [`Model::begin_step`] does anything. Default: no.
