@@ -88,3 +88,38 @@ fn what_dampers_take_stands_apart_from_drag() {
         assert!((damped / energy.drag - 0.3 / 0.5).abs() < 1e-12, "{method}: {energy:?}");
     }
 }
+
+/// A force that pushes and calls it friction.
+struct Pusher;
+
+impl Model for Pusher {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        let (bodies, rates) = state.bodies_and_rates();
+        let velocity = bodies.velocity[0];
+        rates.friction -= velocity.length_squared();
+        rates.outside(bodies.position[0], velocity, 0.0);
+        bodies.push(0, DVec2::ZERO, velocity);
+    }
+}
+
+/// The balance is right: the energy that the mass gains is that of the account. Friction that gives is wrong all the same.
+#[test]
+fn the_verdict_distrusts_friction_that_gives() {
+    let scene = "Scene(format: 1, clock: (duration: 1, tick: 0.001, method: RungeKutta4),
+        bodies: [(name: \"cart\", at: (0, 0), velocity: (3, 4), atoms: Disc(radius: 0.1, mass: 2))])";
+    let pusher = |app: &mut App| {
+        app.add_model(Pusher);
+    };
+    let mut simulation =
+        Simulation::load_with(&Source::new("pusher.ron", scene), &Overrides::default(), pusher).unwrap();
+    simulation.run_to_end().expect("numbers stay finite");
+    let card = simulation.card();
+    assert!(card.energy.friction < -25.0 && card.energy.residual.abs() < 1e-9, "{:?}", card.energy);
+    assert!(card.verdict.starts_with("Do not trust it: friction and contacts have given"), "{}", card.verdict);
+}

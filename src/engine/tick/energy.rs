@@ -68,6 +68,11 @@ impl EnergyLedger {
         known.into_iter().chain(self.accounts.iter().map(|(name, lost)| (*name, *lost)))
     }
 
+    /// Energy in J that friction and contacts have given, though they can only take. Drag may give: wind drives.
+    pub fn given_back(&self) -> f64 {
+        (-self.friction).max(0.0) + (-self.inelasticity).max(0.0)
+    }
+
     /// The energy that went round in the run, in J: what the residual is to be compared with. The zero of potential
     /// energy is a matter of taste, so only its change counts; work counts whichever way it went.
     pub fn turned_over(&self, state: &State) -> f64 {

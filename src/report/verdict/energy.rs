@@ -2,7 +2,7 @@
 
 use super::{Cause, Evidence, Trust, near, ticks};
 use crate::Remedy;
-use jostle_language::numbers::percent;
+use jostle_language::numbers::{number, percent};
 
 /// Share of the energy that went round which may be missing.
 pub(crate) const UNACCOUNTED: f64 = 0.05;
@@ -36,6 +36,24 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     let what = format!("{share}{why}");
     let tolerance = evidence.or_tolerance();
     Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`{tolerance}")) })
+}
+
+/// Share of the energy that went round which friction and contacts may give in a run that is good for a first look.
+const GIVEN: f64 = 1e-2;
+/// The same in a run of which nothing is said.
+const ROUNDED: f64 = 1e-3;
+
+/// Friction and contacts have given energy: they held bodies by less than their springs, while these were pressed together further.
+pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
+    let card = evidence.card;
+    let given = card.energy.given_back();
+    let share = given / card.energy_scale;
+    let trust = if share > GIVEN { Trust::Not } else { Trust::Roughly };
+    let what = format!(
+        "friction and contacts have given {} J, though they can only take: contacts that should rest sink in, and are wedged",
+        number(given)
+    );
+    (share > ROUNDED).then(|| Cause { trust, what, remedy: evidence.finer() })
 }
 
 /// What may have happened where nothing is known.

@@ -55,7 +55,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// What may be to blame, in the order in which one explains the others.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 15] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 16] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -65,6 +65,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 15] = [
     energy::numbers_that_are_none,
     ticks::unseen_swing,
     energy::unaccounted,
+    energy::given_back,
     motion::tolerance_not_reached,
     soft::deep,
     ticks::brief_contact,
