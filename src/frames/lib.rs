@@ -8,5 +8,5 @@ pub mod plot;
 mod schedule;
 pub mod spool;
 
-pub use mark::{Mark, MarkShape};
+pub use mark::{Corner, Mark, MarkShape};
 pub use schedule::Schedule;

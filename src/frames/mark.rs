@@ -53,10 +53,30 @@ pub enum MarkShape {
         /// What an arrow of that length stands for, such as `10 N`.
         text: String,
     },
+    /// A square part of the world, enlarged in a corner of the picture. All frames of a film have the same ones.
+    Inset {
+        /// Its middle.
+        center: DVec2,
+        /// How high and wide it is.
+        height: f64,
+        /// Where it stands in the picture.
+        corner: Corner,
+        /// How high it stands there, as a share of the shorter side of the picture.
+        share: f64,
+    },
     /// The scale of the picture, in its corner.
     ScaleBar,
     /// The time of the frame, in the corner of the picture.
     Time,
+}
+
+/// A corner of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corner {
+    /// On the right, not on the left.
+    pub right: bool,
+    /// Below, not above.
+    pub bottom: bool,
 }
 
 impl Mark {

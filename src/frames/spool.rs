@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::frame::{Cast, Frame, Pose};
-use super::mark::{Mark, MarkShape};
+use super::mark::{Corner, Mark, MarkShape};
 
 /// Bytes of the length that stands before and after each frame.
 const LENGTH: u64 = 8;
@@ -140,6 +140,10 @@ fn parts(shape: &MarkShape) -> (usize, Vec<f64>, &str) {
         MarkShape::Key { length, text } => (8, vec![*length], text),
         MarkShape::ScaleBar => (9, Vec::new(), ""),
         MarkShape::Time => (10, Vec::new(), ""),
+        MarkShape::Inset { center, height, corner, share } => {
+            let [right, bottom] = [corner.right, corner.bottom].map(|side| f64::from(u8::from(side)));
+            (11, vec![center.x, center.y, *height, *share, right, bottom], "")
+        }
     }
 }
 
@@ -161,6 +165,11 @@ fn shape(kind: u64, numbers: &[f64], text: String) -> Option<MarkShape> {
         8 => MarkShape::Key { length: *numbers.first()?, text },
         9 => MarkShape::ScaleBar,
         10 => MarkShape::Time,
+        11 => {
+            let [height, share, right, bottom] = *numbers.get(2..)?.first_chunk()?;
+            let corner = Corner { right: right != 0.0, bottom: bottom != 0.0 };
+            MarkShape::Inset { center: point(0)?, height, corner, share }
+        }
         _ => return None,
     })
 }
@@ -229,6 +238,15 @@ mod tests {
             mark(MarkShape::Key { length: 0.3, text: "2 µN".into() }, Some("force")),
             mark(MarkShape::ScaleBar, None),
             mark(MarkShape::Time, None),
+            mark(
+                MarkShape::Inset {
+                    center: DVec2::X,
+                    height: 0.5,
+                    corner: Corner { right: true, bottom: false },
+                    share: 0.4,
+                },
+                None,
+            ),
         ];
         let frame = |time: u32| {
             let (cast, poses) = if time < 3 { (&one, time) } else { (&two, 1) };

@@ -26,6 +26,7 @@ use jostle_frames::frame::{BodyLook, Cast, Frame, Rgb};
 use jostle_frames::mark::MarkShape;
 use layers::bodies::Figure;
 use layers::clock::Clock;
+use layers::insets::Inset;
 use layers::labels::{Column, longest_word};
 use layers::title::Title;
 use layers::trails::{Cover, Trail};
@@ -86,6 +87,8 @@ pub struct Scratch {
     field: Field,
     cover: Cover,
     tools: Tools,
+    /// Pictures of insets.
+    insets: Vec<Pixmap>,
 }
 
 /// Draws the frames of one cast.
@@ -107,6 +110,7 @@ pub struct Painter {
     /// The fill of each body.
     fills: Vec<Rgb>,
     cards: Option<Cards>,
+    insets: Vec<Inset>,
     backdrop: Pixmap,
 }
 
@@ -116,6 +120,12 @@ impl Painter {
     /// # Errors
     /// A [`SizeError`] if there is no picture of the view's size.
     pub fn new(view: &View, frame: &Frame) -> Result<Painter, SizeError> {
+        let mut painter = Painter::without_insets(view, frame, &frame.cast.title)?;
+        painter.insets = Inset::all(view, frame)?;
+        Ok(painter)
+    }
+
+    fn without_insets(view: &View, frame: &Frame, title: &str) -> Result<Painter, SizeError> {
         let (camera, theme, cast) = (&view.camera, &view.theme, &frame.cast);
         let (width, height) = view.size();
         let picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
@@ -129,10 +139,10 @@ impl Painter {
         // Walls pass by a camera that moves: its labels keep to the corner.
         let walls = if frame.center.is_some() { &[][..] } else { &cast.walls };
         let room = walls::room(walls, camera, theme);
-        let lettering = Lettering::new(Weight::SemiBold, weights.title, &cast.title);
-        let needed = clock.width().max(longest_word(&cast.title, &lettering));
+        let lettering = Lettering::new(Weight::SemiBold, weights.title, title);
+        let needed = clock.width().max(longest_word(title, &lettering));
         let column = Column::beside_or_in(room, weights.band, needed, weights.pad, (height as f32, weights.small));
-        let title = Title::new(&cast.title, &lettering, &column, theme);
+        let title = Title::new(title, &lettering, &column, theme);
         let on_ground = !column.in_room || column.one_line;
         let mut painter = Painter {
             view: view.clone(),
@@ -146,6 +156,7 @@ impl Painter {
             labels: column,
             cards: view.panel.as_ref().map(|panel| Cards::new(panel, theme, &colors)),
             fills: colors,
+            insets: Vec::new(),
             backdrop: picture,
         };
         let mut backdrop = painter.backdrop.clone();
@@ -192,14 +203,9 @@ impl Painter {
             *picture = self.backdrop.clone();
         }
         let (camera, theme) = (&self.camera(frame), &self.view.theme);
-        if frame.center.is_some() {
-            self.paint_scenery(frame, camera, picture, &mut scratch.field);
-        }
+        self.paint_world(frame, camera, picture, scratch);
         let line = Weights::of(self.view.size()).line;
-        self.paint_trails(frame, camera, picture, &mut scratch.cover);
-        paint_figures(&self.figures, frame, camera, picture, &mut scratch.field);
-        marks::draw(picture, &frame.marks, camera, theme, line);
-        self.writing.label(picture, &frame.marks, camera);
+        self.paint_insets(frame, camera, picture, scratch);
         if self.labels.in_room {
             self.title.draw(picture);
         }
@@ -210,6 +216,35 @@ impl Painter {
         if let Some(cards) = &self.cards {
             cards.draw(picture, &self.backdrop, frame.time, &mut scratch.tools);
         }
+    }
+
+    /// Draws the bodies and what layers add to them.
+    fn paint_world(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, scratch: &mut Scratch) {
+        if frame.center.is_some() {
+            self.paint_scenery(frame, camera, picture, &mut scratch.field);
+        }
+        let line = Weights::of(self.view.size()).line;
+        self.paint_trails(frame, camera, picture, &mut scratch.cover);
+        paint_figures(&self.figures, frame, camera, picture, &mut scratch.field);
+        marks::draw(picture, &frame.marks, camera, &self.view.theme, line);
+        self.writing.label(picture, &frame.marks, camera);
+    }
+
+    fn paint_insets(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, scratch: &mut Scratch) {
+        let mut pictures = std::mem::take(&mut scratch.insets);
+        pictures.truncate(self.insets.len());
+        let blank = self.insets.iter().skip(pictures.len()).map(|inset| inset.painter.backdrop.clone());
+        pictures.extend(blank.collect::<Vec<_>>());
+        for (inset, own) in self.insets.iter().zip(&mut pictures) {
+            let Painter { backdrop, view, .. } = &inset.painter;
+            if (own.width(), own.height()) != (backdrop.width(), backdrop.height()) {
+                *own = backdrop.clone();
+            }
+            own.data_mut().copy_from_slice(backdrop.data());
+            inset.painter.paint_world(&Frame { center: None, ..frame.clone() }, &view.camera, own, scratch);
+            inset.put(own, camera, picture);
+        }
+        scratch.insets = pictures;
     }
 
     fn paint_trails(&self, frame: &Frame, camera: &Camera, picture: &mut Pixmap, cover: &mut Cover) {

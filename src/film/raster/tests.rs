@@ -2,7 +2,7 @@ use glam::DVec2;
 
 use super::*;
 use jostle_frames::frame::{BodyLook, Disc, Pose, WallLook};
-use jostle_frames::mark::Mark;
+use jostle_frames::mark::{Corner, Mark};
 
 fn ball(name: &str, fixed: bool) -> BodyLook {
     let discs = vec![Disc { offset: DVec2::ZERO, radius: 0.5 }];
@@ -112,4 +112,34 @@ fn no_size_and_no_pose_are_survived() {
     painter.paint(&frame, &mut picture, &mut Scratch::default());
     view.camera = Camera::look(DVec2::ZERO, 1.0, (0, 10));
     assert_eq!(Painter::new(&view, &frame).err(), Some(SizeError { width: 0, height: 10 }));
+}
+
+/// A part of 0.1 m, all of it on the ball, fills its corner with the colour of the ball, whatever the camera follows.
+#[test]
+fn an_inset_shows_its_part_enlarged_in_its_corner() {
+    let view = view();
+    let corner = |right: bool, bottom: bool| Corner { right, bottom };
+    for (right, bottom) in [(false, false), (true, false), (false, true), (true, true)] {
+        let mut frame = frame();
+        let shape =
+            MarkShape::Inset { center: DVec2::new(4.0, 2.2), height: 0.1, corner: corner(right, bottom), share: 0.25 };
+        frame.marks = vec![Mark::plain(shape)];
+        // A title would stand in front of it.
+        frame.cast = Arc::new(Cast { title: String::new(), ..(*frame.cast).clone() });
+        let painter = Painter::new(&view, &frame).expect("a small picture");
+        // A quarter of 180 pixels, and 0.75 of a pad of 6 pixels from both borders.
+        let (side, air) = (45, 5);
+        let far = |whole: u32, end: bool| if end { whole - air - side } else { air };
+        let (left, top) = (far(240, right), far(180, bottom));
+        for center in [None, Some(DVec2::new(1.0, 1.0))] {
+            frame.center = center;
+            let mut picture = painter.backdrop().clone();
+            painter.paint(&frame, &mut picture, &mut Scratch::default());
+            for (x, y) in [(left + 2, top + 2), (left + side - 3, top + side - 3), (left + side / 2, top + side / 2)] {
+                let pixel = picture.pixel(x, y).expect("inside");
+                let found = Rgb(pixel.red(), pixel.green(), pixel.blue());
+                assert_eq!(Some(found), view.theme.color("sky"), "({x}, {y}), {right} {bottom} {center:?}");
+            }
+        }
+    }
 }

@@ -9,6 +9,7 @@ mod boxes;
 mod contact_forces;
 mod contact_points;
 mod free_body;
+mod inset;
 mod joints;
 mod names;
 mod of_bodies;
@@ -22,7 +23,7 @@ mod velocities;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
-pub use jostle_frames::{Mark, MarkShape};
+pub use jostle_frames::{Corner, Mark, MarkShape};
 
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
@@ -196,6 +197,7 @@ pub fn plugin(app: &mut App) {
     contact_forces::plugin(app);
     free_body::plugin(app);
     names::plugin(app);
+    inset::plugin(app);
     scale_bar::plugin(app);
     time::plugin(app);
 }

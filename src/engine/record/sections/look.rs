@@ -14,8 +14,8 @@ pub const THEMES: &str = "theme";
 /// The list of entries inside this section: the layers of a film.
 pub const LAYERS: &str = "look.layers";
 
-/// The layer that may stand more than once, with other bodies or another length each time.
-const REPEATABLE: &str = "Trails";
+/// The layers that may stand more than once, with other bodies or another place each time.
+const REPEATABLE: [&str; 2] = ["Trails", "Inset"];
 
 /// How films look. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -63,7 +63,9 @@ impl Section for LookSection {
         }
         let mentions = outline.entries(LAYERS);
         for (place, mention) in mentions.iter().enumerate() {
-            if mention.name != REPEATABLE && mentions[..place].iter().any(|before| before.name == mention.name) {
+            if !REPEATABLE.contains(&mention.name.as_str())
+                && mentions[..place].iter().any(|before| before.name == mention.name)
+            {
                 let message = format!("the layer `{}` stands here twice", mention.name);
                 report.error(&format!("layers[{place}]"), message).help("keep one of the two");
             }

@@ -38,12 +38,12 @@ pub(in crate::raster) fn draw(picture: &mut Pixmap, marks: &[Mark], camera: &Cam
                 arrow(picture, (place(from), place(to)), 2, (color, theme.background), width);
             }
             MarkShape::Trail { .. } | MarkShape::Label { .. } => (),
-            MarkShape::Key { .. } | MarkShape::ScaleBar | MarkShape::Time => (),
+            MarkShape::Key { .. } | MarkShape::Inset { .. } | MarkShape::ScaleBar | MarkShape::Time => (),
         }
     }
 }
 
-fn stroke(picture: &mut Pixmap, path: Option<Path>, color: Rgb, width: f32) {
+pub(super) fn stroke(picture: &mut Pixmap, path: Option<Path>, color: Rgb, width: f32) {
     let stroke = Stroke { width, line_cap: LineCap::Round, ..Stroke::default() };
     if let Some(path) = path {
         picture.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
@@ -57,7 +57,7 @@ fn line(from: DVec2, to: DVec2) -> Option<Path> {
     path.finish()
 }
 
-fn rectangle(a: DVec2, b: DVec2) -> Option<Path> {
+pub(super) fn rectangle(a: DVec2, b: DVec2) -> Option<Path> {
     polygon(&[a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)])
 }
 

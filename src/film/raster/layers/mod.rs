@@ -4,6 +4,7 @@ pub(super) mod arrows;
 pub(super) mod backdrop;
 pub(super) mod bodies;
 pub(super) mod clock;
+pub(super) mod insets;
 pub(super) mod labels;
 mod lines;
 pub(super) mod marks;
