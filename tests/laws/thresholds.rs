@@ -165,7 +165,7 @@ fn a_house_of_seven_cards_stands_where_friction_holds_its_feet() {
                 1.0 / 12.0
             ));
             run_to(&mut simulation, time);
-            (ceiling - simulation.bodies().position[0].y, kinetic(&simulation.bodies()))
+            (ceiling - simulation.bodies().position[0].y, kinetic(simulation.bodies()))
         };
         let (sunk, moving) = after(1.0, 1.2);
         assert_eq!(moving, 0.0, "{clock}, {tangential}");
