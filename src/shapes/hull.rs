@@ -246,8 +246,7 @@ impl Hull {
         0.5 * width + self.radius
     }
 
-    /// How thick the core of the whole concave polygon is behind the middle of a side of its outline, in metres: as far as the first side
-    /// that does not meet this one. Infinite if there is none, as in a triangle.
+    /// How thick the core of the whole concave polygon is behind the middle of a side of its outline, in metres.
     pub fn thickness(&self, side: usize) -> f64 {
         let (outline, count) = (&self.outline, self.outline.len());
         let ends = |index: usize| (outline[index % count], outline[(index + 1) % count]);
@@ -259,7 +258,7 @@ impl Hull {
             let height = inwards.dot(a - middle) + (inwards.dot(b - a)) * (left / (left - right));
             ((left < 0.0) != (right < 0.0) && height > 0.0).then_some(height)
         };
-        (side + 2..side + count - 1).filter_map(hit).fold(f64::INFINITY, f64::min)
+        (side + 1..side + count).filter_map(hit).fold(f64::INFINITY, f64::min)
     }
 
     /// The distance of the farthest corner from a place, in metres. The radius does not count.
@@ -399,6 +398,25 @@ mod tests {
         // One unit in the last place outwards is a corner, however flat.
         let flat = points(&[(0.0, 0.0), (1.0, -1e-300), (3.0, 0.0), (0.0, 3.0)]);
         assert_eq!(Hull::polygon(&flat, 0.0).unwrap().0.corners().len(), 4);
+    }
+
+    /// Behind the side of a spike lies its other side: at the tangent of its angle, 3/4, times half the side. Tolerance: a few operations round.
+    #[test]
+    fn a_spike_is_as_thick_as_its_other_side_is_near() {
+        let star = points(&[
+            (0.2, 0.0),
+            (0.05, 0.05),
+            (0.0, 0.2),
+            (-0.05, 0.05),
+            (-0.2, 0.0),
+            (-0.05, -0.05),
+            (0.0, -0.2),
+            (0.05, -0.05),
+        ]);
+        let half_side = 0.5 * 0.025_f64.sqrt();
+        for hull in crate::convex_parts::hulls(&star, 0.0) {
+            (0..star.len()).for_each(|side| assert!((hull.thickness(side) - 0.75 * half_side).abs() < 1e-15));
+        }
     }
 
     #[test]

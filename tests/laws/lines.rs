@@ -266,14 +266,26 @@ fn a_sharp_box_from_behind_ends_the_run() {
     }
 }
 
+/// A star whose tips lie 0.2 m from its middle, and what is between them `inner` metres.
+fn star(tips: u32, inner: f64, rounding: f64) -> String {
+    let corner = |index: u32| {
+        let (sin, cos) = libm::sincos(std::f64::consts::PI / f64::from(tips) * f64::from(index));
+        let radius = if index.is_multiple_of(2) { 0.2 } else { inner };
+        format!("({:?}, {:?})", radius * cos, radius * sin)
+    };
+    let corners = (0..2 * tips).map(corner).collect::<Vec<_>>().join(", ");
+    format!("Polygon(points: [{corners}], rounding: {rounding:?})")
+}
+
 /// Law: a straight line is a half-plane too for shapes whose round corners sink in deeper than they are round, and for concave ones, of
-/// which parts share corners. Tolerance: as above.
+/// which parts share corners, be they slender spikes. Tolerance: as above.
 #[test]
 fn a_line_is_a_wall_for_soft_and_concave_shapes() {
     let ell = "Polygon(points: [(0, 0), (0.2, 0), (0.2, 0.05), (0.05, 0.05), (0.05, 0.2), (0, 0.2)], rounding: 0.002)";
-    for shape in
-        ["Rectangle(width: 0.2, height: 0.1, rounding: 0.002)", "Regular(sides: 5, radius: 0.1, rounding: 0.001)", ell]
-    {
+    let (star, spikes) = (star(4, 0.07, 0.001), star(7, 0.08, 0.0));
+    let (rectangle, pentagon) =
+        ("Rectangle(width: 0.2, height: 0.1, rounding: 0.002)", "Regular(sides: 5, radius: 0.1, rounding: 0.001)");
+    for shape in [rectangle, pentagon, ell, &star, &spikes] {
         for clock in METHODS {
             let end = |wall: &str| {
                 let body = format!(
