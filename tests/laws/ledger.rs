@@ -145,3 +145,23 @@ fn what_explodes_is_stopped_though_drives_work() {
         }
     }
 }
+
+/// A disc that begins pressed into the floor, and slides: its spring of friction is drawn over the first steps, and then slips. Tolerance: `Dop853`
+/// leaves rounding of the 0.6 J of the motion, `RungeKutta4` the share `(w h)^4` of it, `w = sqrt(k/m)`.
+#[test]
+fn friction_of_a_contact_that_begins_pressed_is_booked_from_the_first_step() {
+    let frequency: f64 = 2e4_f64.sqrt();
+    for tick in [1e-3, 5e-4, 1.25e-4] {
+        for (method, tolerance) in [("Dop853", 1e-13), ("RungeKutta4", (frequency * tick).powi(4))] {
+            let simulation = run(&format!(
+                "Scene(format: 1, clock: (duration: 0.004, tick: {tick:?}, method: {method}),
+                 materials: {{ \"default\": (stiffness: 2e4, friction: 0.4, restitution: 1) }},
+                 walls: [(name: \"floor\", left: (1, 0), right: (0, 0))],
+                 bodies: [(name: \"disc\", at: (0, 0.098), velocity: (1, 0), mass: 1, shape: Disc(radius: 0.1))])"
+            ));
+            let energy = simulation.card().energy;
+            assert!(energy.friction > 0.04, "{energy:?}");
+            assert!(energy.residual.abs() < 0.6 * tolerance, "{method}, tick {tick}: {energy:?}");
+        }
+    }
+}

@@ -280,6 +280,10 @@ pub trait Events {
     /// Chooses all modes of a state that did not follow from the one before.
     fn take_stock(&mut self, state: &State);
 
+    /// The state is one that others have made, and the ledger takes its energy as it is: the model books nothing that it took to choose the
+    /// modes. Default: it has nothing to book.
+    fn begin_account(&mut self, _: &State) {}
+
     /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
     fn tidy(&mut self, state: &mut State) -> bool;
 

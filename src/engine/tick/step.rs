@@ -78,6 +78,7 @@ impl State {
         }
         if tick.fresh && style.is_staged() {
             tick.begin_anew();
+            tick.state.each_with_events(|model, state| model.begin_account(state));
         } else if tick.fresh {
             tick.evaluate(0.0);
         }

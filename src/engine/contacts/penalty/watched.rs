@@ -102,6 +102,13 @@ impl<N: NormalForce> Events for Contacts<N> {
         }
     }
 
+    fn begin_account(&mut self, state: &State) {
+        if let Some(mut view) = view(&mut self.own, state) {
+            view.contacts.held_before = None;
+            view.contacts.slid = view.sliding_energy();
+        }
+    }
+
     fn tidy(&mut self, state: &mut State) -> bool {
         let State { bodies, ledger, rows, evaluation, clock, deepest, pairs: Some(pairs), .. } = state else {
             return false;
