@@ -49,6 +49,7 @@ mod momentum;
 mod motors_on_ground;
 mod oblique;
 mod orbit;
+mod painleve;
 mod plank;
 mod problems;
 mod properties;
