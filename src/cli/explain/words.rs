@@ -95,7 +95,8 @@ pub(super) const WORDS: &[Word] = &[
     word(
         "momentum residual",
         "momentum in the end less that at the start and the impulse from outside, per axis in N s, and the same for angular \
-         momentum in N m s. Forces come in pairs, so it is rounding and nothing else.",
+         momentum in N m s. Forces come in pairs, so it is rounding. But from tick to tick, a joint that stays at its limit is put \
+         back onto it: that may change the angular momentum, the less the shorter the tick.",
     ),
     word(
         "largest overlap",

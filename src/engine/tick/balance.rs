@@ -1,8 +1,8 @@
 //! The accounts: what goes in and out of the bodies, of energy, momentum and angular momentum.
 //!
 //! Forces write the rates of the present evaluation into [`Balance`]; the integrator books them in the [`Ledger`] with
-//! the same weights with which it applies the forces. A momentum residual is then rounding and nothing else, an
-//! energy residual is the error of the integration.
+//! the same weights with which it applies the forces. A momentum residual is then rounding, but for joints that
+//! are put back onto their limits; an energy residual is the error of the integration.
 
 use glam::DVec2;
 
