@@ -14,6 +14,7 @@
 mod allocator;
 mod level;
 mod pairs;
+mod quads;
 mod scalar;
 #[cfg(test)]
 mod tests;
@@ -30,6 +31,7 @@ pub use allocator::Lines;
 pub use allocator::give_back;
 pub use level::{Kernel, Level, run};
 pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
+pub use quads::{PairedQuads, QUAD, Quad, QuadPairs};
 pub use vectors::Vectors;
 
 /// Eight numbers that belong together and are loaded as one: a line of the cache.
@@ -125,6 +127,45 @@ pub trait Lanes:
 
     /// Writes as many records to the beginning of a list: item `k` holds the `k`th two numbers of each.
     fn store_records(numbers: [Vectors<Self>; BLOCK / 2], records: &mut [Record]);
+
+    /// The quads at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
+    ///
+    /// # Safety
+    /// The places are those of quads.
+    #[inline(always)]
+    unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
+        let mut numbers = [[0.0; BLOCK]; QUAD];
+        let mut lane = 0;
+        while lane < Self::COUNT {
+            let Quad(quad) = quads[places[lane] as usize];
+            let mut number = 0;
+            while number < QUAD {
+                numbers[number][lane] = quad[number];
+                number += 1;
+            }
+            lane += 1;
+        }
+        [Self::load(&numbers[0]), Self::load(&numbers[1]), Self::load(&numbers[2]), Self::load(&numbers[3])]
+    }
+
+    /// Writes quads to as many places of a list, one after the other.
+    ///
+    /// # Safety
+    /// The places are those of quads.
+    #[inline(always)]
+    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], places: &[u32]) {
+        let mut rows = [[0.0; BLOCK]; QUAD];
+        let mut number = 0;
+        while number < QUAD {
+            numbers[number].store(&mut rows[number]);
+            number += 1;
+        }
+        let mut lane = 0;
+        while lane < Self::COUNT {
+            quads[places[lane] as usize] = Quad([rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]]);
+            lane += 1;
+        }
+    }
 
     /// The square root of each.
     fn sqrt(self) -> Self;

@@ -178,3 +178,50 @@ fn lists_that_cannot_be_leave_nothing_behind_that_kernels_trust() {
     let (apart, _) = pairs.records(&records).load::<f64>(0, 0);
     assert_eq!(apart[0], -1.0);
 }
+
+/// Quads of two lists of places, and what is left of them after both were written back with other numbers.
+struct Swapped<'a>(&'a mut [Quad], &'a QuadPairs);
+
+impl Kernel for Swapped<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let mut paired = self.1.of(self.0);
+        for block in 0..self.1.len() {
+            let mut lane = 0;
+            while lane < BLOCK {
+                let [a, b] = paired.load::<V>(block, lane);
+                paired.store(block, lane, [[b[1], b[0], b[2] + a[3], b[3]], [a[0], a[1], a[3], a[2] - b[0]]]);
+                lane += V::COUNT;
+            }
+        }
+    }
+}
+
+#[test]
+fn quads_are_loaded_and_stored_alike_at_all_levels() {
+    let quads: Vec<Quad> = (0..20).map(|place| Quad(std::array::from_fn(|k| (10 * place + k) as f64))).collect();
+    let mut pairs = QuadPairs::default();
+    pairs.push([[3, 0, 7, 1, 6, 2, 5, 4], [8, 19, 10, 11, 12, 13, 14, 15]]);
+    pairs.push([[16, 17, 18, 9, 1, 2, 3, 4], [5, 6, 7, 8, 10, 11, 12, 13]]);
+    let results: Vec<Vec<Quad>> = (Level::ALL.into_iter().filter(|level| level.is_available()))
+        .map(|level| {
+            let mut quads = quads.clone();
+            run(level, Swapped(&mut quads, &pairs));
+            quads
+        })
+        .collect();
+    // Place 0 stands in one pair, as the first with 19: it has the numbers that the kernel makes of both.
+    assert_eq!(results[0][0], Quad([191.0, 190.0, 195.0, 193.0]));
+    assert_eq!(results[0][19], Quad([0.0, 1.0, 3.0, -188.0]));
+    assert!(results.iter().all(|result| *result == results[0]));
+}
+
+#[test]
+#[should_panic(expected = "a pair of what is not there")]
+fn quads_that_are_not_there_are_refused() {
+    let mut pairs = QuadPairs::default();
+    pairs.push([[0; BLOCK], [3; BLOCK]]);
+    run(Level::Scalar, Swapped(&mut [Quad::default(); 3], &pairs));
+}

@@ -28,6 +28,7 @@ mod forces;
 mod frames;
 mod friction;
 mod hard;
+mod heaps;
 mod hollows;
 mod hulls;
 mod impacts;

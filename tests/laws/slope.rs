@@ -195,7 +195,7 @@ fn wide(method: &str, count: usize, angle: f64, forces: &str) -> String {
 #[test]
 fn wide_blocks_hold_up_to_the_static_coefficient() {
     for method in METHODS {
-        for count in [4, 8, 16] {
+        for count in [4, 8, 16, 40] {
             for (slope, stays) in [(0.59, true), (0.61, false)] {
                 let mut simulation = load(&wide(method, count, libm::atan(slope), ""));
                 run_to(&mut simulation, 0.2);
@@ -210,7 +210,7 @@ fn wide_blocks_hold_up_to_the_static_coefficient() {
 #[test]
 fn a_sudden_load_is_held_up_to_the_static_coefficient() {
     for method in METHODS {
-        for count in [4, 8, 16] {
+        for count in [4, 8, 16, 40] {
             for (share, stays) in [(0.6, true), (0.95, true), (1.05, false)] {
                 let load_of = 0.6 * GRAVITY * share;
                 let forces = format!("forces: [Thrust(of: \"block\", force: ({load_of:?}, 0), from: 0.1)],");

@@ -11,9 +11,15 @@ pub trait Link {
     fn own_body(&self) -> usize;
 }
 
-/// The bodies of some links, one after the other.
-fn ends<L: Link>(links: &[L]) -> impl Iterator<Item = usize> + '_ {
-    links.iter().flat_map(|link| [Some(link.own_body()), link.other_body()]).flatten()
+/// Does something with the bodies of some links, one after the other.
+#[inline]
+fn each_end<L: Link>(links: &[L], mut act: impl FnMut(usize)) {
+    for link in links {
+        act(link.own_body());
+        if let Some(other) = link.other_body() {
+            act(other);
+        }
+    }
 }
 
 /// Groups links into islands. What memory it has it keeps for the next tick.
@@ -28,14 +34,14 @@ impl Islands {
     /// move by forces, by links of either list.
     pub fn sort<L: Link, M: Link>(&mut self, links: &mut [L], others: &mut [M], bodies: &Bodies) {
         self.root.resize(bodies.len(), 0);
-        for body in ends(links).chain(ends(others)) {
-            self.root[body] = body as u32;
-        }
+        let begin = |root: &mut [u32], body: usize| root[body] = body as u32;
+        each_end(links, |body| begin(&mut self.root, body));
+        each_end(others, |body| begin(&mut self.root, body));
         self.join(links, bodies);
         self.join(others, bodies);
-        for body in ends(links).chain(ends(others)) {
-            self.root[body] = find(&mut self.root, body as u32);
-        }
+        let settle = |root: &mut [u32], body: usize| root[body] = find(root, body as u32);
+        each_end(links, |body| settle(&mut self.root, body));
+        each_end(others, |body| settle(&mut self.root, body));
         links.sort_by_key(|link| self.of(link, bodies));
         others.sort_by_key(|link| self.of(link, bodies));
     }
@@ -117,12 +123,15 @@ impl Members {
         }
         self.list.clear();
         self.index.resize(bodies, 0);
-        for body in ends(links).chain(ends(others)) {
-            if self.index[body] == 0 {
-                self.index[body] = 1;
-                self.list.push(body);
+        let Self { list, index } = &mut *self;
+        let mut collect = |body: usize| {
+            if index[body] == 0 {
+                index[body] = 1;
+                list.push(body);
             }
-        }
+        };
+        each_end(links, &mut collect);
+        each_end(others, &mut collect);
         self.list.sort_unstable();
         for (index, &body) in self.list.iter().enumerate() {
             self.index[body] = index as u32 + 1;

@@ -1,5 +1,7 @@
 //! Choices: method, tick and pace of a run, from what the scene and the command line ask for.
 
+use std::f64::consts::PI;
+
 use bevy_ecs::prelude::*;
 
 use super::Overrides;
@@ -14,8 +16,16 @@ use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::tick::Notes;
 use crate::tick::{Clock, Holder, State};
 
-/// Ticks per half period of the fastest contact or spring when the engine chooses the tick.
+/// Ticks per half period of the fastest contact or spring when the engine chooses the tick: impacts are off by some thousandths.
 const TICKS_PER_HALF_PERIOD: f64 = 40.0;
+/// The same for contacts in a crowd. No tick foretells its paths, as they part exponentially; its statistics bear errors of impacts
+/// of a hundredth.
+const TICKS_PER_CONTACT_IN_A_CROWD: f64 = 20.0;
+/// Bodies that move by forces from which on they are a crowd.
+const CROWD: usize = 100;
+/// First digits of ticks that are chosen; those of a crowd are finer steps, and still divide the frames of common films.
+const DIGITS: [f64; 3] = [5.0, 2.0, 1.0];
+const DIGITS_IN_A_CROWD: [f64; 6] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.0];
 /// The tick in seconds when nothing in the scene asks for a finer one.
 const COARSEST_TICK: f64 = 1e-3;
 /// More ticks than anybody can wait for, and still counted exactly.
@@ -330,23 +340,36 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
     }
 }
 
-/// Forty ticks per half period of whatever responds fastest, rounded down to 1, 2 or 5 times a power of ten.
+/// Forty ticks per half period of whatever responds fastest, or twenty for contacts in a crowd, rounded down to few digits.
 fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
-    // What, and why a tick is short enough for it.
-    let foreseen = world.resource::<State>().stability.fastest_foreseen().map(|foreseen| match foreseen.holder {
-        Holder::Contacts => (foreseen.angular_frequency, "contact", "the stiffest contact lasts at least 40 of them"),
+    let state = world.resource::<State>();
+    let is_crowd = state.bodies().dynamic.iter().filter(|dynamic| **dynamic).count() >= CROWD;
+    let (in_contact, digits, contact) = if is_crowd {
+        let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of a crowd; `--tick` foretells paths for longer";
+        (TICKS_PER_CONTACT_IN_A_CROWD, &DIGITS_IN_A_CROWD[..], why)
+    } else {
+        (TICKS_PER_HALF_PERIOD, &DIGITS[..], "the stiffest contact lasts at least 40 of them")
+    };
+    // Angular frequency, ticks per half period, of what, and why a tick is short enough.
+    let known = state.stability.foreseen.iter().filter(|foreseen| foreseen.angular_frequency > 0.0);
+    let foreseen = known.map(|foreseen| match foreseen.holder {
+        Holder::Contacts => (foreseen.angular_frequency, in_contact, "contact", contact),
         Holder::Springs => {
-            (foreseen.angular_frequency, "spring", "half a swing of the fastest springs lasts at least 40 of them")
+            let why = "half a swing of the fastest springs lasts at least 40 of them";
+            (foreseen.angular_frequency, TICKS_PER_HALF_PERIOD, "spring", why)
         }
     });
-    let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
+    let rhythms = state.models().filter_map(|model| model.rhythm());
     let driven = rhythms.filter(|rhythm| rhythm.angular_frequency > 0.0).map(|rhythm| {
-        (rhythm.angular_frequency, "drive", "half a swing of the fastest drive lasts at least 40 of them")
+        let why = "half a swing of the fastest drive lasts at least 40 of them";
+        (rhythm.angular_frequency, TICKS_PER_HALF_PERIOD, "drive", why)
     });
-    let all = foreseen.into_iter().chain(driven);
-    let Some((omega, what, why)) = all.max_by(|(a, ..), (b, ..)| a.total_cmp(b)) else { return Ok(coarsest) };
-    let wanted = std::f64::consts::PI / (TICKS_PER_HALF_PERIOD * omega);
+    let all = foreseen.chain(driven);
+    let Some((omega, ticks, what, why)) = all.max_by(|(a, m, ..), (b, n, ..)| (a * m).total_cmp(&(b * n))) else {
+        return Ok(coarsest);
+    };
+    let wanted = PI / (ticks * omega);
     if wanted >= COARSEST_TICK {
         return Ok(coarsest);
     }
@@ -359,7 +382,7 @@ fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     }
     let exponent = wanted.log10().floor() as i32;
     let decade = libm::exp10(f64::from(exponent));
-    let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= wanted).unwrap_or(1.0);
+    let step = digits.iter().copied().find(|step| step * decade <= wanted).unwrap_or(1.0);
     // Read back from decimal digits, so that 2e-4 is the same number as in a scene.
     Ok((format!("{step}e{exponent}").parse().unwrap_or(step * decade), why))
 }

@@ -3,8 +3,8 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::{F64x4, last_two_of, operators, record_at};
-use crate::{BLOCK, Lanes, Record, Vectors};
+use super::{F64x4, last_two_of, operators, put_quad, quad_at, record_at};
+use crate::{BLOCK, Lanes, QUAD, Quad, Record, Vectors};
 
 /// Eight numbers.
 #[derive(Clone, Copy)]
@@ -99,6 +99,24 @@ fn quarters(a: F64x8, b: F64x8) -> (F64x8, F64x8) {
     unsafe { (F64x8(_mm512_shuffle_f64x2::<0x88>(a.0, b.0)), F64x8(_mm512_shuffle_f64x2::<0xdd>(a.0, b.0))) }
 }
 
+/// A transposition of four by four numbers in each half.
+#[inline(always)]
+fn in_halves([a, b, c, d]: [F64x8; QUAD]) -> [F64x8; QUAD] {
+    // SAFETY: see the head of the folder.
+    unsafe {
+        let (even_ab, odd_ab) = (_mm512_unpacklo_pd(a.0, b.0), _mm512_unpackhi_pd(a.0, b.0));
+        let (even_cd, odd_cd) = (_mm512_unpacklo_pd(c.0, d.0), _mm512_unpackhi_pd(c.0, d.0));
+        let low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+        let high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+        [
+            F64x8(_mm512_permutex2var_pd(even_ab, low, even_cd)),
+            F64x8(_mm512_permutex2var_pd(odd_ab, low, odd_cd)),
+            F64x8(_mm512_permutex2var_pd(even_ab, high, even_cd)),
+            F64x8(_mm512_permutex2var_pd(odd_ab, high, odd_cd)),
+        ]
+    }
+}
+
 /// A transposition of four by four quarters.
 #[inline(always)]
 fn rows([a, b, c, d]: [F64x8; 4]) -> [F64x8; 4] {
@@ -168,6 +186,31 @@ impl Lanes for F64x8 {
             let (even, odd) = (Self::last_two(records, first), Self::last_two(records, &first[1..]));
             let rest = [Self(_mm512_unpacklo_pd(even, odd)), Self(_mm512_unpackhi_pd(even, odd))];
             (Self::transposed(rows), rest)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
+        let places = &places[..BLOCK];
+        // SAFETY: the places are those of quads, as the caller promises.
+        let row = |lane: usize| unsafe {
+            let low = _mm512_castpd256_pd512(quad_at(quads, places[lane]));
+            Self(_mm512_insertf64x4::<1>(low, quad_at(quads, places[lane + QUAD])))
+        };
+        in_halves([row(0), row(1), row(2), row(3)])
+    }
+
+    #[inline(always)]
+    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], places: &[u32]) {
+        let (places, rows) = (&places[..BLOCK], in_halves(numbers));
+        let mut lane = 0;
+        while lane < QUAD {
+            // SAFETY: likewise.
+            unsafe {
+                put_quad(quads, places[lane], _mm512_castpd512_pd256(rows[lane].0));
+                put_quad(quads, places[lane + QUAD], _mm512_extractf64x4_pd::<1>(rows[lane].0));
+            }
+            lane += 1;
         }
     }
 

@@ -3,8 +3,8 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::{F64x2, bit_operators, last_two_of, operators, record_at};
-use crate::{BLOCK, Lanes, Record, Vectors};
+use super::{F64x2, bit_operators, last_two_of, operators, put_quad, quad_at, record_at};
+use crate::{BLOCK, Lanes, QUAD, Quad, Record, Vectors};
 
 /// Four numbers.
 #[derive(Clone, Copy)]
@@ -121,6 +121,25 @@ impl Lanes for F64x4 {
             let even = _mm256_set_m128d(last_two_of(records, first[2]), last_two_of(records, first[0]));
             let odd = _mm256_set_m128d(last_two_of(records, first[3]), last_two_of(records, first[1]));
             (Self::transposed(rows), [Self(_mm256_unpacklo_pd(even, odd)), Self(_mm256_unpackhi_pd(even, odd))])
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
+        let places = &places[..Self::COUNT];
+        // SAFETY: the places are those of quads, as the caller promises.
+        let row = |lane: usize| Self(unsafe { quad_at(quads, places[lane]) });
+        quarters([row(0), row(1), row(2), row(3)])
+    }
+
+    #[inline(always)]
+    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], places: &[u32]) {
+        let (places, rows) = (&places[..Self::COUNT], quarters(numbers));
+        let mut lane = 0;
+        while lane < Self::COUNT {
+            // SAFETY: likewise.
+            unsafe { put_quad(quads, places[lane], rows[lane].0) };
+            lane += 1;
         }
     }
 

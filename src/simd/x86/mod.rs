@@ -7,9 +7,9 @@ mod eight;
 mod four;
 mod two;
 
-use std::arch::x86_64::{__m128d, _mm_loadu_pd};
+use std::arch::x86_64::{__m128d, __m256d, _mm_loadu_pd, _mm256_loadu_pd, _mm256_storeu_pd};
 
-use super::{BLOCK, Record};
+use super::{BLOCK, QUAD, Quad, Record};
 
 pub use eight::F64x8;
 pub use four::F64x4;
@@ -78,6 +78,26 @@ use {bit_operators, operators};
 unsafe fn record_at(records: &[Record], place: u32) -> &[f64; BLOCK] {
     // SAFETY: as the caller promises.
     unsafe { &*records.as_ptr().cast::<f64>().add(place as usize).cast() }
+}
+
+/// The numbers of a quad.
+///
+/// # Safety
+/// The place is that of a quad.
+#[inline(always)]
+unsafe fn quad_at(quads: &[Quad], place: u32) -> __m256d {
+    // SAFETY: as the caller promises.
+    unsafe { _mm256_loadu_pd((*quads.as_ptr().add(place as usize)).0.as_ptr()) }
+}
+
+/// Writes the numbers of a quad.
+///
+/// # Safety
+/// Likewise.
+#[inline(always)]
+unsafe fn put_quad(quads: &mut [Quad], place: u32, numbers: __m256d) {
+    // SAFETY: as the caller promises; a quad has four numbers.
+    unsafe { _mm256_storeu_pd(quads.as_mut_ptr().add(place as usize).cast::<[f64; QUAD]>().cast(), numbers) }
 }
 
 /// The last two numbers of a record.

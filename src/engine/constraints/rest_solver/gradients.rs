@@ -2,8 +2,11 @@
 
 use glam::DVec2;
 
-use super::candidate::{Bounded, Candidate};
+use jostle_simd::BLOCK;
+
+use super::blocks::{Blocks, Rows};
 use super::row::{Mover, Row, Sides};
+use super::seen::Seen;
 use super::tie::Tie;
 
 /// Share to which conjugate gradients bring down the velocities of an island in one tick. A few ticks reach rounding.
@@ -29,10 +32,14 @@ pub(super) struct Gradients {
 }
 
 impl Gradients {
-    pub fn finish(&mut self, (candidates, ties): (&mut [Candidate], &mut [Tie]), movers: &mut [Mover], dt: f64) {
+    pub fn finish(&mut self, (blocks, seen, ties): (&mut Blocks, &[Seen], &mut [Tie]), movers: &mut [Mover], dt: f64) {
         let Self { rows, still, moved, impulses, residual, scaled, search, response } = self;
         rows.clear();
-        rows.extend(candidates.iter().flat_map(|c| c.free_rows().map(move |row| (row, c.ends))));
+        for (seen, &place) in seen.iter().zip(&blocks.places) {
+            let all = Rows::of(seen, &Sides::of(movers, seen.ends));
+            let free = [all.normal, all.tangent, all.turn].into_iter().zip(free(blocks, place));
+            rows.extend(free.filter(|(_, is)| *is).map(|(row, _)| (row, seen.ends)));
+        }
         still.clear();
         still.extend(movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }));
         let count = rows.len() + ties.len();
@@ -91,33 +98,48 @@ impl Gradients {
             }
         }
         let (of_rows, of_ties) = impulses.split_at(rows.len());
-        take_over(candidates, movers, of_rows, dt);
+        take_over((blocks, seen), movers, of_rows, dt);
         for (tie, &impulse) in ties.iter_mut().zip(of_ties) {
             tie.take_over(movers, impulse, dt);
         }
     }
 }
 
+/// Which of the three rows of a contact no bound holds.
+fn free(blocks: &Blocks, place: usize) -> [bool; 3] {
+    let (block, lane) = (place / BLOCK, place % BLOCK);
+    let rolls = blocks.rolling.get(block).is_some_and(|rolling| rolling.is_free(lane));
+    [(blocks.normals[block].at_limit >> lane) & 1 == 0, blocks.tangential[block].is_free(lane), rolls]
+}
+
 /// Takes over the impulses of the free rows, each as far as its bounds allow.
-fn take_over(candidates: &mut [Candidate], movers: &mut [Mover], impulses: &[f64], dt: f64) {
+fn take_over((blocks, seen): (&mut Blocks, &[Seen]), movers: &mut [Mover], impulses: &[f64], dt: f64) {
     let mut impulses = impulses.iter();
     let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
-    for candidate in candidates {
-        let free = candidate.bounded.map(|bounded| bounded.is_free());
-        let mut sides = Sides::of(movers, candidate.ends);
-        if !candidate.at_limit {
-            candidate.set_normal(&mut sides, candidate.normal_force + next(), dt);
+    for (number, seen) in seen.iter().enumerate() {
+        let place = blocks.places[number];
+        let (block, lane) = (place / BLOCK, place % BLOCK);
+        let mut sides = Sides::of(movers, seen.ends);
+        let (rows, free) = (Rows::of(seen, &sides), free(blocks, place));
+        let normals = &mut blocks.normals[block];
+        if free[0] {
+            let wanted = normals.force[lane] + next();
+            let force = wanted.max(normals.band[0][lane]).min(normals.band[1][lane]);
+            normals.at_limit |= u8::from(force != wanted) << lane;
+            rows.normal.push(&mut sides, (force - normals.force[lane]) * dt);
+            normals.force[lane] = force;
         }
-        for (place, free) in free.into_iter().enumerate() {
-            let Bounded { coefficient, engaged, force, .. } = candidate.bounded[place];
-            if free {
-                candidate.set_bounded(&mut sides, place, force + next(), dt);
-            } else if engaged {
-                // The limit has moved with the normal force.
-                candidate.set_bounded(&mut sides, place, (coefficient * candidate.normal_force).copysign(force), dt);
-                candidate.bounded[place].at_limit = true;
-            }
+        let normal_force = normals.force[lane];
+        for (row, (free, springs)) in [rows.tangent, rows.turn].iter().zip(free[1..].iter().zip(blocks.springs())) {
+            let Some(springs) = springs.get_mut(block).filter(|springs| springs.is_engaged(lane)) else { continue };
+            let (before, limit) = (springs.force[lane], springs.gives[lane] * normal_force);
+            // Where it is at its limit that has moved with the normal force.
+            let wanted = if *free { before + next() } else { limit.copysign(before) };
+            let force = wanted.max(-limit).min(limit);
+            springs.note_limit(lane, !free || force != wanted);
+            row.push(&mut sides, (force - before) * dt);
+            springs.force[lane] = force;
         }
-        sides.put_back(movers, candidate.ends);
+        sides.put_back(movers, seen.ends);
     }
 }

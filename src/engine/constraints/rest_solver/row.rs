@@ -18,6 +18,11 @@ pub struct Mover {
 }
 
 impl Mover {
+    /// Whether it moves by forces.
+    pub(super) fn moves(&self) -> bool {
+        self.inverse_mass > 0.0 || self.inverse_inertia > 0.0
+    }
+
     /// Whether it stands but for rounding, under `load` newtons that act up to `extent` metres from its centre of mass
     /// over `dt` seconds. What does not move by forces has to stand exactly.
     pub fn stands(&self, load: f64, extent: f64, dt: f64) -> bool {
@@ -46,12 +51,25 @@ impl Row {
         row
     }
 
+    /// The levers of both sides.
+    pub fn levers(&self) -> [f64; 2] {
+        [self.lever_a, self.lever_b]
+    }
+
     /// What each side gives to the mobility.
     #[inline(always)]
     pub fn mobilities(&self, sides: &Sides) -> (f64, f64) {
         let linear = self.direction.length_squared();
         let share = |mover: &Mover, lever: f64| linear * mover.inverse_mass + lever * lever * mover.inverse_inertia;
         (share(&sides.a, self.lever_a), share(&sides.b, self.lever_b))
+    }
+
+    /// Velocity along this row that one newton along the other gives in one second, in 1/kg.
+    #[inline(always)]
+    pub fn coupling(&self, other: &Self, sides: &Sides) -> f64 {
+        let linear = self.direction.dot(other.direction);
+        let share = |mover: &Mover, levers: f64| linear * mover.inverse_mass + levers * mover.inverse_inertia;
+        share(&sides.a, self.lever_a * other.lever_a) + share(&sides.b, self.lever_b * other.lever_b)
     }
 
     #[inline(always)]

@@ -9,21 +9,17 @@ use super::joined::{Joined, find_joined, tie};
 use super::law::PairLaw;
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
-use super::patience::{Found, MANY, is_thorough};
+use super::patience::{Found, MANY};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use crate::constraints::Rows;
 use crate::constraints::islands::{Islands, Link, Marked, Members};
-use crate::constraints::rest_solver::{Frame, Friction, Island, Mover, Seen, Verdict};
+use crate::constraints::rest_solver::{Drawn, Frame, Friction, Island, Mover, Seen, Verdict};
 use crate::contacts::geometry::{End, Listed, Pair, PairGeometry, SideA};
 use crate::contacts::{AtomPair, CandidatePairs, SurfacePair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
 use crate::world::Bodies;
-
-/// How many contacts a row of a joint counts for where an island is judged too large for conjugate gradients in each tick: these take
-/// many steps along a chain, and a bridge that swings rests no earlier for them.
-const DEARER: usize = 16;
 
 /// Working memory of the search for rest.
 #[derive(Default)]
@@ -54,7 +50,8 @@ pub(super) fn choose<N: NormalForce>(
     let sink = Sink { bodies, balance, forces };
     let Scratch { touching, cases, joined, moved, islands, members, island } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
-    let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, losses, changed: false };
+    let thorough = contacts.patience.tries_thoroughly(ticks);
+    let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, thorough, losses, changed: false };
     choice.wake_touched(pairs);
     // A law whose normal force may have several values at rest needs the search to know which: without it contacts load and
     // unload in turns.
@@ -99,9 +96,9 @@ pub(super) fn choose<N: NormalForce>(
         let joined = &joined[begin..end];
         members.collect(cases, joined, choice.sink.bodies.len());
         let may_rest = members.list.iter().all(|&body| !moved.has(body));
-        let thorough = may_rest && (!N::SET_VALUED || is_thorough(cases.len() + DEARER * joined.len(), ticks));
-        choice.stop::<N>((cases, joined, members), island, (may_rest, thorough), ledger, &mut found);
+        choice.stop::<N>((cases, joined, members), island, may_rest, ledger, &mut found);
     }
+    choice.contacts.patience.note_tries(found, ticks);
     choice.contacts.patience.note(found, restless, ticks);
     choice.book(ledger);
     choice.changed
@@ -114,6 +111,8 @@ struct Choice<'a> {
     rolling: Option<&'a mut RollingContacts>,
     rows: &'a Rows,
     dt: f64,
+    /// Whether conjugate gradients are tried in large islands.
+    thorough: bool,
     losses: Losses,
     /// Whether a force has changed on a body that joints hold.
     changed: bool,
@@ -167,11 +166,12 @@ impl Choice<'_> {
     }
 
     /// A contact as it is, and its law.
-    fn known(&self, case: &Pair) -> (Contact, PairLaw) {
+    #[inline]
+    fn known(&self, case: &Pair) -> (Contact, &PairLaw) {
         let PenaltyContacts { laws, atoms, surfaces, .. } = &*self.contacts;
         let list = if case.listed() == Listed::Atoms { atoms } else { surfaces };
         let contact = list.get(case.index as usize);
-        (contact, *laws.get(contact.law))
+        (contact, laws.get(contact.law))
     }
 
     fn contact(&mut self, case: &Pair) -> (Edited<'_>, &PairLaw) {
@@ -180,6 +180,15 @@ impl Choice<'_> {
         let contact = list.edit(case.index as usize);
         let law = laws.get(contact.law);
         (contact, law)
+    }
+
+    /// What the rolling spring of a contact has, and whether it slides without it, in scenes that have them.
+    fn rolls(&self, case: &Pair, pair: &PairLaw) -> Option<(Drawn, bool)> {
+        let rolling = self.rolling.as_deref()?;
+        let law = rolling.law(pair, case.other_end(), &case.b);
+        let list = if case.listed() == Listed::Atoms { &rolling.atoms } else { &rolling.surfaces };
+        let slider = &list[case.index as usize];
+        Some((slider.drawn(&law), slider.slides_without_spring(&law)))
     }
 
     /// The rolling spring of a contact with its law, in scenes that have them.
@@ -194,7 +203,7 @@ impl Choice<'_> {
     fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         let (seen, law) = self.known(&case);
-        if case.could_stop::<N>(&seen, &law, self.sink.bodies, approach.parting, self.dt) {
+        if case.could_stop::<N>(&seen, law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;
         }
@@ -284,39 +293,39 @@ impl Choice<'_> {
     }
 
     /// A contact as the search for rest sees it.
-    fn seen<N: NormalForce>(&mut self, case: &Pair, ends: (usize, usize)) -> Seen {
+    #[inline]
+    fn seen<N: NormalForce>(&self, case: &Pair, ends: (usize, usize)) -> Seen {
         let (contact, law) = self.known(case);
-        let rolling = self.roller(case, &law);
-        let rolls = rolling.as_ref().is_some_and(|(slider, law)| slider.slides_without_spring(law));
-        let rolling = rolling.map(|(slider, law)| slider.drawn(&law));
+        let (rolling, rolls) = self.rolls(case, law).unwrap_or_default();
         let place = self.sink.bodies.position[case.b.body] + case.b.arm;
         Seen {
             ends,
             arms: case.arms(law.shares(), contact.overlap),
             normal: case.normal,
-            band: N::band(&law, contact.overlap, contact.normal_force),
+            band: N::band(law, contact.overlap, contact.normal_force),
             normal_force: contact.normal_force,
             noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
             engaged: contact.mode == Mode::Hold,
             parts: contact.mode == Mode::Unloading,
             slides: (contact.tangential.slides_without_spring(&law.tangential()), rolls),
             tangential: contact.tangential.drawn(&law.tangential()),
-            rolling: rolling.unwrap_or_default(),
+            rolling,
         }
     }
 
     /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves. `may_rest`: all of
-    /// its contacts could stop within the tick; `thorough`: the search is.
+    /// its contacts could stop within the tick.
     fn stop<N: NormalForce>(
         &mut self,
         (cases, joined, members): (&[Pair], &[Joined], &Members),
         island: &mut Island,
-        (may_rest, thorough): (bool, bool),
+        may_rest: bool,
         ledger: &mut Ledger,
         found: &mut Found,
     ) {
         island.clear();
         let bodies = &*self.sink.bodies;
+        island.level = bodies.level;
         island.begin.push(Mover::default());
         island.begin.extend(members.list.iter().map(|&body| mover(bodies, body, 0.0)));
         island.movers.push(Mover::default());
@@ -348,11 +357,13 @@ impl Choice<'_> {
             let each = island.movers.iter_mut().enumerate();
             each.for_each(|(place, mover)| frame.enter(mover, place_of(place, self.sink.bodies)));
         }
-        island.solve(thorough, self.dt);
-        let (candidates, movers) = (&island.candidates, &mut island.movers);
+        let affordable = !N::SET_VALUED || island.is_small();
+        let tries = may_rest && !affordable && self.thorough && island.is_slow(self.dt);
+        found.tried |= tries;
+        island.solve(may_rest && affordable || tries, self.dt);
         let mut entirely = may_rest;
-        for (case, candidate) in cases.iter().zip(candidates) {
-            match candidate.verdict(movers, self.dt) {
+        for (case, verdict) in cases.iter().zip(island.verdicts(self.dt)) {
+            match verdict {
                 Verdict::Moves { approaches } => {
                     entirely = false;
                     let mut approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
@@ -377,7 +388,7 @@ impl Choice<'_> {
             return;
         }
         if let Some(frame) = frame {
-            let each = movers.iter_mut().enumerate();
+            let each = island.movers.iter_mut().enumerate();
             each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
         }
         let loads = island.loads();
@@ -389,6 +400,7 @@ impl Choice<'_> {
         if members.list.iter().zip(island.movers.iter().zip(&loads).skip(1)).all(stands) {
             self.lay_to_rest(&members.list, &loads[1..], ledger);
             found.rest = true;
+            found.tried &= !tries;
         } else {
             found.stops |= cases.len() > MANY / 8;
         }

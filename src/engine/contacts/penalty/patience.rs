@@ -15,24 +15,16 @@ const LONGEST: u64 = 4096;
 /// Searches in successive ticks while islands come to a stop: each brings their velocities down by a factor.
 const TRIES: u32 = 8;
 
-/// Contacts of an island beyond which it is large.
-const LARGE: usize = MANY / 2;
-/// Ticks from one thorough search in large islands to the next.
-const EVERY: u64 = 64;
-
-/// Whether the search in an island of so many contacts, all of which could stop, is made with conjugate gradients in this tick.
-///
-/// Those cost many times what the sweeps do, and find rest only where what still moves is so slow that no bound is in the way.
-/// In a heap that swings they stop all contacts at once with whatever forces the bounds allow, which the next tick
-/// cannot keep: pyramids of hundreds of boxes did not come to rest for that and crept. Sweeps alone take its motion away, and
-/// rest is found some 64 ticks later at the most where they would take longer.
-pub(super) fn is_thorough(contacts: usize, ticks: u64) -> bool {
-    contacts <= LARGE || ticks.is_multiple_of(EVERY)
-}
+/// Ticks without conjugate gradients in large islands, after as many tries in a row as [`TRIES`] laid nothing to rest.
+const PAUSE: u64 = 64;
 
 /// When rest is looked for.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Patience {
+    /// The tick from which on conjugate gradients are tried again in large islands.
+    thorough_from: u64,
+    /// Ticks in a row in which they were.
+    thorough_tries: u32,
     /// The tick of the next search.
     until: u64,
     /// Ticks to the one after.
@@ -61,6 +53,8 @@ pub(super) struct Found {
     pub rest: bool,
     /// All contacts of some large island stop.
     pub stops: bool,
+    /// Conjugate gradients were tried in a large island that does not rest.
+    pub tried: bool,
 }
 
 impl Patience {
@@ -76,6 +70,20 @@ impl Patience {
         let waits = ticks < self.until;
         self.waited += u64::from(waits);
         !waits
+    }
+
+    /// Whether conjugate gradients are to be tried in large islands. Where bounds are in the way they do harm: they stop all contacts at
+    /// once with whatever forces the bounds allow, which the next tick cannot keep.
+    pub fn tries_thoroughly(&self, ticks: u64) -> bool {
+        ticks >= self.thorough_from
+    }
+
+    /// After a search among contacts of which each could stop.
+    pub fn note_tries(&mut self, found: Found, ticks: u64) {
+        self.thorough_tries = if found.tried { self.thorough_tries + 1 } else { 0 };
+        if self.thorough_tries == TRIES {
+            (self.thorough_from, self.thorough_tries) = (ticks + PAUSE, 0);
+        }
     }
 
     /// After a search among many contacts.

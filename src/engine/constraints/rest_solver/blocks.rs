@@ -1,0 +1,222 @@
+//! The contacts of an island in blocks of eight, each quantity side by side: what sweeps read and write.
+
+use glam::DVec2;
+use jostle_simd::{BLOCK, Quad, QuadPairs};
+
+use super::row::{Mover, Row, Sides};
+use super::seen::{Drawn, Seen};
+use super::slots::Slots;
+
+/// Greatest factor of over-relaxation where a normal force gives a tangential velocity, and the other way round: Coulomb's law makes
+/// the equations unsymmetric there, and with greater factors sweeps may go round in circles.
+const COUPLED: f64 = 1.2;
+
+/// Share of the mobilities below which such a coupling is rounding.
+const ROUND: f64 = 1e-9;
+
+pub(super) type Eight = [f64; BLOCK];
+
+/// Eight normal forces. Lanes without a contact are zero.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Normals {
+    pub normal: [Eight; 2],
+    /// Levers of the normal on both sides, in metres.
+    pub levers: [Eight; 2],
+    /// Levers of the tangent on both sides, in metres.
+    pub tangent_levers: [Eight; 2],
+    /// In 1/(kg m2).
+    pub inverse_inertia: [Eight; 2],
+    /// Force in newtons that takes away one m/s within the tick.
+    pub gain: Eight,
+    /// Factor of each correction.
+    pub relaxation: Eight,
+    /// Least and greatest force in newtons.
+    pub band: [Eight; 2],
+    /// In newtons.
+    pub force: Eight,
+    /// A bit for each that would have to leave its band to stop the contact.
+    pub at_limit: u8,
+}
+
+/// Eight springs with a Coulomb limit.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Springs {
+    /// Force in newtons that takes away one m/s within the tick; torque and rad/s for rolling.
+    pub gain: Eight,
+    /// Share of the normal force beyond which it gives way.
+    pub gives: Eight,
+    /// Share of the normal force that it has then.
+    pub slips: Eight,
+    /// What its spring has, where it is not engaged.
+    pub drawn: Eight,
+    pub force: Eight,
+    /// A bit for each that may hold in the tick to come; the others keep what their springs have.
+    pub engaged: u8,
+    /// A bit for each that would have to be greater than its limit to stop the contact. Comparing the force with the limit would
+    /// leave that to rounding.
+    pub at_limit: u8,
+}
+
+impl Springs {
+    fn put(&mut self, lane: usize, gain: f64, spring: &Drawn, engaged: bool) {
+        self.gain[lane] = gain;
+        (self.gives[lane], self.slips[lane]) =
+            if engaged { (spring.limit, spring.limit) } else { (spring.gives, spring.slips) };
+        (self.drawn[lane], self.force[lane]) = (spring.force, spring.force);
+        self.engaged |= u8::from(engaged) << lane;
+    }
+
+    pub fn is_engaged(&self, lane: usize) -> bool {
+        (self.engaged >> lane) & 1 != 0
+    }
+
+    pub fn is_free(&self, lane: usize) -> bool {
+        ((self.engaged & !self.at_limit) >> lane) & 1 != 0
+    }
+
+    pub fn note_limit(&mut self, lane: usize, at_limit: bool) {
+        self.at_limit = self.at_limit & !(1 << lane) | u8::from(at_limit) << lane;
+    }
+}
+
+/// The contacts of an island in blocks.
+#[derive(Debug, Default)]
+pub(super) struct Blocks {
+    slots: Slots,
+    pub pairs: QuadPairs,
+    pub normals: Vec<Normals>,
+    pub tangential: Vec<Springs>,
+    /// Torques against rolling; empty where there are none.
+    pub rolling: Vec<Springs>,
+    /// For each contact eight times its block, and its lane.
+    pub places: Vec<usize>,
+    /// The velocities of movers: both axes, spin, and 1/mass.
+    pub quads: Vec<Quad>,
+    /// For each mover the greatest tangential force and the greatest rolling torque of all its contacts.
+    grips: Vec<[f64; 2]>,
+}
+
+impl Blocks {
+    /// Takes up contacts for the `dt` seconds to come. `over`: the factor of over-relaxation.
+    pub fn set_up(&mut self, seen: &[Seen], movers: &[Mover], over: f64, dt: f64) {
+        self.grip(seen, movers.len());
+        let Self { slots, pairs, normals, tangential, rolling, places, grips, .. } = self;
+        slots.begin(movers.len());
+        places.clear();
+        places.extend(seen.iter().map(|seen| slots.put(seen.ends, movers)));
+        pairs.clear();
+        slots.blocks.iter().for_each(|block| pairs.push(*block));
+        let rolls = seen.iter().any(|seen| seen.rolling.acts());
+        let count = slots.blocks.len();
+        normals.resize(count, Normals::default());
+        tangential.resize(count, Springs::default());
+        rolling.resize(if rolls { count } else { 0 }, Springs::default());
+        // Full blocks are written over as they are; the lanes of others that have no contact are to be zero.
+        for block in 0..count {
+            let full = slots.is_full(block);
+            if !full {
+                normals[block] = Normals::default();
+            }
+            for springs in [Some(&mut tangential[block]), rolling.get_mut(block)].into_iter().flatten() {
+                if full {
+                    springs.engaged = 0;
+                } else {
+                    *springs = Springs::default();
+                }
+            }
+        }
+        for (seen, &place) in seen.iter().zip(&*places) {
+            let (block, lane) = (place / BLOCK, place % BLOCK);
+            let sides = Sides::of(movers, seen.ends);
+            let rows = Rows::of(seen, &sides);
+            let grips = (grips[seen.ends.0], grips[seen.ends.1]);
+            let engaged = |kind: usize, row: &Row, spring: &Drawn| {
+                // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
+                let (of_a, of_b) = row.mobilities(&sides);
+                let reach = 4.0 * (grips.0[kind] * of_a + grips.1[kind] * of_b) * dt;
+                (seen.engaged || spring.force == 0.0) && spring.limit > 0.0 && row.velocity(&sides).abs() <= reach
+            };
+            normals[block].put(lane, seen, &rows, &sides, over, dt);
+            let tangent_gain = 1.0 / (rows.tangent.mobility * dt);
+            let holds = engaged(0, &rows.tangent, &seen.tangential);
+            tangential[block].put(lane, tangent_gain, &seen.tangential, holds);
+            if rolls {
+                let holds = engaged(1, &rows.turn, &seen.rolling);
+                rolling[block].put(lane, 1.0 / (rows.turn.mobility * dt), &seen.rolling, holds);
+            }
+        }
+    }
+
+    /// Sums up what the contacts of each mover can hold.
+    fn grip(&mut self, seen: &[Seen], movers: usize) {
+        self.grips.clear();
+        self.grips.resize(movers, [0.0; 2]);
+        for Seen { ends, band, tangential, rolling, .. } in seen {
+            for place in [ends.0, ends.1] {
+                self.grips[place][0] += tangential.limit * band.1;
+                self.grips[place][1] += rolling.limit * band.1;
+            }
+        }
+    }
+
+    /// Takes over the velocities of movers.
+    pub fn enter(&mut self, movers: &[Mover]) {
+        self.quads.clear();
+        let quad = |mover: &Mover| Quad([mover.velocity.x, mover.velocity.y, mover.spin, mover.inverse_mass]);
+        self.quads.extend(movers.iter().map(quad));
+    }
+
+    /// Gives them back.
+    pub fn leave(&self, movers: &mut [Mover]) {
+        for (mover, Quad([x, y, spin, _])) in movers.iter_mut().zip(&self.quads) {
+            (mover.velocity, mover.spin) = (DVec2::new(*x, *y), *spin);
+        }
+    }
+
+    /// The springs of a kind: tangential, then rolling ones.
+    pub fn springs(&mut self) -> [&mut [Springs]; 2] {
+        [&mut self.tangential, &mut self.rolling]
+    }
+}
+
+impl Normals {
+    fn put(&mut self, lane: usize, seen: &Seen, rows: &Rows, sides: &Sides, over: f64, dt: f64) {
+        let Rows { normal, tangent, .. } = rows;
+        let coupled = tangent.coupling(normal, sides).abs() > ROUND * normal.mobility.min(tangent.mobility);
+        let both = |list: &mut [Eight; 2], [a, b]: [f64; 2]| (list[0][lane], list[1][lane]) = (a, b);
+        both(&mut self.normal, seen.normal.to_array());
+        both(&mut self.levers, normal.levers());
+        both(&mut self.tangent_levers, tangent.levers());
+        both(&mut self.inverse_inertia, [sides.a.inverse_inertia, sides.b.inverse_inertia]);
+        let (least, greatest) = seen.band;
+        both(&mut self.band, [least, greatest]);
+        // Where overlaps have grown beyond all numbers the bounds are none: the force then is none either, and the run ends with that.
+        self.gain[lane] = if least <= greatest { 1.0 / (normal.mobility * dt) } else { f64::NAN };
+        self.relaxation[lane] = if coupled { over.min(COUPLED) } else { over };
+        self.force[lane] = seen.normal_force;
+    }
+}
+
+/// The rows of a contact.
+pub(super) struct Rows {
+    pub normal: Row,
+    pub tangent: Row,
+    pub turn: Row,
+}
+
+impl Rows {
+    #[inline(always)]
+    pub fn of(seen: &Seen, sides: &Sides) -> Self {
+        let along = |direction: DVec2| {
+            let levers = (seen.arms.0.perp_dot(direction), seen.arms.1.perp_dot(direction));
+            Row::new(sides, levers, direction)
+        };
+        Self {
+            normal: along(seen.normal),
+            tangent: along(-seen.normal.perp()),
+            turn: Row::new(sides, (-1.0, -1.0), DVec2::ZERO),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Which contacts stand in one block: those that share no body that moves by forces, and wait for none of a later block. So eight are
+//! relaxed side by side with the very result of one after the other.
+
+use jostle_simd::BLOCK;
+
+use super::Mover;
+
+/// Blocks that are filled at the same time.
+const OPEN: usize = 64;
+
+/// Puts contacts into blocks, in their order.
+#[derive(Debug, Default)]
+pub(super) struct Slots {
+    /// For each mover how many blocks come first of all that its next contact may stand in.
+    after: Vec<u32>,
+    /// How many contacts each block has.
+    counts: Vec<u8>,
+    /// The first block that is not full and still open.
+    first: usize,
+    /// The places of both sides in each block; those without a contact are that of the mover that never moves.
+    pub blocks: Vec<[[u32; BLOCK]; 2]>,
+}
+
+impl Slots {
+    /// Forgets the contacts of before, among so many movers.
+    pub fn begin(&mut self, movers: usize) {
+        self.after.clear();
+        self.after.resize(movers, 0);
+        self.blocks.clear();
+        self.counts.clear();
+        self.first = 0;
+    }
+
+    /// Whether a block has as many contacts as lanes.
+    pub fn is_full(&self, block: usize) -> bool {
+        self.counts[block] as usize == BLOCK
+    }
+
+    /// Puts a contact between two movers into a block. Returns its place: eight times the block, and its lane.
+    pub fn put(&mut self, (a, b): (usize, usize), movers: &[Mover]) -> usize {
+        let ends = [a, b].map(|end| movers[end].moves().then_some(end));
+        let earliest = ends.iter().flatten().fold(self.first, |most, &end| most.max(self.after[end] as usize));
+        let free = self.counts.iter().skip(earliest).position(|&count| (count as usize) < BLOCK);
+        let block = free.map_or(self.blocks.len(), |found| earliest + found);
+        if block == self.blocks.len() {
+            self.blocks.push([[0; BLOCK]; 2]);
+            self.counts.push(0);
+            self.first = self.first.max(self.blocks.len().saturating_sub(OPEN));
+        }
+        let lane = self.counts[block] as usize;
+        let [first, second] = &mut self.blocks[block];
+        (first[lane], second[lane]) = (a as u32, b as u32);
+        self.counts[block] += 1;
+        while self.counts.get(self.first).is_some_and(|&count| count as usize == BLOCK) {
+            self.first += 1;
+        }
+        for end in ends.into_iter().flatten() {
+            self.after[end] = block as u32 + 1;
+        }
+        BLOCK * block + lane
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    fn moving(count: usize) -> Vec<Mover> {
+        let moves = Mover { velocity: DVec2::ZERO, spin: 0.0, inverse_mass: 1.0, inverse_inertia: 1.0 };
+        (0..count).map(|place| if place == 0 { Mover::default() } else { moves }).collect()
+    }
+
+    #[test]
+    fn contacts_that_share_a_body_stand_in_blocks_in_their_order() {
+        let movers = moving(400);
+        let mut slots = Slots::default();
+        slots.begin(movers.len());
+        let pairs: Vec<(usize, usize)> = (0..3000).map(|k| (k * 7 % 400, (k * k + 3 * k + 1) % 400)).collect();
+        let pairs: Vec<(usize, usize)> = pairs.into_iter().filter(|(a, b)| a != b).collect();
+        let places: Vec<usize> = pairs.iter().map(|&ends| slots.put(ends, &movers)).collect();
+        let mut last = vec![None; movers.len()];
+        for (place, &(a, b)) in places.iter().zip(&pairs) {
+            let (block, lane) = (place / BLOCK, place % BLOCK);
+            let [first, second] = slots.blocks[block];
+            assert_eq!((first[lane], second[lane]), (a as u32, b as u32));
+            for end in [a, b].into_iter().filter(|&end| end > 0) {
+                assert!(last[end].is_none_or(|before| before < block));
+                last[end] = Some(block);
+            }
+        }
+        assert!(slots.blocks.len() < pairs.len() / 4, "{} blocks", slots.blocks.len());
+    }
+
+    #[test]
+    fn contacts_of_one_body_stand_in_a_block_each() {
+        let movers = moving(60);
+        let mut slots = Slots::default();
+        slots.begin(movers.len());
+        let places: Vec<usize> = (2..60).map(|other| slots.put((1, other), &movers)).collect();
+        assert!(places.iter().enumerate().all(|(number, &place)| place == BLOCK * number));
+    }
+}
