@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use crate::cli::columns::aligned;
 use crate::cli::say::number;
 use crate::report::bench::{Measured, Spread};
+use crate::tick::stopwatch::Part;
 
 /// A stage below this share of a tick is not told.
 const SMALLEST_SHARE: f64 = 0.005;
@@ -88,8 +89,12 @@ pub(super) fn table(rows: &[Row]) -> String {
     let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
     for row in rows {
         let told = row.measured.stages.iter().filter(|(_, share)| *share >= SMALLEST_SHARE);
-        let shares: Vec<String> = told.map(|(name, share)| format!("{name} {}", percent(*share))).collect();
-        let _ = writeln!(text, "{:<width$}  {}", row.name, shares.join(", "));
+        // The search for rest has a line of its own: it may take more than all the rest.
+        let (search, others): (Vec<_>, Vec<_>) = told.partition(|(name, _)| *name == Part::Rest.name());
+        for part in [others, search].into_iter().filter(|part| !part.is_empty()) {
+            let shares: Vec<String> = part.iter().map(|(name, share)| format!("{name} {}", percent(*share))).collect();
+            let _ = writeln!(text, "{:<width$}  {}", row.name, shares.join(", "));
+        }
     }
     text.push_str("\nWhat came out:\n");
     text.push_str(&aligned(

@@ -145,7 +145,12 @@ impl State {
     /// Models choose the modes that stay frozen during the step.
     pub(super) fn begin_step(&mut self) {
         self.turn_to(Part::Modes);
-        each!(self, begin_step, model => model.begin_step(self));
+        each!(self, begin_step, model => {
+            if self.stopwatch.is_some() {
+                self.turn_to(if model.contact_law().is_some() { Part::Rest } else { Part::Modes });
+            }
+            model.begin_step(self);
+        });
         self.turn_to(Part::Integrate);
     }
 

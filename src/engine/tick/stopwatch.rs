@@ -12,8 +12,10 @@ use super::{Evaluate, Modes, SimTick, State};
 pub enum Part {
     /// [`Stage::Begin`](super::Stage::Begin).
     Begin,
-    /// [`Modes`].
+    /// [`Modes`]: all models but contact laws.
     Modes,
+    /// The same schedule: contact laws, which look for the forces that keep bodies at rest.
+    Rest,
     /// [`EvaluateStage::Bounds`](super::EvaluateStage::Bounds): bounding boxes.
     Bounds,
     /// The same stage: the search for candidate pairs.
@@ -36,9 +38,10 @@ pub enum Part {
 
 impl Part {
     /// All parts of a tick, in order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Begin,
         Self::Modes,
+        Self::Rest,
         Self::Bounds,
         Self::Pairs,
         Self::Forces,
@@ -55,6 +58,7 @@ impl Part {
         match self {
             Self::Begin => "Begin",
             Self::Modes => "Modes",
+            Self::Rest => "Modes: search for rest",
             Self::Bounds => "Evaluate: Bounds",
             Self::Pairs => "Evaluate: Pairs",
             Self::Forces => "Evaluate: Forces",

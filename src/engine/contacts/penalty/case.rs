@@ -24,6 +24,20 @@ impl Pair {
         }
     }
 
+    /// Whether the contact parts under no force, and nothing that acts at present turns it within `dt` seconds. Without restitution
+    /// that may take long: what rests beside it does not wait for that.
+    pub(super) fn parts_freely(&self, contact: &Contact, bodies: &Bodies, parting: f64, dt: f64) -> bool {
+        let acts = contact.normal_force != 0.0 || contact.mode != Mode::Unloading;
+        !acts && parting > 2.0 * dt * self.relative_acceleration(bodies).abs()
+    }
+
+    /// Acceleration of side B along the normal, seen from side A, in m/s2.
+    fn relative_acceleration(&self, bodies: &Bodies) -> f64 {
+        let acceleration = |body: usize| bodies.force[body] * bodies.inverse_mass(body);
+        let other = self.other_body().map_or(DVec2::ZERO, acceleration);
+        (acceleration(self.b.body) - other).dot(self.normal)
+    }
+
     /// Whether the contact could stop within `dt` seconds: its normal velocity can be reversed by a force within the
     /// bounds of its law, or by what its neighbours may do at the same time (as much again).
     pub(super) fn could_stop<N: NormalForce>(
@@ -40,11 +54,9 @@ impl Pair {
         if contact.mode == Mode::Hold {
             return true;
         }
-        let acceleration = |body: usize| bodies.force[body] * bodies.inverse_mass(body);
         let other = self.other_body();
-        let relative = acceleration(self.b.body) - other.map_or(DVec2::ZERO, acceleration);
         let inverse_mass = bodies.inverse_mass(self.b.body) + other.map_or(0.0, |body| bodies.inverse_mass(body));
         let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-        parting.abs() <= 2.0 * dt * (relative.dot(self.normal).abs() + (greatest - least) * inverse_mass)
+        parting.abs() <= 2.0 * dt * (self.relative_acceleration(bodies).abs() + (greatest - least) * inverse_mass)
     }
 }

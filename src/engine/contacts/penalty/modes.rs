@@ -203,6 +203,9 @@ impl Choice<'_> {
     fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
         let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         let (seen, law) = self.known(&case);
+        if case.parts_freely(&seen, self.sink.bodies, approach.parting, self.dt) {
+            return;
+        }
         if case.could_stop::<N>(&seen, law, self.sink.bodies, approach.parting, self.dt) {
             cases.push(case);
             return;

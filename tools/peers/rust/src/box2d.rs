@@ -57,10 +57,14 @@ pub fn world(job: &Job) -> World {
         shape.material.friction = scene.material.friction as f32;
         shape.material.restitution = scene.material.restitution as f32;
         let ground = b2CreateBody(world, &b2DefaultBodyDef());
-        if scene.floor {
+        if scene.floor || scene.width.is_some() {
             // The upper side of a box, as boxes are what floors are made of; wide enough for all that happens.
             let floor = b2MakeOffsetBox(100.0, 1.0, b2Vec2 { x: 0.0, y: -1.0 }, b2Rot { c: 1.0, s: 0.0 });
             b2CreatePolygonShape(ground, &shape, &floor);
+        }
+        for x in scene.width.iter().flat_map(|width| [-1.0, *width as f32 + 1.0]) {
+            let wall = b2MakeOffsetBox(1.0, 100.0, b2Vec2 { x, y: 100.0 }, b2Rot { c: 1.0, s: 0.0 });
+            b2CreatePolygonShape(ground, &shape, &wall);
         }
         let mut discs = Vec::new();
         for disc in &scene.bodies {

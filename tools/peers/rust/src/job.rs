@@ -82,6 +82,9 @@ pub struct Scene {
     pub gravity: [f64; 2],
     pub material: Material,
     pub floor: bool,
+    /// The width in m of a box with a floor and two high walls, from x = 0 on.
+    #[serde(default)]
+    pub width: Option<f64>,
     pub drag: f64,
     pub spring: Option<f64>,
     pub joints: Vec<Joint>,

@@ -54,9 +54,16 @@ macro_rules! rapier {
                 let material = |collider: ColliderBuilder| {
                     collider.friction(scene.material.friction as $real).restitution(scene.material.restitution as $real)
                 };
-                if scene.floor {
-                    let floor = ColliderBuilder::halfspace(Unit::new_unchecked(Vector::new(0.0, 1.0).into()));
-                    world.colliders.insert(material(floor));
+                let mut half_plane = |normal: Vector, x: $real| {
+                    let half_plane = ColliderBuilder::halfspace(Unit::new_unchecked(normal.into()));
+                    world.colliders.insert(material(half_plane.translation(Vector::new(x, 0.0))));
+                };
+                if scene.floor || scene.width.is_some() {
+                    half_plane(Vector::new(0.0, 1.0), 0.0);
+                }
+                if let Some(width) = scene.width {
+                    half_plane(Vector::new(1.0, 0.0), 0.0);
+                    half_plane(Vector::new(-1.0, 0.0), width as $real);
                 }
                 let mut discs = Vec::new();
                 for disc in &scene.bodies {
