@@ -106,6 +106,9 @@ impl Marked {
     }
 }
 
+/// If one body in so many is of an island, to look at all of them in order is faster than to sort.
+const DENSE: usize = 16;
+
 /// The bodies of an island.
 #[derive(Debug, Default)]
 pub struct Members {
@@ -132,7 +135,12 @@ impl Members {
         };
         each_end(links, &mut collect);
         each_end(others, &mut collect);
-        self.list.sort_unstable();
+        if DENSE * self.list.len() < bodies {
+            self.list.sort_unstable();
+        } else {
+            self.list.clear();
+            self.list.extend((0..bodies).filter(|&body| self.index[body] != 0));
+        }
         for (index, &body) in self.list.iter().enumerate() {
             self.index[body] = index as u32 + 1;
         }

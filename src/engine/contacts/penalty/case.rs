@@ -38,7 +38,7 @@ impl Pair {
         (acceleration(self.b.body) - other).dot(self.normal)
     }
 
-    /// Whether the contact could stop within `dt` seconds: its normal velocity can be reversed by a force within the
+    /// Whether a contact that is not held could stop within `dt` seconds: its normal velocity can be reversed by a force within the
     /// bounds of its law, or by what its neighbours may do at the same time (as much again).
     pub(super) fn could_stop<N: NormalForce>(
         &self,
@@ -50,9 +50,6 @@ impl Pair {
     ) -> bool {
         if !N::dissipates(law) {
             return false;
-        }
-        if contact.mode == Mode::Hold {
-            return true;
         }
         let other = self.other_body();
         let inverse_mass = bodies.inverse_mass(self.b.body) + other.map_or(0.0, |body| bodies.inverse_mass(body));

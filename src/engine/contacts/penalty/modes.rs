@@ -201,8 +201,12 @@ impl Choice<'_> {
 
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
     fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
-        let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         let (seen, law) = self.known(&case);
+        if seen.mode == Mode::Hold && N::dissipates(law) {
+            cases.push(case);
+            return;
+        }
+        let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
         if case.parts_freely(&seen, self.sink.bodies, approach.parting, self.dt) {
             return;
         }
@@ -330,9 +334,13 @@ impl Choice<'_> {
         let bodies = &*self.sink.bodies;
         island.level = bodies.level;
         island.begin.push(Mover::default());
-        island.begin.extend(members.list.iter().map(|&body| mover(bodies, body, 0.0)));
         island.movers.push(Mover::default());
         island.movers.extend(members.list.iter().map(|&body| mover(bodies, body, self.dt)));
+        let begin = |(&body, end): (&usize, &Mover)| match bodies.prescribed.ahead(body, 0.0) {
+            Some(_) => mover(bodies, body, 0.0),
+            None => Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end },
+        };
+        island.begin.extend(members.list.iter().zip(&island.movers[1..]).map(begin));
         // Walls whose surface moves stand behind the bodies.
         let mut belt = island.movers.len()..;
         let surface = |velocity: DVec2| Mover { velocity, ..Mover::default() };
