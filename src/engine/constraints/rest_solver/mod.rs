@@ -116,7 +116,7 @@ impl Island {
                 blocks.enter(movers);
             }
         }
-        // Forces that stand at a limit without need come off it, and what over-relaxation left of short waves goes.
+        // Forces that stand at a limit without need come off it, and short waves that over-relaxation left decay.
         run(self.level, Sweep { blocks: &mut self.blocks, plain: true, dt });
         self.blocks.leave(&mut self.movers);
     }

@@ -1,5 +1,5 @@
-//! Which contacts stand in one block: those that share no body that moves by forces, and wait for none of a later block. So eight are
-//! relaxed side by side with the very result of one after the other.
+//! Level scheduling (Anderson and Saad 1989) of contacts: blocks of eight that share no body that moves by forces, each behind all
+//! blocks with earlier contacts of its bodies. So eight are relaxed side by side with the very result of one after the other.
 
 use jostle_simd::BLOCK;
 

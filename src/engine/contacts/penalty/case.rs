@@ -25,7 +25,7 @@ impl Pair {
     }
 
     /// Whether the contact parts under no force, and nothing that acts at present turns it within `dt` seconds. Without restitution
-    /// that may take long: what rests beside it does not wait for that.
+    /// that may take long: bodies at rest beside it do not wait for that.
     pub(super) fn parts_freely(&self, contact: &Contact, bodies: &Bodies, parting: f64, dt: f64) -> bool {
         let acts = contact.normal_force != 0.0 || contact.mode != Mode::Unloading;
         !acts && parting > 2.0 * dt * self.relative_acceleration(bodies).abs()
