@@ -2,9 +2,8 @@
 //! search for rest finds forces within the bounds of the contact laws, or the heap moves on (`constraints/rest_solver`).
 //!
 //! Grains without restitution fall from a loose grid into a box. What they lose as they meet is lost for good: a search that ends
-//! too early lets contacts sink in under forces below their springs', which stores energy that no body gave. Tolerance of that: the
-//! share of the energy lost that a tick near the critical one leaves, `(w dt)^2/2` of a single contact's energy, and a grain has
-//! one in hundreds of it.
+//! too early lets contacts sink in under forces below their springs', which stores energy that no body gave. The bound on that, 1e-3 of
+//! the loss, is what docs/limits.md promises, and follows from no order. Plain sweeps miss it, and the rest.
 //!
 //! Not tested: when they rest, but for the given time; that grains roll on, which no law of contact stops.
 

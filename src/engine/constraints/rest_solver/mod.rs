@@ -104,7 +104,7 @@ impl Island {
         self.blocks.enter(&self.movers);
         for _ in 0..if thorough { ROUNDS } else { 1 } {
             for _ in 0..SWEEPS {
-                if !self.sweep(false, dt) {
+                if !self.sweep(dt) {
                     self.blocks.leave(&mut self.movers);
                     return;
                 }
@@ -122,8 +122,8 @@ impl Island {
     }
 
     /// Relaxes all contacts and joints once. Returns whether that changed a force by more than rounding.
-    fn sweep(&mut self, plain: bool, dt: f64) -> bool {
-        let mut moved = run(self.level, Sweep { blocks: &mut self.blocks, plain, dt });
+    fn sweep(&mut self, dt: f64) -> bool {
+        let mut moved = run(self.level, Sweep { blocks: &mut self.blocks, plain: false, dt });
         if !self.ties.is_empty() {
             self.blocks.leave(&mut self.movers);
             let greatest = self.ties.iter_mut().fold(0.0_f64, |most, tie| most.max(tie.relax(&mut self.movers, dt)));

@@ -51,7 +51,7 @@ impl Judged<'_> {
         Verdict::Rests { normal, tangential, rolling, entirely: !slips && !rolls }
     }
 
-    /// Whether the ends of a row do not move past each other but for rounding.
+    /// Whether a row has no velocity beyond rounding.
     fn stands(&self, row: &Row, end: &Sides) -> bool {
         row.velocity(end).abs() <= self.noise() * row.mobility * self.dt
     }
