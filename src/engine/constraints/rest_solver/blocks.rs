@@ -37,6 +37,8 @@ pub(super) struct Normals {
     pub force: Eight,
     /// A bit for each that would have to leave its band to stop the contact.
     pub at_limit: u8,
+    /// How many lanes have a contact: the first ones.
+    pub count: u8,
 }
 
 /// Eight springs with a Coulomb limit.
@@ -92,7 +94,7 @@ pub(super) struct Blocks {
     pub rolling: Vec<Springs>,
     /// For each contact eight times its block, and its lane.
     pub places: Vec<usize>,
-    /// The velocities of movers: both axes, spin, and 1/mass.
+    /// The velocities of movers, and of copies of the one that never moves: both axes, spin, and 1/mass.
     pub quads: Vec<Quad>,
     /// For each mover the greatest tangential force and the greatest rolling torque of all its contacts.
     grips: Vec<[f64; 2]>,
@@ -115,10 +117,11 @@ impl Blocks {
         rolling.resize(if rolls { count } else { 0 }, Springs::default());
         // Full blocks are written over as they are; the lanes of others that have no contact are to be zero.
         for block in 0..count {
-            let full = slots.is_full(block);
+            let full = slots.count(block) == BLOCK;
             if !full {
                 normals[block] = Normals::default();
             }
+            normals[block].count = slots.count(block) as u8;
             for springs in [Some(&mut tangential[block]), rolling.get_mut(block)].into_iter().flatten() {
                 if full {
                     springs.engaged = 0;
@@ -166,6 +169,7 @@ impl Blocks {
         self.quads.clear();
         let quad = |mover: &Mover| Quad([mover.velocity.x, mover.velocity.y, mover.spin, mover.inverse_mass]);
         self.quads.extend(movers.iter().map(quad));
+        self.quads.resize(self.slots.places(), quad(&movers[0]));
     }
 
     /// Gives them back.

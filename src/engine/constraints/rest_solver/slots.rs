@@ -8,6 +8,10 @@ use super::Mover;
 /// Blocks that are filled at the same time.
 const OPEN: usize = 64;
 
+/// Copies of the mover that never moves, of which blocks use one after the other. A block that writes the place that the block
+/// before wrote waits for it; see [`Slots::stand_in`].
+const WORLDS: usize = 16;
+
 /// Puts contacts into blocks, in their order.
 #[derive(Debug, Default)]
 pub(super) struct Slots {
@@ -17,7 +21,7 @@ pub(super) struct Slots {
     counts: Vec<u8>,
     /// The first block that is not full and still open.
     first: usize,
-    /// The places of both sides in each block; those without a contact are that of the mover that never moves.
+    /// The places of both sides in each block; those without a contact are of a mover that never moves.
     pub blocks: Vec<[[u32; BLOCK]; 2]>,
 }
 
@@ -31,9 +35,19 @@ impl Slots {
         self.first = 0;
     }
 
-    /// Whether a block has as many contacts as lanes.
-    pub fn is_full(&self, block: usize) -> bool {
-        self.counts[block] as usize == BLOCK
+    /// How many contacts a block has.
+    pub fn count(&self, block: usize) -> usize {
+        self.counts[block] as usize
+    }
+
+    /// How many places the blocks name: all movers, then copies of the first of them.
+    pub fn places(&self) -> usize {
+        self.after.len() + WORLDS
+    }
+
+    /// The place of the mover that never moves, as a block names it.
+    fn stand_in(&self, block: usize) -> u32 {
+        (self.after.len() + block % WORLDS) as u32
     }
 
     /// Puts a contact between two movers into a block. Returns its place: eight times the block, and its lane.
@@ -43,13 +57,13 @@ impl Slots {
         let free = self.counts.iter().skip(earliest).position(|&count| (count as usize) < BLOCK);
         let block = free.map_or(self.blocks.len(), |found| earliest + found);
         if block == self.blocks.len() {
-            self.blocks.push([[0; BLOCK]; 2]);
+            self.blocks.push([[self.stand_in(block); BLOCK]; 2]);
             self.counts.push(0);
             self.first = self.first.max(self.blocks.len().saturating_sub(OPEN));
         }
-        let lane = self.counts[block] as usize;
-        let [first, second] = &mut self.blocks[block];
-        (first[lane], second[lane]) = (a as u32, b as u32);
+        let (lane, world) = (self.count(block), self.stand_in(block));
+        let [first, second] = [a, b].map(|end| if end == 0 { world } else { end as u32 });
+        (self.blocks[block][0][lane], self.blocks[block][1][lane]) = (first, second);
         self.counts[block] += 1;
         while self.counts.get(self.first).is_some_and(|&count| count as usize == BLOCK) {
             self.first += 1;
@@ -83,7 +97,8 @@ mod tests {
         for (place, &(a, b)) in places.iter().zip(&pairs) {
             let (block, lane) = (place / BLOCK, place % BLOCK);
             let [first, second] = slots.blocks[block];
-            assert_eq!((first[lane], second[lane]), (a as u32, b as u32));
+            let named = |place: u32| if place < 400 { place as usize } else { 0 };
+            assert_eq!((named(first[lane]), named(second[lane])), (a, b));
             for end in [a, b].into_iter().filter(|&end| end > 0) {
                 assert!(last[end].is_none_or(|before| before < block));
                 last[end] = Some(block);

@@ -32,8 +32,9 @@ impl Kernel for Sweep<'_> {
             if let Some(rolling) = &mut rolling {
                 rolling.at_limit = 0;
             }
+            let count = usize::from(normals.count);
             let mut lane = 0;
-            while lane < BLOCK {
+            while lane < count {
                 let springs = (&mut *tangential, rolling.as_deref_mut());
                 moved |= relax::<V>(&mut sides, (block, lane), normals, springs, plain, dt);
                 lane += V::COUNT;
