@@ -84,16 +84,6 @@ impl Model for Escapement {
 }
 
 impl Events for Escapement {
-    fn length(&self) -> usize {
-        0
-    }
-
-    fn read(&self, _: &mut [f64]) {}
-
-    fn write(&mut self, _: &[f64]) {}
-
-    fn rates(&self, _: &State, _: &mut [f64]) {}
-
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         let bodies = state.bodies();
         let (angle, spin, spin_rate) = (bodies.angle[0], bodies.spin[0], bodies.torque[0] / bodies.inertia[0]);
@@ -127,22 +117,8 @@ impl Events for Escapement {
         };
     }
 
-    fn settle(&mut self, _: &State) -> bool {
-        false
-    }
-
     fn take_stock(&mut self, state: &State) {
         self.choose(state);
-    }
-
-    fn tidy(&mut self, _: &mut State) -> bool {
-        false
-    }
-
-    fn hand_over(&mut self, _: &State, _: Style) {}
-
-    fn is_crowded(&self) -> bool {
-        false
     }
 }
 

@@ -179,16 +179,6 @@ impl Model for MotorRow {
 
 /// Its torque reaches its bounds, or the joint its rate.
 impl Events for MotorRow {
-    fn length(&self) -> usize {
-        0
-    }
-
-    fn read(&self, _: &mut [f64]) {}
-
-    fn write(&mut self, _: &[f64]) {}
-
-    fn rates(&self, _: &State, _: &mut [f64]) {}
-
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         if let Some(motion) = self.driven.motion(state.bodies()) {
             self.held.tell(&motion.pair, &motion.along, state, told);
@@ -206,17 +196,5 @@ impl Events for MotorRow {
     fn settle(&mut self, state: &State) -> bool {
         let Some(motion) = self.driven.motion(state.bodies()) else { return false };
         self.held.choose(&motion.pair, &motion.along)
-    }
-
-    fn take_stock(&mut self, _: &State) {}
-
-    fn tidy(&mut self, _: &mut State) -> bool {
-        false
-    }
-
-    fn hand_over(&mut self, _: &State, _: Style) {}
-
-    fn is_crowded(&self) -> bool {
-        false
     }
 }

@@ -409,15 +409,7 @@ impl Events for ServoForce {
         self.choose(state);
     }
 
-    fn tidy(&mut self, _: &mut State) -> bool {
-        false
-    }
-
     fn hand_over(&mut self, state: &State, _: Style) {
         self.choose(state);
-    }
-
-    fn is_crowded(&self) -> bool {
-        false
     }
 }

@@ -1,19 +1,9 @@
 //! The modes of joints as events: limits that are reached and left, friction that sticks and slips, joints that break.
 
 use super::model::Joint;
-use crate::tick::{Events, Indicator, State, Style};
+use crate::tick::{Events, Indicator, State};
 
 impl Events for Joint {
-    fn length(&self) -> usize {
-        0
-    }
-
-    fn read(&self, _: &mut [f64]) {}
-
-    fn write(&mut self, _: &[f64]) {}
-
-    fn rates(&self, _: &State, _: &mut [f64]) {}
-
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         if let Some(pair) = self.pair(state.bodies()) {
             self.parts.tell(&*self.law, &pair, self.reaction.0.length(), state, told);
@@ -35,17 +25,5 @@ impl Events for Joint {
         let changed = self.parts.settle(&*self.law, &pair, self.reaction.0.length(), state);
         self.see_whether_broken();
         changed
-    }
-
-    fn take_stock(&mut self, _: &State) {}
-
-    fn tidy(&mut self, _: &mut State) -> bool {
-        false
-    }
-
-    fn hand_over(&mut self, _: &State, _: Style) {}
-
-    fn is_crowded(&self) -> bool {
-        false
     }
 }

@@ -246,21 +246,23 @@ pub struct Loss {
 /// State of a model's own and its events, for methods that take several stages per step.
 pub trait Events {
     /// How many numbers of its own the integrator advances by the same method as positions: elongations of springs, integrals of
-    /// controllers. It may change when modes do, never inside a step.
-    fn length(&self) -> usize;
+    /// controllers. It may change when modes do, never inside a step. Default: none.
+    fn length(&self) -> usize {
+        0
+    }
 
-    /// Model -> state.
-    fn read(&self, numbers: &mut [f64]);
+    /// Model -> state. Default: a model without numbers has nothing to copy.
+    fn read(&self, _: &mut [f64]) {}
 
     /// What errors of its numbers are measured by, where that is more than the way of bodies: an integral grows while nothing moves. All are
     /// zero before. Default: nothing.
     fn measures(&self, _: &mut [f64]) {}
 
-    /// State -> model, before an evaluation.
-    fn write(&mut self, numbers: &[f64]);
+    /// State -> model, before an evaluation. Default: likewise.
+    fn write(&mut self, _: &[f64]) {}
 
-    /// Their rates per second, after an evaluation.
-    fn rates(&self, state: &State, rates: &mut [f64]);
+    /// Their rates per second, after an evaluation. Default: likewise.
+    fn rates(&self, _: &State, _: &mut [f64]) {}
 
     /// Adds the indicators of the state just evaluated to the list. Their number and order change only where modes do.
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>);
@@ -275,23 +277,31 @@ pub trait Events {
     }
 
     /// Looks at accelerations just evaluated in the present modes and corrects modes that cannot last; says whether it did.
-    fn settle(&mut self, state: &State) -> bool;
+    /// Default: modes change at their indicators alone.
+    fn settle(&mut self, _: &State) -> bool {
+        false
+    }
 
-    /// Chooses all modes of a state that did not follow from the one before.
-    fn take_stock(&mut self, state: &State);
+    /// Chooses all modes of a state that did not follow from the one before. Default: they stay.
+    fn take_stock(&mut self, _: &State) {}
 
     /// The state is one that others have made, and the ledger takes its energy as it is: the model books nothing that it took to choose the
     /// modes. Default: it has nothing to book.
     fn begin_account(&mut self, _: &State) {}
 
     /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
-    fn tidy(&mut self, state: &mut State) -> bool;
+    /// Default: nothing drifts.
+    fn tidy(&mut self, _: &mut State) -> bool {
+        false
+    }
 
-    /// What changes when states become stages of steps, or follow one another from then on.
-    fn hand_over(&mut self, state: &State, style: Style);
+    /// Adapts modes when states become stages of steps, or follow one another from then on. Default: they stay.
+    fn hand_over(&mut self, _: &State, _: Style) {}
 
-    /// Whether it holds more than can be resolved exactly in steps from event to event.
-    fn is_crowded(&self) -> bool;
+    /// Whether it holds more than can be resolved exactly in steps from event to event. Default: it does not.
+    fn is_crowded(&self) -> bool {
+        false
+    }
 }
 
 /// An indicator of an event: it is positive while a mode holds, and the event is where it vanishes.

@@ -112,6 +112,12 @@ fn free(blocks: &Blocks, place: usize) -> [bool; 3] {
     [(blocks.normals[block].at_limit >> lane) & 1 == 0, blocks.tangential[block].is_free(lane), rolls]
 }
 
+/// A force within its bounds. A NaN stays one, so that the run ends with it.
+fn within(force: f64, least: f64, greatest: f64) -> f64 {
+    let above = if force < least { least } else { force };
+    if above > greatest { greatest } else { above }
+}
+
 /// Takes over the impulses of the free rows, each as far as its bounds allow.
 fn take_over((blocks, seen): (&mut Blocks, &[Seen]), movers: &mut [Mover], impulses: &[f64], dt: f64) {
     let mut impulses = impulses.iter();
@@ -124,7 +130,7 @@ fn take_over((blocks, seen): (&mut Blocks, &[Seen]), movers: &mut [Mover], impul
         let normals = &mut blocks.normals[block];
         if free[0] {
             let wanted = normals.force[lane] + next();
-            let force = wanted.max(normals.band[0][lane]).min(normals.band[1][lane]);
+            let force = within(wanted, normals.band[0][lane], normals.band[1][lane]);
             normals.at_limit |= u8::from(force != wanted) << lane;
             rows.normal.push(&mut sides, (force - normals.force[lane]) * dt);
             normals.force[lane] = force;
@@ -135,7 +141,7 @@ fn take_over((blocks, seen): (&mut Blocks, &[Seen]), movers: &mut [Mover], impul
             let (before, limit) = (springs.force[lane], springs.gives[lane] * normal_force);
             // Where it is at its limit that has moved with the normal force.
             let wanted = if *free { before + next() } else { limit.copysign(before) };
-            let force = wanted.max(-limit).min(limit);
+            let force = within(wanted, -limit, limit);
             springs.note_limit(lane, !free || force != wanted);
             row.push(&mut sides, (force - before) * dt);
             springs.force[lane] = force;

@@ -1,6 +1,6 @@
 //! A sweep of projected successive over-relaxation (Cryer 1971) over the contacts of an island, eight at a time.
 
-use jostle_simd::{BLOCK, Kernel, Lanes, PairedQuads};
+use jostle_simd::{Kernel, Lanes, PairedQuads};
 
 use super::ROUNDING;
 use super::blocks::{Blocks, Eight, Normals, Springs};
