@@ -1,17 +1,17 @@
-//! The contacts of an island in blocks of eight, each quantity side by side: what sweeps read and write.
+//! The contacts of an island as a structure of arrays, in blocks of eight: sweeps read and write them.
 
 use glam::DVec2;
 use jostle_simd::{BLOCK, Quad, QuadPairs};
 
+use super::level_schedule::LevelSchedule;
+use super::rest_contact::{CoulombSpring, RestContact};
 use super::row::{Mover, Row, Sides};
-use super::seen::{Drawn, Seen};
-use super::slots::Slots;
 
-/// Greatest factor of over-relaxation where a normal force gives a tangential velocity, and the other way round: Coulomb's law makes
-/// the equations unsymmetric there, and with greater factors sweeps may go round in circles.
+/// Greatest factor of over-relaxation where a normal force gives a tangential velocity, and the other way round. Coulomb's law
+/// makes the equations unsymmetric there. With greater factors the sweeps may oscillate.
 const COUPLED: f64 = 1.2;
 
-/// Share of the mobilities below which such a coupling is rounding.
+/// A coupling below this share of the mobilities is rounding.
 const ROUND: f64 = 1e-9;
 
 pub(super) type Eight = [f64; BLOCK];
@@ -35,7 +35,7 @@ pub(super) struct Normals {
     pub band: [Eight; 2],
     /// In newtons.
     pub force: Eight,
-    /// A bit for each that would have to leave its band to stop the contact.
+    /// A bit for each force that stands at a bound: it would have to leave its band to stop the contact.
     pub at_limit: u8,
     /// How many lanes have a contact: the first ones.
     pub count: u8,
@@ -47,22 +47,22 @@ pub(super) struct Normals {
 pub(super) struct Springs {
     /// Force in newtons that takes away one m/s within the tick; torque and rad/s for rolling.
     pub gain: Eight,
-    /// Share of the normal force beyond which it gives way.
+    /// Share of the normal force beyond which the spring gives way.
     pub gives: Eight,
-    /// Share of the normal force that it has then.
+    /// Share of the normal force that the spring has then.
     pub slips: Eight,
-    /// What its spring has, where it is not engaged.
+    /// The force of a spring that is not engaged.
     pub drawn: Eight,
     pub force: Eight,
-    /// A bit for each that may hold in the tick to come; the others keep what their springs have.
+    /// A bit for each spring that may hold in the tick to come. The others keep their forces.
     pub engaged: u8,
-    /// A bit for each that would have to be greater than its limit to stop the contact. Comparing the force with the limit would
-    /// leave that to rounding.
+    /// A bit for each force that would have to exceed its limit to stop the contact. A comparison of the force with the limit would
+    /// depend on rounding.
     pub at_limit: u8,
 }
 
 impl Springs {
-    fn put(&mut self, lane: usize, gain: f64, spring: &Drawn, engaged: bool) {
+    fn put(&mut self, lane: usize, gain: f64, spring: &CoulombSpring, engaged: bool) {
         self.gain[lane] = gain;
         (self.gives[lane], self.slips[lane]) =
             if engaged { (spring.limit, spring.limit) } else { (spring.gives, spring.slips) };
@@ -86,7 +86,7 @@ impl Springs {
 /// The contacts of an island in blocks.
 #[derive(Debug, Default)]
 pub(super) struct Blocks {
-    slots: Slots,
+    schedule: LevelSchedule,
     pub pairs: QuadPairs,
     pub normals: Vec<Normals>,
     pub tangential: Vec<Springs>,
@@ -102,26 +102,26 @@ pub(super) struct Blocks {
 
 impl Blocks {
     /// Takes up contacts for the `dt` seconds to come. `over`: the factor of over-relaxation.
-    pub fn set_up(&mut self, seen: &[Seen], movers: &[Mover], over: f64, dt: f64) {
-        self.grip(seen, movers.len());
-        let Self { slots, pairs, normals, tangential, rolling, places, grips, .. } = self;
-        slots.begin(movers.len());
+    pub fn set_up(&mut self, contact: &[RestContact], movers: &[Mover], over: f64, dt: f64) {
+        self.grip(contact, movers.len());
+        let Self { schedule, pairs, normals, tangential, rolling, places, grips, .. } = self;
+        schedule.begin(movers.len());
         places.clear();
-        places.extend(seen.iter().map(|seen| slots.put(seen.ends, movers)));
+        places.extend(contact.iter().map(|contact| schedule.put(contact.ends, movers)));
         pairs.clear();
-        slots.blocks.iter().for_each(|block| pairs.push(*block));
-        let rolls = seen.iter().any(|seen| seen.rolling.acts());
-        let count = slots.blocks.len();
+        schedule.blocks.iter().for_each(|block| pairs.push(*block));
+        let rolls = contact.iter().any(|contact| contact.rolling.acts());
+        let count = schedule.blocks.len();
         normals.resize(count, Normals::default());
         tangential.resize(count, Springs::default());
         rolling.resize(if rolls { count } else { 0 }, Springs::default());
-        // Full blocks are written over as they are; the lanes of others that have no contact are to be zero.
+        // All lanes of a full block are overwritten. In other blocks the lanes without a contact must be zero.
         for block in 0..count {
-            let full = slots.count(block) == BLOCK;
+            let full = schedule.count(block) == BLOCK;
             if !full {
                 normals[block] = Normals::default();
             }
-            normals[block].count = slots.count(block) as u8;
+            normals[block].count = schedule.count(block) as u8;
             for springs in [Some(&mut tangential[block]), rolling.get_mut(block)].into_iter().flatten() {
                 if full {
                     springs.engaged = 0;
@@ -130,33 +130,33 @@ impl Blocks {
                 }
             }
         }
-        for (seen, &place) in seen.iter().zip(&*places) {
+        for (contact, &place) in contact.iter().zip(&*places) {
             let (block, lane) = (place / BLOCK, place % BLOCK);
-            let sides = Sides::of(movers, seen.ends);
-            let rows = Rows::of(seen, &sides);
-            let grips = (grips[seen.ends.0], grips[seen.ends.1]);
-            let engaged = |kind: usize, row: &Row, spring: &Drawn| {
-                // From one limit to the other, and as much again by what the neighbours do: what is faster slides on.
+            let sides = Sides::of(movers, contact.ends);
+            let rows = Rows::of(contact, &sides);
+            let grips = (grips[contact.ends.0], grips[contact.ends.1]);
+            let engaged = |kind: usize, row: &Row, spring: &CoulombSpring| {
+                // The force may go from one limit to the other, and neighbours may do as much again. A faster contact slides on.
                 let (of_a, of_b) = row.mobilities(&sides);
                 let reach = 4.0 * (grips.0[kind] * of_a + grips.1[kind] * of_b) * dt;
-                (seen.engaged || spring.force == 0.0) && spring.limit > 0.0 && row.velocity(&sides).abs() <= reach
+                (contact.engaged || spring.force == 0.0) && spring.limit > 0.0 && row.velocity(&sides).abs() <= reach
             };
-            normals[block].put(lane, seen, &rows, &sides, over, dt);
+            normals[block].put(lane, contact, &rows, &sides, over, dt);
             let tangent_gain = 1.0 / (rows.tangent.mobility * dt);
-            let holds = engaged(0, &rows.tangent, &seen.tangential);
-            tangential[block].put(lane, tangent_gain, &seen.tangential, holds);
+            let holds = engaged(0, &rows.tangent, &contact.tangential);
+            tangential[block].put(lane, tangent_gain, &contact.tangential, holds);
             if rolls {
-                let holds = engaged(1, &rows.turn, &seen.rolling);
-                rolling[block].put(lane, 1.0 / (rows.turn.mobility * dt), &seen.rolling, holds);
+                let holds = engaged(1, &rows.turn, &contact.rolling);
+                rolling[block].put(lane, 1.0 / (rows.turn.mobility * dt), &contact.rolling, holds);
             }
         }
     }
 
-    /// Sums up what the contacts of each mover can hold.
-    fn grip(&mut self, seen: &[Seen], movers: usize) {
+    /// Sums the tangential forces and rolling torques that the contacts of each mover can hold.
+    fn grip(&mut self, contact: &[RestContact], movers: usize) {
         self.grips.clear();
         self.grips.resize(movers, [0.0; 2]);
-        for Seen { ends, band, tangential, rolling, .. } in seen {
+        for RestContact { ends, band, tangential, rolling, .. } in contact {
             for place in [ends.0, ends.1] {
                 self.grips[place][0] += tangential.limit * band.1;
                 self.grips[place][1] += rolling.limit * band.1;
@@ -164,15 +164,15 @@ impl Blocks {
         }
     }
 
-    /// Takes over the velocities of movers.
+    /// Copies the velocities of movers into the quads.
     pub fn enter(&mut self, movers: &[Mover]) {
         self.quads.clear();
         let quad = |mover: &Mover| Quad([mover.velocity.x, mover.velocity.y, mover.spin, mover.inverse_mass]);
         self.quads.extend(movers.iter().map(quad));
-        self.quads.resize(self.slots.places(), quad(&movers[0]));
+        self.quads.resize(self.schedule.places(), quad(&movers[0]));
     }
 
-    /// Gives them back.
+    /// Copies the velocities of the quads back to the movers.
     pub fn leave(&self, movers: &mut [Mover]) {
         for (mover, Quad([x, y, spin, _])) in movers.iter_mut().zip(&self.quads) {
             (mover.velocity, mover.spin) = (DVec2::new(*x, *y), *spin);
@@ -186,20 +186,20 @@ impl Blocks {
 }
 
 impl Normals {
-    fn put(&mut self, lane: usize, seen: &Seen, rows: &Rows, sides: &Sides, over: f64, dt: f64) {
+    fn put(&mut self, lane: usize, contact: &RestContact, rows: &Rows, sides: &Sides, over: f64, dt: f64) {
         let Rows { normal, tangent, .. } = rows;
         let coupled = tangent.coupling(normal, sides).abs() > ROUND * normal.mobility.min(tangent.mobility);
         let both = |list: &mut [Eight; 2], [a, b]: [f64; 2]| (list[0][lane], list[1][lane]) = (a, b);
-        both(&mut self.normal, seen.normal.to_array());
+        both(&mut self.normal, contact.normal.to_array());
         both(&mut self.levers, normal.levers());
         both(&mut self.tangent_levers, tangent.levers());
         both(&mut self.inverse_inertia, [sides.a.inverse_inertia, sides.b.inverse_inertia]);
-        let (least, greatest) = seen.band;
+        let (least, greatest) = contact.band;
         both(&mut self.band, [least, greatest]);
-        // Where overlaps have grown beyond all numbers the bounds are none: the force then is none either, and the run ends with that.
+        // Where overlaps have become infinite, the bounds are NaN. The force then is NaN too, and the run ends with that.
         self.gain[lane] = if least <= greatest { 1.0 / (normal.mobility * dt) } else { f64::NAN };
         self.relaxation[lane] = if coupled { over.min(COUPLED) } else { over };
-        self.force[lane] = seen.normal_force;
+        self.force[lane] = contact.normal_force;
     }
 }
 
@@ -212,14 +212,14 @@ pub(super) struct Rows {
 
 impl Rows {
     #[inline(always)]
-    pub fn of(seen: &Seen, sides: &Sides) -> Self {
+    pub fn of(contact: &RestContact, sides: &Sides) -> Self {
         let along = |direction: DVec2| {
-            let levers = (seen.arms.0.perp_dot(direction), seen.arms.1.perp_dot(direction));
+            let levers = (contact.arms.0.perp_dot(direction), contact.arms.1.perp_dot(direction));
             Row::new(sides, levers, direction)
         };
         Self {
-            normal: along(seen.normal),
-            tangent: along(-seen.normal.perp()),
+            normal: along(contact.normal),
+            tangent: along(-contact.normal.perp()),
             turn: Row::new(sides, (-1.0, -1.0), DVec2::ZERO),
         }
     }

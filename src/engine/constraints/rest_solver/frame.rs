@@ -1,8 +1,7 @@
-//! The frame in which an island that is carried looks for rest: that of what carries it.
+//! The moving frame of an island that a belt or platform carries.
 //!
-//! Whether a contact stands is a matter of relative velocities. Taken as differences of large ones they would carry the
-//! rounding of those, and forces over a short tick would be corrected for it without end; seen from a belt or a platform
-//! a body that rides on it stands as it would on the floor.
+//! A contact stands if its relative velocity is zero. The difference of two large velocities carries their rounding, and the
+//! solver would correct forces for that without end. Seen from the belt or platform a body that rides on it stands as on a floor.
 
 use glam::DVec2;
 

@@ -1,23 +1,24 @@
-//! Conjugate gradients over the rows of an island that no bound holds.
+//! Preconditioned conjugate gradients (Hestenes and Stiefel 1952) over the rows of an island whose bounds are not active.
 
 use glam::DVec2;
 
 use jostle_simd::BLOCK;
 
+use super::ROUNDING;
 use super::blocks::{Blocks, Rows};
+use super::joint_row::JointRow;
+use super::rest_contact::RestContact;
 use super::row::{Mover, Row, Sides};
-use super::seen::Seen;
-use super::tie::Tie;
 
-/// Share to which conjugate gradients bring down the velocities of an island in one tick. A few ticks reach rounding.
+/// Conjugate gradients reduce the velocities of an island to this share in one tick. A few ticks reach rounding.
 const GAIN: f64 = 1e-4;
-/// Rows that conjugate gradients go through at most, and their steps in any case: islands of a thousand rows are solved, in
-/// those of a hundred thousand, which would take minutes, each search goes on where the one before ended.
+/// Greatest number of rows times steps, and the least number of steps. An island of a thousand rows is solved within that. In one of
+/// a hundred thousand, which would take minutes, each search goes on where the last one ended.
 const WORK: usize = 4_000_000;
 const FEWEST_STEPS: usize = 32;
 
-/// Conjugate gradients over the forces that no bound holds. A force that would leave its bounds stops there, and what
-/// that leaves is for the sweeps that follow.
+/// Conjugate gradients over the forces whose bounds are not active. A force that would leave its bounds stops there, and the
+/// sweeps that follow take up the rest.
 #[derive(Debug, Default)]
 pub(super) struct Gradients {
     rows: Vec<(Row, (usize, usize))>,
@@ -32,25 +33,30 @@ pub(super) struct Gradients {
 }
 
 impl Gradients {
-    pub fn finish(&mut self, (blocks, seen, ties): (&mut Blocks, &[Seen], &mut [Tie]), movers: &mut [Mover], dt: f64) {
+    pub fn finish(
+        &mut self,
+        (blocks, contact, joint_rows): (&mut Blocks, &[RestContact], &mut [JointRow]),
+        movers: &mut [Mover],
+        dt: f64,
+    ) {
         let Self { rows, still, moved, impulses, residual, scaled, search, response } = self;
         rows.clear();
-        for (seen, &place) in seen.iter().zip(&blocks.places) {
-            let all = Rows::of(seen, &Sides::of(movers, seen.ends));
+        for (contact, &place) in contact.iter().zip(&blocks.places) {
+            let all = Rows::of(contact, &Sides::of(movers, contact.ends));
             let free = [all.normal, all.tangent, all.turn].into_iter().zip(free(blocks, place));
-            rows.extend(free.filter(|(_, is)| *is).map(|(row, _)| (row, seen.ends)));
+            rows.extend(free.filter(|(_, is)| *is).map(|(row, _)| (row, contact.ends)));
         }
         still.clear();
         still.extend(movers.iter().map(|m| Mover { velocity: DVec2::ZERO, spin: 0.0, ..*m }));
-        let count = rows.len() + ties.len();
+        let count = rows.len() + joint_rows.len();
         for list in [&mut *impulses, &mut *response, &mut *scaled] {
             list.clear();
             list.resize(count, 0.0);
         }
         residual.clear();
         residual.extend(rows.iter().map(|(row, ends)| -row.velocity(&Sides::of(movers, *ends))));
-        residual.extend(ties.iter().map(|tie| tie.missing(movers)));
-        let mobilities = || rows.iter().map(|(row, _)| row.mobility).chain(ties.iter().map(|tie| tie.mobility));
+        residual.extend(joint_rows.iter().map(|row| row.missing(movers)));
+        let mobilities = || rows.iter().map(|(row, _)| row.mobility).chain(joint_rows.iter().map(|row| row.mobility));
         let scale = |scaled: &mut [f64], residual: &[f64]| {
             for ((scaled, residual), mobility) in scaled.iter_mut().zip(residual).zip(mobilities()) {
                 *scaled = residual / mobility;
@@ -72,18 +78,21 @@ impl Gradients {
                 row.push(&mut sides, impulse);
                 sides.put_back(moved, *ends);
             }
-            for (tie, &impulse) in ties.iter().zip(&search[rows.len()..]) {
-                tie.push(moved, impulse);
+            for (row, &impulse) in joint_rows.iter().zip(&search[rows.len()..]) {
+                row.push(moved, impulse);
             }
-            let (of_rows, of_ties) = response.split_at_mut(rows.len());
+            let (of_rows, of_joints) = response.split_at_mut(rows.len());
             for (response, (row, ends)) in of_rows.iter_mut().zip(&*rows) {
                 *response = row.velocity(&Sides::of(moved, *ends));
             }
-            for (response, tie) in of_ties.iter_mut().zip(&*ties) {
-                *response = tie.velocity(moved);
+            for (response, row) in of_joints.iter_mut().zip(&*joint_rows) {
+                *response = row.velocity(moved);
             }
+            // Rows that say the same leave directions in which nothing moves: to rounding, the search has come to their end.
             let curvature = dot(search, response);
-            if curvature <= 0.0 {
+            let natural =
+                search.iter().zip(mobilities()).fold(0.0, |sum, (search, mobility)| sum + search * search * mobility);
+            if curvature <= ROUNDING * natural {
                 break;
             }
             let step = size / curvature;
@@ -97,15 +106,15 @@ impl Gradients {
                 search[i] = scaled[i] + size / before * search[i];
             }
         }
-        let (of_rows, of_ties) = impulses.split_at(rows.len());
-        take_over((blocks, seen), movers, of_rows, dt);
-        for (tie, &impulse) in ties.iter_mut().zip(of_ties) {
-            tie.take_over(movers, impulse, dt);
+        let (of_rows, of_joints) = impulses.split_at(rows.len());
+        take_over((blocks, contact), movers, of_rows, dt);
+        for (row, &impulse) in joint_rows.iter_mut().zip(of_joints) {
+            row.take_over(movers, impulse, dt);
         }
     }
 }
 
-/// Which of the three rows of a contact no bound holds.
+/// Which of the three rows of a contact are free of their bounds.
 fn free(blocks: &Blocks, place: usize) -> [bool; 3] {
     let (block, lane) = (place / BLOCK, place % BLOCK);
     let rolls = blocks.rolling.get(block).is_some_and(|rolling| rolling.is_free(lane));
@@ -119,14 +128,14 @@ fn within(force: f64, least: f64, greatest: f64) -> f64 {
 }
 
 /// Takes over the impulses of the free rows, each as far as its bounds allow.
-fn take_over((blocks, seen): (&mut Blocks, &[Seen]), movers: &mut [Mover], impulses: &[f64], dt: f64) {
+fn take_over((blocks, contact): (&mut Blocks, &[RestContact]), movers: &mut [Mover], impulses: &[f64], dt: f64) {
     let mut impulses = impulses.iter();
     let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
-    for (number, seen) in seen.iter().enumerate() {
+    for (number, contact) in contact.iter().enumerate() {
         let place = blocks.places[number];
         let (block, lane) = (place / BLOCK, place % BLOCK);
-        let mut sides = Sides::of(movers, seen.ends);
-        let (rows, free) = (Rows::of(seen, &sides), free(blocks, place));
+        let mut sides = Sides::of(movers, contact.ends);
+        let (rows, free) = (Rows::of(contact, &sides), free(blocks, place));
         let normals = &mut blocks.normals[block];
         if free[0] {
             let wanted = normals.force[lane] + next();
@@ -139,13 +148,13 @@ fn take_over((blocks, seen): (&mut Blocks, &[Seen]), movers: &mut [Mover], impul
         for (row, (free, springs)) in [rows.tangent, rows.turn].iter().zip(free[1..].iter().zip(blocks.springs())) {
             let Some(springs) = springs.get_mut(block).filter(|springs| springs.is_engaged(lane)) else { continue };
             let (before, limit) = (springs.force[lane], springs.gives[lane] * normal_force);
-            // Where it is at its limit that has moved with the normal force.
+            // The limit of a spring that stands there has moved with the normal force.
             let wanted = if *free { before + next() } else { limit.copysign(before) };
             let force = within(wanted, -limit, limit);
             springs.note_limit(lane, !free || force != wanted);
             row.push(&mut sides, (force - before) * dt);
             springs.force[lane] = force;
         }
-        sides.put_back(movers, seen.ends);
+        sides.put_back(movers, contact.ends);
     }
 }

@@ -1,4 +1,4 @@
-//! A body and a direction of a contact, as the search for rest sees them.
+//! A body and a direction of a contact in the rest solver.
 
 use glam::DVec2;
 
@@ -23,8 +23,8 @@ impl Mover {
         self.inverse_mass > 0.0 || self.inverse_inertia > 0.0
     }
 
-    /// Whether it stands but for rounding, under `load` newtons that act up to `extent` metres from its centre of mass
-    /// over `dt` seconds. What does not move by forces has to stand exactly.
+    /// Whether it stands to rounding, under `load` newtons that act up to `extent` metres from its centre of mass over `dt`
+    /// seconds. A mover that does not move by forces has to stand exactly.
     pub fn stands(&self, load: f64, extent: f64, dt: f64) -> bool {
         let limit = 10.0 * ROUNDING * load * dt;
         self.velocity.length() <= limit * self.inverse_mass && self.spin.abs() <= limit * extent * self.inverse_inertia
@@ -56,7 +56,7 @@ impl Row {
         [self.lever_a, self.lever_b]
     }
 
-    /// What each side gives to the mobility.
+    /// The share of each side in the mobility.
     #[inline(always)]
     pub fn mobilities(&self, sides: &Sides) -> (f64, f64) {
         let linear = self.direction.length_squared();

@@ -5,7 +5,7 @@ use jostle_simd::{Kernel, Lanes, PairedQuads};
 use super::ROUNDING;
 use super::blocks::{Blocks, Eight, Normals, Springs};
 
-/// A change of a force over what counts as rounding, up to which a sweep has changed nothing.
+/// A sweep has changed nothing if all forces change by less than this, in units of rounding.
 const QUIET: f64 = 1e-2;
 
 /// The sweep. Returns whether a force has changed.

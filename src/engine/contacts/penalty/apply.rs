@@ -13,10 +13,10 @@ use super::law::{LawTable, Side};
 use super::list::ContactList;
 use super::meetings::Meetings;
 use super::normal::{Approach, NormalForce};
-use super::patience::Patience;
 use super::records::Records;
 use super::rest::{Rest, Sleep};
 use super::rolling::RollingContacts;
+use super::search_schedule::SearchSchedule;
 use super::staged;
 use super::surfaces::follow_surfaces;
 use super::switching::Told;
@@ -49,7 +49,7 @@ pub struct PenaltyContacts {
     pub(super) records: Records,
     meetings: Meetings,
     pub(super) rest: Rest,
-    pub(super) patience: Patience,
+    pub(super) schedule: SearchSchedule,
     pub(super) sleep: Sleep,
     /// Whether bodies at rest are left out of the work as long as nothing touches them; without, each evaluation looks at
     /// them. It changes nothing of the motion.
@@ -79,7 +79,7 @@ impl Default for PenaltyContacts {
             records: Records::default(),
             meetings: Meetings::default(),
             rest: Rest::default(),
-            patience: Patience::default(),
+            schedule: SearchSchedule::default(),
             sleep: Sleep::Never,
             may_sleep: true,
             watch: Watch::default(),

@@ -1,4 +1,4 @@
-//! A touching pair as the search for rest sees it.
+//! A touching pair as a case for the rest solver: whether it parts, or could stop within a tick.
 
 use glam::DVec2;
 
@@ -24,8 +24,8 @@ impl Pair {
         }
     }
 
-    /// Whether the contact parts under no force, and nothing that acts at present turns it within `dt` seconds. Without restitution
-    /// that may take long: bodies at rest beside it do not wait for that.
+    /// Whether the contact parts under no force, and the present accelerations do not turn it within `dt` seconds. Without restitution
+    /// parting may take long, and bodies at rest beside it do not wait for it.
     pub(super) fn parts_freely(&self, contact: &Contact, bodies: &Bodies, parting: f64, dt: f64) -> bool {
         let acts = contact.normal_force != 0.0 || contact.mode != Mode::Unloading;
         !acts && parting > 2.0 * dt * self.relative_acceleration(bodies).abs()

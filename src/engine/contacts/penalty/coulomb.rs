@@ -9,7 +9,7 @@
 //! decides ([`crate::constraints::rest_solver`]).
 
 use super::switching::Base;
-use crate::constraints::rest_solver::{Drawn, Friction};
+use crate::constraints::rest_solver::{CoulombSpring, Friction};
 use serde::{Deserialize, Serialize};
 
 /// A share of a force or of a velocity that counts as rounding.
@@ -86,10 +86,10 @@ impl Slider {
     }
 
     /// The spring as the search for rest sees it.
-    pub(super) fn drawn(&self, law: &SliderLaw) -> Drawn {
+    pub(super) fn drawn(&self, law: &SliderLaw) -> CoulombSpring {
         let SliderLaw { friction_static: limit, friction_dynamic: slips, .. } = *law;
         let gives = if self.grip == Grip::Slip { slips } else { limit };
-        Drawn { limit, gives, slips, force: self.force(law) }
+        CoulombSpring { limit, gives, slips, force: self.force(law) }
     }
 
     /// Elastic energy in J.

@@ -1,7 +1,7 @@
 //! Joints of bodies that touch something, as the search for rest sees them.
 
 use crate::constraints::islands::{Link, Members};
-use crate::constraints::rest_solver::{Mover, Tie, TieSide};
+use crate::constraints::rest_solver::{JointRow, JointRowSide, Mover};
 use crate::constraints::{Kind, Row, Rows};
 use crate::world::Bodies;
 use glam::DVec2;
@@ -42,15 +42,21 @@ pub(super) fn find_joined(rows: &Rows, bodies: &Bodies, joined: &mut Vec<Joined>
 }
 
 /// A row as the search for rest solves it, with its present force.
-pub(super) fn tie(index: usize, rows: &Rows, bodies: &Bodies, members: &Members, movers: &[Mover]) -> Option<Tie> {
+pub(super) fn joint_row(
+    index: usize,
+    rows: &Rows,
+    bodies: &Bodies,
+    members: &Members,
+    movers: &[Mover],
+) -> Option<JointRow> {
     let row = rows.row(index);
     let sides = row.sides.map(|side| {
-        side.map_or(TieSide::default(), |side| {
+        side.map_or(JointRowSide::default(), |side| {
             let extent = bodies.extent(side.body);
             let turns = side.direction == DVec2::ZERO && extent > 0.0;
             let load = if turns { side.lever.abs() / extent } else { side.direction.length() };
-            TieSide { mover: members.index(side.body), direction: side.direction, lever: side.lever, load }
+            JointRowSide { mover: members.index(side.body), direction: side.direction, lever: side.lever, load }
         })
     });
-    Tie::new(sides, movers, (row.rate, rows.force(index)))
+    JointRow::new(sides, movers, (row.rate, rows.force(index)))
 }

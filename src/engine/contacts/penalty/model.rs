@@ -9,7 +9,9 @@ use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
-use super::{Penalty, RollingLaw, TangentialLaw, features, handover, limits, meetings, patience, staged, watched};
+use super::{
+    Penalty, RollingLaw, TangentialLaw, features, handover, limits, meetings, search_schedule, staged, watched,
+};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
@@ -179,8 +181,8 @@ impl<N: NormalForce> Model for Contacts<N> {
 
     fn remarks(&self, state: &State) -> Vec<String> {
         let ticks = state.clock.ticks;
-        let patience = patience::remark(&self.own.contacts.patience, ticks);
-        patience.into_iter().chain(meetings::remark(&state.bodies, ticks)).collect()
+        let waits = search_schedule::remark(&self.own.contacts.schedule, ticks);
+        waits.into_iter().chain(meetings::remark(&state.bodies, ticks)).collect()
     }
 
     fn contact_points(&self, state: &State) -> Option<Vec<ContactPoint>> {

@@ -1,20 +1,20 @@
-//! The modes of contacts for the tick to come: loading, unloading, or held at rest.
+//! The choice of modes of contacts for the tick to come: loading, unloading, or held at rest by the rest solver.
 
 use glam::DVec2;
 
 use super::apply::{Own, PenaltyContacts, Shared, Sink, approach};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
-use super::joined::{Joined, find_joined, tie};
+use super::joined::{Joined, find_joined, joint_row};
 use super::law::PairLaw;
 use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
-use super::patience::{Found, MANY};
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
+use super::search_schedule::{Found, MANY};
 use crate::constraints::Rows;
 use crate::constraints::islands::{Islands, Link, Marked, Members};
-use crate::constraints::rest_solver::{Drawn, Frame, Friction, Island, Mover, Seen, Verdict};
+use crate::constraints::rest_solver::{CoulombSpring, Frame, Friction, Island, Mover, Outcome, RestContact};
 use crate::contacts::geometry::{End, Listed, Pair, PairGeometry, SideA};
 use crate::contacts::{AtomPair, CandidatePairs, SurfacePair};
 use crate::tick::steady::SteadySprings;
@@ -34,8 +34,8 @@ pub(super) struct Scratch {
     island: Island,
 }
 
-/// Touching pairs choose loading, unloading or hold for the coming step; where that changes a force, the sums are corrected by the
-/// difference. Says whether a force has changed on a body that joints hold.
+/// Touching pairs choose loading, unloading or hold for the coming step. If that changes a force, the sums are corrected by the
+/// difference. Returns whether a force has changed on a body that joints hold.
 pub(super) fn choose<N: NormalForce>(
     Shared { bodies, balance, ledger, evaluation, rows }: Shared,
     (clock, span): (&Clock, &Span),
@@ -50,13 +50,13 @@ pub(super) fn choose<N: NormalForce>(
     let sink = Sink { bodies, balance, forces };
     let Scratch { touching, cases, joined, moved, islands, members, island } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
-    let thorough = contacts.patience.tries_thoroughly(ticks);
+    let thorough = contacts.schedule.tries_thoroughly(ticks);
     let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, thorough, losses, changed: false };
     choice.wake_touched(pairs);
-    // A law whose normal force may have several values at rest needs the search to know which: without it contacts load and
-    // unload in turns.
+    // If the normal force may have several values at rest, the search decides which it has. Without it contacts load and unload
+    // in turns.
     let restless = if N::SET_VALUED { 0 } else { choice.restless(pairs) };
-    if !choice.contacts.patience.searches(restless, ticks) {
+    if !choice.contacts.schedule.searches(restless, ticks) {
         choice.let_go::<N>(pairs, touching);
         choice.book(ledger);
         return choice.changed;
@@ -98,8 +98,8 @@ pub(super) fn choose<N: NormalForce>(
         let may_rest = members.list.iter().all(|&body| !moved.has(body));
         choice.stop::<N>((cases, joined, members), island, may_rest, ledger, &mut found);
     }
-    choice.contacts.patience.note_tries(found, ticks);
-    choice.contacts.patience.note(found, restless, ticks);
+    choice.contacts.schedule.note_tries(found, ticks);
+    choice.contacts.schedule.note(found, restless, ticks);
     choice.book(ledger);
     choice.changed
 }
@@ -134,7 +134,7 @@ impl Choice<'_> {
     /// Bodies at rest that touch one that moves wake, and so do their neighbours.
     fn wake_touched(&mut self, pairs: &CandidatePairs) {
         let PenaltyContacts { atoms, surfaces, rest, .. } = &mut *self.contacts;
-        // Whoever was pushed has woken by that.
+        // A body that was pushed has woken by that.
         let mut woke = !rest.is_empty() && std::mem::take(&mut rest.woke);
         if !woke {
             return;
@@ -182,8 +182,8 @@ impl Choice<'_> {
         (contact, law)
     }
 
-    /// What the rolling spring of a contact has, and whether it slides without it, in scenes that have them.
-    fn rolls(&self, case: &Pair, pair: &PairLaw) -> Option<(Drawn, bool)> {
+    /// The rolling spring of a contact, and whether the contact slides without it, in scenes that have rolling friction.
+    fn rolls(&self, case: &Pair, pair: &PairLaw) -> Option<(CoulombSpring, bool)> {
         let rolling = self.rolling.as_deref()?;
         let law = rolling.law(pair, case.other_end(), &case.b);
         let list = if case.listed() == Listed::Atoms { &rolling.atoms } else { &rolling.surfaces };
@@ -191,7 +191,7 @@ impl Choice<'_> {
         Some((slider.drawn(&law), slider.slides_without_spring(&law)))
     }
 
-    /// The rolling spring of a contact with its law, in scenes that have them.
+    /// The rolling spring of a contact with its law, in scenes that have rolling friction.
     fn roller(&mut self, case: &Pair, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref_mut()?;
         let law = rolling.law(pair, case.other_end(), &case.b);
@@ -225,7 +225,7 @@ impl Choice<'_> {
         self.change(case, Friction::Follows, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
     }
 
-    /// How many contacts touch of bodies that are not at rest. Where some rest, no more are counted once there are [`MANY`].
+    /// The number of touching contacts of bodies that are not at rest. If some bodies rest, the count ends at [`MANY`].
     fn restless(&self, pairs: &CandidatePairs) -> usize {
         let PenaltyContacts { atoms, surfaces, rest, .. } = &*self.contacts;
         if rest.is_empty() {
@@ -237,7 +237,7 @@ impl Choice<'_> {
         of_atoms + surfaces.count_touching(MANY, |place| self.moves(pairs.surfaces[place]))
     }
 
-    /// What is held follows its law again, but for what holds bodies at rest.
+    /// Held contacts follow their law again, except those of bodies at rest.
     fn let_go<N: NormalForce>(&mut self, pairs: &CandidatePairs, held: &mut Vec<u32>) {
         held.clear();
         held.extend(self.contacts.atoms.awake_held().map(|place| place as u32));
@@ -301,11 +301,11 @@ impl Choice<'_> {
 
     /// A contact as the search for rest sees it.
     #[inline]
-    fn seen<N: NormalForce>(&self, case: &Pair, ends: (usize, usize)) -> Seen {
+    fn seen<N: NormalForce>(&self, case: &Pair, ends: (usize, usize)) -> RestContact {
         let (contact, law) = self.known(case);
         let (rolling, rolls) = self.rolls(case, law).unwrap_or_default();
         let place = self.sink.bodies.position[case.b.body] + case.b.arm;
-        Seen {
+        RestContact {
             ends,
             arms: case.arms(law.shares(), contact.overlap),
             normal: case.normal,
@@ -351,10 +351,11 @@ impl Choice<'_> {
             let belt = case.surface(self.sink.bodies).and_then(|_| belt.next());
             let other = case.other_body().map_or(belt.unwrap_or(0), |body| members.index(body));
             let seen = self.seen::<N>(case, (other, members.index(case.b.body)));
-            island.seen.push(seen);
+            island.contacts.push(seen);
         }
-        let ties = joined.iter().filter_map(|link| tie(link.row, self.rows, self.sink.bodies, members, &island.movers));
-        island.ties.extend(ties);
+        let joint_rows =
+            joined.iter().filter_map(|link| joint_row(link.row, self.rows, self.sink.bodies, members, &island.movers));
+        island.joint_rows.extend(joint_rows);
         island.set_up(self.dt);
         // The world, to which joints hold, moves with no frame.
         let frame = if joined.is_empty() { self.frame(cases, &members.list, &island.movers[1..]) } else { None };
@@ -373,9 +374,9 @@ impl Choice<'_> {
         found.tried |= tries;
         island.solve(may_rest && affordable || tries, self.dt);
         let mut entirely = may_rest;
-        for (case, verdict) in cases.iter().zip(island.verdicts(self.dt)) {
-            match verdict {
-                Verdict::Moves { approaches } => {
+        for (case, outcome) in cases.iter().zip(island.outcomes(self.dt)) {
+            match outcome {
+                Outcome::Moves { approaches } => {
                     entirely = false;
                     let mut approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
                     if !N::DEPENDS_ON_VELOCITY {
@@ -385,7 +386,7 @@ impl Choice<'_> {
                         contact.choose_mode::<N>(law, approach, losses)
                     });
                 }
-                Verdict::Rests { normal, tangential, rolling, entirely: stops } => {
+                Outcome::Rests { normal, tangential, rolling, entirely: stops } => {
                     entirely &= stops;
                     self.change(case, rolling, |contact, law, losses| {
                         let before = *contact;
@@ -417,8 +418,8 @@ impl Choice<'_> {
         }
     }
 
-    /// What carries an island: its first member that moves as prescribed, or its first belt. `movers` are those of its
-    /// members and belts.
+    /// The frame of the carrier of an island: its first member that moves as prescribed, or its first belt. `movers` are those of
+    /// its members and belts.
     fn frame(&self, island: &[Pair], members: &[usize], movers: &[Mover]) -> Option<Frame> {
         let bodies = &*self.sink.bodies;
         let carries = |mover: &Mover| mover.inverse_mass == 0.0 && (mover.velocity != DVec2::ZERO || mover.spin != 0.0);
@@ -436,7 +437,7 @@ impl Choice<'_> {
             if !bodies.dynamic[body] {
                 continue;
             }
-            // What rounding left of its motion the contacts take now.
+            // The contacts take up the motion that rounding left.
             let momentum = bodies.velocity[body] * bodies.mass[body];
             let angular = bodies.inertia[body] * bodies.spin[body];
             ledger.impulse[0].add(-momentum.x);

@@ -1,10 +1,10 @@
-//! A contact as it comes to the search for rest, and what becomes of it.
+//! A contact as the rest solver takes it, and what it gives back.
 
 use glam::DVec2;
 
-/// A spring with a Coulomb limit as it comes to the search for rest: a force in N, or a torque in N m with lengths for coefficients.
+/// A spring with a Coulomb limit: a force in N, or a torque in N m with lengths for coefficients.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drawn {
+pub struct CoulombSpring {
     /// Share of the normal force that it may hold.
     pub limit: f64,
     /// Share of the normal force beyond which it gives way, or slips on.
@@ -15,16 +15,16 @@ pub struct Drawn {
     pub force: f64,
 }
 
-impl Drawn {
-    /// Whether it does something, or could.
+impl CoulombSpring {
+    /// Whether it has a force, or could have one.
     pub(super) fn acts(&self) -> bool {
         self.limit > 0.0 || self.force != 0.0
     }
 }
 
-/// A contact as it comes to the search for rest.
+/// A contact as the rest solver takes it.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct RestContact {
     /// Places of both sides in the list of movers.
     pub ends: (usize, usize),
     /// Arms of both sides in metres.
@@ -37,41 +37,41 @@ pub struct Seen {
     pub normal_force: f64,
     /// Force in newtons that rounding of positions makes.
     pub noise: f64,
-    /// Whether the tangential and the rolling force may hold though their springs are drawn out: not before the normal
-    /// force has held for a tick, so that a contact that turns in a collision keeps what its springs hold.
+    /// Whether the tangential and the rolling force may hold though their springs are drawn out. They may once the normal force has
+    /// held for a tick: so a contact that turns in a collision keeps the energy of its springs.
     pub engaged: bool,
     /// Whether the contact parts.
     pub parts: bool,
     /// Whether the contact slides and rolls without its springs, under the dynamic coefficient.
     pub slides: (bool, bool),
     /// The tangential spring; its force acts along minus the tangent on B.
-    pub tangential: Drawn,
+    pub tangential: CoulombSpring,
     /// The rolling spring; its torque acts against B's turn.
-    pub rolling: Drawn,
+    pub rolling: CoulombSpring,
 }
 
-/// What friction does in the tick to come, in a contact that rests along its normal. Forces are in N, torques in N m.
+/// Friction in the tick to come, in a contact that rests along its normal. Forces are in N, torques in N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Friction {
-    /// It holds with this force, or brakes with all that it can hold.
+    /// It holds with this force, or brakes with its greatest force.
     Holds(f64),
-    /// It was at rest and could not bear the load, or slid already without its spring: it slides with the dynamic coefficient,
-    /// against the motion, and its force has the sign of this number.
+    /// It was at rest and could not bear the load, or slid already without its spring. It slides against the motion with the dynamic
+    /// coefficient, and its force has the sign of this number.
     Slides(f64),
-    /// The contact begins to rest, perhaps for the one tick in which a collision turns: its spring follows the motion, and what
+    /// The contact begins to rest, perhaps for the one tick in which a collision turns. Its spring follows the motion. A spring that
     /// gives way slides on until the force of the next tick is known.
     Turns,
-    /// The contact begins to rest after it parted: the normal force grows, and what slipped is no longer drawn to its limit.
+    /// The contact begins to rest after it parted. The normal force grows, and a spring that slipped is below its limit then.
     Lands,
-    /// The contact rests on: its spring follows the motion, and what slips has the limit of the normal force, which depends on it.
+    /// The contact rests on, and its spring follows the motion. A spring that slips has the limit that follows from the normal force.
     Stays,
     /// Its spring follows the motion.
     Follows,
 }
 
-/// What becomes of a contact in the tick to come.
+/// The motion of a contact in the tick to come.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Outcome {
     /// It moves along its normal; the normal force wants it to approach or to part.
     Moves {
         /// Whether the normal force is at its upper bound: the contact approaches.
@@ -81,11 +81,11 @@ pub enum Verdict {
     Rests {
         /// Normal force in newtons.
         normal: f64,
-        /// What friction does along the tangent.
+        /// Friction along the tangent.
         tangential: Friction,
-        /// What it does against rolling.
+        /// Friction against rolling.
         rolling: Friction,
-        /// Whether nothing in it moves that friction could hold.
+        /// Whether friction holds all that it could hold in this contact.
         entirely: bool,
     },
 }

@@ -1,10 +1,10 @@
-//! When so many contacts touch under a law with a dashpot that rest is not looked for at each tick.
+//! Exponential back-off of the search for rest ([`crate::constraints::rest_solver`]).
 //!
-//! The search ([`crate::constraints::rest_solver`]) costs some twenty times what the contacts themselves do. Under a law whose normal force has one
-//! value at rest all that it can find is whether the whole of a heap may be laid to rest: as long as one grain moves, forces
-//! change everywhere, and springs hold friction without it. So among thousands of contacts it is made now and then. After a
-//! search that laid nothing to rest the time to the next doubles. Under `Inelasticity` it is made at each tick, whatever
-//! it costs: there the search alone knows the force of a contact that neither loads nor unloads.
+//! The search costs several times as much as the contacts themselves. Under a law whose normal force has one value at rest, it
+//! finds only whether a whole heap may be laid to rest. While one grain moves, forces change everywhere, and springs hold friction
+//! without the search. So among thousands of contacts it runs now and then. After a search that laid nothing to rest the time to
+//! the next one doubles. Under `Inelasticity` the search runs at each tick: it alone finds the force of a contact that neither loads
+//! nor unloads.
 
 use serde::{Deserialize, Serialize};
 /// Contacts up to which rest is looked for at each tick; those of bodies at rest do not count.
@@ -20,10 +20,10 @@ const PAUSE: u64 = 64;
 
 /// When rest is looked for.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct Patience {
-    /// The tick from which on conjugate gradients are tried again in large islands.
+pub(super) struct SearchSchedule {
+    /// The tick from which conjugate gradients are tried again in large islands.
     thorough_from: u64,
-    /// Ticks in a row in which they were.
+    /// Ticks in a row in which they were tried.
     thorough_tries: u32,
     /// The tick of the next search.
     until: u64,
@@ -36,8 +36,8 @@ pub(super) struct Patience {
 }
 
 /// For the card: in how many ticks rest was not looked for.
-pub(super) fn remark(patience: &Patience, ticks: u64) -> Option<String> {
-    let waited = patience.waited;
+pub(super) fn remark(schedule: &SearchSchedule, ticks: u64) -> Option<String> {
+    let waited = schedule.waited;
     (waited > 0).then(|| {
         format!(
             "contacts: in {waited} of {ticks} ticks more than {MANY} contacts were not at rest: no body was laid to rest there, and \
@@ -46,7 +46,7 @@ pub(super) fn remark(patience: &Patience, ticks: u64) -> Option<String> {
     })
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Found {
     /// Something was laid to rest.
@@ -57,7 +57,7 @@ pub(super) struct Found {
     pub tried: bool,
 }
 
-impl Patience {
+impl SearchSchedule {
     /// Whether rest is looked for in a tick with so many contacts of bodies that are not at rest.
     pub fn searches(&mut self, contacts: usize, ticks: u64) -> bool {
         if contacts <= MANY {
@@ -72,8 +72,8 @@ impl Patience {
         !waits
     }
 
-    /// Whether conjugate gradients are to be tried in large islands. Where bounds are in the way they do harm: they stop all contacts at
-    /// once with whatever forces the bounds allow, which the next tick cannot keep.
+    /// Whether conjugate gradients are to be tried in large islands. They do harm where bounds are in the way: they stop all contacts at
+    /// once, with forces that the next tick cannot keep.
     pub fn tries_thoroughly(&self, ticks: u64) -> bool {
         ticks >= self.thorough_from
     }

@@ -5,17 +5,16 @@ use jostle_simd::BLOCK;
 
 use super::Mover;
 
-/// Blocks that are filled at the same time.
+/// Blocks that are open to be filled at the same time.
 const OPEN: usize = 64;
 
-/// Copies of the mover that never moves, of which blocks use one after the other. A block that writes the place that the block
-/// before wrote waits for it; see [`Slots::stand_in`].
+/// Copies of the mover that never moves. Blocks use them in turns, for a block waits for the last one that wrote the same mover.
 const WORLDS: usize = 16;
 
 /// Puts contacts into blocks, in their order.
 #[derive(Debug, Default)]
-pub(super) struct Slots {
-    /// For each mover how many blocks come first of all that its next contact may stand in.
+pub(super) struct LevelSchedule {
+    /// For each mover the first block that its next contact may stand in.
     after: Vec<u32>,
     /// How many contacts each block has.
     counts: Vec<u8>,
@@ -25,8 +24,8 @@ pub(super) struct Slots {
     pub blocks: Vec<[[u32; BLOCK]; 2]>,
 }
 
-impl Slots {
-    /// Forgets the contacts of before, among so many movers.
+impl LevelSchedule {
+    /// Begins an empty schedule for so many movers.
     pub fn begin(&mut self, movers: usize) {
         self.after.clear();
         self.after.resize(movers, 0);
@@ -88,15 +87,15 @@ mod tests {
     #[test]
     fn contacts_that_share_a_body_stand_in_blocks_in_their_order() {
         let movers = moving(400);
-        let mut slots = Slots::default();
-        slots.begin(movers.len());
+        let mut schedule = LevelSchedule::default();
+        schedule.begin(movers.len());
         let pairs: Vec<(usize, usize)> = (0..3000).map(|k| (k * 7 % 400, (k * k + 3 * k + 1) % 400)).collect();
         let pairs: Vec<(usize, usize)> = pairs.into_iter().filter(|(a, b)| a != b).collect();
-        let places: Vec<usize> = pairs.iter().map(|&ends| slots.put(ends, &movers)).collect();
+        let places: Vec<usize> = pairs.iter().map(|&ends| schedule.put(ends, &movers)).collect();
         let mut last = vec![None; movers.len()];
         for (place, &(a, b)) in places.iter().zip(&pairs) {
             let (block, lane) = (place / BLOCK, place % BLOCK);
-            let [first, second] = slots.blocks[block];
+            let [first, second] = schedule.blocks[block];
             let named = |place: u32| if place < 400 { place as usize } else { 0 };
             assert_eq!((named(first[lane]), named(second[lane])), (a, b));
             for end in [a, b].into_iter().filter(|&end| end > 0) {
@@ -104,15 +103,15 @@ mod tests {
                 last[end] = Some(block);
             }
         }
-        assert!(slots.blocks.len() < pairs.len() / 4, "{} blocks", slots.blocks.len());
+        assert!(schedule.blocks.len() < pairs.len() / 4, "{} blocks", schedule.blocks.len());
     }
 
     #[test]
     fn contacts_of_one_body_stand_in_a_block_each() {
         let movers = moving(60);
-        let mut slots = Slots::default();
-        slots.begin(movers.len());
-        let places: Vec<usize> = (2..60).map(|other| slots.put((1, other), &movers)).collect();
+        let mut schedule = LevelSchedule::default();
+        schedule.begin(movers.len());
+        let places: Vec<usize> = (2..60).map(|other| schedule.put((1, other), &movers)).collect();
         assert!(places.iter().enumerate().all(|(number, &place)| place == BLOCK * number));
     }
 }

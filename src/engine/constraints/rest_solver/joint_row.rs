@@ -1,4 +1,4 @@
-//! A row of a joint in the search for rest: its force has no bounds, and its rate is held.
+//! A row of a joint in the rest solver: an equation without bounds, which holds a rate.
 
 use glam::DVec2;
 
@@ -7,7 +7,7 @@ use super::row::Mover;
 
 /// One side of a row of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TieSide {
+pub struct JointRowSide {
     /// The index of its mover.
     pub mover: usize,
     /// How the velocity of the row depends on that of the mover, and the force of one unit.
@@ -20,22 +20,22 @@ pub struct TieSide {
 
 /// A row of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tie {
-    sides: [TieSide; 2],
+pub struct JointRow {
+    sides: [JointRowSide; 2],
     /// Velocity that one unit gives in one second, in 1/kg.
     pub mobility: f64,
     /// The velocity that is held, in m/s or rad/s.
     rate: f64,
     /// Its force in N, or torque in N m.
     force: f64,
-    /// A force of which rounding is a share.
+    /// The force by which rounding is judged.
     scale: f64,
 }
 
-impl Tie {
-    /// A row with its present force; `None` if nothing that moves by forces would follow it.
-    pub fn new(sides: [TieSide; 2], movers: &[Mover], (rate, force): (f64, f64)) -> Option<Self> {
-        let share = |side: &TieSide| {
+impl JointRow {
+    /// A row with its present force; `None` if neither side moves by forces.
+    pub fn new(sides: [JointRowSide; 2], movers: &[Mover], (rate, force): (f64, f64)) -> Option<Self> {
+        let share = |side: &JointRowSide| {
             let Mover { inverse_mass, inverse_inertia, .. } = movers[side.mover];
             side.direction.length_squared() * inverse_mass + side.lever * side.lever * inverse_inertia
         };
@@ -48,7 +48,7 @@ impl Tie {
         self.scale = self.scale.max(force);
     }
 
-    /// What its velocity lacks, in m/s or rad/s.
+    /// The held rate less the present one, in m/s or rad/s.
     #[inline]
     pub(super) fn missing(&self, movers: &[Mover]) -> f64 {
         self.rate - self.velocity(movers)
@@ -56,7 +56,7 @@ impl Tie {
 
     #[inline]
     pub(super) fn velocity(&self, movers: &[Mover]) -> f64 {
-        let of = |side: &TieSide| {
+        let of = |side: &JointRowSide| {
             let mover = &movers[side.mover];
             side.direction.dot(mover.velocity) + side.lever * mover.spin
         };
@@ -78,7 +78,7 @@ impl Tie {
         self.push(movers, impulse);
     }
 
-    /// Lets its force work over `dt` seconds so that its rate is held. Returns the change over what counts as rounding.
+    /// Lets its force work over `dt` seconds so that its rate is held. Returns the change, in units of rounding.
     pub(super) fn relax(&mut self, movers: &mut [Mover], dt: f64) -> f64 {
         let impulse = self.missing(movers) / self.mobility;
         self.take_over(movers, impulse, dt);
@@ -86,7 +86,7 @@ impl Tie {
         if rounding > 0.0 { (impulse / dt).abs() / rounding } else { 0.0 }
     }
 
-    /// Adds what it bears to the loads of its movers, in newtons.
+    /// Adds its force to the loads of its movers, in newtons.
     pub(super) fn load(&self, loads: &mut [f64]) {
         for side in &self.sides {
             loads[side.mover] += side.load * self.force.abs();
