@@ -119,7 +119,7 @@ pub(super) const WORDS: &[Word] = &[
         "rest",
         "the state of bodies whose contacts bear every load: nothing moves at all, to the last bit, until something touches \
          them or a load changes. It is found, not waited for, and no slow body is stopped. Where contacts lose nothing \
-         (`restitution: 1`) nothing comes to rest. The expectation `AtRest` looks whether bodies do; docs/scenes.md has more \
+         (`restitution: 1`) nothing comes to rest. The expectation `AtRest` looks whether bodies do; docs/methods.md has more \
          under Rest.",
     ),
     word(
