@@ -16,8 +16,9 @@ const INTRODUCTION: &str = "\
 
 <!-- Written by `jostle schema --manual -o docs/manual.md` from the types that read scenes. Mend their doc comments. -->
 
-Every section, entry and field that may stand in a scene. How things work and what they are good for is told in
-[scenes.md](scenes.md); [tour.md](tour.md) builds a scene in ten steps. `jostle schema` writes the same as JSON schema.
+This page lists every section, entry and field of a scene. [scenes.md](scenes.md) explains how scenes are written, and
+[methods.md](methods.md) how the engine computes them. [tour.md](tour.md) builds a scene in ten steps. `jostle schema` writes
+the same as JSON schema.
 
 A *quantity* is a bare number in the unit of the column `unit`, or a text with its unit: `0.3`, `\"30 cm\"`. Where a number may
 stand, an expression in quotes may: `\"2 * r + gap\"`. Where *names* are asked for, `*` stands for any letters: `\"gas_*\"`. A
