@@ -278,3 +278,22 @@ const CLOCKS: [&str; 4] = [
     "method: Dop853, tick: 0.02",
     "method: Reference",
 ];
+
+/// Law: a joint whose greatest friction is zero turns as one without, to the last bit: a sweep may begin there.
+#[test]
+fn friction_of_zero_is_none() {
+    let hash = |friction: &str| {
+        let scene = format!(
+            "Scene(format: 1, clock: (duration: 1, tick: \"1 ms\", method: VelocityVerlet), gravity: (0, -9.81), contacts: None,
+             bodies: [(name: \"rod\", at: (0.5, 0), mass: 2, inertia: 0.1, atoms: Disc(radius: 0.1)), (name: \"sled\", at: (0, 3), mass: 1, atoms: Disc(radius: 0.1))],
+             joints: [Revolute(a: World, anchor_a: (0, 0), b: \"rod\", anchor_b: (-0.5, 0){friction}),
+                      Prismatic(a: World, b: \"sled\", axis: (1, -1){friction})])"
+        );
+        let mut simulation =
+            Simulation::load(&Source::new("free.ron", scene)).unwrap_or_else(|errors| panic!("{errors}"));
+        simulation.run_to_tick(200).unwrap();
+        simulation.card().hash
+    };
+    assert_eq!(hash(", friction: 0"), hash(""));
+    assert_ne!(hash(", friction: 0.1"), hash(""));
+}

@@ -313,3 +313,19 @@ fn the_work_of_what_turns_as_prescribed_is_booked() {
     assert!(energy.work > 1e-2, "{energy:?}");
     assert!(energy.residual.abs() < 1e-4 * energy.work, "{energy:?}");
 }
+
+/// Law: without friction against rolling a disc rolls as if there were no rolling law, to the last bit: a sweep may begin at zero.
+#[test]
+fn rolling_friction_of_zero_is_none() {
+    for method in METHODS {
+        let with = scene(method, 0.1, 0.0, 1.0);
+        let without = with.replace("rolling: Spring(friction: 0.0)", "rolling: None");
+        assert_ne!(with, without);
+        let [with, without] = [with, without].map(|scene| {
+            let mut simulation = load(&scene);
+            run_to(&mut simulation, 0.01);
+            simulation.card().hash
+        });
+        assert_eq!(with, without, "{method}");
+    }
+}

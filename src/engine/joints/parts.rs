@@ -45,6 +45,13 @@ pub(super) fn check_restitution(restitution: Scalar, has_limits: bool, report: &
     }
 }
 
+/// Reports a friction below zero.
+pub(super) fn check_friction<D: Dimension>(friction: Option<Quantity<D>>, report: &mut Report) {
+    if let Some(friction) = friction {
+        report.not_negative("friction", friction);
+    }
+}
+
 /// Limits, friction and breaking of a joint: their modes.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Parts {
@@ -61,7 +68,7 @@ impl Parts {
     pub(super) fn new(asked: &Asked) -> Self {
         Self {
             limit: asked.limits.map(|limits| Limit::new(limits, asked.restitution)),
-            friction: asked.friction.map(|friction| Bounded::new(0.0, friction)),
+            friction: asked.friction.filter(|most| *most > 0.0).map(|most| Bounded::new(0.0, most)),
             break_force: asked.break_force,
             ..Self::default()
         }

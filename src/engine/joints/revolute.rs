@@ -37,7 +37,7 @@ struct Revolute {
     /// The share of its speed with which it comes back from a limit, 0 to 1. Default: 0, it stays there.
     #[serde(default)]
     restitution: Scalar,
-    /// The greatest friction, in N m: below it the joint sticks. Above zero. Default: none.
+    /// The greatest friction, in N m: below it the joint sticks. Not negative; 0 is none. Default: none.
     friction: Option<Torque>,
     /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
@@ -70,7 +70,7 @@ impl Entry for Revolute {
         model::check_ends(&self.a, &self.b, outline, report);
         parts::check_limits(self.limits.as_ref(), report);
         parts::check_restitution(self.restitution, self.limits.is_some(), report);
-        report.positive_if_given("friction", self.friction);
+        parts::check_friction(self.friction, report);
         report.positive_if_given("break_force", self.break_force);
         Softness::check(self.softness, report);
     }

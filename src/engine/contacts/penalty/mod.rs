@@ -128,7 +128,7 @@ pub enum RollingLaw {
     /// A spring that gives way at a torque of `friction` times normal force and rolling radius.
     Spring {
         /// Torque over normal force and rolling radius at which the spring gives way: the tangent of the steepest slope
-        /// on which a disc stays.
+        /// on which a disc stays. Not negative; with 0 nothing resists rolling, as with `None`.
         friction: f64,
         /// Stiffness of the spring at the rim over that of the normal one. Default: 0.8.
         #[serde(default = "default_ratio")]
@@ -137,6 +137,14 @@ pub enum RollingLaw {
 }
 
 impl RollingLaw {
+    /// The law that acts: a spring that gives way at once is none.
+    fn acting(self) -> Self {
+        match self {
+            Self::Spring { friction: 0.0, .. } => Self::None,
+            _ => self,
+        }
+    }
+
     fn ratio(self) -> Option<f64> {
         match self {
             Self::None => None,
@@ -151,6 +159,7 @@ fn default_ratio() -> f64 {
 
 /// Installs penalty contacts with these settings.
 pub fn install(settings: Penalty, app: &mut App) {
+    let settings = Penalty { rolling: settings.rolling.acting(), ..settings };
     search::plugin(app);
     app.init_resource::<Materials>();
     match settings.normal {
@@ -173,7 +182,7 @@ impl Entry for Penalty {
             report.positive("tangential.ratio", ratio);
         }
         if let RollingLaw::Spring { friction, ratio } = self.rolling {
-            report.positive("rolling.friction", friction);
+            report.not_negative("rolling.friction", friction);
             report.positive("rolling.ratio", ratio);
         }
         let given = [("damping", self.damping.map(|d| d.si())), ("damping_rate", self.damping_rate.map(|d| d.si()))];
