@@ -103,6 +103,15 @@ fn runs_that_fail_are_rows_with_their_reason() {
     let rows = table(&folder, "out/table.csv");
     assert_eq!([&rows[1][2], &rows[2][2], &rows[3][2]], ["good", "refused", "good"]);
     assert!(rows[2].concat().contains("bodies[0].atoms.mass: must be"), "{rows:?}");
+    // The message of a run that went wrong, without the lines below it.
+    let spring = "forces: [Spring(a: \"ball\", b: World, stiffness: \"stiff\")], params: { \"stiff\": 1 },\n)";
+    let folder = folder.with("spring.ron", FALL.strip_suffix(')').unwrap().to_owned() + spring);
+    let ended = folder.jostle("sweep spring.ron --vary stiff=1,1e9 -o sprung").code(3);
+    assert!(ended.err.contains("): failed: "), "{ended:?}");
+    let rows = table(&folder, "sprung/table.csv");
+    assert_eq!((rows.len(), rows[0].last().map(String::as_str)), (3, Some("reason")));
+    assert_eq!([&rows[1][2], &rows[2][2]], ["good", "failed"]);
+    assert!(rows[1].last().unwrap().is_empty() && rows[2].concat().contains("energy came out of nowhere"), "{rows:?}");
     // What is wrong with all of them is told with its place.
     let ended = folder.jostle("sweep ball.ron --vary bodies.ball.atoms.mas=1,2 -o out").code(1);
     assert!(ended.err.contains("ball.ron:7:") && ended.err.contains("did you mean `mass`"), "{ended:?}");

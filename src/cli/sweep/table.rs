@@ -71,7 +71,9 @@ impl Row {
             trial.hash.clone().unwrap_or_default(),
         ];
         let channels = attempt.tracks.iter().flat_map(cells).collect();
-        Self { run, values, fixed, channels, reason: trial.reason.clone() }
+        // A row is a line.
+        let reason = trial.reason.lines().next().unwrap_or_default().to_owned();
+        Self { run, values, fixed, channels, reason }
     }
 
     /// How the run ended; none for a word that is no verdict.
