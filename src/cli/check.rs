@@ -10,8 +10,10 @@ use super::progress::Progress;
 use super::result::{self, Detail, Ran};
 use super::say::{count, print_line, say};
 use super::{Exit, colors};
-use crate::scene::Source;
+use crate::scene::{Source, number};
 use crate::simulation::{Overrides, Simulation};
+use crate::world::Name;
+use crate::world::anchor::{Anchor, Anchors};
 
 /// The command `check`.
 #[derive(Args, Debug)]
@@ -31,6 +33,9 @@ pub(super) struct Check {
     #[arg(long)]
     json: bool,
 }
+
+/// More anchors are told by `--json` alone.
+const MOST_ANCHORS: usize = 12;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,11 +68,21 @@ impl Check {
             return self.run(request, simulation);
         }
         let notes = simulation.notes();
+        let anchors = anchors(&simulation);
         if self.json {
-            return print_line(&serde_json::json!({ "scene": name, "errors": [], "notes": notes }).to_string());
+            let anchors: Vec<_> = anchors.iter().map(Seen::json).collect();
+            let told = serde_json::json!({ "scene": name, "errors": [], "notes": notes, "anchors": anchors });
+            return print_line(&told.to_string());
         }
         for note in notes {
             say(&format!("note: {name}: {note}"));
+        }
+        for anchor in anchors.iter().take(MOST_ANCHORS) {
+            say(&format!("anchor: {name}: {}", anchor.told()));
+        }
+        if anchors.len() > MOST_ANCHORS {
+            let more = count(anchors.len() - MOST_ANCHORS, "more anchor", "more anchors");
+            say(&format!("anchor: {name}: and {more}, which --json tells"));
         }
         print_line(&format!("{name}: good; {}", contents(&simulation)))
     }
@@ -87,6 +102,34 @@ impl Check {
         }
         exit
     }
+}
+
+/// An anchor that the scene gives, and where it is at the start.
+struct Seen {
+    path: String,
+    body: String,
+    position: [f64; 2],
+}
+
+impl Seen {
+    fn told(&self) -> String {
+        let Self { path, body, position: [x, y] } = self;
+        format!("`{path}` on `{body}` is at ({}, {}) m at the start", number(*x), number(*y))
+    }
+
+    fn json(&self) -> serde_json::Value {
+        serde_json::json!({ "path": self.path, "body": self.body, "position": self.position })
+    }
+}
+
+fn anchors(simulation: &Simulation) -> Vec<Seen> {
+    let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
+    let seen = |anchor: &Anchor| {
+        let (_, at) = anchor.place(bodies)?;
+        let body = world.get::<Name>(anchor.body).map(Name::to_string).unwrap_or_default();
+        Some(Seen { path: anchor.path.clone(), body, position: at.to_array() })
+    };
+    simulation.get_resource::<Anchors>().map_or_else(Vec::new, |anchors| anchors.0.iter().filter_map(seen).collect())
 }
 
 /// What only a film would be refused for: its theme, and moments that are not in the run.

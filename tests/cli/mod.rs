@@ -1,5 +1,6 @@
 //! The command line as its users meet it: the built program, run in folders of its own, one file per promise.
 
+mod anchors;
 mod bench;
 mod budgets;
 mod check;

@@ -3,6 +3,7 @@
 
 mod support;
 
+mod anchors;
 mod assembly;
 mod belt;
 mod bounce;

@@ -8,6 +8,7 @@
 use std::f64::consts::TAU;
 
 use bevy_app::App;
+use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -15,7 +16,7 @@ use std::borrow::Cow;
 
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
 use super::thrust::ThrustFrame;
-use super::{Targets, check_targets};
+use super::{AppliedAt, Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
@@ -32,9 +33,9 @@ struct Drive {
     force: Option<ForcePair>,
     /// Torque in N m, counter-clockwise, where the course is 1. Default: none.
     torque: Option<units::Torque>,
-    /// Where the force acts, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
-    #[serde(default)]
-    at: Position,
+    /// Where the force acts, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres. Default: the
+    /// centre of mass.
+    at: Option<Position>,
     /// Whether the force turns with the body. Default: `World`.
     #[serde(default)]
     frame: ThrustFrame,
@@ -118,7 +119,7 @@ impl Entry for Drive {
         if self.force.is_none() && self.torque.is_none() {
             report.error("", "this drive pushes nothing").help("give `force: (2, 0)`, `torque: 0.05` or both");
         }
-        if self.force.is_none() && self.at != Position::default() {
+        if self.force.is_none() && self.at.is_some() {
             report.error("at", "`at` is where a force acts, and there is none").help("give `force`, or remove `at`");
         }
         report.within("course", |report| self.course.check(report));
@@ -129,7 +130,7 @@ impl Entry for Drive {
             app.add_model(DriveForce {
                 path,
                 of: Targets::named(Some(&value.of), outline),
-                at: value.at.si(),
+                at: AppliedAt::new(value.at.map(Position::si)),
                 force: value.force.map_or(DVec2::ZERO, ForcePair::si),
                 torque: value.torque.map_or(0.0, units::Torque::si),
                 turns: value.frame == ThrustFrame::Body,
@@ -270,8 +271,8 @@ pub struct DriveForce {
     pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
-    /// Where the force acts, in the body's frame from its centre of mass, in metres.
-    pub at: DVec2,
+    /// Where the force acts.
+    pub at: AppliedAt,
     /// Force in newtons where the course is 1.
     pub force: DVec2,
     /// Torque in N m where the course is 1.
@@ -288,6 +289,10 @@ pub(super) fn plugin(app: &mut App) {
 
 /// The force does not depend on velocities, its power does.
 impl Model for DriveForce {
+    fn start(&mut self, world: &mut World) {
+        self.at.start(&mut self.of, &self.path, world);
+    }
+
     fn save(&self) -> Memory {
         Memory::Nothing
     }
@@ -331,8 +336,8 @@ impl Model for DriveForce {
         let (bodies, rates) = state.bodies_and_rates();
         let (push, torque) = (self.force * value, self.torque * value);
         for body in self.of.places(bodies) {
-            let (mut force, mut arm) = (push, self.at);
-            if self.turns || self.at != DVec2::ZERO {
+            let (mut force, mut arm) = (push, self.at.on(bodies.key.at(body)));
+            if self.turns || arm != DVec2::ZERO {
                 let (sin, cos) = libm::sincos(bodies.angle[body]);
                 let rotation = DVec2::new(cos, sin);
                 arm = rotation.rotate(arm);

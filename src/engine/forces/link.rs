@@ -1,15 +1,16 @@
 //! The two ends of a spring: points of two bodies, or of a body and the world.
 
 use bevy_app::App;
+use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
 use std::borrow::Cow;
 
 use crate::scene::{Kind, Outline, Report, SceneAppExt};
-use crate::tick::Balance;
 use crate::tick::energy::CHANNELS;
-use crate::world::Bodies;
+use crate::tick::{Balance, State};
+use crate::world::{Bodies, anchor};
 
 /// The account of what dampers take.
 pub const DAMPING: &str = "damping";
@@ -130,14 +131,26 @@ impl Link {
         Self { keys: (a, b), anchors, generation: 0, places: None }
     }
 
-    /// Between those that a scene names. The keys of a scene's bodies are their places in the outline.
-    pub(super) fn named(a: &str, b: &Partner, anchors: (DVec2, DVec2), outline: &Outline) -> Self {
+    /// Between the centres of mass of those that a scene names. The keys of a scene's bodies are their places in the outline.
+    pub(super) fn named(a: &str, b: &Partner, outline: &Outline) -> Self {
         let key = |name: &str| outline.position(Kind::BODY, name).unwrap_or_default() as u64;
         let b = match b {
             Partner::Body(name) => Some(key(name)),
             Partner::World => None,
         };
-        Self::new(key(a), b, anchors)
+        Self::new(key(a), b, (DVec2::ZERO, DVec2::ZERO))
+    }
+
+    /// Takes the anchors that the entry at `path` gives, from the datum of each body.
+    pub(super) fn place_anchors(&mut self, given: [Option<DVec2>; 2], path: &str, world: &mut World) {
+        let keys = [Some(self.keys.0), self.keys.1];
+        let ends = [(&mut self.anchors.0, "anchor_a"), (&mut self.anchors.1, "anchor_b")];
+        for (((anchor, field), key), given) in ends.into_iter().zip(keys).zip(given) {
+            let Some(given) = given else { continue };
+            let bodies = &world.resource::<State>().bodies;
+            let body = key.and_then(|key| bodies.key.find(key)).map(|place| bodies.entity[place]);
+            *anchor = body.map_or(given, |body| anchor::from_center(world, body, format!("{path}.{field}"), given));
+        }
     }
 
     /// Looks the bodies up again if some have come or gone.

@@ -2,6 +2,7 @@
 //! [`Balance`](crate::tick::Balance).
 
 pub mod aim;
+mod applied_at;
 pub mod attraction;
 pub mod ballistics;
 mod between_ticks;
@@ -18,6 +19,7 @@ mod wind;
 
 use bevy_app::App;
 
+pub use applied_at::AppliedAt;
 pub use targets::{Targets, check_targets};
 
 use crate::scene::{Arity, SceneAppExt};

@@ -28,13 +28,12 @@ struct Spring {
     a: String,
     /// The body at the other end, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
-    #[serde(default)]
-    anchor_a: Position,
-    /// Where it holds `b`, in the body's frame from its centre of mass, in metres; with `World` a place in the world.
-    /// Default: (0, 0), the centre of mass or the origin.
-    #[serde(default)]
-    anchor_b: Position,
+    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres.
+    /// Default: the centre of mass.
+    anchor_a: Option<Position>,
+    /// Where it holds `b`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
+    /// place in the world. Default: the centre of mass, or the origin of the world.
+    anchor_b: Option<Position>,
     /// Force over lengthening in N/m. Not negative.
     stiffness: Stiffness,
     /// Force over speed of lengthening in N s/m. Not negative. `2 sqrt(k m)` lets a mass `m` on it come to rest without a
@@ -66,7 +65,8 @@ impl Entry for Spring {
         let paths = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
         for (Written { value, .. }, mention) in entries.into_iter().zip(paths) {
             app.add_model(SpringForce {
-                link: Link::named(&value.a, &value.b, (value.anchor_a.si(), value.anchor_b.si()), outline),
+                link: Link::named(&value.a, &value.b, outline),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
                 power: 0.0,
@@ -83,6 +83,8 @@ impl Entry for Spring {
 pub struct SpringForce {
     /// Its ends.
     pub link: Link,
+    /// Its anchors as the scene gives them.
+    anchors: [Option<DVec2>; 2],
     /// Stiffness in N/m.
     pub stiffness: f64,
     /// Damping in N s/m.
@@ -122,6 +124,7 @@ impl Model for SpringForce {
 
     /// Takes the distance at the start for a length that the scene does not give.
     fn start(&mut self, world: &mut World) {
+        self.link.place_anchors(self.anchors, &self.path, world);
         let Some((a, b)) = self.link.ends(&world.resource::<State>().bodies) else { return };
         let distance = (b.position - a.position).length();
         let length = *self.length.get_or_insert(distance);

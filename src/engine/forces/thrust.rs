@@ -5,12 +5,13 @@
 //! nothing; one beside the grid is warned of. Methods with steps inside ticks end one at each of the two times.
 
 use bevy_app::App;
+use bevy_ecs::prelude::*;
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
-use super::{Targets, check_targets};
+use super::{AppliedAt, Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
@@ -26,9 +27,9 @@ use crate::world::Bodies;
 struct Thrust {
     /// The bodies it acts on, `*` matches.
     of: Names,
-    /// Where it acts, in the body's frame from its centre of mass, in metres. Default: (0, 0), the centre of mass.
-    #[serde(default)]
-    at: Position,
+    /// Where it acts, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres. Default: the centre of
+    /// mass.
+    at: Option<Position>,
     /// Force in newtons.
     force: ForcePair,
     /// Whether the force turns with the body. Default: `World`.
@@ -72,7 +73,7 @@ impl Entry for Thrust {
             app.add_model(ThrustForce {
                 path,
                 of: Targets::named(Some(&value.of), outline),
-                at: value.at.si(),
+                at: AppliedAt::new(value.at.map(Position::si)),
                 force: value.force.si(),
                 turns: value.frame == ThrustFrame::Body,
                 from: value.from.si(),
@@ -90,8 +91,8 @@ pub struct ThrustForce {
     pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
-    /// Where it acts, in the body's frame from its centre of mass, in metres.
-    pub at: DVec2,
+    /// Where it acts.
+    pub at: AppliedAt,
     /// Force in newtons.
     pub force: DVec2,
     /// Whether the force turns with the body.
@@ -110,6 +111,10 @@ pub(super) fn plugin(app: &mut App) {
 
 /// The force does not depend on velocities, its power does.
 impl Model for ThrustForce {
+    fn start(&mut self, world: &mut World) {
+        self.at.start(&mut self.of, &self.path, world);
+    }
+
     fn save(&self) -> Memory {
         Memory::of(&self.acts)
     }
@@ -199,7 +204,7 @@ impl ThrustForce {
             let (sin, cos) = libm::sincos(bodies.angle[body]);
             let rotation = DVec2::new(cos, sin);
             let force = times * if self.turns { rotation.rotate(self.force) } else { self.force };
-            let arm = rotation.rotate(self.at);
+            let arm = rotation.rotate(self.at.on(bodies.key.at(body)));
             bodies.push(body, arm, force);
             balance.outside(bodies.position[body], force, arm.perp_dot(force));
             balance.work += force.dot(bodies.velocity_at(body, arm));

@@ -74,7 +74,7 @@ impl Entry for TorsionSpring {
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for Written { value, .. } in entries {
             app.add_model(TorsionSpringForce {
-                link: Link::named(&value.a, &value.b, (DVec2::ZERO, DVec2::ZERO), outline),
+                link: Link::named(&value.a, &value.b, outline),
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
                 power: 0.0,

@@ -16,7 +16,7 @@ use crate::forces::link::{DAMPING, Partner};
 use crate::scene::{Entry, Kind, Outline, Report, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
-use crate::world::{Bodies, Origin};
+use crate::world::{Bodies, anchor};
 use jostle_language::numbers::number;
 
 /// Anchors that are no farther apart than this share of the numbers they are found from meet.
@@ -153,13 +153,11 @@ impl Joint {
     /// Where anchors are that the scene leaves out, and from where those are counted that it gives.
     fn place_anchors(&mut self, world: &mut World) {
         for side in 0..2 {
-            let Some(key) = self.ends.keys[side] else { continue };
+            let (Some(key), Some(anchor)) = (self.ends.keys[side], self.setup.anchors[side]) else { continue };
             let bodies = &world.resource::<State>().bodies;
-            let entity = bodies.key.find(key).map(|place| bodies.entity[place]);
-            let origin = entity.and_then(|entity| world.get::<Origin>(entity)).map_or(DVec2::ZERO, |origin| origin.0);
-            if let Some(anchor) = self.setup.anchors[side] {
-                self.ends.anchors[side] = anchor + origin;
-            }
+            let Some(entity) = bodies.key.find(key).map(|place| bodies.entity[place]) else { continue };
+            let path = format!("{}.{}", self.path, ["anchor_a", "anchor_b"][side]);
+            self.ends.anchors[side] = anchor::from_center(world, entity, path, anchor);
         }
         let bodies = &world.resource::<State>().bodies;
         let Some(pair) = self.ends.pair(bodies) else { return };

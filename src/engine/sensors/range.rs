@@ -15,7 +15,7 @@ use crate::scene::units::{Angle, Length, Position};
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, place_of};
-use crate::world::{Bodies, PackedLine};
+use crate::world::{Bodies, PackedLine, anchor};
 use jostle_shapes::{Hull, Pose, ray};
 
 const QUANTITIES: &[&str] = &["range"];
@@ -30,9 +30,9 @@ struct Range {
     name: String,
     /// The body that carries it.
     of: String,
-    /// Where the ray begins, in the body's frame from its centre of mass, in m. Default: (0, 0).
-    #[serde(default)]
-    at: Position,
+    /// Where the ray begins, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in m. Default: the centre
+    /// of mass.
+    at: Option<Position>,
     /// The direction of the ray in the body's frame, counter-clockwise from its x axis, in rad. Default: 0.
     #[serde(default)]
     angle: Angle,
@@ -68,19 +68,24 @@ impl Entry for Range {
 
     fn check(&self, outline: &Outline, report: &mut Report) {
         outline.require_any(&[Kind::BODY], &self.of, "of", report);
-        report.finite_pair("at", self.at.si());
+        if let Some(at) = self.at {
+            report.finite_pair("at", at.si());
+        }
         report.finite("angle", self.angle);
         if let Some(reach) = self.reach {
             report.positive("reach", reach);
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, at, angle, reach }, .. } in entries {
+        let mentions = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
+        for (Written { value: Self { name, of, at, angle, reach }, .. }, mention) in entries.into_iter().zip(mentions) {
             let Some(body) = body_named(world, &of) else { continue };
+            let from_center = |at: Position| anchor::from_center(world, body, format!("{}.at", mention.path), at.si());
+            let at = at.map_or(DVec2::ZERO, from_center);
             let reach = reach.map_or(f64::INFINITY, |reach| reach.si());
-            let beam = Beam { body, at: at.si(), angle: angle.si(), reach };
+            let beam = Beam { body, at, angle: angle.si(), reach };
             world.get_resource_or_init::<Beams>().0.push((name.clone(), beam));
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }

@@ -1,6 +1,7 @@
 //! What a scene consists of: bodies, atoms, walls, materials; as entities, and packed for speed.
 
 mod aloft;
+pub mod anchor;
 mod apart;
 pub mod atom;
 pub mod between;
