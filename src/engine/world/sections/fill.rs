@@ -1,4 +1,4 @@
-//! `fill`: many equal bodies in a box or polygon, of atoms or with sides, none touching another, by seeded chance.
+//! `fill`: many bodies of a kind in a box or polygon, none touching another, by random sequential addition (Widom 1966) with a seed.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -14,6 +14,7 @@ use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 use crate::shapes::outline::Shape;
 use crate::shapes::{AtomSpec, Atoms};
 use crate::world::sections::Region;
+use crate::world::sections::sizes::Radii;
 use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read, and a film reads its
@@ -32,7 +33,7 @@ const CORNERS: usize = 16;
 /// Cells of the search grid along one side, at most.
 const CELLS: usize = 512;
 
-/// Many equal bodies.
+/// Many bodies of a kind.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Fill")]
@@ -45,6 +46,9 @@ pub struct FillEntry {
     /// The shape with sides of each. Default: none.
     #[serde(default)]
     pub shape: Option<Shape>,
+    /// Makes each a disc of another radius, by the same seed: how radii are distributed, in place of `atoms` and `shape`. Default: all are equal.
+    #[serde(default)]
+    pub radius: Option<Radii>,
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
@@ -72,14 +76,17 @@ pub struct Placed {
     pub angle: f64,
     /// Velocity, in m/s.
     pub velocity: DVec2,
+    /// The radius of a circle about the centre of mass that holds the body, in m.
+    pub radius: f64,
 }
 
-/// Many equal bodies in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
+/// Many bodies of a kind in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
 /// `gas_1` and so on.
 ///
 /// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about the
 /// bodies' centres of mass that hold all their atoms and shapes do not touch each other, other bodies, walls or the region's border.
-/// The same seed gives the same places on every machine.
+/// The same seed gives the same places on every machine. Where radii are distributed, the largest are placed first; names go by the order
+/// in which radii were drawn.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);
 
@@ -94,9 +101,8 @@ impl FillSection {
             if full == MOST_FULL {
                 break;
             }
-            let radius = entry.radius();
-            let placed = entry.place(radius, &taken);
-            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius }));
+            let placed = entry.place(&taken);
+            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius: body.radius }));
             full += usize::from((placed.len() as u64) < entry.count.0);
             all.push(placed);
         }
@@ -147,8 +153,9 @@ impl Section for FillSection {
                 } else {
                     ("without touching anything".to_owned(), if entry.shape.is_some() { "shapes" } else { "atoms" })
                 };
-                let radius = entry.radius() + gap / 2.0;
-                let share = entry.count.0 as f64 * std::f64::consts::PI * radius * radius / entry.within.area();
+                let square = |radius: f64| (radius + gap / 2.0) * (radius + gap / 2.0);
+                let area = std::f64::consts::PI * entry.sum_over_radii(square);
+                let share = area / entry.within.area();
                 let message = format!(
                     "only {} of {} bodies find room in the {} {apart}: all would take {:.0} % of its area",
                     placed.len(),
@@ -184,7 +191,14 @@ impl FillEntry {
                 report.error("atoms", message).help("remove the atoms' `mass`");
             }
         }
-        if self.atoms.is_none() && self.shape.is_none() {
+        if let Some(radii) = &self.radius {
+            let count = self.count.0.min(LARGEST_COUNT) as usize;
+            report.within("radius", |report| radii.check(count, self.seed.0, report));
+            if self.atoms.is_some() || self.shape.is_some() {
+                let message = "`radius` makes discs: they have neither `atoms` nor a `shape`";
+                report.error("radius", message).help("remove `radius`, or the other");
+            }
+        } else if self.atoms.is_none() && self.shape.is_none() {
             report.missing("atoms", "say what they are made of: write `atoms: Disc(radius: 0.1)`, or a `shape`");
         }
         if report.is_clean() {
@@ -199,8 +213,12 @@ impl FillEntry {
         report.not_negative("gap", self.gap);
     }
 
-    /// Mass, centre of mass, inertia and atoms of each, given the density of their material in kg/m2.
+    /// Mass, centre of mass, inertia and atoms of each, given the density of their material in kg/m2. Where radii are distributed, of the
+    /// disc that was drawn first.
     pub fn mass_properties(&self, density: f64) -> MassProperties {
+        if let Some(radii) = &self.radius {
+            return disc(radii.draw(1, self.seed.0).first().copied().unwrap_or(f64::NAN), density);
+        }
         let (specs, rule) = (self.specs(), self.atoms.as_ref().map_or_else(InertiaRule::default, Atoms::own_rule));
         match &self.shape {
             Some(shape) => mass_properties::of_parts(&specs, &shape.parts().parts, None, InertiaRule::Union, density),
@@ -211,7 +229,7 @@ impl FillEntry {
     /// Whether they touch others.
     pub fn touches(&self) -> bool {
         let parts = self.shape.as_ref().map_or_else(Vec::new, |shape| shape.parts().parts);
-        self.atoms.is_some() || parts.iter().any(|part| part.collides)
+        self.atoms.is_some() || self.radius.is_some() || parts.iter().any(|part| part.collides)
     }
 
     /// The discs of each, without those of its shape.
@@ -228,15 +246,45 @@ impl FillEntry {
         }
     }
 
-    fn place(&self, radius: f64, taken: &[Obstacle]) -> Vec<Placed> {
-        let (low, high) = self.within.bounds();
-        let (low, high) = (low + radius, high - radius);
+    /// The radii of all in the order of their names, in m.
+    fn radii(&self) -> Vec<f64> {
+        let count = self.count.0.min(LARGEST_COUNT) as usize;
+        let equal = || vec![self.radius(); count];
+        self.radius.as_ref().map_or_else(equal, |radii| radii.draw(count, self.seed.0))
+    }
+
+    fn sum_over_radii(&self, of: impl Fn(f64) -> f64) -> f64 {
+        self.radii().into_iter().fold(0.0, |sum, radius| sum + of(radius))
+    }
+
+    /// Places all that find room, the largest first; fewer than there are to be are in no order.
+    fn place(&self, taken: &[Obstacle]) -> Vec<Placed> {
+        let radii = self.radii();
+        let mut order: Vec<u32> = (0..radii.len() as u32).collect();
+        // Equal ones keep their order.
+        order.sort_by(|a, b| radii[*b as usize].total_cmp(&radii[*a as usize]));
+        let sizes = order.iter().map(|number| radii[*number as usize]);
+        let mut placed = self.place_sizes(sizes, taken);
+        if placed.len() == radii.len() {
+            let mut named: Vec<(u32, Placed)> = order.into_iter().zip(placed).collect();
+            named.sort_unstable_by_key(|(number, _)| *number);
+            placed = named.into_iter().map(|(_, body)| body).collect();
+        }
+        placed
+    }
+
+    /// Places bodies of these radii, which descend, until one finds no room.
+    fn place_sizes(&self, radii: impl DoubleEndedIterator<Item = f64> + Clone, taken: &[Obstacle]) -> Vec<Placed> {
         let mut placed = Vec::new();
+        let (Some(largest), Some(least)) = (radii.clone().next(), radii.clone().next_back()) else { return placed };
+        let bounds = self.within.bounds();
+        let room = |radius: f64| (bounds.0 + radius, bounds.1 - radius);
+        let (low, high) = room(largest);
         if !(low.x <= high.x && low.y <= high.y) {
             return placed;
         }
         let standing = taken.len() as u64 + self.count.0.min(LARGEST_COUNT);
-        let mut grid = Grid::new(low, high, radius, self.gap.si(), standing);
+        let mut grid = Grid::new(room(least), largest, self.gap.si(), standing);
         for obstacle in taken {
             grid.insert(*obstacle);
         }
@@ -244,19 +292,26 @@ impl FillEntry {
         // The upper 53 bits: a number from 0 up to, not including, 1, the same on every machine.
         let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         let mut left = MOST_WORK / (1 + self.within.corner_count() / CORNERS);
-        for _ in 0..self.count.0.min(LARGEST_COUNT) {
+        for radius in radii {
+            let (low, high) = room(radius);
             let free = (0..TRIES.min(left))
                 .inspect(|_| left -= 1)
                 .map(|_| low + (high - low) * DVec2::new(chance(), chance()))
-                .find(|&at| self.within.holds(at, radius) && grid.is_free(at));
+                .find(|&at| self.within.holds(at, radius) && grid.is_free(at, radius));
             let Some(position) = free else { break };
             grid.insert(Obstacle::Disc { center: position, radius });
             let angle = chance() * std::f64::consts::TAU;
             let (sine, cosine) = libm::sincos(chance() * std::f64::consts::TAU);
-            placed.push(Placed { position, angle, velocity: self.speed.si() * DVec2::new(cosine, sine) });
+            placed.push(Placed { position, angle, velocity: self.speed.si() * DVec2::new(cosine, sine), radius });
         }
         placed
     }
+}
+
+/// A disc of one atom, given the density of its material in kg/m2.
+pub(super) fn disc(radius: f64, density: f64) -> MassProperties {
+    let atom = AtomSpec { offset: DVec2::ZERO, radius, mass: None, stiffness: None };
+    mass_properties::of(&[atom], None, InertiaRule::default(), density)
 }
 
 /// Square cells over the box; each knows which discs are near enough to touch a body whose centre lies in it. A few long lists, and
@@ -267,6 +322,7 @@ struct Grid {
     cell: DVec2,
     columns: usize,
     rows: usize,
+    /// Of the largest body, in m.
     radius: f64,
     gap: f64,
     /// Discs of cells, those of each cell in bunches.
@@ -292,9 +348,9 @@ struct Bunch {
 }
 
 impl Grid {
-    /// A grid for a box in which `standing` bodies stand in the end: it has no more cells along a side than there are
-    /// bodies, and not many more in all.
-    fn new(low: DVec2, high: DVec2, radius: f64, gap: f64, standing: u64) -> Self {
+    /// A grid for a box, from its lower left corner to its upper right one, in which `standing` bodies of this radius at most stand in the
+    /// end: it has no more cells along a side than there are bodies, and not many more in all.
+    fn new((low, high): (DVec2, DVec2), radius: f64, gap: f64, standing: u64) -> Self {
         let size = high - low;
         let most = ((4.0 * standing as f64).sqrt() as usize).clamp(1, CELLS);
         let count = |length: f64| ((length / (2.0 * radius + gap)) as usize).clamp(1, most);
@@ -338,26 +394,27 @@ impl Grid {
         }
     }
 
-    fn is_free(&self, at: DVec2) -> bool {
+    /// Whether a body of this radius touches nothing at a place.
+    fn is_free(&self, at: DVec2, own: f64) -> bool {
         let (column, row) = self.column_and_row(at);
         let clear_of_wall = |&(left, right): &(DVec2, DVec2)| {
             // The open side is to the left of one who goes from the right point to the left point.
             let along = left - right;
             // A wall without length is reported by its own check; here it stops nobody.
-            along.perp().dot(at - right) >= self.radius * along.length()
+            along.perp().dot(at - right) >= own * along.length()
         };
         let clear_of_strip = |&(from, to, radius): &(DVec2, DVec2, f64)| {
             let along = to - from;
             let share = ((at - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
             let gap = (from + along * share).distance(at);
             // A strip without length is reported by its own check, too; its share is no number.
-            gap.is_nan() || gap >= radius + self.radius
+            gap.is_nan() || gap >= radius + own
         };
         self.walls.iter().all(clear_of_wall)
             && self.strips.iter().all(clear_of_strip)
             && self
                 .discs_of(row * self.columns + column)
-                .all(|(center, radius)| center.distance(at) >= radius + self.radius + self.gap)
+                .all(|(center, radius)| center.distance(at) >= radius + own + self.gap)
     }
 
     fn discs_of(&self, cell: usize) -> impl Iterator<Item = (DVec2, f64)> {
@@ -379,6 +436,7 @@ mod tests {
             name: "gas".into(),
             atoms: Some(Atoms::Disc(disc)),
             shape: None,
+            radius: None,
             material: None,
             count: WholeNumber(count),
             within: vec![Position::new(0.0, 0.0), Position::new(2.0, 1.0)].into(),

@@ -6,10 +6,11 @@ mod ignored;
 pub mod kinematic;
 pub mod packing;
 pub mod region;
+pub mod sizes;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
-pub use fill::{FillEntry, FillSection};
+pub use fill::{FillEntry, FillSection, Placed};
 pub use kinematic::{KinematicEntry, PathEntry};
 pub use packing::{PackingEntry, PackingsSection};
 pub use region::Region;
@@ -131,12 +132,11 @@ pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
         let mended = entry.shape.iter().flat_map(|shape| shape.parts().mended);
         let mended = mended.map(|mended| format!("`{}`: {mended}", entry.name));
         world.get_resource_or_init::<Mended>().0.extend(mended);
-        let body = |number: usize| NewBody {
-            collides: entry.touches(),
-            position: placed[number].position,
-            angle: placed[number].angle,
-            velocity: placed[number].velocity,
-            ..made_of.body(&properties)
+        let body = |number: usize| {
+            let Placed { position, angle, velocity, radius } = placed[number];
+            let own = entry.radius.is_some().then(|| fill::disc(radius, made_of.density));
+            let made = made_of.body(own.as_ref().unwrap_or(&properties));
+            NewBody { collides: entry.touches(), position, angle, velocity, ..made }
         };
         let is_disc = matches!(properties.atoms[..], [AtomSpec { offset: DVec2::ZERO, .. }]);
         let lone_discs = is_disc && properties.hulls.is_empty();
