@@ -37,6 +37,7 @@ pub mod values;
 
 pub use cells::{cells, drop_empty_ends, separator};
 pub use error::{SceneError, SceneErrors};
+pub use expand::{Formula, Mistake};
 pub use explain::read as read_value;
 pub use layout::laid_out;
 pub use load::{Scene, SceneHeader};

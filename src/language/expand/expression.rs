@@ -48,9 +48,27 @@ const FUNCTIONS: [(&str, usize); 21] = [
 /// Brackets and signs may be nested this deep.
 const DEEPEST: usize = 60;
 
-/// Works out an expression.
+/// How names are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Names {
+    /// Letters, digits and `_`.
+    Plain,
+    /// Also with dots, or any signs in single quotes.
+    Dotted,
+}
+
+/// Works out an expression that has a finite value.
 pub(super) fn evaluate(text: &str, look_up: LookUp) -> Outcome {
-    let mut reader = Reader { text, at: 0, depth: 0, look_up };
+    let value = work_out(text, Names::Plain, look_up)?;
+    if !value.si.is_finite() {
+        return Err(wrong(0..text.len(), "this is not a finite number", Some("check for a division by zero".into())));
+    }
+    Ok(value)
+}
+
+/// Works out an expression.
+pub(super) fn work_out(text: &str, names: Names, look_up: LookUp) -> Outcome {
+    let mut reader = Reader { text, at: 0, depth: 0, names, look_up };
     let value = reader.comparison()?;
     reader.blank();
     if reader.at < text.len() {
@@ -58,9 +76,6 @@ pub(super) fn evaluate(text: &str, look_up: LookUp) -> Outcome {
         let length = name_length(rest).max(rest.chars().next().map_or(0, char::len_utf8));
         let help = slip(rest).unwrap_or("between two values stands one of `+ - * / ^`, as in `2 * r + gap`");
         return Err(wrong(reader.at..reader.at + length, "not expected here", Some(help.to_owned())));
-    }
-    if !value.si.is_finite() {
-        return Err(wrong(0..text.len(), "this is not a finite number", Some("check for a division by zero".into())));
     }
     Ok(value)
 }
@@ -93,6 +108,7 @@ struct Reader<'a> {
     text: &'a str,
     at: usize,
     depth: usize,
+    names: Names,
     look_up: LookUp<'a>,
 }
 
@@ -107,6 +123,16 @@ impl Reader<'_> {
         let found = signs.iter().find(|sign| self.text[self.at..].starts_with(**sign))?;
         self.at += found.len();
         Some(found)
+    }
+
+    /// The length of a name at the beginning of a text.
+    fn name_length(&self, text: &str) -> usize {
+        let mut length = name_length(text);
+        while self.names == Names::Dotted && length > 0 {
+            let Some(part) = text[length..].strip_prefix('.').map(name_length).filter(|part| *part > 0) else { break };
+            length += 1 + part;
+        }
+        length
     }
 
     fn comparison(&mut self) -> Outcome {
@@ -207,7 +233,14 @@ impl Reader<'_> {
                 ),
             };
         }
-        let length = name_length(rest);
+        if let Some(quoted) = rest.strip_prefix('\'').filter(|_| self.names == Names::Dotted) {
+            let unclosed = || wrong(start..start + 1, "this quote is never closed", Some("close it with `'`".into()));
+            let length = quoted.find('\'').ok_or_else(unclosed)?;
+            self.at += length + 2;
+            let name = &quoted[..length];
+            return (self.look_up)(name).map_err(|(message, help)| wrong(start..self.at, message, help));
+        }
+        let length = self.name_length(rest);
         if length > 0 {
             self.at += length;
             let name = &rest[..length];
