@@ -63,6 +63,7 @@ mod rolling;
 mod rolling_resistance;
 mod sampled_servos;
 mod sensed;
+mod sensed_groups;
 mod sleep;
 mod slope;
 mod springs;

@@ -1,7 +1,6 @@
 //! `Counter(name: "hits", of: "ball", touching: "pin_*")`: how often bodies began to touch others, or passed a gate.
 //!
-//! A gate is a line between two places. A body passes where its centre of mass crosses that line, on the straight way from one tick to the
-//! next. To the left is seen on the way from the first place to the second.
+//! Passages are those of a [`Gate`].
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -10,6 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use super::contacts::owners;
+use super::gate::{self, Gate};
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
@@ -17,7 +17,7 @@ use crate::scene::units::Position;
 use crate::scene::values::Names;
 use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{State, add_looker, add_packed_observer, place_of};
+use crate::tick::{add_looker, add_packed_observer};
 
 const QUANTITIES: &[&str] = &["count", "count.net"];
 
@@ -42,7 +42,7 @@ enum Looked {
     /// Contacts of bodies with others, both lists sorted.
     Contacts(Vec<Entity>, Vec<Entity>),
     /// Passages of bodies through a gate.
-    Gate(Vec<Entity>, (DVec2, DVec2)),
+    Gate(Gate),
 }
 
 /// The counters of the scene.
@@ -79,12 +79,8 @@ impl Entry for Counter {
         if let Some(touching) = &self.touching {
             owners(touching, "touching", outline, report);
         }
-        if let Some((from, to)) = self.gate.map(|(from, to)| (from.si(), to.si())) {
-            let finite = report.finite_pair("gate", from) && report.finite_pair("gate", to);
-            if finite && from == to {
-                let message = format!("the ends of a gate must differ, got ({}, {}) for both", to.x, to.y);
-                report.error("gate", message).help("for example `gate: ((-0.1, 0), (0.1, 0))`");
-            }
+        if let Some(ends) = self.gate {
+            gate::check(ends, report);
         }
         let help = "`touching: \"pin_*\"` counts contacts, `gate: ((-0.1, 0), (0.1, 0))` passages";
         match (&self.touching, &self.gate) {
@@ -105,7 +101,7 @@ impl Entry for Counter {
             let bodies: Vec<Entity> =
                 places.filter_map(|place| body_named(world, &outline.names(Kind::BODY)[place])).collect();
             let looked = match (touching, gate) {
-                (_, Some((from, to))) => Looked::Gate(bodies, (from.si(), to.si())),
+                (_, Some(ends)) => Looked::Gate(Gate::new(ends, bodies)),
                 (touching, None) => {
                     let names =
                         touching.map_or_else(Vec::new, |names| owners(&names, "touching", outline, &mut Report::new()));
@@ -155,28 +151,12 @@ fn count_contacts(events: Res<ContactEvents>, counted: Res<Counted>, mut counts:
 fn count_passages(world: &mut World) {
     world.resource_scope(|world, mut counts: Mut<Counts>| {
         for ((_, looked), count) in world.resource::<Counted>().0.iter().zip(&mut counts.0) {
-            let Looked::Gate(of, gate) = looked else { continue };
-            let bodies = world.resource::<State>().bodies();
-            let now = of.iter().map(|body| place_of(world, *body).map(|place| bodies.position[place])).collect();
-            let before = std::mem::replace(&mut count.before, now);
-            let ways = before.iter().zip(&count.before).filter_map(|(before, now)| before.zip(*now));
-            let passed: Vec<i64> = ways.filter_map(|(before, now)| passage(*gate, before, now)).collect();
+            let Looked::Gate(gate) = looked else { continue };
+            let passed = gate.passages(&mut count.before, world);
             count.count += passed.len() as u64;
-            count.net += passed.iter().sum::<i64>();
+            count.net += passed.iter().map(|passage| if passage.is_left { 1 } else { -1 }).sum::<i64>();
         }
     });
-}
-
-/// Whether a way crosses a gate: 1 to the left of the way from its first end to the second, else -1.
-fn passage((from, to): (DVec2, DVec2), before: DVec2, now: DVec2) -> Option<i64> {
-    let along = to - from;
-    let [first, last] = [before, now].map(|at| along.perp_dot(at - from));
-    if (first < 0.0) == (last < 0.0) {
-        return None;
-    }
-    let crossing = before + (now - before) * (first / (first - last));
-    let within = (0.0..=along.length_squared()).contains(&(crossing - from).dot(along));
-    within.then_some(if last < 0.0 { -1 } else { 1 })
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {

@@ -7,15 +7,22 @@ mod acceleration;
 mod clearance;
 mod contact_force;
 mod contacts;
+mod count;
 mod counter;
 pub(crate) mod energy;
+mod expression;
+mod flow;
 mod force;
+mod gate;
+mod group;
 mod joint;
+mod mean;
 mod motor;
 mod overlap;
 mod period;
 mod pose;
 mod range;
+mod repose;
 mod velocity;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +31,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::controllers::output::CONTROLLER;
-use crate::scene::values::Word;
+use crate::scene::values::{Names, Word};
 use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, SceneError, fits, suggest};
 use crate::tick::energy::CHANNELS;
 use crate::tick::{LoadErrors, State, place_of};
@@ -222,14 +229,21 @@ pub fn find(world: &mut World, name: &str) -> Option<Channel> {
 pub fn require(world: &mut World, outline: &Outline, name: &str, path: String) -> Option<Channel> {
     let found = find(world, name);
     if found.is_none() {
-        let (owner, quantity) = name.split_once('.').unwrap_or((name, ""));
-        let words = outline.words(QUANTITIES).map(|(word, _)| word);
-        let known: Vec<&str> = words.filter(|word| find(world, &format!("{owner}.{word}")).is_some()).collect();
-        let help = suggest::among(quantity, known.into_iter(), &format!("channels of `{owner}`"), '`');
-        let error = SceneError::new(path, format!("`{owner}` has no `{quantity}`")).with_help(help);
+        let words: Vec<&str> = outline.words(QUANTITIES).map(|(word, _)| word).collect();
+        let (message, help) = missing(world, &words, name);
+        let error = SceneError::new(path, message).with_help(help);
         world.get_resource_or_init::<LoadErrors>().0.push(error);
     }
     found
+}
+
+/// What to say of a channel that is not there, and those that its owner has among the `words` for quantities.
+fn missing(world: &mut World, words: &[&str], name: &str) -> (String, String) {
+    let (owner, quantity) = name.split_once('.').unwrap_or((name, ""));
+    let has = |word: &&&str| find(world, &format!("{owner}.{word}")).is_some();
+    let known: Vec<&str> = words.iter().filter(has).copied().collect();
+    let help = suggest::among(quantity, known.into_iter(), &format!("channels of `{owner}`"), '`');
+    (format!("`{owner}` has no `{quantity}`"), help)
 }
 
 /// Adds channels; one that is there already stays the only one of its name.
@@ -243,6 +257,17 @@ fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
 
 /// The channels of these names, each as [`find`] finds it, in a time that grows with their number and that of bodies.
 pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
+    with_index(world, |world| names.iter().map(|name| find(world, name)).collect())
+}
+
+/// The bodies that names mean, in the order of [`Names::matching`].
+fn bodies_named(world: &mut World, names: &Names, outline: &Outline) -> Vec<Entity> {
+    let names = names.matching(Kind::BODY, outline).into_iter().map(|place| &outline.names(Kind::BODY)[place]);
+    with_index(world, |world| names.filter_map(|name| body_named(world, name)).collect())
+}
+
+/// Looks many bodies and walls up by name.
+fn with_index<T>(world: &mut World, look: impl FnOnce(&mut World) -> T) -> T {
     let mut query = world.query::<(Entity, &Name, Has<Body>, Has<Wall>)>();
     let mut index = NameIndex::default();
     for (entity, name, body, wall) in query.iter(world) {
@@ -253,7 +278,7 @@ pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
         }
     }
     world.insert_resource(index);
-    let found = names.iter().map(|name| find(world, name)).collect();
+    let found = look(world);
     world.remove_resource::<NameIndex>();
     found
 }
@@ -321,8 +346,13 @@ pub fn plugin(app: &mut App) {
     contacts::plugin(app);
     joint::plugin(app);
     motor::plugin(app);
+    expression::plugin(app);
     period::plugin(app);
     clearance::plugin(app);
     range::plugin(app);
     counter::plugin(app);
+    flow::plugin(app);
+    repose::plugin(app);
+    count::plugin(app);
+    mean::plugin(app);
 }

@@ -1,4 +1,4 @@
-//! Where `fill` puts bodies: a box or a polygon.
+//! A region of the plane: a box or a polygon. `fill` puts bodies into one, sensors look at one.
 
 use std::fmt;
 
@@ -90,7 +90,7 @@ impl Region {
     }
 
     /// Reports too few or too many corners, and a region without area; paths are relative to the region.
-    pub(super) fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Report) {
         let count = self.given.len();
         let finite = self.given.iter().enumerate();
         let finite = finite.fold(true, |good, (index, point)| report.finite_pair(&format!("[{index}]"), *point) & good);
@@ -138,7 +138,7 @@ impl Region {
     }
 
     /// Whether a circle lies inside.
-    pub(super) fn holds(&self, center: DVec2, radius: f64) -> bool {
+    pub fn holds(&self, center: DVec2, radius: f64) -> bool {
         if self.is_box() {
             let (low, high) = (self.corners[0] + radius, self.corners[2] - radius);
             return center.cmpge(low).all() && center.cmple(high).all();

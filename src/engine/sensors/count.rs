@@ -1,0 +1,82 @@
+//! `Count(name: "bin", of: "grain_*", within: ((0, 0), (1, 1)))`: how many bodies are in a region now, and their mass.
+
+use bevy_app::App;
+use bevy_ecs::prelude::*;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::group::{self, Group};
+use super::{Channel, SensorAppExt, add_found};
+use crate::scene::values::Names;
+use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::tick::State;
+use crate::tick::kept::SnapshotAppExt;
+use crate::world::sections::Region;
+
+const QUANTITIES: &[&str] = &["count", "mass"];
+
+/// The number of bodies whose centres of mass are in a region at a moment, `bin.count`, and their mass in kg, `bin.mass`. `Counter` counts how
+/// often bodies touch others, `Flow` those that pass a line.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Count {
+    /// Its name: that of its channels.
+    name: String,
+    /// The bodies, `*` matches.
+    of: Names,
+    /// Two opposite corners of a box, or the corners of a polygon in order, in m. Default: everywhere.
+    within: Option<Region>,
+}
+
+/// What the scene asks for.
+#[derive(Resource, Default)]
+struct Asked(Vec<(String, Group)>);
+
+impl Entry for Count {
+    const SECTION: &'static str = "sensors";
+    const NAME: &'static str = "Count";
+    const EXAMPLE: &'static str = "Count(name: \"bin\", of: \"grain_*\", within: ((0, 0), (1, 1)))";
+
+    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
+        Some(generator.subschema_for::<Self>())
+    }
+
+    fn declare(&self, outline: &mut Outline) {
+        outline.declare(Kind::SENSOR, &self.name, "name");
+    }
+
+    fn check(&self, outline: &Outline, report: &mut Report) {
+        group::check(&self.of, self.within.as_ref(), outline, report);
+    }
+
+    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+        let world = app.world_mut();
+        for Written { value: Self { name, of, within }, .. } in entries {
+            let group = Group::new(&of, within, outline, world);
+            world.get_resource_or_init::<Asked>().0.push((name.clone(), group));
+            add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
+        }
+    }
+}
+
+fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    let place = world.get_resource::<Asked>()?.0.iter().position(|(name, _)| name == owner)?;
+    let (unit, is_mass) = match quantity {
+        "count" => ("", false),
+        "mass" => ("kg", true),
+        _ => return None,
+    };
+    let read = move |world: &World| {
+        let bodies = world.resource::<State>().bodies();
+        let group = world.get_resource::<Asked>().and_then(|asked| asked.0.get(place));
+        let of = |(_, body): (usize, usize)| if is_mass { bodies.mass[body] } else { 1.0 };
+        group.map_or(f64::NAN, |(_, group)| group.present(world).map(of).fold(0.0, |sum, more| sum + more))
+    };
+    Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, read))
+}
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_quantities(QUANTITIES, find);
+    app.register_entry::<Count>();
+    app.follows_from_scene::<Asked>();
+}
