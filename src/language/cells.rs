@@ -1,8 +1,10 @@
-//! Lines of tables: cells between commas, semicolons or tabs, in double quotes or without (RFC 4180; a cell ends with its line).
+//! Cells of a line of a table, after RFC 4180. Commas, semicolons or tabs separate them, and double quotes are
+//! optional. A cell ends with its line.
 
 use std::borrow::Cow;
 
-/// What separates the cells of a table: comma, semicolon or tab, whichever is most frequent in its line of names.
+/// The character that separates the cells of a table. It is the comma, semicolon or tab that is most frequent in the
+/// line of names.
 pub fn separator(names: &str) -> char {
     let often = |separator: &char| names.matches(*separator).count();
     // The last of equals: commas win.
@@ -30,7 +32,8 @@ pub fn cells(line: &str, separator: char) -> Option<Vec<Cow<'_, str>>> {
     (!quoted).then_some(cells)
 }
 
-/// Takes empty cells away at the end of a line that has more than so many: programs that write tables leave them.
+/// Takes away empty cells at the end of a line with more than `wanted` cells. Programs that write tables leave such
+/// cells.
 pub fn drop_empty_ends(cells: &mut Vec<Cow<'_, str>>, wanted: usize) {
     while cells.len() > wanted && cells.last().is_some_and(|cell| cell.is_empty()) {
         cells.pop();

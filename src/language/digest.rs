@@ -1,4 +1,4 @@
-//! A number for a row of bytes.
+//! The FNV-1a hash of a sequence of bytes.
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo 1991).
 pub fn of_bytes(bytes: impl IntoIterator<Item = u8>) -> u64 {

@@ -1,4 +1,4 @@
-//! Giving one value of a scene's text another one, by its path.
+//! Replaces one value in the text of a scene, by the path of that value.
 
 use super::scan::{scan, skip_blank};
 use super::source::Source;
@@ -14,12 +14,12 @@ impl Source {
         names.collect()
     }
 
-    /// The same scene with another value at a path such as `clock.tick`, `gravity[1]`, `fill[0].seed`,
-    /// `bodies.ball.spin` (by the name of an item) or `materials.rock.friction`. A field that is not there is added to
-    /// its bracket. `value` is a number, a bracket, a word such as `VelocityVerlet`, or a text, which gets its quotes.
+    /// The same scene with another value at a path. A path is `clock.tick`, `gravity[1]`, `fill[0].seed`,
+    /// `bodies.ball.spin` (by the name of an item) or `materials.rock.friction`. A field that is absent is added to its
+    /// bracket. `value` is a number, a bracket, a word such as `VelocityVerlet`, or a text, which gets its quotes.
     ///
     /// # Errors
-    /// What is wrong with the path, and how far it leads.
+    /// The message says what is wrong with the path, and how far the path leads.
     pub fn with_value(&self, path: &str, value: &str) -> Result<Self, String> {
         let found = scan(&self.text);
         if let Some(fault) = found.fault {
@@ -49,7 +49,7 @@ fn takes_fields(tree: &Tree, id: Id) -> bool {
     tree.children(id).iter().all(|&child| !tree.key(child).is_empty())
 }
 
-/// A value as it has to stand in the text, in place of what stands there.
+/// The value as the text needs it in place of the old one.
 fn as_written(value: &str, there: Option<(&Tree, Id)>, path: &str, text: &str) -> Result<String, String> {
     let is_number = value.parse::<f64>().is_ok_and(f64::is_finite);
     let bracket = value.starts_with(['(', '[', '{', '"']);

@@ -1,6 +1,6 @@
-//! Files beside a scene that become part of it: a picture becomes discs, a table becomes bodies.
+//! Files beside a scene that become part of it: a picture becomes discs, and a table becomes bodies.
 //!
-//! The language finds the entries that name such files. Their owners say how a file is read, and register it.
+//! The language finds the entries that name such files. The owner of an entry registers how its file is read.
 
 use std::any::Any;
 use std::path::Path;
@@ -8,19 +8,19 @@ use std::sync::Arc;
 
 pub use super::expand::{Door, Wanted, told};
 
-/// Where entries that name files stand.
+/// The place in a scene of an entry that names a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmbeddingPlace {
     /// As `atoms: NAME(..)`.
     Atoms,
     /// As `shape: NAME(..)`, or in a list there.
     Shape,
-    /// In the section `NAME`, a list.
+    /// The section `NAME`, a list.
     Section,
 }
 
 impl EmbeddingPlace {
-    /// The field that such an entry is the value of, if it is one's.
+    /// The field whose value is such an entry, or `None` for a section.
     pub(crate) fn field(self) -> Option<&'static str> {
         match self {
             Self::Atoms => Some("atoms"),
@@ -35,7 +35,7 @@ impl EmbeddingPlace {
 pub struct Embedding {
     /// Its leading name, or its section.
     pub name: &'static str,
-    /// Where it stands.
+    /// The place of the entry.
     pub place: EmbeddingPlace,
     /// The fields that people may write.
     pub fields: &'static [&'static str],
@@ -49,17 +49,17 @@ pub struct Embedding {
 
 /// Reads the files of one scene. It may remember those that it has read.
 pub trait Embed {
-    /// Reads the file of an entry, whose text `entry` is in its brackets. `folder` is the one of the file in which it stands;
-    /// files are read through `door`.
+    /// Reads the file of an entry; `entry` is the text in the brackets of that entry. `folder` is the folder of the
+    /// file that holds the entry. All files are read through `door`.
     ///
-    /// Nothing, if the entry is wrong in itself: its section tells that when it is read.
+    /// `None` if the entry itself is wrong: its section reports that mistake when it is read.
     ///
     /// # Errors
-    /// When the file cannot be read, or cannot become what the entry asks for.
+    /// An error if the file cannot be read, or does not suit the entry.
     fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit>;
 }
 
-/// What a file became.
+/// The content of a file, in the form that the scene takes.
 #[derive(Default)]
 pub struct Embedded {
     /// Fields that are added to the entry: `discs: [..]`.
@@ -68,15 +68,15 @@ pub struct Embedded {
     pub work: usize,
     /// A note for the card, of a file that was not read before.
     pub note: Option<String>,
-    /// What is handed on beside the text, by a key that stands in the fields.
+    /// Data that stands beside the text, by a key that stands in the fields.
     pub data: Option<(u64, Arc<dyn Any + Send + Sync>)>,
 }
 
 /// Why a file does not do.
 pub struct Unfit {
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What to do.
+    /// The remedy.
     pub help: String,
     /// The field that is to blame.
     pub field: &'static str,

@@ -1,4 +1,4 @@
-//! What is wrong with a scene, and how it is told: every mistake with its place, path, source line and remedy.
+//! Mistakes in a scene, each with its place, path, source line and remedy.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -20,7 +20,7 @@ const LONGEST_PART: usize = 2000;
 /// How many steps of the way to a mistake are shown: instances, repetitions, included files.
 const STEPS_SHOWN: usize = 4;
 
-/// A place in one of the scene's files, and what it has to do with a mistake.
+/// A place in one of the scene's files, and its part in a mistake.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Mark {
     pub(crate) source: usize,
@@ -35,19 +35,19 @@ pub struct SceneError {
     pub line: Option<usize>,
     /// The column in characters, from one.
     pub column: Option<usize>,
-    /// The file, if it is one that the scene includes.
+    /// The file, if the scene includes it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Where in the scene, such as `bodies[0].mass`; empty for the scene as a whole.
+    /// The path in the scene, such as `bodies[0].mass`; empty for the scene as a whole.
     pub path: String,
-    /// What is wrong, and what was found.
+    /// The mistake, and what the reader found.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: Option<String>,
-    /// What stands beside the caret.
+    /// The words beside the caret.
     #[serde(skip)]
     pub(crate) label: String,
-    /// The bytes the caret stands under.
+    /// The bytes above the caret.
     #[serde(skip)]
     pub(crate) span: Option<Range<usize>>,
     /// The value the mistake is about, until its path is known.
@@ -56,7 +56,7 @@ pub struct SceneError {
     /// Whether the walk over the text found it, before anything was read.
     #[serde(skip)]
     pub(crate) by_walk: bool,
-    /// A second place and what it has to do with the mistake.
+    /// A second place, and its part in the mistake.
     #[serde(skip)]
     pub(crate) also: Option<(Range<usize>, String)>,
     /// The number of the file among those of the scene.
@@ -74,7 +74,7 @@ fn labels<S: serde::Serializer>(chain: &[Mark], serializer: S) -> Result<S::Ok, 
     serializer.collect_seq(chain.iter().map(|mark| &mark.label))
 }
 
-/// Cuts a text that nobody reads to its end.
+/// Shortens a text that is too long to be read.
 fn clip(text: &mut String) {
     if text.len() > LONGEST_PART {
         let left_out = text.len() - LONGEST_PART;
@@ -112,7 +112,7 @@ impl SceneError {
     }
 }
 
-/// Everything that is wrong with one scene, in the order of the file.
+/// All mistakes of one scene, in the order of the file.
 #[derive(Clone, Debug)]
 pub struct SceneErrors {
     /// The scene, and the files it includes.
@@ -130,7 +130,7 @@ impl SceneErrors {
     /// The same for a scene that includes other files.
     pub(crate) fn of_files(sources: Vec<Source>, mut errors: Vec<SceneError>, notes: Vec<String>) -> Self {
         errors.sort_by_key(|error| (error.source, error.span.as_ref().map_or(usize::MAX, |span| span.start)));
-        // What the walk over the text found wrong with a value, the checks need not repeat.
+        // If the walk over the text refused a value, the checks need not repeat it.
         let walked: BTreeSet<String> =
             errors.iter().filter(|error| error.by_walk).map(|error| error.path.clone()).collect();
         errors.retain(|error| error.by_walk || !walked.contains(&error.path));
@@ -143,7 +143,7 @@ impl SceneErrors {
             }
         }
         drop(lines);
-        // What stands in a scene may be of any length, and comes back in what is said of it.
+        // A value of a scene may have any length, and a message may quote it.
         for error in &mut errors {
             [&mut error.path, &mut error.message, &mut error.label].into_iter().for_each(clip);
             error.help.iter_mut().for_each(clip);
@@ -156,7 +156,7 @@ impl SceneErrors {
         &self.errors
     }
 
-    /// What the checks noted beside the mistakes.
+    /// Remarks of the checks that are not mistakes.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
@@ -239,7 +239,7 @@ impl SceneErrors {
 }
 
 impl SceneErrors {
-    /// One step of the way to a mistake, with the line on which it stands.
+    /// One step on the way to a mistake, with its line in the file.
     fn step<'a>(&'a self, group: Group<'a>, mark: &'a Mark, all_lines: &[Lines]) -> Group<'a> {
         let (source, lines) = (&self.sources[mark.source], &all_lines[mark.source]);
         let (line, column) = lines.place(mark.span.start);

@@ -1,6 +1,6 @@
 //! Errors of the RON reader in plain words and at the right place.
 //!
-//! `ron` knows a byte and a reason. The tree of the text knows which value stands there and what its path is.
+//! `ron` gives a byte and a reason. The tree of the text gives the value at that byte and the path of the value.
 
 use ron::Error;
 use serde::de::DeserializeOwned;
@@ -9,7 +9,7 @@ use super::error::SceneError;
 use super::suggest;
 use super::tree::{Form, Id, Tree};
 
-/// What stopped the reading of a value, and where, in bytes from the beginning of its text.
+/// The reason why the reader stopped, and the byte, counted from the beginning of the value's text.
 #[derive(Debug)]
 pub struct Fault {
     pub(crate) code: Error,
@@ -65,7 +65,7 @@ impl Walked<'_> {
         self.tree.describe(id, self.text)
     }
 
-    /// What the path calls a value, for "`clock` has no field ..".
+    /// The name of a value in its path, for "`clock` has no field ..".
     fn name(&self, id: Id) -> String {
         match self.tree.name(id, self.text) {
             "" => match self.path(id).as_str() {
@@ -222,7 +222,7 @@ impl Walked<'_> {
 }
 
 impl Tree {
-    /// The whole value if it is short, else what stands for it.
+    /// The whole value if it is short, or else its head.
     pub(crate) fn head_or_value(&self, id: Id) -> std::ops::Range<usize> {
         match self.node(id).form {
             Form::Number | Form::Text | Form::Word | Form::Character => self.span(id),
@@ -232,7 +232,7 @@ impl Tree {
     }
 }
 
-/// The first words of an expectation, short enough to stand beside a caret.
+/// The first words of an expectation, short enough for the line beside a caret.
 fn article(expected: &str) -> String {
     let end = [" such as", ", each"].iter().filter_map(|stop| expected.find(stop)).min().unwrap_or(expected.len());
     expected[..end].to_owned()

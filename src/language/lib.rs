@@ -1,13 +1,13 @@
-//! The scene language: text -> values, with every mistake at its place. It knows no ECS and no model.
+//! The scene language: from text to values, with the place of every mistake. It depends on no ECS and no model.
 //!
-//! A scene is one RON file. Each top-level section and each entry of a list such as `forces` belongs to the type that was
-//! registered for its name ([`Registry`]); this crate knows none of them by itself but `format`, `title` and `notes`.
-//! Reading goes in five steps, and nothing is built before all of them but the last have passed:
+//! A scene is one RON file. Each top-level section belongs to the type that is registered for its name ([`Registry`]),
+//! and so does each entry of a list such as `forces`. This crate itself reads only `format`, `title` and `notes`.
+//! Reading takes five steps, and the last one builds the scene if all others passed:
 //!
-//! 1. *walk* the text: brackets, commas, double fields, numbers that are not finite;
+//! 1. *walk* the text: brackets, commas, duplicate fields, and numbers that are NaN or infinite;
 //! 2. *read* every section with the type registered for it;
-//! 3. *declare* the names it brings ([`Outline`]);
-//! 4. *check* what types cannot exclude ([`Report`]);
+//! 3. *declare* the names of each section ([`Outline`]);
+//! 4. *check* the rules that types cannot express ([`Report`]);
 //! 5. *install*, in the order of registration ([`Scene::install`]).
 //!
 //! Mistakes come with file, line, column, path, source line and remedy ([`SceneErrors`]).

@@ -1,4 +1,4 @@
-//! From a scene's text to what is built from it: walk, read, declare, check, install.
+//! From the text of a scene to the finished world: walk, read, declare, check, install.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ const MOST_PROBLEMS: usize = 1000;
 /// The longest title of a scene, in bytes.
 const LONGEST_TITLE: usize = 1000;
 
-/// What a scene says about itself, and which names it brought.
+/// The title and notes of a scene, and the names that it declares.
 #[derive(Clone, Debug, Default)]
 pub struct SceneHeader {
     /// The version of the scene language; always 1 so far.
@@ -31,7 +31,7 @@ pub struct SceneHeader {
     pub title: Option<String>,
     /// The author's words on what to look for.
     pub notes: Option<String>,
-    /// What the checks noted; it ends on the run's error card.
+    /// Remarks of the checks. The run's error card shows them.
     pub remarks: Vec<String>,
     /// The names, sections and entries of the scene.
     pub outline: Outline,
@@ -50,11 +50,11 @@ pub struct Scene<A> {
 }
 
 impl<A> Scene<A> {
-    /// Reads a scene with what is registered.
+    /// Reads a scene with the registered sections and entries.
     ///
     /// # Errors
-    /// All mistakes that can be found at once: a misplaced bracket hides the rest of the text; everything else does not
-    /// hide mistakes in other sections.
+    /// The error holds all mistakes that one reading can find. A misplaced bracket hides the rest of the text. Other
+    /// mistakes hide nothing in other sections.
     pub fn read(registry: &Registry<A>, source: &Source) -> Result<Self, SceneErrors> {
         let embeddings = &registry.embeddings;
         if source.text.len() > LARGEST_SCENE {
@@ -83,8 +83,7 @@ impl<A> Scene<A> {
         Ok(scene)
     }
 
-    /// Builds what the scene asks for. Sections are installed in the order of their registration, whatever their order in the
-    /// file.
+    /// Builds the scene. Sections are installed in the order of their registration, whatever their order in the file.
     pub fn install(self, into: &mut A) -> SceneHeader {
         let Self { mut header, sections, entries } = self;
         let mut all: BTreeMap<usize, Built<A>> = BTreeMap::new();
@@ -166,7 +165,7 @@ struct WholeSection<A> {
     section: Box<dyn ReadSection<A>>,
 }
 
-/// What was read, in the order of the file.
+/// A section or entry, in the order of the file.
 enum Item {
     Section(usize),
     Entry { key: (usize, &'static str), which: usize, scope: String },
@@ -380,7 +379,7 @@ impl<A> Loading<'_, A> {
             return;
         }
         let written = if bare { format!("{name}()") } else { text[span.clone()].to_owned() };
-        // Only what stands in the brackets is read: the type's own name does not matter.
+        // Only the text in the brackets is read, because the name of the type does not matter.
         let bracket = skip_blank(text, head.end).map_or(0, |at| at - span.start);
         let store = self.entries.entry((entry.order, key)).or_insert_with(make);
         match store.push(&written, if bare { name.len() } else { bracket }) {
@@ -435,7 +434,7 @@ impl<A> Loading<'_, A> {
         report
     }
 
-    /// Looks up where the mistakes of the checks stand in the text.
+    /// Finds the places in the text for the mistakes of the checks.
     fn place(&mut self, problems: &[Problem]) {
         let (told, counted) = problems.split_at(problems.len().min(MOST_PROBLEMS));
         self.errors.extend(told.iter().map(|problem| placed(&self.walked, problem)));

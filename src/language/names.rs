@@ -1,16 +1,16 @@
-//! Names in the order of the file: single ones, and series such as `gas_0`, `gas_1`, of which only the beginning is kept.
+//! Names in the order of the file. A series such as `gas_0`, `gas_1` keeps only its prefix.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::outline::fits;
 
-/// The name of one thing of a series.
+/// The name of one member of a series.
 pub fn of_series(prefix: &str, number: u64) -> String {
     format!("{prefix}_{number}")
 }
 
-/// What [`of_series`] made a name of, if it did.
+/// The prefix and number of a name that [`of_series`] made, or `None` for other names.
 pub fn in_series(name: &str) -> Option<(&str, u64)> {
     let (prefix, digits) = name.rsplit_once('_')?;
     let canonical = digits == "0" || !digits.starts_with('0');
@@ -23,11 +23,11 @@ pub fn in_series(name: &str) -> Option<(&str, u64)> {
 struct Run {
     /// Place of the first.
     first: usize,
-    /// The name, or what the names of the series begin with.
+    /// The name, or the prefix of a series.
     name: String,
-    /// How many there are, if it is a series.
+    /// The length of the series, or `None` for a single name.
     numbered: Option<u64>,
-    /// Where it stands in the scene.
+    /// The path in the scene.
     path: String,
 }
 
@@ -48,9 +48,9 @@ pub(super) struct Names {
     len: usize,
     /// Single names, and which run they are.
     single: BTreeMap<String, usize>,
-    /// What series begin with, and which runs they are.
+    /// The prefixes of series, and their runs.
     series: BTreeMap<String, usize>,
-    /// All of them, if somebody asked.
+    /// All names, written out on first use.
     list: OnceLock<Vec<String>>,
 }
 
@@ -65,7 +65,7 @@ impl Names {
         self.list.get_or_init(|| self.runs.iter().flat_map(Run::names).collect())
     }
 
-    /// The place of a name, and where it stands in the scene.
+    /// The index of a name, and its path in the scene.
     pub fn find(&self, name: &str) -> Option<(usize, &str)> {
         if let Some(&run) = self.single.get(name) {
             let run = &self.runs[run];

@@ -6,7 +6,7 @@ pub fn number(value: f64) -> String {
     if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
-/// A number of things in words: `1 body`, `3 bodies`.
+/// A count in words: `1 body`, `3 bodies`.
 pub fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }

@@ -1,6 +1,6 @@
-//! Numbers in sentences, with as many digits as a reader needs.
+//! Numbers in sentences, with the digits that a reader needs.
 
-/// Errors below this are nothing but rounding: no smaller one is told.
+/// Errors below this are rounding alone, so no message gives a smaller one.
 pub const LEAST: f64 = 1e-16;
 
 /// A number of which only the size counts.

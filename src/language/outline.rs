@@ -1,4 +1,5 @@
-//! The names a scene brings, before anything is built: who there is, in which order, and who was meant.
+//! The names that a scene declares, in their order, and the search for a misspelt name. They are known before the world
+//! is built.
 
 use std::any::Any;
 use std::borrow::Cow;
@@ -14,10 +15,10 @@ use super::suggest;
 
 /// Longer names, in bytes, are no names.
 const LONGEST_NAME: usize = 1000;
-/// For so many mistakes names are looked for that may be meant.
+/// Similar names are searched for this many mistakes.
 const MOST_EXPLAINED: usize = 30;
 
-/// What a name stands for. Plugins may make kinds of their own.
+/// The kind of thing that a name denotes. Plugins may add kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Kind {
     noun: &'static str,
@@ -42,7 +43,7 @@ impl Kind {
         Self { noun, shared: true }
     }
 
-    /// A kind with names of its own: they may equal names of other kinds.
+    /// A kind with a separate set of names, which may equal names of other kinds.
     pub const fn apart(noun: &'static str) -> Self {
         Self { noun, shared: false }
     }
@@ -60,12 +61,12 @@ impl Kind {
     }
 }
 
-/// One entry of a section that takes several kinds, as it was written.
+/// One entry of a section that takes several kinds, as the author wrote it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mention {
     /// The leading name, such as `Drag`.
     pub name: String,
-    /// Where it stands, such as `forces[0]`.
+    /// The path, such as `forces[0]`.
     pub path: String,
     /// Its text.
     pub text: String,
@@ -102,8 +103,8 @@ pub enum Obstacle {
 /// Open lists of words; each word with whether it is available yet.
 pub(crate) type Words = BTreeMap<&'static str, BTreeMap<&'static str, bool>>;
 
-/// The names a scene brings, by kind, in the order of the file, which is the canonical order; and which sections and
-/// entries it has.
+/// The names of a scene by kind, and its sections and entries. Their order is that of the file, which is the canonical
+/// order.
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
     kinds: BTreeMap<Kind, Names>,
@@ -112,7 +113,7 @@ pub struct Outline {
     words: Words,
     obstacles: Vec<Obstacle>,
     tables: Tables,
-    /// Where relative paths begin.
+    /// The prefix of relative paths.
     pub(crate) scope: String,
     /// Whether every section could be read. If not, names may be missing, so unknown ones are not reported.
     pub(crate) complete: bool,
@@ -125,8 +126,8 @@ impl Outline {
         Self { complete: true, ..Self::default() }
     }
 
-    /// Adds a name. `path` is where it stands, relative to the section or entry, such as `"[3].name"`. A name that is
-    /// taken, empty, or holds one of `* . , "` or a control character is reported. Returns whether the name is good.
+    /// Adds a name. `path` is its place relative to the section or entry, such as `"[3].name"`. A name is reported if
+    /// it is taken, is empty, or holds one of `* . , "` or a control character. Returns whether the name is good.
     pub fn declare(&mut self, kind: Kind, name: &str, path: &str) -> bool {
         let path = join(&self.scope, path);
         let good = self.is_good(kind, name, &path);
@@ -136,8 +137,8 @@ impl Outline {
         good
     }
 
-    /// Adds `count` names that begin alike: `gas_0`, `gas_1` and so on for `gas`. The first of them that would be no good is
-    /// reported as by [`Outline::declare`], and none is added from there on. Returns whether all are good.
+    /// Adds `count` names that begin alike: `gas_0`, `gas_1` and so on for `gas`. The first bad name is reported as by
+    /// [`Outline::declare`], and it ends the series. Returns whether all are good.
     pub fn declare_series(&mut self, kind: Kind, prefix: &str, count: u64, path: &str) -> bool {
         let path = join(&self.scope, path);
         let taken = self.rivals(kind).filter_map(|(_, names)| names.first_taken(prefix, count)).min();
@@ -214,8 +215,8 @@ impl Outline {
         self.kinds.get(&kind)?.find(name).map(|(position, _)| position)
     }
 
-    /// The places of all names that fit a pattern, in canonical order; `*` stands for any run of characters, also
-    /// none. A pattern without `*` fits the one name it spells.
+    /// The indices of all names that fit a pattern, in canonical order. `*` stands for any run of characters, also an
+    /// empty one.
     pub fn matching(&self, kind: Kind, pattern: &str) -> Vec<usize> {
         if !pattern.contains('*') {
             return self.position(kind, pattern).into_iter().collect();
@@ -232,7 +233,7 @@ impl Outline {
         found
     }
 
-    /// Whether one thing of these kinds has the name; if none has, that is reported at `path`.
+    /// Whether the name belongs to one of these kinds. An unknown name is reported at `path`.
     pub fn require_any(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Report) -> bool {
         let found = kinds.iter().any(|&kind| self.position(kind, name).is_some());
         if !found {
@@ -241,7 +242,7 @@ impl Outline {
         found
     }
 
-    /// The places of all names that fit a pattern; a pattern that fits none is reported at `path`.
+    /// The indices of all names that fit a pattern. If no name fits, the pattern is reported at `path`.
     pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Report) -> Vec<usize> {
         let parts = pattern.matches('*').count();
         if !report.may_compare(path, parts * self.count(kind)) {
@@ -281,7 +282,7 @@ impl Outline {
         report.error(path, message).help(help);
     }
 
-    /// Whether the scene has the section at all, be it `None`.
+    /// Whether the scene has the section, even as `None`.
     pub fn has_section(&self, name: &str) -> bool {
         self.sections.iter().any(|(section, _)| section == name)
     }
@@ -301,8 +302,8 @@ impl Outline {
         self.entries.get(section).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether a word of an open list (such as `"method"`) is available, or only reserved; `None`: there is no such
-    /// word.
+    /// Whether a word of an open list (such as `"method"`) is available, or only reserved. `None` means that the list
+    /// has no such word.
     pub fn word(&self, list: &str, word: &str) -> Option<bool> {
         self.words.get(list)?.get(word).copied()
     }
@@ -321,7 +322,7 @@ impl Outline {
         Self { words, tables, ..Self::default() }
     }
 
-    /// What a file beside the scene became, by its key.
+    /// The content of a file beside the scene, by its key.
     pub fn embedded<T: Any + Send + Sync>(&self, key: u64) -> Option<Arc<T>> {
         Arc::clone(self.tables.get(&key)?).downcast().ok()
     }

@@ -1,6 +1,6 @@
-//! Which type reads which name of the scene language, and what it is built into.
+//! The registry of the scene language: the type that reads each name, and the target into which it is built.
 //!
-//! The language does not know into what a scene is built: it is the parameter `A` here, a Bevy app in the engine.
+//! The language does not fix that target. It is the parameter `A` here, and a Bevy app in the engine.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,8 @@ use super::schema::Describe;
 pub enum Arity {
     /// Any number, in a list: `forces: [Drag(..), Thrust(..)]`.
     List,
-    /// Any number, in a list; one that needs no field may stand without brackets: `layers: [Trails(seconds: 2), Names]`.
+    /// Any number of entries in a list. An entry that needs no field may omit its brackets: `layers: [Trails(seconds:
+    /// 2), Names]`.
     Words,
     /// Exactly one: `camera: Fit(..)`.
     One,
@@ -29,7 +30,7 @@ pub trait ReadSection<A>: Send + Sync {
     fn declare(&self, outline: &mut Outline);
     /// Reports what types cannot exclude.
     fn check(&self, outline: &Outline, report: &mut Report);
-    /// Builds what it asks for.
+    /// Builds the section.
     fn install(self: Box<Self>, outline: &Outline, into: &mut A);
 }
 
@@ -75,7 +76,7 @@ pub(crate) struct SectionReader<A> {
     pub(crate) example: &'static str,
     /// The schema of a section that is read as a whole.
     pub(crate) describe: Describe,
-    /// What a section of entries is for.
+    /// The purpose of a section of entries.
     pub(crate) meaning: &'static str,
     pub(crate) order: usize,
     origin: &'static str,
@@ -88,14 +89,14 @@ impl<A> Clone for SectionReader<A> {
 }
 
 impl<A> SectionReader<A> {
-    /// One that tells nothing of itself yet; its order is that of its registration.
+    /// A description without details; its order is that of the registration.
     fn new(reader: Reader<A>, example: &'static str) -> Self {
         Self { reader, example, describe: |_| None, meaning: "", order: 0, origin: "" }
     }
 }
 
 pub(crate) struct EntryReader<A> {
-    /// Makes an empty store; none for a reserved name.
+    /// Makes an empty store; `None` for a reserved name.
     pub(crate) make: Option<MakeEntries<A>>,
     pub(crate) describe: Describe,
     pub(crate) example: &'static str,
@@ -109,14 +110,14 @@ impl<A> Clone for EntryReader<A> {
     }
 }
 
-/// What a type that reads a section or an entry tells of itself.
+/// The description of a type that reads a section or an entry.
 #[derive(Clone, Copy)]
 pub struct Described {
     /// One correct use.
     pub example: &'static str,
     /// Its schema.
     pub schema: Describe,
-    /// The path of the type, as [`std::any::type_name`] tells it.
+    /// The path of the type, as [`std::any::type_name`] gives it.
     pub path: &'static str,
 }
 
@@ -127,14 +128,14 @@ pub struct Known {
     pub name: &'static str,
     /// One correct use.
     pub example: &'static str,
-    /// The module of the model that reads it, such as `jostle::forces::drag`. For a section of entries what their modules
-    /// have in common.
+    /// The module of the model that reads it, such as `jostle::forces::drag`. For a section of entries it is the common
+    /// part of their modules.
     pub origin: &'static str,
     /// Whether it is a section that takes entries by their leading names.
     pub takes_entries: bool,
 }
 
-/// The names of the scene language and who reads them, filled before a scene is read.
+/// The names of the scene language and their readers, which are registered before a scene is read.
 pub struct Registry<A> {
     pub(crate) sections: BTreeMap<&'static str, SectionReader<A>>,
     pub(crate) words: Words,
@@ -159,8 +160,8 @@ impl<A> Default for Registry<A> {
 /// How names are registered.
 ///
 /// # Panics
-/// A name that is registered twice, or an entry whose section is not registered, is a mistake of the program and panics when
-/// it starts. A reserved name may be registered later.
+/// It is a mistake of the program to register a name twice, or an entry before its section. The program then panics
+/// when it starts. A reserved name may be registered later.
 impl<A> Registry<A> {
     /// Lets a type read a top-level section.
     pub fn add_section(&mut self, name: &'static str, read: ReadOneSection<A>, of: Described) {
@@ -217,7 +218,8 @@ impl<A> Registry<A> {
         self.embeddings.push(embedding);
     }
 
-    /// An entry that stands in no scene, with the defaults of its fields; none if there is no such entry or it needs a field.
+    /// An entry outside of any scene, with the defaults of its fields. `None` if there is no such entry, or if it needs
+    /// a field.
     pub fn bare_entry(&self, section: &str, name: &str) -> Option<Box<dyn ReadEntries<A>>> {
         let Reader::Entries(_, entries) = &self.sections.get(section)?.reader else { return None };
         let mut store = entries.get(name)?.make?();
@@ -255,8 +257,8 @@ impl<A> Registry<A> {
         list
     }
 
-    /// The registered sections in the order of registration; reserved ones are left out, and lists of entries inside a
-    /// section (`look.layers`) as well.
+    /// The registered sections in the order of registration. Reserved sections and lists of entries inside a section
+    /// (`look.layers`) are left out.
     pub fn sections(&self) -> Vec<Known> {
         let known = |(name, section): (&'static str, &SectionReader<A>)| {
             let (origin, takes_entries) = match section.reader {
@@ -304,7 +306,7 @@ fn module(path: &'static str) -> &'static str {
     path[..end].rsplit_once("::").map_or(path, |(module, _)| module)
 }
 
-/// What the modules of entries have in common; only those of the first one's crate count, others are guests.
+/// The common part of the modules of entries. Only the crate of the first entry counts, because the others are guests.
 fn shared_module(entries: &[Known]) -> &'static str {
     let home = |entry: &Known| entry.origin.split("::").next().unwrap_or_default();
     let Some(first) = entries.first() else { return "" };
@@ -316,7 +318,7 @@ fn shared_module(entries: &[Known]) -> &'static str {
     })
 }
 
-/// Where an entry's relative paths begin.
+/// The prefix of the relative paths of an entry.
 pub(crate) fn entry_scope(section: &str, arity: Arity, index: usize) -> String {
     match arity {
         Arity::List | Arity::Words => join(section, &format!("[{index}]")),

@@ -1,24 +1,24 @@
-//! Where checks write down what is wrong, and the checks that every section needs.
+//! The list of mistakes that checks find, and the checks that every section needs.
 
 use glam::DVec2;
 
 use super::outline::join;
 
-/// So many names are compared with a part of a pattern; that takes a few seconds.
+/// At most this many comparisons of a name with a part of a pattern, which take a few seconds.
 const MOST_COMPARED: usize = 50_000_000;
 
 /// A mistake found by a check. Its place in the text is looked up only when it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// Where, such as `bodies[0].mass`.
+    /// The path, such as `bodies[0].mass`.
     pub path: String,
-    /// What is wrong and what was found.
+    /// The mistake, and what the check found.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: Option<String>,
-    /// The name of the field that is missing at the path, if that is the mistake.
+    /// The name of the absent field, if that is the mistake.
     pub missing: Option<String>,
-    /// A second path and what it has to do with the mistake.
+    /// A second path, and its part in the mistake.
     pub also: Option<(String, String)>,
 }
 
@@ -68,7 +68,7 @@ impl Report {
         self.error_at(path, message.into())
     }
 
-    /// Writes down that a field is missing. `help` says what to write.
+    /// Reports an absent field. `help` says what to write.
     pub fn missing(&mut self, field: &str, help: impl Into<String>) {
         let problem = self.error("", format!("the field `{field}` is missing"));
         problem.missing = Some(field.to_owned());
@@ -82,12 +82,13 @@ impl Report {
         &mut self.problems[last]
     }
 
-    /// Writes down something the author should know though it is no mistake; it ends on the run's error card.
+    /// Reports a fact that the author should know although it is no mistake. The run's error card shows it.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
     }
 
-    /// Takes up that a pattern is compared with so many names. More of it than there may be is a mistake, told once.
+    /// Counts the comparisons of a pattern with names. If they exceed the bound, that is a mistake, which is reported
+    /// once.
     pub(crate) fn may_compare(&mut self, path: &str, work: usize) -> bool {
         let before = self.compared;
         self.compared = before.saturating_add(work);
@@ -160,7 +161,7 @@ impl Report {
         &self.problems
     }
 
-    /// Runs checks and returns whether they found nothing wrong.
+    /// Runs checks and returns whether they found no mistake.
     pub fn all_good(&mut self, checks: impl FnOnce(&mut Self)) -> bool {
         let before = self.problems.len();
         checks(self);

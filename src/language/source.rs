@@ -1,4 +1,4 @@
-//! The text of a scene and where in it something stands.
+//! The text of a scene, and the line and column of a byte.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use super::tree::{Form, Tree};
 
 /// The largest scene the reader takes, in bytes (64 MiB).
 ///
-/// A hundred thousand atoms written out need about 6 MiB; beyond this limit a file is most likely not a scene.
+/// A hundred thousand atoms written out need about 6 MiB. A file beyond this limit is most likely not a scene.
 pub const LARGEST_SCENE: usize = 64 << 20;
 
 /// A scene's text together with the name under which messages speak of it.
@@ -20,11 +20,11 @@ pub struct Source {
     pub name: String,
     /// The text.
     pub text: String,
-    /// The folder in which files that the scene includes are looked for; none for a text that is in no file.
+    /// The folder of the files that the scene includes. `None` for a text without a file.
     pub folder: Option<PathBuf>,
-    /// Parameters that are to have another value than the scene says: name, and number or expression.
+    /// Parameters whose values replace those of the scene: name, and number or expression.
     pub settings: Vec<(String, String)>,
-    /// Whether the scene may name files that lie neither in its folder or below it, nor in a folder above it.
+    /// Whether the scene may name files anywhere. Otherwise they lie in its folder, below it, or in a folder above it.
     pub outside: bool,
 }
 
@@ -44,8 +44,8 @@ impl Source {
     /// Reads a scene file.
     ///
     /// # Errors
-    /// When the file is missing, a folder, not readable, larger than [`LARGEST_SCENE`], empty or not UTF-8 text. The
-    /// message says what to do.
+    /// An error if the file is absent, a folder, unreadable, larger than [`LARGEST_SCENE`], empty or not UTF-8 text.
+    /// The message says what to do.
     pub fn read(path: &Path) -> Result<Self, SceneErrors> {
         let name = path.display().to_string();
         let fail = |message: String, help: &str| {
@@ -91,8 +91,8 @@ impl Source {
         Ok(Self { folder, ..source })
     }
 
-    /// What the text is if it is no scene that could run by itself: something of another name, or a part for other scenes
-    /// to include. None for a scene, right or wrong.
+    /// The kind of the text if it is not a scene that can run by itself. It may have another name, or be a part for
+    /// other scenes to include. `None` for a scene, right or wrong.
     pub fn other_than_scene(&self) -> Option<String> {
         let Scan { tree, fault, .. } = scan(&self.text);
         if tree.is_empty() {
@@ -106,12 +106,12 @@ impl Source {
         if name.is_empty() && tree.node(0).form == Form::Round {
             return None;
         }
-        // A slip of the pen is a wrong scene.
+        // A misspelt `Scene` counts as a wrong scene.
         nearest(name, ["Scene"].into_iter()).is_none().then(|| tree.describe(0, &self.text))
     }
 
-    /// Whether a scene without mistakes of syntax is made for other scenes to include: it has things to bring, the format
-    /// of this program, if any, and neither a `clock` nor a section that may be meant for one.
+    /// Whether a scene without mistakes of syntax is a part for other scenes to include. A part has things to bring,
+    /// and the format of this program if it has any. It has no `clock`, and no section that may be a misspelt one.
     fn is_part(&self, tree: &Tree) -> bool {
         let sections = || tree.children(0).iter().map(|&id| (&self.text[tree.key(id)], id));
         let clock = sections().any(|(name, _)| nearest(name, ["clock", "look"].into_iter()) == Some("clock"));
@@ -121,7 +121,7 @@ impl Source {
         brings && format && !clock
     }
 
-    /// The whole text with what it includes and makes; empty if it cannot be made.
+    /// The whole text after includes, templates and repetitions; empty if it cannot be made.
     pub fn made<A>(&self, registry: &super::Registry<A>) -> String {
         super::expand::made(self, &registry.embeddings)
             .into_iter()
@@ -167,7 +167,7 @@ fn read_at_most(path: &Path, limit: usize) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Where each line of a text begins, so that many places can be turned into line and column.
+/// The first byte of each line of a text, so that many bytes can be turned into line and column.
 pub(crate) struct Lines<'a> {
     text: &'a str,
     starts: Vec<usize>,

@@ -1,9 +1,9 @@
-//! The nearest known name to one that is not known.
+//! The known name that is nearest to an unknown one.
 
 /// Longer names, in letters, are not compared: that takes time and memory as the product of both lengths.
 const LONGEST: usize = 200;
 
-/// The known name most like the given one, if any is near enough to be meant.
+/// The known name that is most like the given one, if it is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
     let length = name.chars().count();
@@ -21,7 +21,7 @@ pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&
             let short = lower.len().min(other.len()) >= 3;
             let begins =
                 short && (other.to_lowercase().starts_with(&lower) || lower.starts_with(&other.to_lowercase()));
-            // What templates and files make is known by its last part.
+            // Things from templates and files are known by the last part of their names.
             let part =
                 name.len() < other.len() && other.ends_with(name) && other[..other.len() - name.len()].ends_with('/');
             let distance = if begins { distance.min(allowed) } else { distance };
@@ -32,7 +32,8 @@ pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&
         .map(|(_, other)| other)
 }
 
-/// Help for an unknown name: the nearest known one, and the list of all if that is short. `quote` stands around names.
+/// Help for an unknown name: the nearest known name, and the list of all names if it is short. `quote` surrounds the
+/// names.
 pub fn among<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone, plural: &str, quote: char) -> String {
     const LISTED: usize = 24;
     let near = nearest(name, known.clone()).map(|near| format!("did you mean {quote}{near}{quote}? "));

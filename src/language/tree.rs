@@ -1,9 +1,9 @@
-//! The skeleton of a scene's text: which value stands where. It carries places only; the values are read by serde.
+//! The syntax tree of a scene's text. It carries the places of values only; serde reads the values.
 
 use std::fmt::Write;
 use std::ops::Range;
 
-/// What a value looks like.
+/// The form of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     /// `1.5`
@@ -45,11 +45,11 @@ pub(crate) struct Tree {
     children: Vec<Id>,
 }
 
-/// Where a path leads.
+/// The end of a path.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     pub(crate) node: Id,
-    /// Whether the whole path was found; otherwise the place is that of the nearest parent.
+    /// Whether the whole path was found. Otherwise the place belongs to the nearest parent.
     pub(crate) whole: bool,
 }
 
@@ -105,20 +105,19 @@ impl Tree {
         start as usize..end as usize
     }
 
-    /// The bytes of a value's field name or map key; empty when it has none.
+    /// The bytes of a value's field name or map key, or an empty range.
     pub(crate) fn key(&self, id: Id) -> Range<usize> {
         let (start, end) = self.node(id).key;
         start as usize..end as usize
     }
 
-    /// The leading name of `Name(..)`, empty when there is none.
+    /// The leading name of `Name(..)`, or an empty text.
     pub(crate) fn name<'a>(&self, id: Id, text: &'a str) -> &'a str {
         let start = self.span(id).start;
         &text[start..start + self.node(id).name as usize]
     }
 
-    /// The bytes that stand for a value as a whole without covering many lines: its field name, leading name or
-    /// opening bracket.
+    /// The bytes that represent a value without covering many lines: its field name, leading name or opening bracket.
     pub(crate) fn head(&self, id: Id) -> Range<usize> {
         let key = self.key(id);
         let span = self.span(id);
@@ -150,7 +149,7 @@ impl Tree {
             let key = &text[self.key(id)];
             if key.is_empty() {
                 let parent = self.node(id).parent;
-                // A value that is not closed yet has no children to tell by.
+                // An open value has no children that could identify it.
                 if !self.is_wrapper(parent) {
                     let _ = write!(path, "[{}]", self.node(id).index);
                 }
@@ -191,9 +190,9 @@ impl Tree {
         Some(Place { node, whole: true })
     }
 
-    /// Follows a path as people write it on a command line: as [`Tree::find`] does, and also to items of lists by their
-    /// `name` and to values of maps without quotes, such as `bodies.ball.mass` or `materials.rock.friction`. What does
-    /// not lead anywhere is told as the last value on the way and the step that it does not have.
+    /// Follows a path as people write it on a command line. Beside the steps of [`Tree::find`] it takes items of lists
+    /// by their `name`, and map keys without quotes. Examples are `bodies.ball.mass` and `materials.rock.friction`. If
+    /// the path breaks off, the error is the last value on the way and the step that it lacks.
     pub(crate) fn trace<'p>(&self, path: &'p str, text: &str) -> Result<Id, (Id, Vec<Step<'p>>)> {
         let mut node = 0;
         let mut steps = Steps(path);
@@ -228,7 +227,8 @@ impl Tree {
         self.children(node).iter().copied().find(|&child| fits(&text[self.key(child)]))
     }
 
-    /// The innermost value at a byte. With `after`, the byte is the end of what was read; else the start.
+    /// The innermost value at a byte. With `after`, the byte is the end of the text that was read; otherwise it is the
+    /// start.
     pub(crate) fn innermost(&self, offset: usize, after: bool) -> Id {
         let mut node = 0;
         loop {

@@ -130,7 +130,7 @@ impl<'de> Deserialize<'de> for Elsewhere {
     }
 }
 
-/// A choice of names: one, `"T"`, or several, `["T", "gas_*"]`; `*` stands for any run of characters.
+/// A choice of names: one, `"T"`, or several, `["T", "gas_*"]`. `*` stands for any run of characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {
     /// The patterns in the order of the file.
@@ -164,7 +164,7 @@ impl Names {
         found
     }
 
-    /// Each pattern with where it stands: `path`, or an item of the list there.
+    /// Each pattern with its path: `path`, or an item of the list at that path.
     pub fn with_paths(&self, path: &str) -> impl Iterator<Item = (&String, String)> {
         let place = move |index| if self.listed { format!("{path}[{index}]") } else { path.to_owned() };
         self.patterns.iter().enumerate().map(move |(index, pattern)| (pattern, place(index)))
@@ -210,7 +210,7 @@ impl<'de> Deserialize<'de> for Names {
     }
 }
 
-/// A map `{ "name": value }` that keeps the order of the file. A name that stands twice is an error.
+/// A map `{ "name": value }` that keeps the order of the file. A duplicate name is an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderedMap<T>(pub Vec<(String, T)>);
 

@@ -1,4 +1,4 @@
-//! Entries that name a file beside the scene: the file is read by its owner, and the entry is told what it became.
+//! Entries that name a file beside the scene. The owner of the entry reads the file, and its content joins the entry.
 
 use super::emit::{Context, WORK};
 use super::write::Buffer;
@@ -15,7 +15,7 @@ impl Expander {
         })
     }
 
-    /// Adds what its file became to an entry whose fields were just copied; `start` is where the entry begins.
+    /// Adds the content of a file to an entry whose fields were just copied. `start` is the beginning of the entry.
     pub(super) fn embed(
         &mut self,
         context: &Context,

@@ -1,4 +1,4 @@
-//! The door to files around a scene: those that it includes, pictures, courses, packings, themes.
+//! Access to the files around a scene: included files, pictures, courses, packings, themes.
 
 use std::cell::RefCell;
 use std::io::Read;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::source::Source;
 
-/// What is wrong with a file, and what to do.
+/// The mistake in a file, and the remedy.
 pub type Wrong = (String, String);
 
 /// A mistake in a sentence.
@@ -14,10 +14,10 @@ pub fn told((message, help): Wrong) -> String {
     if help.is_empty() { message } else { format!("{message}; {help}") }
 }
 
-/// What a scene may read, and what it has read.
+/// The files that a scene may read, and those that it has read.
 #[derive(Debug, Default)]
 pub struct Door {
-    /// The folder around which files may lie; none: anywhere.
+    /// The folder around which files may lie. `None`: anywhere.
     home: Option<PathBuf>,
     opened: RefCell<Vec<PathBuf>>,
 }
@@ -30,7 +30,8 @@ impl Door {
         Self { home: home.and_then(|home| home.canonicalize().ok()), opened: RefCell::default() }
     }
 
-    /// Lets a file through that messages call `name`, unless it may not be read. What is missing is told by its reader.
+    /// Admits a file that messages call `name`, unless the scene may not read it. The reader of the file reports an
+    /// absent one.
     pub fn admit(&self, path: &Path, name: &str) -> Result<(), Wrong> {
         let Ok(real) = path.canonicalize() else { return Ok(()) };
         let folder = real.parent().unwrap_or(&real);
@@ -55,11 +56,11 @@ impl Door {
     }
 }
 
-/// What is read.
+/// The description of a file that an entry names.
 pub struct Wanted {
     /// The largest file, in bytes.
     pub most: u64,
-    /// What a folder of that name should have been: `a PNG picture`.
+    /// The expected kind of file, for the message about a folder: `a PNG picture`.
     pub noun: &'static str,
     /// How to make a file smaller.
     pub smaller: &'static str,
@@ -72,7 +73,7 @@ impl Wanted {
         self.take(path, name, "the path begins at the folder of the file in which this stands")
     }
 
-    /// Reads a file; `here` says where its path begins.
+    /// Reads a file; `here` is the beginning of its path.
     pub fn take(&self, path: &Path, name: &str, here: &str) -> Result<Vec<u8>, Wrong> {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {

@@ -1,4 +1,4 @@
-//! Values as they are copied into the made text: expressions worked out, names given their prefix, fields overridden.
+//! Copies values into the made text. Expressions are evaluated, names get their prefix, and fields are overridden.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -14,45 +14,45 @@ use crate::tree::{Form, Id, Tree};
 const TEXTS: [&str; 11] = ["name", "title", "notes", "rows", "color", "material", "of", "on", "between", "a", "b"];
 /// Fields whose texts are never names of things.
 const WORDS: [&str; 4] = ["title", "notes", "rows", "color"];
-/// What a value counts, where work is counted: it may leave three pieces.
+/// The work of one value, in bytes: it may leave three pieces.
 pub(super) const WORK: usize = 128;
-/// What a byte of a text counts, as it may have to be worked out: about as long takes it to copy twelve.
+/// The work of one byte of a text that may have to be evaluated. It takes as long as copying twelve bytes.
 pub(super) const WORK_OF_TEXT: usize = 12;
-/// What a byte counts that is copied as it stands, so that the scene stays below its largest size.
+/// The work of one byte that is copied unchanged. It keeps the scene below its largest size.
 const WORK_OF_COPY: usize = 8;
-/// Values in values: parameters that stand for brackets can hold each other.
+/// Depth of values in values: parameters that stand for brackets can hold each other.
 const DEEPEST: u32 = 300;
 
-/// What surrounds a value that is copied: where it is written, and what names mean there.
+/// The surroundings of a value that is copied: its file, and the meaning of names there.
 #[derive(Clone)]
 pub(super) struct Context {
     pub(super) file: Rc<File>,
     pub(super) scope: usize,
     pub(super) place: Rc<Place>,
     pub(super) step: u32,
-    /// What names of templates begin with in this file.
+    /// The prefix of the names of templates in this file.
     pub(super) home: Rc<str>,
 }
 
 /// A part of the scene whose names have a prefix: an instance or an included file.
 #[derive(Default)]
 pub(super) struct Place {
-    /// Where names are looked for that the part does not have: the file of a template, the file that includes a file.
+    /// The place that resolves names which the part lacks: the file of a template, or the including file.
     pub(super) around: Option<Rc<Place>>,
     /// Empty, or with a `/` at its end.
     pub(super) prefix: String,
     /// Names of the part, without the prefix.
     pub(super) names: BTreeSet<String>,
-    /// Names of the part to which numbers are added, as `fill` does.
+    /// Names of the part that are prefixes of numbered names, as in `fill`.
     pub(super) numbered: BTreeSet<String>,
     pub(super) overrides: Vec<Rc<Override>>,
     /// The template of which this is an instance.
     pub(super) template: Option<String>,
 }
 
-/// A value for one field of what a template makes.
+/// A value for one field of an instance.
 pub(super) struct Override {
-    /// Whose, without the prefix of the instance; `*` stands for any letters.
+    /// The owner of the field, without the prefix of the instance; `*` stands for any letters.
     pub(super) target: String,
     pub(super) fields: Vec<String>,
     pub(super) context: Context,
@@ -64,7 +64,7 @@ pub(super) struct Override {
 type Patch = (Rc<Override>, usize);
 
 impl Context {
-    /// The letters of a text, and where they begin in the file if they stand there as they are.
+    /// The letters of a text. Also their first byte in the file, if the file holds them unchanged.
     pub(super) fn text(&self, id: Id) -> Option<(String, Option<usize>)> {
         let span = self.file.tree.span(id);
         let written = &self.file.source.text[span.clone()];
@@ -76,19 +76,19 @@ impl Context {
 }
 
 impl Place {
-    /// The full name of what a text speaks of, if that is a thing of this part or of one around it: `ball`,
-    /// `ball.position.x`, `b*`.
+    /// The full name of the thing in a text, such as `ball`, `ball.position.x`, `b*`. The thing belongs to this part or
+    /// to one around it.
     pub(super) fn resolved(&self, text: &str) -> Option<String> {
         let around = || self.around.as_ref()?.resolved(text);
         self.own(text).or_else(around)
     }
 
-    /// The full name of what a text speaks of, if that is a thing of this part.
+    /// The full name of the thing in a text, if the thing belongs to this part.
     pub(super) fn own(&self, text: &str) -> Option<String> {
         (!self.prefix.is_empty() && self.has(text)).then(|| format!("{}{text}", self.prefix))
     }
 
-    /// Whether a text speaks of things of this part.
+    /// Whether a text names things of this part.
     fn has(&self, text: &str) -> bool {
         let name = text.split('.').next().unwrap_or(text);
         if name.contains('*') {
@@ -105,12 +105,12 @@ impl Place {
 /// Whether a pattern fits `stem_0`, `stem_1` or any other number of a stem.
 fn fits_numbered(pattern: &str, stem: &str) -> bool {
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
-    // A number that fits at all is written in the pattern, after its last `_` or without one; or any does.
+    // If any number fits, one of three does: the digits behind the last `_`, all digits, or 0.
     let written = [digits(pattern.rsplit('_').next().unwrap_or_default()), digits(pattern), "0".to_owned()];
     written.iter().filter(|number| !number.is_empty()).any(|number| fits(pattern, &format!("{stem}_{number}")))
 }
 
-/// Of each value, whether it can be copied as it stands.
+/// For each value, whether it can be copied unchanged.
 pub(super) fn plain(tree: &Tree, text: &str, readers: &[Reader]) -> Vec<bool> {
     let mut plain = vec![true; tree.next() as usize];
     for id in (0..tree.next()).rev() {
@@ -129,7 +129,7 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 impl Expander {
-    /// Copies an entry of a section, whose `name` names a thing.
+    /// Copies an entry of a section whose `name` is the name of a thing.
     pub(super) fn entry(&mut self, context: &Context, out: &mut Buffer, id: Id, section: &str) -> Outcome<()> {
         let patches = match self.name_of(context, id)? {
             Some(name) => patches_of(context, &name),
@@ -138,20 +138,20 @@ impl Expander {
         self.value(context, out, id, section, &patches, true)
     }
 
-    /// The name that an entry brings, without the prefix. A name with a dot is that of a channel, which the entry only
-    /// speaks of.
+    /// The name that an entry declares, without the prefix. A name with a dot is that of a channel, to which the entry
+    /// only refers.
     pub(super) fn name_of(&mut self, context: &Context, id: Id) -> Outcome<Option<String>> {
         let Some(field) = self.field(context, id, "name") else { return Ok(None) };
         Ok(self.text_of(context, field)?.filter(|name| !name.contains('.')))
     }
 
-    /// The letters of a text, with what stands in braces filled in.
+    /// The letters of a text, with the expressions in braces evaluated.
     pub(super) fn text_of(&mut self, context: &Context, id: Id) -> Outcome<Option<String>> {
         let Some((text, shift)) = context.text(id) else { return Ok(None) };
         self.filled(context, id, &text, shift).map(|filled| Some(filled.text))
     }
 
-    /// Copies the values of a map whose keys name things.
+    /// Copies the values of a map whose keys are names of things.
     pub(super) fn named_values(&mut self, context: &Context, out: &mut Buffer, id: Id) -> Outcome<()> {
         let file = &context.file;
         for &child in file.tree.children(id) {
@@ -273,7 +273,7 @@ impl Expander {
         }
     }
 
-    /// Fields that an override adds to a bracket which has none of that name.
+    /// Fields that an override adds to a bracket without a field of that name.
     fn added(&mut self, context: &Context, out: &mut Buffer, id: Id, patches: &[Patch]) -> Outcome<()> {
         let file = Rc::clone(&context.file);
         let (tree, text) = (&file.tree, &file.source.text);
@@ -394,8 +394,8 @@ impl Expander {
 }
 
 impl Expander {
-    /// A pattern in a template that fits nothing the template makes may be meant for the things around it, or be
-    /// misspelt: both read alike, so it is said.
+    /// Notes a pattern in a template that fits none of the template's things. The pattern may mean the things around
+    /// the template, or be misspelt.
     fn note_foreign(&mut self, context: &Context, start: usize, text: &str) {
         let is_pattern = text.contains('*') && !text.contains(char::is_whitespace);
         let Some(template) = &context.place.template else { return };

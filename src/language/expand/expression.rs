@@ -1,6 +1,6 @@
-//! Expressions such as `2 * r + 3 cm`: read and worked out in one go, with the place of every mistake.
+//! Expressions such as `2 * r + 3 cm`: parsed and evaluated in one pass, with the place of every mistake.
 //!
-//! Trigonometry and powers come from `libm`, so that a scene is the same scene on every machine.
+//! Trigonometry and powers come from `libm`, so that a scene is the same on every machine.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::number::Number;
 use crate::suggest;
 use crate::units::{self, Powers};
 
-/// What is wrong with an expression, and where in its text.
+/// The mistake in an expression, and its place in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Wrong {
     pub(super) range: Range<usize>,
@@ -18,7 +18,7 @@ pub(super) struct Wrong {
 
 type Outcome = Result<Number, Wrong>;
 
-/// Gives a name its value, or says why it has none.
+/// Gives the value of a name, or the reason why it has none.
 pub(super) type LookUp<'a> = &'a mut dyn FnMut(&str) -> Result<Number, (String, Option<String>)>;
 
 /// Names of functions with their number of arguments; 0: one or more.
@@ -93,7 +93,7 @@ fn wrong(range: Range<usize>, message: impl Into<String>, help: Option<String>) 
     Wrong { range, message: message.into(), help }
 }
 
-/// What is meant by a sign of other languages.
+/// The meaning of an operator of other languages.
 fn slip(rest: &str) -> Option<&'static str> {
     const SLIPS: [(&str, &str); 4] = [
         ("**", "a power is written `2 ^ i`"),
@@ -117,7 +117,7 @@ impl Reader<'_> {
         self.at = self.text.len() - self.text[self.at..].trim_start().len();
     }
 
-    /// Passes the first of some signs if one stands here.
+    /// Passes the first of some operators, if one is next.
     fn sign(&mut self, signs: &[&'static str]) -> Option<&'static str> {
         self.blank();
         let found = signs.iter().find(|sign| self.text[self.at..].starts_with(**sign))?;
@@ -302,7 +302,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A sign of another language that stands here.
+    /// An operator of another language, if it is next.
     fn unknown_sign(&self) -> Option<Wrong> {
         let rest = self.text[self.at..].trim_start();
         let start = self.text.len() - rest.len();

@@ -1,5 +1,5 @@
-//! `heights: (file: "ground.csv")`, `heights: (of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`: the list of the points takes its
-//! place.
+//! `heights` from a file or a function, replaced by the list of their points. Examples: `heights: (file:
+//! "ground.csv")`, `heights: (of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ use super::{Expander, Outcome};
 use crate::count;
 use crate::tree::{Form, Id};
 
-/// The field in which they stand.
+/// The field that holds them.
 pub(super) const FIELD: &str = "heights";
 const OF_FILE: &str =
     "heights: (file: \"ground.csv\"), or with names of columns (file: \"ground.csv\", x: \"x\", column: \"height\")";

@@ -1,4 +1,4 @@
-//! Files, and what they bring: `include`, `params`, and the sections that are put together from all files.
+//! Files and their contents: `include`, `params`, and the sections that are merged from all files.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ pub(super) struct Part {
     included: Vec<Part>,
 }
 
-/// Whose sections are put into the scene.
+/// The owner of the sections that are put into the scene.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Holder {
     Scene,
@@ -30,11 +30,11 @@ pub(super) enum Holder {
     Template,
 }
 
-/// Sections whose entries are many things with numbered names.
+/// Sections whose entries make many things with numbered names.
 const SERIES: [&str; 2] = ["fill", "packings"];
 
 impl Expander {
-    /// Takes note of a file's parameters and templates, and opens what it includes.
+    /// Notes the parameters and templates of a file, and opens the files that it includes.
     pub(super) fn open(
         &mut self,
         file: &Rc<File>,
@@ -267,8 +267,8 @@ impl Expander {
         }
     }
 
-    /// Settles what names mean in a file and in those it includes, before anything is made: a template may be used
-    /// ahead of the file in which it stands.
+    /// Settles the meaning of names in a file and in its included files, before any thing is made. So a template may be
+    /// used ahead of its own file.
     pub(super) fn name_places(&mut self, part: &mut Part, around: Option<&Rc<Place>>) {
         if !part.context.place.prefix.is_empty() {
             let (names, numbered) = self.names_of_part(part);
@@ -387,8 +387,8 @@ impl Expander {
         done
     }
 
-    /// The names that the sections in a bracket bring, without prefix; and those to which numbers are added. What is
-    /// wrong there is told when they are put into the scene.
+    /// The names that the sections in a bracket declare, without prefix; and the prefixes of numbered names. Mistakes
+    /// there are reported when the sections are put into the scene.
     pub(super) fn names_in(&mut self, context: &Context, id: Id) -> (BTreeSet<String>, BTreeSet<String>) {
         let (made, steps) = (self.made, self.steps.len());
         let (mut names, mut numbered) = (BTreeSet::new(), BTreeSet::new());

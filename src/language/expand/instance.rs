@@ -1,4 +1,4 @@
-//! `templates` and `instances`.
+//! `templates` and `instances`: parts of scenes, and their copies with arguments.
 
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -15,7 +15,7 @@ use crate::tree::{Form, Id};
 const EXAMPLE: &str = "instances: [(of: \"bob\", name: \"left\", with: (x: 1), set: {\"ball.mass\": 2})]";
 const TEMPLATES: &str = "templates: { \"bob\": (args: [\"x\"], bodies: [(name: \"ball\", at: (\"x\", 0), ..)]) }";
 
-/// A template as it is written.
+/// A template as the author wrote it.
 pub(super) struct Template {
     context: Context,
     node: Id,
@@ -175,7 +175,7 @@ impl Expander {
         Ok(name)
     }
 
-    /// The values of the arguments, as the instance gives them.
+    /// The values of the arguments in an instance.
     fn arguments(&mut self, context: &Context, id: Id, template: &Template, called: &str) -> Outcome<Scope> {
         let params = self.field(&template.context, template.node, "params");
         let file = &template.context.file;
@@ -202,7 +202,7 @@ impl Expander {
         Ok(scope)
     }
 
-    /// The template's own `params`, where the instance does not give them another value.
+    /// The parameters of the template itself, unless the instance gives them other values.
     fn open_params(&mut self, inner: &Context, template: &Template) -> Outcome<()> {
         let Some(params) = self.field(inner, template.node, "params") else { return Ok(()) };
         let given: BTreeSet<String> = self.scopes[inner.scope].names().map(str::to_owned).collect();

@@ -1,4 +1,4 @@
-//! From places in the made text back to places in the files of the author.
+//! The source map: from places in the made text back to places in the files of the author.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -41,7 +41,7 @@ pub(super) fn merge(errors: &mut Vec<SceneError>) {
         let key = (error.source, place, words);
         match seen.get(&key) {
             Some(&first) if !error.chain.is_empty() => kept[first].again += 1,
-            // A parameter that is used in many places is wrong in one.
+            // A parameter that is used in many places is reported once.
             Some(&first) if error.span.is_some() && kept[first] == error => {}
             _ => {
                 seen.insert(key, kept.len());
@@ -156,7 +156,7 @@ impl Expanded {
         }
     }
 
-    /// What a message calls by its place in the made text, it calls by its place in the file.
+    /// Replaces paths of the made text in a message by paths of the file.
     fn rename_paths(&self, made: &Tree, span: &Range<usize>, error: &mut SceneError) {
         let mut node = made.innermost(span.start, false);
         while node != 0 {

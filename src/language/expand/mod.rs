@@ -1,10 +1,10 @@
-//! Scenes that are made rather than written out: `params`, `templates`, `instances`, `include` and `Repeat` become a
-//! text in which none of them stands, before any section is read; pictures (`Png`) become discs, tables (`Csv`) points.
-//! Tables of `packings` are read too, and handed on beside the text.
+//! Macros of the scene language: `params`, `templates`, `instances`, `include` and `Repeat` are replaced before any
+//! section is read. Pictures (`Png`) become discs, and tables (`Csv`) become points. Tables of `packings` are read too,
+//! and stand beside the text.
 //!
-//! So every section, also one of a plugin, gets all of this without knowing of it. Each piece of the made text knows
-//! which piece of which file it comes from, and through which instances and repetitions: mistakes are told where the
-//! author has to mend them. A scene that uses nothing of it is not touched.
+//! So every section, also one of a plugin, gets all of this without extra code. Each piece of the made text keeps its
+//! source: the file, and the instances and repetitions on the way. Mistakes are reported where the author has to
+//! correct them. A scene that uses nothing of it is not touched.
 
 mod beside;
 mod door;
@@ -40,10 +40,10 @@ use instance::Template;
 use scope::Scope;
 use write::{Buffer, Merged};
 
-/// The sections that are replaced by what they make.
+/// The sections that are replaced by their results.
 pub(super) const SECTIONS: [&str; 4] = ["include", "params", "templates", "instances"];
-/// How many things repetitions and instances may make in all. Each is a text that is read: more of them come from `fill` or
-/// `packings`.
+/// At most this many things from repetitions and instances. Each is a text that is read; `fill` and `packings` make
+/// more.
 const MOST_MADE: u64 = 200_000;
 /// How much work the making may be, about in bytes that are copied: some seconds, and some 100 MiB.
 const MOST_WORK: usize = 8 * LARGEST_SCENE;
@@ -54,7 +54,7 @@ const MOST_FILES: usize = 1000;
 /// More mistakes than this are not looked for.
 const MOST_ERRORS: usize = 50;
 
-/// What files beside the scene became, by the keys that stand in the text.
+/// The contents of files beside the scene, by their keys in the text.
 pub(super) type Tables = BTreeMap<u64, Arc<dyn Any + Send + Sync>>;
 /// An entry that names files, with what reads them.
 type Reader = (Embedding, Box<dyn Embed>);
@@ -78,7 +78,7 @@ enum Cause {
     Included,
 }
 
-/// One step on the way from the scene to what it makes. Step 0 is the scene itself.
+/// One step on the way from the scene to a made thing. Step 0 is the scene itself.
 #[derive(Clone, Debug)]
 struct Step {
     before: u32,
@@ -126,8 +126,8 @@ fn is_expression(quoted: &str) -> bool {
     !scope::is_quantity(text) && (calculates() || value().is_ok())
 }
 
-/// The sections that a scene has when everything is made, by name; none if it cannot be made. Entries that name files become
-/// what `embeddings` know.
+/// The sections of a scene after all macros, by name. `None` if they cannot be made. `embeddings` replace the entries
+/// that name files.
 pub(super) fn made(source: &Source, embeddings: &[Embedding]) -> Option<BTreeMap<String, String>> {
     let found = scan(&source.text);
     if found.fault.is_some() {
@@ -140,7 +140,7 @@ pub(super) fn made(source: &Source, embeddings: &[Embedding]) -> Option<BTreeMap
     Some(tree.children(0).iter().map(section).collect())
 }
 
-/// Makes what the scene asks for, from what the walk over its text found.
+/// Makes the scene from the result of the walk over its text.
 pub(super) fn expand(source: &Source, found: Scan, embeddings: &[Embedding]) -> Result<Expanded, SceneErrors> {
     let readers = embeddings.iter().map(|known| (*known, (known.reader)())).collect();
     let mut expander = Expander { readers, door: Door::of(source), ..Expander::default() };
@@ -157,12 +157,12 @@ pub(super) fn expand(source: &Source, found: Scan, embeddings: &[Embedding]) -> 
 struct Expander {
     files: Vec<Rc<File>>,
     steps: Vec<Step>,
-    /// Names with values, innermost last; what is made uses them only while it is made.
+    /// Names with values, innermost last. They exist only while the text is made.
     scopes: Vec<Scope>,
     templates: BTreeMap<String, Rc<Template>>,
-    /// What names mean in each file.
+    /// The meaning of names in each file.
     homes: BTreeMap<usize, Rc<Place>>,
-    /// Patterns of templates that were noted as meaning things around them, by file and place.
+    /// Patterns of templates that were noted as foreign, by file and place.
     foreign: BTreeSet<(usize, usize)>,
     /// Whether files are being opened: their values are needed until all is made.
     opening: bool,
@@ -180,9 +180,9 @@ struct Expander {
     tables: Tables,
     made: u64,
     work: usize,
-    /// How many values stand in each other by name.
+    /// The number of values that are nested by name.
     depth: u32,
-    /// Whether nobody will read why an expression is wrong.
+    /// Whether the reason for a wrong expression is not needed.
     quiet: bool,
 }
 
@@ -289,7 +289,7 @@ impl Expander {
         })
     }
 
-    /// Counts what is made, and the work it is, so that a small text cannot ask for endless work.
+    /// Counts the made things and their work, so that a small text cannot ask for endless work.
     fn spend(&mut self, context: &Context, id: Id, made: u64, work: usize) -> Outcome<()> {
         self.made += made;
         self.work += work;

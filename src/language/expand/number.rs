@@ -1,9 +1,9 @@
-//! Numbers of expressions: values that know their units, so that a length is never added to a mass.
+//! Numbers of expressions with their units (dimensional analysis), so that a length is never added to a mass.
 
 use crate::units::{self, Powers};
 
-/// A number with the powers of its units. Without any it is a plain number, which fits every quantity: as everywhere
-/// in a scene it is then in SI units.
+/// A number with the powers of its units. A number without units fits every quantity. It is then in SI units, as
+/// everywhere in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Number {
     pub(super) si: f64,
@@ -19,7 +19,8 @@ impl Number {
         self.powers == Powers::default()
     }
 
-    /// The units of two numbers that are added, subtracted or compared: the same, or those of the one that has any.
+    /// The common units of two numbers that are added, subtracted or compared. Both have the same units, or one has
+    /// none.
     pub(super) fn common(self, other: Self, verb: &str) -> Result<Powers, String> {
         if self.powers == other.powers || other.is_plain() {
             Ok(self.powers)
@@ -60,17 +61,17 @@ impl Number {
         Ok(Self { si: libm::sqrt(self.si), powers: combined(self.powers, Powers::default(), |a, _| a / 2)? })
     }
 
-    /// What it measures, for messages.
+    /// The quantity that it measures, for messages.
     pub(super) fn kind(self) -> String {
         units::name_of(self.powers).trim_end_matches(':').to_owned()
     }
 
-    /// As it may stand in a scene where a number or quantity may: every digit is kept.
+    /// The text for a number or quantity in a scene, with every digit.
     pub(super) fn written(self) -> String {
         if self.is_plain() { self.digits() } else { format!("\"{}\"", self.shown()) }
     }
 
-    /// As it may stand within a text.
+    /// The text within another text.
     pub(super) fn shown(self) -> String {
         if self.is_plain() { self.digits() } else { format!("{} {}", self.digits(), units::base_units(self.powers)) }
     }

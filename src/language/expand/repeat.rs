@@ -1,4 +1,4 @@
-//! `Repeat(count: 5, make: ..)` in place of an item of a list: along a line, on a grid, on a circle, or just counted.
+//! `Repeat(count: 5, make: ..)` in place of an item of a list: on a line, a grid or a circle, or just counted.
 
 use std::rc::Rc;
 
@@ -16,7 +16,7 @@ const FIELDS: [&str; 6] = ["count", "as", "line", "grid", "circle", "make"];
 /// Does something with an item.
 pub(super) type Act<'a> = &'a mut dyn FnMut(&mut Expander, &Context, Id) -> Outcome<()>;
 
-/// Where the things stand.
+/// The places of the things.
 enum Layout {
     Counted,
     Line { from: [Number; 2], to: [Number; 2] },
@@ -25,7 +25,7 @@ enum Layout {
 }
 
 impl Expander {
-    /// Goes through the items of a list; a `Repeat` stands for all that it makes.
+    /// Visits the items of a list; a `Repeat` stands for all items that it makes.
     pub(super) fn each(&mut self, context: &Context, items: &[Id], act: Act) -> Outcome<()> {
         for &item in items {
             let tree = &context.file.tree;
@@ -107,7 +107,7 @@ impl Expander {
         Err(Box::new(error))
     }
 
-    /// What the indices are called: `i`, and `j` for rows, or as the field `as` says.
+    /// The names of the indices: `i`, and `j` for rows, or the names in the field `as`.
     fn index_names(&mut self, context: &Context, id: Id, rows: bool) -> Outcome<Vec<String>> {
         let Some(field) = self.field(context, id, "as") else {
             return Ok(if rows { vec!["i".into(), "j".into()] } else { vec!["i".into()] });
@@ -198,7 +198,7 @@ impl Layout {
             Self::Line { from, to } => {
                 let along = |from: Number, to: Number| {
                     let whole = minus(to, from)?;
-                    // One thing on a line stands at its beginning.
+                    // A single thing on a line stands at the beginning of the line.
                     let si = whole.si * i as f64 / count.saturating_sub(1).max(1) as f64;
                     plus(from, Number { si, ..whole })
                 };

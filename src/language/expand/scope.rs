@@ -1,4 +1,4 @@
-//! Names with values: parameters, arguments of templates, the numbers of repetitions.
+//! Scopes of names with values: parameters, arguments of templates, the numbers of repetitions.
 
 use std::collections::BTreeMap;
 
@@ -16,15 +16,15 @@ const DEEPEST: usize = 100;
 /// Texts that are put together may be this long, in bytes.
 const LONGEST_TEXT: usize = 1 << 16;
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone)]
 pub(super) enum Value {
     Number(Number),
     Text(String),
-    /// A text that an instance gives its template: it speaks of things of the template, or of those of the place of the
-    /// instance, never of those of the template's file.
+    /// A text that an instance gives its template. It names things of the template, or of the place of the instance. It
+    /// never names things of the template's file.
     Given(String),
-    /// Anything else, as it stands in a file.
+    /// Any other value, as it stands in a file.
     Node(Context, Id),
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Filled {
     pub(super) given: bool,
 }
 
-/// Names with values; what is not here is looked for in the scope around it.
+/// Names with values. The scope around it resolves all other names.
 #[derive(Default)]
 pub(super) struct Scope {
     pub(super) around: Option<usize>,
@@ -93,7 +93,7 @@ enum Missing {
 }
 
 impl Expander {
-    /// What a name stands for, seen from a place. `asked` are the parameters that are being worked out.
+    /// The meaning of a name, seen from a place. `asked` are the parameters that are being evaluated.
     fn find(&mut self, scope: usize, name: &str, asked: &mut Vec<(usize, String)>) -> Result<Value, Missing> {
         let mut at = Some(scope);
         while let Some(number) = at {
@@ -163,7 +163,7 @@ impl Expander {
         value.map_err(|failed| failed.into_error(|wrong| Box::new(self.wrong_expression(&context, id, shift, wrong))))
     }
 
-    /// The value of a number, text or anything else that stands where a parameter or argument gets its value.
+    /// The value of a parameter or argument: a number, a text or any other form.
     pub(super) fn read_value(&mut self, context: &Context, id: Id) -> Outcome<Value> {
         let tree = &context.file.tree;
         self.spend(context, id, 0, WORK + WORK_OF_TEXT * tree.span(id).len())?;
@@ -184,7 +184,7 @@ impl Expander {
         }
     }
 
-    /// A text in quotes in place of a value: an expression, or a text if it cannot be meant as one.
+    /// A text in quotes in place of a value: an expression, or a text if it cannot be an expression.
     fn text_value(&mut self, scope: usize, text: &str, asked: &mut Vec<(usize, String)>) -> Result<Value, Failed> {
         if text.contains('{') {
             let Filled { text, given } = self.fill_in(scope, text, asked)?;
@@ -239,7 +239,7 @@ impl Expander {
         }
     }
 
-    /// The names that can be used at a place, nearest first, as help for an unknown one.
+    /// The names that are valid at a place, nearest first, as help for an unknown one.
     fn known(&self, scope: usize, name: &str) -> String {
         let scopes = std::iter::successors(Some(scope), |&scope| self.scopes[scope].around);
         let names: Vec<&str> = scopes.flat_map(|scope| self.scopes[scope].names()).collect();
@@ -297,7 +297,7 @@ impl Expander {
         Ok(Filled { text: filled, given })
     }
 
-    /// A text of the scene with what stands in braces filled in.
+    /// A text of the scene with the expressions in braces evaluated.
     pub(super) fn filled(&mut self, context: &Context, id: Id, text: &str, shift: Option<usize>) -> Outcome<Filled> {
         if !text.contains(['{', '}']) {
             return Ok(Filled { text: text.to_owned(), given: false });
@@ -306,7 +306,7 @@ impl Expander {
         filled.map_err(|failed| failed.into_error(|wrong| Box::new(self.wrong_expression(context, id, shift, wrong))))
     }
 
-    /// What a quoted text stands for, if it is an expression; else why it is none.
+    /// The value of a quoted text, if it is an expression; else the reason why it is not.
     pub(super) fn expression(&mut self, context: &Context, text: &str) -> Result<Value, Failed> {
         if is_name(text) {
             match self.find(context.scope, text.trim(), &mut Vec::new()) {
@@ -338,8 +338,8 @@ impl Expander {
         }
     }
 
-    /// A mistake inside an expression, under its own letters. `shift` is where its text begins in the file, if the
-    /// letters in the file are those of the text.
+    /// A mistake inside an expression, under its own letters. `shift` is the first byte of its text in the file, if the
+    /// file holds the text unchanged.
     pub(super) fn wrong_expression(&self, context: &Context, id: Id, shift: Option<usize>, wrong: Wrong) -> SceneError {
         let whole = context.file.tree.span(id);
         let span = match shift {
@@ -354,7 +354,7 @@ impl Expander {
     }
 }
 
-/// Why a text has no value: a mistake of its own, or of a parameter it uses.
+/// The reason why a text has no value: a mistake in the text, or in a parameter that it uses.
 pub(super) enum Failed {
     Here(Wrong),
     Elsewhere(Box<SceneError>),

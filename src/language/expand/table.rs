@@ -1,5 +1,5 @@
-//! `course: Csv("drive.csv")`, `target: Csv(file: "arm.csv", column: "angle")`: the file is read, and `Piecewise([..])` with its points
-//! takes its place.
+//! Tables in files, read and replaced by `Piecewise([..])` with their points. Examples: `course: Csv("drive.csv")`,
+//! `target: Csv(file: "arm.csv", column: "angle")`.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -11,7 +11,7 @@ use super::{Expander, Outcome};
 use crate::tree::{Form, Id};
 use crate::{cells, count, drop_empty_ends, separator, suggest};
 
-/// The leading name of a table in a file, and the fields in which it stands.
+/// The leading name of a table in a file, and the fields that may hold one.
 pub(super) const NAME: &str = "Csv";
 pub(super) const FIELDS: [&str; 3] = ["course", "target", "force"];
 const EXAMPLE: &str = "for example: course: Csv(\"drive.csv\")";
@@ -29,13 +29,13 @@ pub(super) struct Columns {
     pub(super) value: String,
 }
 
-/// What the numbers of a table are, in words.
+/// The meaning of the numbers of a table, in words.
 pub(super) struct Words {
-    /// What stands in a line without names of columns, with an example.
+    /// The content of a line without names of columns, with an example.
     pub(super) line: &'static str,
-    /// What is wrong where the first numbers do not ascend.
+    /// The mistake if the first numbers do not ascend.
     pub(super) back: &'static str,
-    /// What to write in place of a file.
+    /// The text that can replace a file.
     pub(super) written_out: &'static str,
 }
 
@@ -77,7 +77,7 @@ impl Expander {
         Ok(())
     }
 
-    /// The points of a file with this name, which stands in the scene at `id`.
+    /// The points of the file with this name; `id` is its value in the scene.
     pub(super) fn points_of_file(
         &self,
         context: &Context,
@@ -94,7 +94,7 @@ impl Expander {
         })
     }
 
-    /// A text in quotes, with what stands in braces filled in.
+    /// A text in quotes, with the expressions in braces evaluated.
     pub(super) fn quoted_text(&mut self, context: &Context, id: Id, expected: &str, example: &str) -> Outcome<String> {
         let is_text = context.file.tree.node(id).form == Form::Text;
         let Some((text, shift)) = context.text(id).filter(|_| is_text) else {
@@ -128,7 +128,7 @@ fn read_points(
     })
 }
 
-/// What is wrong with a table: the number of the line, why, and what to do unless that is the usual.
+/// The mistake in a table: its line, the reason, and a remedy unless it is the usual one.
 #[derive(Debug, PartialEq)]
 struct Fault {
     line: usize,
@@ -165,7 +165,7 @@ impl Layout {
     }
 }
 
-/// The points of a table; or what is wrong with it.
+/// The points of a table, or its mistake.
 fn points_of(text: &str, columns: Option<&Columns>, back: &str) -> Result<Vec<(f64, f64)>, Fault> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     let mut layout: Option<Layout> = None;

@@ -1,4 +1,4 @@
-//! The made text, and where each piece of it comes from.
+//! The made text, and the source of each of its pieces.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ pub(super) struct Piece {
     pub(super) to: u32,
     /// Through which instances and repetitions.
     pub(super) step: u32,
-    /// Whether it differs from what is written there: the value of an expression, a name with its prefix.
+    /// Whether it differs from its source: the value of an expression, or a name with its prefix.
     pub(super) made: bool,
 }
 
@@ -32,13 +32,13 @@ impl Buffer {
         self.pieces.push(Piece { start, file: file as u32, from, to, step, made });
     }
 
-    /// Text as it stands in a file.
+    /// Text that is copied from a file.
     pub(super) fn verbatim(&mut self, file: &File, span: Range<usize>, step: u32) {
         self.piece(file.number, span.clone(), step, false);
         self.text.push_str(&file.source.text[span]);
     }
 
-    /// Text in place of what stands in a file.
+    /// Text in place of a piece of a file.
     pub(super) fn made(&mut self, text: &str, file: usize, span: Range<usize>, step: u32) {
         self.piece(file, span, step, true);
         self.text.push_str(text);
@@ -51,12 +51,12 @@ impl Buffer {
     }
 }
 
-/// One section of the scene, put together from all files and instances that bring something for it.
+/// One section of the scene, merged from all files and instances that contribute to it.
 #[derive(Debug)]
 pub(super) struct Merged {
     pub(super) name: String,
     pub(super) form: Form,
-    /// Where it stands first.
+    /// Its first place.
     pub(super) head: Piece,
     pub(super) out: Buffer,
 }

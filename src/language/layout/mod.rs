@@ -1,8 +1,8 @@
-//! A scene's text in its standard layout: what `jostle fmt` writes.
+//! The standard layout of a scene's text, which `jostle fmt` writes.
 //!
-//! The author's line breaks stay; indentation, blanks, commas and blank lines are mended, and sections stand in the order of
-//! the manual. Numbers, texts and comments stay as they are written. The layout is a function of what stands in the text and
-//! where lines break, so that a text in its standard layout is not changed.
+//! The author's line breaks stay. Indentation, blanks, commas and blank lines are corrected, and sections follow the
+//! order of the manual. Numbers, texts and comments stay unchanged. The layout depends only on the content and its line
+//! breaks. So a text in its standard layout is not changed.
 
 mod order;
 mod parse;

@@ -1,8 +1,8 @@
-//! The order of sections, that of the manual.
+//! The order of sections, which is that of the manual.
 
 use super::parse::{File, Item, Value};
 
-/// Sections in groups; within a group they keep the author's order, which may be that of the things they bring.
+/// Sections in groups. Within a group they keep the author's order, which may be the order of their things.
 const ORDER: &[&[&str]] = &[
     &["format"],
     &["title"],

@@ -1,4 +1,4 @@
-//! From text to values, comments and line breaks. The text was walked before and has no misplaced brackets.
+//! From text to values, comments and line breaks. The text has passed the walk before and has no misplaced brackets.
 
 use crate::scan::text_prefix;
 
@@ -154,7 +154,7 @@ impl<'a> Tokens<'a> {
             item.trail.extend(self.comments_while(|token| token.breaks == 0));
             items.push(item);
             lead = self.comments();
-            // A comma after a comment on a line of its own.
+            // A comma after a comment on a separate line.
             if self.is_next(Kind::Comma) {
                 comma = true;
                 self.next += 1;

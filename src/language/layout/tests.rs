@@ -71,7 +71,7 @@ fn comments_stay_where_they_are() {
 // end
 ",
     );
-    // Columns of comments beside values are the author's, where there is room.
+    // Comments beside values keep the author's columns, if there is room.
     let aligned = "Scene(
     params: {
         \"marbles\": 12,          // rows of twenty
@@ -97,7 +97,7 @@ fn sections_stand_in_the_order_of_the_manual() {
 )
 ",
     );
-    // Things keep the order in which they come, and nothing moves where that would change what is made.
+    // Things keep their order, and no section moves if that would change the made scene.
     let things = "Scene(
     fill: [],
     bodies: [],

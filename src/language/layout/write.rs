@@ -2,13 +2,13 @@
 
 use super::parse::{Bracket, Comment, File, Item, Value};
 
-/// How far what stands in a bracket is moved to the right.
+/// The indentation of the content of a bracket.
 const INDENT: usize = 4;
 /// Lists in one line that is longer than this are broken.
 const LONGEST: usize = 120;
 
-/// Every section begins a line. A section that is a list or map in one line of more than 120 columns gets a line for each
-/// item.
+/// Every section begins a line. If a list or map in one line takes more than 120 columns, each of its items gets a
+/// line.
 pub(super) fn break_long_lines(file: &mut File) {
     let Value::Bracket(root) = &mut file.root else { return };
     if root.name != "Scene" {
@@ -56,10 +56,10 @@ pub(super) fn write(file: &File) -> String {
     text
 }
 
-/// What stands in a bracket.
+/// The content of a bracket.
 enum Part<'a> {
     Comment(&'a Comment<'a>),
-    /// And whether it is the last one.
+    /// The item, and whether it is the last one.
     Item(&'a Item<'a>, bool),
 }
 
@@ -103,7 +103,7 @@ impl Writer {
         self.line.trim().is_empty()
     }
 
-    /// What stands between two things: line breaks, at most one blank line, or a blank.
+    /// The separator of two things: line breaks, at most one blank line, or a blank.
     fn separate(&mut self, breaks: usize, indent: usize) {
         if self.lines.is_empty() && self.is_fresh() {
             return;
@@ -120,7 +120,7 @@ impl Writer {
         }
     }
 
-    /// A comment on a line of its own, or within a line.
+    /// A comment on a separate line, or within a line.
     fn comment(&mut self, comment: &Comment, indent: usize) {
         self.separate(comment.breaks, indent);
         self.push(comment.text);
@@ -163,7 +163,7 @@ impl Writer {
     fn bracket(&mut self, bracket: &Bracket) {
         let Bracket { name, open, items, tail, breaks, comma } = bracket;
         let outer = self.indent;
-        // What goes on after a line break stands behind a bracket that begins its line, and is indented otherwise.
+        // A continuation stands below a bracket that begins its line, and is indented otherwise.
         let begins = self.line.chars().all(|letter| " ([{".contains(letter)) && name.is_empty();
         self.push(name);
         self.push(open.encode_utf8(&mut [0; 4]));
@@ -183,7 +183,7 @@ impl Writer {
             return;
         };
         let (padded, own_line) = (*open == '{', *breaks > 0);
-        // A comment beside the opening bracket does not decide where the rest stands.
+        // A comment beside the opening bracket does not affect the layout of the rest.
         let beside = matches!(first, Part::Comment(comment) if comment.breaks == 0 && comment.ends_line());
         let behind = begins && first.breaks() == 0 && !beside;
         let inner = if behind { self.column + usize::from(padded) } else { outer + INDENT };
@@ -196,7 +196,7 @@ impl Writer {
                     self.beside(comment);
                     continue;
                 }
-                // Behind the bracket stands no blank line, and no blank but in braces.
+                // No blank line follows the bracket, and no blank unless it is a brace.
                 _ if place == 0 && part.breaks() == 0 => self.push(if padded { " " } else { "" }),
                 _ if place == 0 => self.separate(1, inner),
                 _ => self.separate(part.breaks(), inner),

@@ -1,4 +1,4 @@
-//! Texts, characters and numbers: where they end, and what is wrong with them.
+//! Texts, characters and numbers: their ends and their mistakes.
 
 use super::{Scanner, Step};
 use crate::error::SceneError;
@@ -118,7 +118,7 @@ pub(crate) fn text_prefix(text: &str) -> Option<(usize, usize)> {
     (text[prefix..].starts_with('"') && (hashes == 0 || text[..letters].ends_with('r'))).then_some((prefix, hashes))
 }
 
-/// The value of a number as it may stand in RON; ranges and whole numbers of other bases count as zero.
+/// The value of a number as RON may hold it. Ranges and whole numbers of other bases count as zero.
 fn number_value(written: &str) -> Option<f64> {
     // Nearly all numbers are plain; `parse` also takes words such as `inf`, which begin with a letter.
     if !written.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_alphabetic())

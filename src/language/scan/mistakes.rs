@@ -1,4 +1,4 @@
-//! The mistakes of order: what stands where a comma, a name, a value or a bracket should, in words.
+//! Mistakes of order: something else in place of a comma, a name, a value or a bracket.
 
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ impl Scanner<'_> {
             let fault = self.fault("a number with a unit stands in quotes", span, "needs quotes");
             return Err(self.about_last(fault).help(format!("write `\"{whole}\"`")));
         }
-        // The place to mend is the end of the last word, not the beginning of the next, which may be lines below.
+        // The correction belongs at the end of the last word. The next word may be lines below.
         let end = self.last_end;
         let start = self.text[..end].char_indices().next_back().map_or(end, |(place, _)| place);
         let fault = self.fault("a comma is missing after this value", start..end, "`,` expected after this");
@@ -166,7 +166,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Names the last value in a fault, in place of what it stands in.
+    /// Names the last value in a fault, instead of the value around it.
     pub(super) fn about(&self, value: Id, mut fault: Box<SceneError>) -> Box<SceneError> {
         fault.node = Some(value);
         fault

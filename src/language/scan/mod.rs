@@ -1,8 +1,8 @@
-//! From text to [`Tree`]: finds every bracket, field and value of a scene, and what is wrong with their order.
+//! The parser from text to [`Tree`]. It finds every bracket, field and value of a scene, and mistakes in their order.
 //!
-//! `ron` reads the values themselves. This walk is there for what `ron` cannot say well: which bracket is still
-//! open, after which word the comma is missing, where the same field stood before, and which number is not finite.
-//! It keeps its own stack, so that no depth of nesting can overflow it.
+//! `ron` reads the values themselves. This walk reports the mistakes that `ron` cannot describe well. Examples are an
+//! open bracket, the word before an absent comma, a duplicate field, and a NaN or infinite number. It keeps an explicit
+//! stack, so that no depth of nesting can overflow it.
 
 mod literal;
 mod mistakes;
@@ -21,12 +21,12 @@ const DEEPEST: usize = 48;
 /// More mistakes than this are not kept: the text is no scene.
 const MOST_ERRORS: usize = 1000;
 
-/// What the walk found.
+/// The result of the walk.
 pub(crate) struct Scan {
     pub(crate) tree: Tree,
     /// The mistake that ended the walk: the text after it was not seen.
     pub(crate) fault: Option<SceneError>,
-    /// Mistakes that do not hide the rest: duplicate fields, numbers that are not finite.
+    /// Mistakes that do not hide the rest: duplicate fields, numbers that are NaN or infinite.
     pub(crate) errors: Vec<SceneError>,
 }
 
@@ -45,7 +45,7 @@ pub(crate) fn scan(text: &str) -> Scan {
     if fault.is_some() {
         scanner.close_all();
     }
-    // Paths can be told only when every bracket has its end.
+    // Paths exist only when every bracket is closed.
     let Scanner { tree, mut errors, .. } = scanner;
     for error in errors.iter_mut().chain(&mut fault) {
         if let Some(node) = error.node {
@@ -55,7 +55,7 @@ pub(crate) fn scan(text: &str) -> Scan {
     Scan { tree, fault, errors }
 }
 
-/// The byte after blanks and comments; an error only for a block comment that never ends.
+/// The byte after blanks and comments. It is an error only if a block comment never ends.
 pub(crate) fn skip_blank(text: &str, mut at: usize) -> Result<usize, usize> {
     loop {
         // Nearly all blanks are ASCII; looking at bytes makes the walk twice as fast.
@@ -76,7 +76,7 @@ pub(crate) fn skip_blank(text: &str, mut at: usize) -> Result<usize, usize> {
     }
 }
 
-/// What RON takes for a blank; other white space, such as the no-break space, it does not.
+/// A blank of RON. Other white space, such as the no-break space, is none.
 fn is_blank(c: char) -> bool {
     matches!(c, ' ' | '\t'..='\r' | '\u{85}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}')
 }
@@ -108,7 +108,7 @@ struct Frame {
     id: Id,
     open: usize,
     form: Form,
-    /// Where its values begin among the pending ones.
+    /// The index of its first value among the pending ones.
     first: usize,
     item_done: bool,
 }
@@ -116,7 +116,7 @@ struct Frame {
 struct Scanner<'a> {
     text: &'a str,
     at: usize,
-    /// The end of the last thing that was no blank.
+    /// The end of the last token that is no blank.
     last_end: usize,
     tree: Tree,
     frames: Vec<Frame>,
@@ -171,7 +171,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// `#![enable(..)]` and its like may stand before the scene; those that would change the language are refused.
+    /// Attributes such as `#![enable(..)]` may precede the scene. Those that would change the language are refused.
     fn attributes(&mut self) -> Step {
         self.blank()?;
         while self.text[self.at..].starts_with("#!") {
@@ -361,7 +361,7 @@ impl Scanner<'_> {
         Ok(key)
     }
 
-    /// The number just walked over, which is the next value, is not finite.
+    /// The last number, which is the next value, is NaN or infinite.
     fn not_finite(&mut self, span: Range<usize>) {
         if self.errors.len() < MOST_ERRORS {
             let message = format!("must be a finite number, got {}", &self.text[span.clone()]);

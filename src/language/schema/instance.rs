@@ -1,4 +1,4 @@
-//! A scene as the schema sees it.
+//! A scene in JSON, in the form of the schema.
 
 use serde_json::{Map, Value};
 
@@ -6,7 +6,7 @@ use crate::SceneError;
 use crate::scan::scan;
 use crate::tree::{Form, Id, Tree};
 
-/// A scene in JSON, as its schema sees it: see [`Language::json`](super::Language::json).
+/// A scene in JSON that fits its schema: see [`Language::json`](super::Language::json).
 ///
 /// # Errors
 /// The mistake of syntax that hides the rest of the text.
@@ -18,8 +18,8 @@ pub fn as_json(text: &str) -> Result<Value, Box<SceneError>> {
     }
 }
 
-/// A value of a scene in JSON: `(a: 1)` is `{"a": 1}`, `(1, 2)` is `[1, 2]`, `Drag(linear: 1)` is
-/// `{"Drag": {"linear": 1}}`; the outermost `Scene(..)` is what is in its brackets.
+/// A value of a scene in JSON. `(a: 1)` is `{"a": 1}`, `(1, 2)` is `[1, 2]`, and `Drag(linear: 1)` is `{"Drag":
+/// {"linear": 1}}`. The outermost `Scene(..)` becomes the content of its brackets.
 fn in_json(tree: &Tree, text: &str, id: Id) -> Value {
     let written = &text[tree.span(id)];
     match tree.node(id).form {

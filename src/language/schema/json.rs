@@ -1,7 +1,7 @@
 //! The scene language as JSON schema.
 //!
-//! A scene in JSON is what it is in RON: `(a: 1)` is `{"a": 1}`, `(1, 2)` is `[1, 2]`, the map `{ "a": 1 }` is itself,
-//! `Drag(linear: 1)` is `{"Drag": {"linear": 1}}`, the word `Auto` is `"Auto"`.
+//! A scene in JSON has the values of the scene in RON. `(a: 1)` is `{"a": 1}`, `(1, 2)` is `[1, 2]`, and the map `{
+//! "a": 1 }` is itself. `Drag(linear: 1)` is `{"Drag": {"linear": 1}}`, and the word `Auto` is `"Auto"`.
 
 use serde_json::{Map, Value, json};
 
@@ -64,8 +64,7 @@ impl Language {
 
 const REPEATED: &str = "Repeated";
 
-/// Lets stand what makes a value in place of the value: an expression for a number, a parameter for two values, `Repeat`
-/// in a list.
+/// Allows a value to be made: an expression for a number, a parameter for two values, `Repeat` in a list.
 fn let_be_made(schema: &mut Value) {
     let Some(map) = schema.as_object_mut() else { return };
     if let Some(kind) = map.get_mut("type")
@@ -80,9 +79,9 @@ fn let_be_made(schema: &mut Value) {
     }
 }
 
-/// Lets the name of a parameter stand for a field that is a structure.
+/// Allows the name of a parameter in place of a structure.
 fn name_structures(schema: &mut Value, structures: &[String]) {
-    // `get_mut`: an index would add the key to a schema that has none.
+    // `get_mut`, because an index would add the key to a schema without it.
     let fields = schema.get_mut("properties").and_then(Value::as_object_mut);
     for field in fields.into_iter().flat_map(Map::values_mut) {
         if field["$ref"].as_str().is_some_and(|name| structures.iter().any(|structure| structure == name)) {

@@ -1,7 +1,7 @@
 //! The schemas of the kinds of values that sections share: quantities, pairs, words, names, whole numbers, maps.
 //!
-//! Beside the keywords of JSON schema they carry two of their own, which other programs pass over: `x-unit`, the SI unit,
-//! and `x-value`, what the manual calls the value.
+//! Beside the keywords of JSON schema they carry two extensions, which other programs ignore. `x-unit` is the SI unit,
+//! and `x-value` is the manual's name for the value.
 
 use std::borrow::Cow;
 
@@ -105,7 +105,7 @@ impl Serialize for Word {
     }
 }
 
-/// A field says with `#[schemars(extend("x-words" = "method"))]` from which open list of words it takes one.
+/// A field names the open list of its words with `#[schemars(extend("x-words" = "method"))]`.
 impl JsonSchema for Word {
     fn inline_schema() -> bool {
         true

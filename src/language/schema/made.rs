@@ -1,4 +1,4 @@
-//! What the sections look like that are replaced by what they make, and `Repeat`. They are read as text
+//! The form of the sections that macros replace, and of `Repeat`. They are read as text
 //! ([`expand`](super::super::expand)); the types here only describe them.
 
 use std::collections::BTreeMap;
@@ -28,13 +28,13 @@ bodies: [
 pub(super) struct Made {
     /// Other files whose lists and maps come into this scene. Default: none.
     include: Option<Vec<Include>>,
-    /// Values with names, for expressions in quotes; `--set n=9` gives one another value. A value may be made from others,
-    /// in any order, and may be anything that stands in a scene. Default: none.
+    /// Values with names, for expressions in quotes; `--set n=9` gives one another value. A value may depend on others,
+    /// in any order, and may have any form that a scene allows. Default: none.
     #[schemars(extend("x-value" = "`{ \"name\": value }`"))]
     params: Option<BTreeMap<String, Value>>,
     /// Parts of scenes that instances make, by name. Default: none.
     templates: Option<BTreeMap<String, Template>>,
-    /// What is made of templates. The ball of the instance `left` is called `left/ball`. Default: none.
+    /// Copies of templates. The ball of the instance `left` is called `left/ball`. Default: none.
     instances: Option<Vec<Instance>>,
 }
 
@@ -62,14 +62,14 @@ pub(super) struct Template {
     params: Option<BTreeMap<String, Value>>,
 }
 
-/// One thing made of a template.
+/// One copy of a template.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "described, never made")]
 struct Instance {
     /// The name of the template.
     of: String,
-    /// What the names of its things begin with.
+    /// The prefix of the names of its things.
     name: String,
     /// The arguments, `(x: 1)`. Default: none.
     #[schemars(extend("x-value" = "`(name: value)`"))]
@@ -79,7 +79,7 @@ struct Instance {
     set: Option<BTreeMap<String, Value>>,
 }
 
-/// In any list, in place of an item: something several times. In `make` the count has a name, `i` from 0 on; with two
+/// In any list, in place of an item: one item several times. In `make` the count has a name, `i` from 0 on; with two
 /// counts, `j` are the rows.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
@@ -88,7 +88,7 @@ pub(super) struct Repeat {
     /// How often; for a grid columns and rows.
     #[schemars(schema_with = "count")]
     count: (),
-    /// What the indices are called in expressions. Default: `i`, and `j` for rows.
+    /// The names of the indices in expressions. Default: `i`, and `j` for rows.
     #[schemars(default, schema_with = "index")]
     r#as: Option<()>,
     /// Along a line, both ends taken; gives `x` and `y`. Default: no places are given.
@@ -97,7 +97,7 @@ pub(super) struct Repeat {
     grid: Option<Grid>,
     /// Around a circle; gives `x`, `y` and `angle`. Default: no places are given.
     circle: Option<Circle>,
-    /// What is made: an item, or a list of items, other `Repeat` among them.
+    /// The item that is made, or a list of items, other `Repeat` among them.
     make: Value,
 }
 
@@ -112,7 +112,7 @@ struct Line {
     to: Position,
 }
 
-/// Where a grid begins, and how wide it is.
+/// The beginning of a grid, and its spacing.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "described, never made")]
@@ -132,7 +132,7 @@ struct Circle {
     center: Position,
     /// Its radius.
     radius: Length,
-    /// Where the first stands, counter-clockwise from the right. Default: 0.
+    /// The angle of the first item, counter-clockwise from the right. Default: 0.
     start: Option<Angle>,
 }
 

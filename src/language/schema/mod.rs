@@ -1,10 +1,9 @@
-//! What may stand in a scene, told to programs as JSON schema ([`Language::json`]) and to people as the manual
-//! ([`Language::manual`]).
+//! The description of the scene language as JSON schema ([`Language::json`]) and as the manual ([`Language::manual`]).
 //!
-//! There is one source for both: the types that read the sections and entries, plugins' among them. Fields, words and
-//! optional values come from what serde reads, meanings from doc comments, units from the types of quantities, defaults
-//! from the sentence `Default: ..` at the end of a doc comment. None of it costs a run anything: only functions are
-//! registered, and [`Language::of`] calls them.
+//! Both have one source: the types that read the sections and entries, including those of plugins. Fields, words and
+//! optional values come from serde's view, and units from the types of quantities. Meanings come from doc comments, and
+//! defaults from the sentence `Default: ..` at their end. A run pays nothing for it: only functions are registered, and
+//! [`Language::of`] calls them.
 
 mod instance;
 mod json;
@@ -22,14 +21,14 @@ use serde_json::{Map, Value};
 
 use super::registry::{Arity, Reader, Registry};
 
-/// How a type tells its schema; nothing if it cannot.
+/// The function that gives the schema of a type; `None` if it has none.
 pub type Describe = fn(&mut SchemaGenerator) -> Option<Schema>;
 
 /// The scene language of a program with its plugins.
 #[derive(Clone, Debug)]
 pub struct Language {
     sections: Vec<Section>,
-    /// `Repeat`, which may stand in any list.
+    /// `Repeat`, which is allowed in any list.
     repeat: Section,
     /// The types that sections and entries refer to, by name.
     definitions: Map<String, Value>,
@@ -39,14 +38,14 @@ pub struct Language {
 struct Section {
     name: String,
     example: &'static str,
-    /// What is said of a section of entries; a whole section says it itself.
+    /// The meaning of a section of entries. A whole section has its own.
     meaning: String,
     content: Content,
 }
 
 #[derive(Clone, Debug)]
 enum Content {
-    /// A value of one type; nothing if the type does not tell its schema.
+    /// A value of one type; `None` if the type has no schema.
     Value(Option<Value>),
     Entries(Arity, Vec<Entry>),
 }
@@ -58,14 +57,14 @@ struct Entry {
     schema: Option<Value>,
 }
 
-/// The sections that the reader knows by itself; never made, only described.
+/// The sections that the reader itself reads. The type is only described, never made.
 #[derive(JsonSchema)]
 #[expect(dead_code, reason = "described, never made")]
 struct Head {
     /// The version of the scene language: 1.
     #[schemars(range(min = 1, max = 1))]
     format: u64,
-    /// What the scene is called, in the film's corner and on the card. Default: nothing is shown.
+    /// The name of the scene, in the film's corner and on the card. Default: nothing is shown.
     title: Option<String>,
     /// What to look for, in a sentence or two. Default: none.
     notes: Option<String>,
@@ -120,7 +119,8 @@ impl Language {
         own.chain([&self.repeat]).map(|section| (&*section.name, section.example)).collect()
     }
 
-    /// Fields of sections that are lists of entries, such as `look.layers`, are told after their sections, which lead there.
+    /// Sections inside sections that are lists of entries, such as `look.layers`, follow the sections that lead to
+    /// them.
     fn lead_to_lists_inside(&mut self) {
         let (inside, mut sections): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.sections).into_iter().partition(|section| section.name.contains('.'));

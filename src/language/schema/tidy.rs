@@ -1,4 +1,4 @@
-//! What schemars says of Rust types, made into what a scene means by them.
+//! Changes the schema of Rust types by schemars into that of a scene.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::Language;
 use crate::outline::Words;
 
 /// Brings every schema of a language into the form that both outputs need:
-/// * a field that may be left out is not called null, for it is left out and not written as nothing;
+/// * an optional field is not called null, for it is absent and not written as null;
 /// * open lists of words are filled in;
 /// * descriptions are one line per paragraph and without links into the program's own documentation.
 pub(super) fn tidy(language: &mut Language, words: &Words) {

@@ -1,4 +1,4 @@
-//! A quantity that has one of two dimensions: what is turned has one, what is pushed along a line the other.
+//! A quantity that has one of two dimensions, such as a torque about a hinge or a force on a line.
 
 use std::borrow::Cow;
 use std::fmt;

@@ -1,10 +1,10 @@
-//! Quantities: numbers that know what they measure.
+//! Quantities: numbers with a physical dimension.
 //!
-//! In a scene a quantity is a bare number in SI units (radians for angles) or a text with its unit: `0.3`, `"30 cm"`,
-//! `"1 kN/m"`, `"90 deg/s"`. The unit's dimension is worked out, so that a mass is never read as a length. Powers of
-//! ten are exact: `"57 cm"` is the same `f64` as `0.57`.
+//! In a scene a quantity is a bare number in SI units, with angles in radians, or a text with its unit. Examples are
+//! `0.3`, `"30 cm"`, `"1 kN/m"` and `"90 deg/s"`. The dimension of the unit is checked, so that a mass is never read as
+//! a length. Powers of ten are exact: `"57 cm"` is the same `f64` as `0.57`.
 //!
-//! A plugin may add a dimension of its own:
+//! A plugin may add its own dimension:
 //!
 //! ```
 //! use jostle_language::units::{Dimension, Powers, Quantity};
@@ -47,7 +47,7 @@ pub struct Powers {
     pub radian: i8,
 }
 
-/// What a quantity measures.
+/// The physical dimension of a quantity.
 pub trait Dimension: Send + Sync + 'static {
     /// The name with its article, for messages: `"a length"`.
     const NAME: &'static str;
@@ -87,7 +87,7 @@ impl<D: Dimension> Quantity<D> {
     /// Reads a text with a unit, such as `30 cm`.
     ///
     /// # Errors
-    /// Says what was expected and what was found, in one sentence.
+    /// The error names the expected and the found value, in one sentence.
     pub fn parse(text: &str) -> Result<Self, String> {
         parse_si(text, D::NAME, D::POWERS, D::EXAMPLE).map(Self::new)
     }

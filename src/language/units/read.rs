@@ -10,7 +10,7 @@ use super::{Dimension, KNOWN, Pair, Powers, Quantity, table};
 /// Reads a number with a unit into SI units.
 ///
 /// # Errors
-/// One sentence that says what was expected (`name`, `example`) and what was found.
+/// The error names the expected dimension (`name`, `example`) and the found text.
 pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result<f64, String> {
     let trimmed = text.trim();
     let length = number_length(trimmed);
@@ -34,7 +34,7 @@ pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result
     }
 }
 
-/// A number with a unit, or with none, in SI units with the powers of its units; as [`parse_si`] reads it.
+/// A number with or without a unit, in SI units, with the powers of its units; as [`parse_si`] reads it.
 pub(crate) fn value_in(number: &str, unit: &str) -> Result<(f64, Powers), String> {
     let size = if unit.is_empty() { Size::default() } else { product(unit)? };
     let value = decimal(number, size.exponent).map(|value| value * size.factor).filter(|value| value.is_finite());
@@ -170,7 +170,7 @@ fn split_power(factor: &str) -> Option<(&str, i32)> {
     Some((symbol.strip_suffix('^').unwrap_or(symbol), sign * digits))
 }
 
-/// The name of a dimension, or its base units if it has none.
+/// The name of a dimension, or else its base units.
 pub(crate) fn name_of(powers: Powers) -> String {
     match KNOWN.iter().find(|(_, known)| *known == powers) {
         Some((name, _)) => (*name).to_owned(),
@@ -198,8 +198,8 @@ impl<D: Dimension> Visitor<'_> for One<D> {
         write!(formatter, "{} such as {}", D::NAME, D::EXAMPLE)
     }
 
-    // A bare number that is not finite passes here: the walk over the text refuses it, with its place, and the
-    // other mistakes of the section can be told too.
+    // A bare number that is NaN or infinite passes here. The walk over the text refuses it with its place. So the other
+    // mistakes of the section are reported too.
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<Self::Value, E> {
         Ok(Quantity::new(value))
     }

@@ -41,7 +41,7 @@ const UNITS: &[Unit] = &[
 const PREFIXES: &[(&str, i32)] =
     &[("G", 9), ("M", 6), ("k", 3), ("d", -1), ("c", -2), ("m", -3), ("u", -6), ("µ", -6), ("μ", -6), ("n", -9)];
 
-/// What people write instead of a symbol.
+/// Words that people write instead of a symbol.
 const WORDS: &[(&str, &str)] = &[
     ("metre", "m"),
     ("meter", "m"),

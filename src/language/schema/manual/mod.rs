@@ -40,7 +40,7 @@ impl Language {
         manual.text
     }
 
-    /// The fields that may be left out without the manual saying what is then, as paths.
+    /// The paths of optional fields whose default the manual omits.
     pub fn without_default(&self) -> Vec<String> {
         let mut missing = Vec::new();
         for (name, schema) in self.named_schemas() {
@@ -53,7 +53,7 @@ impl Language {
         missing
     }
 
-    /// The defaults that the manual tells otherwise than the program has them, one line each.
+    /// The defaults that differ between the manual and the program, one line each.
     pub fn wrong_defaults(&self) -> Vec<String> {
         let mut wrong = Vec::new();
         for (name, schema) in self.named_schemas() {
@@ -106,7 +106,7 @@ fn description(schema: &Value) -> &str {
 
 const DEFAULT: &str = "Default: ";
 
-/// What the description says a field is if it is left out.
+/// The default of a field in its description.
 fn default_of(schema: &Value) -> Option<String> {
     let (_, default) = description(schema).split_once(DEFAULT)?;
     Some(default.trim().trim_end_matches('.').to_owned())
@@ -127,7 +127,7 @@ pub fn anchor(heading: &str) -> String {
 struct Manual<'a> {
     language: &'a Language,
     text: String,
-    /// The headings under which definitions are told, by their names.
+    /// The headings of definitions, by their names.
     places: BTreeMap<&'a str, String>,
 }
 
@@ -218,7 +218,7 @@ impl<'a> Manual<'a> {
     }
 }
 
-/// A text as it may stand in a cell of a table.
+/// The text for a cell of a table.
 fn in_cell(text: &str) -> String {
     text.replace('|', "\\|").replace("\n\n", " ").replace('\n', " ")
 }

@@ -3,8 +3,8 @@
 use super::{Content, Language, Manual, default_of, in_cell, is_needed, meaning_of};
 
 impl Language {
-    /// What a section, or an entry of one, is for, and a line for each of its fields: name, value, unit, default, meaning.
-    /// Nothing if there is none of that name.
+    /// The meaning of a section or an entry, and a line for each of its fields. The line holds name, value, unit,
+    /// default and meaning. `None` if the language has no such section or entry.
     pub fn told(&self, section: &str, entry: Option<&str>) -> Option<String> {
         let section = self.sections.iter().chain([&self.repeat]).find(|other| other.name == section)?;
         let schema = match (entry, &section.content) {

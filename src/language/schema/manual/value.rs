@@ -1,14 +1,14 @@
-//! What may be written for a value: tables of fields, choices, and the short words for them in a cell.
+//! The possible forms of a value: tables of fields, choices, and short words in a cell.
 
 use serde_json::Value;
 
 use super::{Language, Manual, anchor, default_of, description, in_cell, is_needed, meaning_of};
 
-/// A type that is told under a heading of its own: where it was met first, its name, its schema.
+/// A type that has its own heading: its first path, its name, its schema.
 type Nested<'a> = (String, &'a str, &'a Value);
 
 impl<'a> Manual<'a> {
-    /// Tells what a value is: its fields, items or choices, and then whatever it holds that needs a table of its own.
+    /// Describes a value: its fields, items or choices, and then all nested values that need a table.
     pub(super) fn value(&mut self, path: &str, schema: &'a Value) {
         let (_, about) = self.language.resolve(schema);
         if let Some(fields) = about["properties"].as_object() {
@@ -76,7 +76,7 @@ impl<'a> Manual<'a> {
         }
     }
 
-    /// What the words mean that a field may be.
+    /// The meanings of the words that a field may hold.
     fn words(&mut self, field: &str, schema: &'a Value) {
         let (_, about) = self.language.resolve(schema);
         let Some(choices) = about["oneOf"].as_array().filter(|choices| choices.iter().all(is_word)) else { return };
@@ -225,7 +225,7 @@ fn either(words: &[String]) -> String {
     }
 }
 
-/// A default as it is written in a scene.
+/// A default as a scene writes it.
 pub(super) fn in_ron(value: &Value, schema: &Value, language: &Language) -> String {
     let (_, about) = language.resolve(schema);
     match value {
