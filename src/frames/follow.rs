@@ -1,4 +1,5 @@
-//! A camera that follows a body: it looks where the body was a little before, so that it starts and stops softly.
+//! A camera that follows a body through a low-pass filter of first order. It lags behind the body, so that it starts
+//! and stops softly.
 
 use glam::DVec2;
 
@@ -10,7 +11,7 @@ pub struct Follower {
     name: String,
     smoothing: f64,
     step: f64,
-    /// Where the body was in the last frame, and where the camera looked.
+    /// The last positions of the body and of the camera.
     last: Option<(DVec2, DVec2)>,
 }
 
@@ -27,11 +28,11 @@ impl Follower {
         Self { step, last: None, ..self.clone() }
     }
 
-    /// Sets where the next frame looks. The first one looks at the body. A body that is gone leaves the camera where it
-    /// is; one that is nowhere finite too.
+    /// Sets the centre of the next frame. In the first frame it is the body. If the body is gone or its position is NaN
+    /// or infinite, the camera stays.
     ///
-    /// The camera obeys `d camera/dt = (body - camera)/smoothing`, solved exactly for a body that moves steadily from
-    /// frame to frame: so the lag does not depend on the frames per second.
+    /// The camera obeys `d camera/dt = (body - camera)/smoothing`. The solution is exact if the body moves steadily
+    /// from frame to frame. So the lag does not depend on the frames per second.
     pub fn aim(&mut self, frame: &mut Frame) {
         let body = frame.cast.bodies.iter().position(|body| body.name == self.name);
         let position = body.and_then(|place| frame.poses.get(place)).map(|pose| pose.position);
@@ -56,7 +57,7 @@ mod tests {
     use super::*;
     use crate::frame::{BodyLook, Cast, Pose};
 
-    /// Where a camera looks that follows a body along x, frame by frame.
+    /// The positions of a camera that follows a body along x, frame by frame.
     fn looks(smoothing: f64, step: f64, places: impl Iterator<Item = f64>) -> Vec<f64> {
         let look = BodyLook { name: "cart".into(), discs: Vec::new(), hulls: Vec::new(), color: None, fixed: false };
         let cast = Arc::new(Cast { bodies: vec![look], ..Cast::default() });

@@ -1,5 +1,5 @@
-//! What a film shows, as plain data: the cast (shapes and colours, which stay the same) and the
-//! frames (time and poses, which change).
+//! The content of a film, as plain data. The cast holds shapes and colours, which stay the same. The frames hold time
+//! and poses, which change.
 
 use std::sync::Arc;
 
@@ -40,14 +40,14 @@ pub struct BodyLook {
     pub discs: Vec<Disc>,
     /// Its parts with sides.
     pub hulls: Vec<HullLook>,
-    /// The colour its material asks for, as a name of the theme's palette (`"teal"`) or `"#rrggbb"`; `None`: the
-    /// theme chooses by the body's place in the scene.
+    /// The colour of its material, as a name of the theme's palette (`"teal"`) or `"#rrggbb"`. `None`: the theme
+    /// chooses by the body's index in the scene.
     pub color: Option<String>,
     /// Whether the body never moves.
     pub fixed: bool,
 }
 
-/// How one wall looks: the half-plane behind the line through two points, the strip about the line between them, or a line of many pieces.
+/// The look of one wall. It is a half-plane behind a line, a strip about a line, or a line of many pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallLook {
     /// The wall's name in the scene.
@@ -58,16 +58,16 @@ pub struct WallLook {
     pub right: DVec2,
     /// Thickness in metres of a strip with round ends; `None`: a half-plane, or a line.
     pub thickness: Option<f64>,
-    /// The points of a line in metres, open to the left of the way from the first to the last; empty for others.
+    /// The points of a line in metres, open to the left of the way from the first to the last. Empty for other walls.
     pub points: Vec<DVec2>,
     /// The colour its material asks for; see [`BodyLook::color`].
     pub color: Option<String>,
 }
 
-/// What a film shows and never changes: bodies, walls, title.
+/// The constant content of a film: bodies, walls, title.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cast {
-    /// The scene's title, empty if it has none.
+    /// The scene's title, or an empty text.
     pub title: String,
     /// The bodies in canonical order.
     pub bodies: Vec<BodyLook>,
@@ -75,7 +75,7 @@ pub struct Cast {
     pub walls: Vec<WallLook>,
 }
 
-/// Where a body is and how it is turned.
+/// The position and angle of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
     /// Centre of mass in metres.
@@ -89,12 +89,12 @@ pub struct Pose {
 pub struct Frame {
     /// Time in seconds.
     pub time: f64,
-    /// What is shown.
+    /// The bodies, walls and title.
     pub cast: Arc<Cast>,
     /// One pose for each body of the cast, in the same order.
     pub poses: Vec<Pose>,
-    /// What layers add, from back to front.
+    /// The marks of the layers, from back to front.
     pub marks: Vec<Mark>,
-    /// Where the camera looks if it moves, in metres; `None`: where the film's camera looks.
+    /// The centre of a moving camera, in metres. `None`: the centre of the film's camera.
     pub center: Option<DVec2>,
 }

@@ -1,4 +1,4 @@
-//! What films and plots show, as plain data. The engine makes it, the painter draws it; neither knows the other.
+//! Films and plots, as plain data. The engine makes it and the painter draws it, independently of each other.
 
 pub mod follow;
 pub mod frame;

@@ -1,4 +1,4 @@
-//! Marks: what layers add to a picture.
+//! Marks that layers add to a picture.
 
 use glam::DVec2;
 
@@ -19,7 +19,7 @@ pub enum MarkShape {
     Line(DVec2, DVec2),
     /// An arrow with its head at the second point.
     Arrow(DVec2, DVec2),
-    /// An arrow with two heads: what it stands for is larger than it could show.
+    /// An arrow with two heads: its value is larger than the arrow could show.
     LongArrow(DVec2, DVec2),
     /// A circle by its centre and radius.
     Circle(DVec2, f64),
@@ -27,19 +27,19 @@ pub enum MarkShape {
     Dot(DVec2),
     /// An upright rectangle by its lower left and upper right corner.
     Rectangle(DVec2, DVec2),
-    /// Where a body came along: it fades and tapers. Its colour is that of the body, whatever the mark says.
+    /// The past path of a body: it fades and tapers. Its colour is that of the body, whatever the mark says.
     Trail {
         /// The body's place in the cast.
         body: usize,
         /// From early to late.
         points: Vec<DVec2>,
-        /// From point to point, as a share of the trail's whole length in time: the last point has age 0, and at age 1
-        /// nothing is left to see.
+        /// The age of one segment, as a share of the duration of the whole trail. The last point has age 0, and at age
+        /// 1 the trail is invisible.
         step: f64,
     },
     /// A text above something.
     Label {
-        /// The middle of what it names.
+        /// The middle of the named thing.
         at: DVec2,
         /// How far that reaches up and down.
         clear: f64,
@@ -50,7 +50,7 @@ pub enum MarkShape {
     Key {
         /// The length of an arrow.
         length: f64,
-        /// What an arrow of that length stands for, such as `10 N`.
+        /// The value of an arrow of that length, such as `10 N`.
         text: String,
     },
     /// A square part of the world, enlarged in a corner of the picture. All frames of a film have the same ones.
@@ -59,9 +59,9 @@ pub enum MarkShape {
         center: DVec2,
         /// How high and wide it is.
         height: f64,
-        /// Where it stands in the picture.
+        /// The corner of the picture.
         corner: Corner,
-        /// How high it stands there, as a share of the shorter side of the picture.
+        /// Its height there, as a share of the shorter side of the picture.
         share: f64,
     },
     /// The scale of the picture, in its corner.

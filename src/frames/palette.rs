@@ -1,4 +1,4 @@
-//! Names of colours and themes, which scenes ask for and the painter knows.
+//! Names of colours and themes, which scenes use and the painter knows.
 
 /// The themes that come with the program: name and RON text. The first is the default.
 pub const THEMES: [(&str, &str); 3] = [

@@ -1,8 +1,8 @@
-//! When a film's frames are taken.
+//! The times of a film's frames.
 
 /// The times of a film's frames, from early to late.
 ///
-/// They are runs of evenly spaced times; where a film stands still, the spacing is zero.
+/// They are runs of evenly spaced times. The spacing is zero while a film stands still.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schedule {
     spans: Vec<Span>,
@@ -26,8 +26,8 @@ impl Span {
 }
 
 impl Schedule {
-    /// The frames of the physics between `from` and `to` seconds, at `speed` seconds of physics per second of film,
-    /// above zero. Their number is that which gives the film its exact length; there is at least one.
+    /// The frames of the physics between `from` and `to` seconds. `speed` is in seconds of physics per second of film,
+    /// and above zero. Their number gives the film its exact length, and is at least one.
     pub fn new(from: f64, to: f64, speed: f64, frames_per_second: f64) -> Self {
         let step = speed / frames_per_second;
         let frames = ((to - from) / step).round().max(1.0) as u64;
@@ -73,7 +73,7 @@ impl Schedule {
     }
 }
 
-/// How many of the first `count` numbers fit, of which none does after one that does not.
+/// The number of leading numbers below `count` that fit. No number fits after one that does not (binary search).
 fn leading(count: u64, fits: impl Fn(u64) -> bool) -> u64 {
     let (mut low, mut high) = (0, count);
     while low < high {

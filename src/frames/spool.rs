@@ -1,7 +1,7 @@
-//! Frames kept aside in a file, to be played backwards or several times.
+//! Frames that wait in a file, for films that are played backwards or several times.
 //!
-//! A frame takes 24 bytes for each body; memory holds only one at a time. The file is a temporary one without a name, so that
-//! nothing is left of it however the program ends.
+//! A frame takes 24 bytes for each body; memory holds only one at a time. The file is a temporary one without a name,
+//! so that it disappears however the program ends.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
@@ -13,7 +13,7 @@ use glam::DVec2;
 use super::frame::{Cast, Frame, Pose};
 use super::mark::{Corner, Mark, MarkShape};
 
-/// Bytes of the length that stands before and after each frame.
+/// Bytes of the length before and after each frame.
 const LENGTH: u64 = 8;
 
 /// Frames in the order they were taken.
@@ -194,7 +194,7 @@ fn mark(rest: &mut &[u8]) -> io::Result<Mark> {
     let numbers = (0..numbers).map(|_| real(rest)).collect::<io::Result<Vec<_>>>()?;
     let text = text(rest, letters)?;
     let shape = shape(kind, &numbers, text).ok_or(io::ErrorKind::InvalidData)?;
-    // A length more than there is says that there is a colour, if an empty one.
+    // A length above zero means that there is a colour, even if its name is empty.
     let color = color.checked_sub(1).map(|length| self::text(rest, length)).transpose()?;
     Ok(Mark { shape, color })
 }
@@ -268,7 +268,7 @@ mod tests {
                 spool.backwards().expect("readable").map(|frame| frame.expect("whole")).collect();
             backwards.reverse();
             assert_eq!(backwards, frames());
-            // Frames of one cast share it: whoever draws them tells by that.
+            // Frames of one cast share it, which tells the painter that the cast is the same.
             assert!(Arc::ptr_eq(&forwards[0].cast, &backwards[2].cast));
         }
         assert_eq!(spool.frames(), 6);

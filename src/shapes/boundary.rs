@@ -1,13 +1,14 @@
 //! The boundary of a rounded hull as segments and arcs, and the integrals along it that give moments of area.
 //!
-//! By Gauss's theorem the fan of a path, the area between it and the origin, has with w = p x dp
+//! Gauss's theorem turns areas into integrals along a path. The *fan* of a path is the area between it and the origin.
+//! With w = p x dp a fan has
 //!
 //! * area = 1/2 of the integral of w,
 //! * first moments = 1/3 of the integral of p w,
 //! * polar second moment = 1/4 of the integral of |p|^2 w,
 //!
-//! and the fans of a closed path sum up to the area within. On an arc p = c + r u, so that w = (r c . u + r^2) dt, and all
-//! integrals come from those of 1, u and u u^T. Lengths are in metres.
+//! and the fans of a closed path sum up to the area within. On an arc p = c + r u, so that w = (r c . u + r^2) dt. All
+//! integrals follow from those of 1, u and u u^T. Lengths are in metres.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +19,7 @@ use crate::hull::Hull;
 /// A side, moved outwards by the radius.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Straight {
-    /// Where the side of the core begins, in metres.
+    /// The beginning of the side of the core, in metres.
     pub corner: DVec2,
     /// Unit normal outwards.
     pub normal: DVec2,
@@ -29,7 +30,7 @@ pub(crate) struct Straight {
 }
 
 impl Straight {
-    /// Where the moved side begins, in metres.
+    /// The beginning of the moved side, in metres.
     pub fn origin(&self) -> DVec2 {
         self.corner + self.normal * self.radius
     }
@@ -47,7 +48,7 @@ pub(crate) struct Arc {
     pub center: DVec2,
     /// In metres.
     pub radius: f64,
-    /// Unit vector from the center to where the arc begins.
+    /// Unit vector from the center to the beginning of the arc.
     pub start: DVec2,
     /// In radians, at most a full turn.
     pub angle: f64,
@@ -61,7 +62,7 @@ pub(crate) enum Piece {
 }
 
 impl Piece {
-    /// Where the piece ends: its length in metres or its angle in radians.
+    /// The end of the piece: its length in metres or its angle in radians.
     pub fn extent(&self) -> f64 {
         match self {
             Self::Straight(side) => side.length,
@@ -150,7 +151,7 @@ pub(crate) fn pieces(hull: &Hull) -> Vec<Piece> {
 /// The angle from one normal of a convex outline to the next, from 0 to pi.
 fn turn(from: DVec2, to: DVec2) -> f64 {
     let (across, along) = (from.perp_dot(to), from.dot(to));
-    // Rounding may give the exact half turn of a capsule, or an exact turn of nearly none, the wrong sign.
+    // Rounding may give the wrong sign to the exact half turn of a capsule, or to a turn near zero.
     match across > 0.0 {
         true => libm::atan2(across, along),
         false if along < 0.0 => PI,
@@ -162,8 +163,8 @@ fn turn(from: DVec2, to: DVec2) -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: the fan of an arc is that of many short segments. Tolerance: the chords of n segments miss by 1/n^2, with
-    /// angle^3 / 12 times sizes near 4 in front.
+    /// Law: the fan of an arc is that of many short segments. Tolerance: the chords of n segments err by angle^3 / 12 /
+    /// n^2 times sizes near 4.
     #[test]
     fn the_fan_of_an_arc_is_that_of_its_chords() {
         let arc = Piece::Arc(Arc { center: DVec2::new(1.0, -2.0), radius: 0.7, start: DVec2::Y, angle: 2.5 });

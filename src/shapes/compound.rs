@@ -1,9 +1,9 @@
-//! Which sides and corners of a compound lie on its outline.
+//! Sides and corners of a compound that lie on its outline.
 //!
-//! A side is inner if its boundary lies in other hulls. A corner probes if the union bends outwards there. Around a round
-//! corner that is so if some of its arc is free. Where several hulls have the same corner, their outward normals must have a
-//! range of directions in common; the hull of lowest index has the corner, in that range. A sharp corner on or in another
-//! hull is none. Boundaries nearer than a tie count as one ([`crate::moments`]).
+//! A side is inner if its boundary lies in other hulls. A corner probes if the union bends outwards there. A round
+//! corner does so if a part of its arc is free. If several hulls have the same corner, their outward normals must have
+//! a range of directions in common. In that range the hull of lowest index owns the corner. A sharp corner on or in
+//! another hull does not probe. Boundaries nearer than a tie count as one ([`crate::moments`]).
 
 use glam::DVec2;
 
@@ -12,7 +12,7 @@ use crate::hull::{Free, Hull};
 use crate::moments::{free_boundary, middle, thick, tie};
 use crate::nearest::nearest;
 
-/// Marks the sides that lie inside the union of the hulls of one body, and the corners that are no convex vertices of its outline.
+/// Marks the inner sides of the hulls of one body. Marks the corners too that are not convex vertices of its outline.
 pub fn mark_inner(hulls: &mut [Hull]) {
     if hulls.len() < 2 {
         return;
@@ -29,7 +29,8 @@ pub fn mark_inner(hulls: &mut [Hull]) {
         let (mut side, mut corner) = (0, 0);
         for (piece, free) in pieces {
             let left = free.iter().map(|(from, to)| to - from).fold(0.0, f64::max);
-            // Where curves touch, a tie leaves sqrt(2 tie r) free on each side; rounding less than as much again.
+            // At a touching point of curves, a tie leaves sqrt(2 tie r) free on each side. Rounding leaves less than
+            // that again.
             let crumb = |radius: f64| 4.0 * libm::sqrt(2.0 * tie * radius);
             match piece {
                 Piece::Straight(_) => {
@@ -55,7 +56,8 @@ pub fn mark_inner(hulls: &mut [Hull]) {
     }
 }
 
-/// In which directions a corner of a hull is the outline, in so far as others have the same corner, or hold a sharp one.
+/// The directions in which a corner of a hull lies on the outline. Other hulls may have the same corner, or hold a
+/// sharp one.
 ///
 /// Places are those of `parts`, whose numbers are small; normals are those of the hulls themselves.
 fn free(parts: &[Hull], normals: &[Hull], (own, corner): (usize, usize), tie: f64) -> Free {
@@ -105,7 +107,7 @@ fn last(free: Free, cone: &Cone) -> DVec2 {
     if let Free::Between(_, to) = free { to } else { cone.to }
 }
 
-/// The outward normals at a corner, from that of the side that ends there to that of the side that begins.
+/// The outward normals at a corner, between the normals of the sides before and after it.
 struct Cone {
     from: DVec2,
     to: DVec2,
@@ -114,7 +116,7 @@ struct Cone {
 }
 
 impl Cone {
-    /// That of a corner; a disc has none.
+    /// The cone of a corner; a disc has none.
     fn at(hull: &Hull, corner: usize) -> Option<Self> {
         let (sides, count) = (hull.sides(), hull.sides().len());
         let after = sides.get(corner)?;
@@ -160,7 +162,7 @@ mod tests {
         let row = compound(&[at(unit(), 0.1, 0.3), at(unit(), 1.1, 0.3)]).unwrap();
         assert_eq!(inner(&row), [vec![1], vec![3]]);
         assert_eq!(probes(&row), [vec![0, 3], vec![1, 2]]);
-        // Half a step higher: the sides are free in part, the corners in the middle of sides are none.
+        // Half a step higher: the sides are partly free, and the corners in the middle of sides do not probe.
         let stair = compound(&[at(unit(), 0.0, 0.0), at(unit(), 1.0, 0.5)]).unwrap();
         assert_eq!(inner(&stair), [Vec::<usize>::new(), vec![]]);
         assert_eq!(probes(&stair), [vec![0, 1, 3], vec![1, 2, 3]]);
@@ -194,8 +196,9 @@ mod tests {
         assert_eq!(probes(&bent), [vec![0, 1], vec![1]]);
     }
 
-    /// Law: cutting marks by topology what geometry finds. Marked anew, no side and no corner of a rounded or sharp bracket
-    /// changes, but for its hollow: parts of a compound overlap at will, so that no corner of theirs is known to end a side there.
+    /// Law: marks by topology after a cut equal marks by geometry. If a rounded or sharp bracket is marked again, only
+    /// its hollow changes. Parts of a compound overlap at will, so none of their corners is known to end a side in a
+    /// hollow.
     #[test]
     fn marks_of_a_cut_polygon_are_those_of_its_geometry() {
         let bracket =

@@ -1,8 +1,9 @@
-//! A simple polygon cut into convex parts.
+//! Decomposition of a simple polygon into convex parts, by ear clipping and the method of Hertel and Mehlhorn.
 //!
-//! Ears are clipped until triangles are left (Meisters 1975: each simple polygon has two ears), then cuts are taken away
-//! where both their ends stay convex (Hertel and Mehlhorn 1983): at most four times as many parts as the fewest possible.
-//! Predicates are exact, so that each part is strictly convex. The lowest index goes first in each choice.
+//! Ears are clipped until triangles are left, because each simple polygon has two ears (Meisters 1975). Then cuts are
+//! removed if both their ends stay convex (Hertel and Mehlhorn 1983). The result has at most four times the least
+//! possible number of parts. Predicates are exact, so that each part is strictly convex. Each choice takes the lowest
+//! index.
 
 use glam::DVec2;
 
@@ -10,7 +11,8 @@ use crate::hull::{Free, Hull, direction};
 use crate::orientation::orientation;
 use crate::outline::convex_corners;
 
-/// The parts as rings of indices, each strictly convex. `corners` is a simple outline, counter-clockwise, none straight.
+/// The parts as rings of indices, each strictly convex. `corners` is a simple outline, counter-clockwise, without
+/// straight corners.
 pub(crate) fn convex_parts(corners: &[DVec2]) -> Vec<Vec<usize>> {
     let (mut parts, cuts) = triangles(corners);
     for (from, to) in cuts {
@@ -51,7 +53,7 @@ fn triangles(corners: &[DVec2]) -> (Vec<Vec<usize>>, Vec<(usize, usize)>) {
     (parts, cuts)
 }
 
-/// Whether the triangle of a corner and its neighbours has an area and holds no other corner, be it on its edge.
+/// Whether the triangle of a corner and its neighbours has an area. It may hold no other corner inside or on its edge.
 fn is_ear(corners: &[DVec2], ring: &[usize], at: usize) -> bool {
     let count = ring.len();
     let triangle = [ring[(at + count - 1) % count], ring[at], ring[(at + 1) % count]];
@@ -139,9 +141,10 @@ mod tests {
     proptest! {
         #![proptest_config(crate::cases(5, 500))]
 
-        /// Law: parts are strictly convex, have no area in common and fill the outline: their areas sum up to that of the
-        /// outline, and so does the area of their union. Tolerance: as many terms as corners, each below one, round; in
-        /// the union, each cut that leaves a corner at a flat angle may leave a gap of a tie, 64 units, in the boundary.
+        /// Law: parts are strictly convex, have no area in common and fill the outline. The sum of their areas and the
+        /// area of their union both equal the area of the outline. Tolerance: one rounded term below one for each
+        /// corner. In the union each cut that leaves a corner at a flat angle may leave a gap in the boundary. The gap
+        /// is one tie, 64 units.
         #[test]
         fn convex_parts_fill_the_outline_once(radii in prop::collection::vec(0.1..1.0, 3..24), turn in 0.0..6.0) {
             let turned = DVec2::new(libm::cos(turn), libm::sin(turn));
@@ -187,8 +190,8 @@ mod tests {
             let there = found.iter().filter(|(_, near)| (near.distance - distance).abs() < 1e-12).count();
             prop_assert_eq!(there, 1, "{} {:?}", distance, found);
             prop_assert!(found.iter().all(|(_, near)| near.distance > distance - 1e-12));
-            // Seen from a corner that is owned, a point lies beyond both sides of the outline that meet there. In a hollow it lies beyond
-            // the end of one of them.
+            // Seen from an owned corner, a point lies beyond both adjacent sides of the outline. In a hollow it lies
+            // beyond the end of one of them.
             for (hull, near) in found {
                 let Feature::Corner(corner) = near.feature else { continue };
                 let place = hull.corners()[corner];

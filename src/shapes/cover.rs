@@ -1,15 +1,15 @@
-//! Which part of a piece of boundary lies in another hull.
+//! The covered part of a piece of boundary: its stretches that lie in another hull.
 //!
-//! A hull is the union of its core, of a strip along each side, and of a disc about each corner. A strip is met along one
-//! stretch of a segment; the angles at which an arc at height h above a line passes below it follow from
-//! sin^2(t/2) = gap / 2r, with the gap between the line and the top of the circle. Formulas in gaps, not in cosines, keep all
-//! digits where curves touch.
+//! A hull is the union of its core, a strip along each side, and a disc about each corner. A segment meets a strip
+//! along one stretch. An arc at height h above a line passes below it at angles with sin^2(t/2) = gap / 2r. The gap is
+//! that between the line and the top of the circle. Formulas in gaps, not in cosines, keep all digits where curves
+//! touch.
 //!
-//! **Ties.** Two boundaries may run along each other: boxes side by side, a hull given twice. Rounding must not decide there.
-//! Boundaries nearer than `tie` count as one. If their normals are opposite, both are covered. If their normals agree, that of
-//! the hull of lower index is free, the other covered. A pair reaches the same verdict from both sides as both work
-//! from one and the same number. Boundaries that cross at an angle whose sine is above 1/64 have no ties: rounding, 1/64 of
-//! a tie, moves their crossing by less than one.
+//! **Ties.** Two boundaries may run along each other: boxes side by side, a hull given twice. Rounding must not decide
+//! there. Boundaries nearer than `tie` count as one. If their normals are opposite, both are covered. If their normals
+//! agree, the boundary of the hull of lower index is free, and the other is covered. Both sides of a pair reach the
+//! same result, because both work from the same number. Boundaries that cross at an angle whose sine is above 1/64 have
+//! no ties. Rounding is 1/64 of a tie, and moves their crossing by less than one tie.
 
 use std::f64::consts::{PI, TAU};
 
@@ -81,8 +81,8 @@ pub(crate) fn free(piece: &Piece, mut covered: Spans) -> Spans {
 /// Sine of the angle between boundaries, above which they have no ties.
 const STEEP: f64 = 1.0 / 64.0;
 
-/// Whether curves are nearly parallel where they meet, by the square of the sine of half the angle between their normals or
-/// between one and the opposite of the other.
+/// Whether curves are nearly parallel at their meeting point. `share` is the square of the sine of half the angle
+/// between their normals, one of which may be reversed.
 fn is_flat(share: f64) -> bool {
     share < STEEP * STEEP / 4.0
 }
@@ -121,7 +121,7 @@ fn sunk(height: f64, slope: f64, extent: f64) -> Spans {
     if slope > 0.0 { vec![(0.0, cross.min(extent))] } else { vec![(cross.max(0.0), extent)] }
 }
 
-/// Where a piece has `normal . p >= level`: an edge inside another hull, where ties do not matter.
+/// The spans of a piece with `normal . p >= level`: an edge inside another hull, which needs no ties.
 fn within(piece: &Piece, normal: DVec2, level: f64) -> Spans {
     match piece {
         Piece::Straight(side) => sunk(level - normal.dot(side.origin()), -normal.dot(side.along()), side.length),
@@ -153,7 +153,7 @@ fn window(arc: &Arc, axis: DVec2, half: f64) -> Spans {
     turns.into_iter().filter(|(from, to)| from < to).collect()
 }
 
-/// Where a piece lies below the moved side of another hull.
+/// The spans of a piece below the moved side of another hull.
 fn below(piece: &Piece, line: &Straight, ranks: Ranks) -> Spans {
     match piece {
         Piece::Straight(side) => segment_below(side, line, ranks),
@@ -169,15 +169,16 @@ fn below(piece: &Piece, line: &Straight, ranks: Ranks) -> Spans {
     }
 }
 
-/// How far a circle reaches over a moved side, in metres: up from it, or, if its center is above, down. The second says which.
+/// The reach of a circle over a moved side, in metres: upwards, or downwards if the center is above. The second value
+/// is true for downwards.
 fn reach(line: &Straight, center: DVec2, radius: f64) -> (f64, bool) {
     let height = line.normal.dot(center - line.corner);
     let opposite = height - line.radius > 0.0;
     (if opposite { (line.radius + radius) - height } else { (radius - line.radius) + height }, opposite)
 }
 
-/// Both sides of a pair find the crossing from the one of lower rank, so that they cut at the same place even where they are
-/// nearly parallel.
+/// Both sides of a pair compute the crossing from the side of lower rank. So they cut at the same point even if they
+/// are nearly parallel.
 fn segment_below(side: &Straight, line: &Straight, ranks: Ranks) -> Spans {
     let opposite = side.normal.dot(line.normal) < 0.0;
     let is_low = ranks.own < ranks.other;
@@ -195,11 +196,11 @@ fn segment_below(side: &Straight, line: &Straight, ranks: Ranks) -> Spans {
     }
     let crossing = low.origin() - low.along() * (height / slope);
     let place = side.along().dot(crossing - side.origin());
-    // Seen from the other, a line falls where the first one rises.
+    // In the view of the other side, a line falls if the first one rises.
     if slope < 0.0 { vec![(0.0, place.min(side.length))] } else { vec![(place.max(0.0), side.length)] }
 }
 
-/// Where a piece lies in a disc of another hull.
+/// The spans of a piece in a disc of another hull.
 fn in_disc(piece: &Piece, center: DVec2, radius: f64, ranks: Ranks) -> Spans {
     match piece {
         Piece::Straight(side) => {

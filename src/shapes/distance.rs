@@ -1,9 +1,9 @@
-//! The distance between two rounded hulls.
+//! The distance between two rounded hulls, by separating axes and nearest corners.
 //!
-//! Two convex cores overlap unless some line parts them, and it may be taken along a side of one of them (separating axes). Of
-//! two cores apart, a corner of one is nearest: the least of all distances from a corner to the other core. Of two that
-//! overlap, the least depth under a side is the shortest way out. The surfaces are nearer by both radii. Work grows with the
-//! product of the numbers of corners. Lengths are in metres.
+//! Two convex cores overlap unless some line parts them. If such a line exists, one lies along a side of one core
+//! (separating axis theorem). If the cores are apart, the distance is the least one from a corner of one to the other
+//! core. If they overlap, the least depth under a side is the shortest way out. The surfaces are nearer by both radii.
+//! Work grows with the product of the numbers of corners. Lengths are in metres.
 
 use glam::DVec2;
 
@@ -20,7 +20,7 @@ pub struct Separation {
     pub normal: DVec2,
 }
 
-/// The distance between the surfaces of two hulls in metres, negative where they overlap.
+/// The distance between the surfaces of two hulls in metres; negative if they overlap.
 pub fn distance(a: &Hull, pose_a: &Pose, b: &Hull, pose_b: &Pose) -> f64 {
     separation(a, pose_a, b, pose_b).distance
 }
@@ -53,7 +53,8 @@ fn greater(first: Option<(f64, DVec2)>, second: Option<(f64, DVec2)>) -> Option<
     }
 }
 
-/// The greatest height of the other core above a side, or beyond an end of a segment, and the direction. A point has none.
+/// The greatest height of the other core above a side, or beyond an end of a segment, and its direction. A point has
+/// none.
 fn highest(hull: &Hull, other: &Hull, pose: &Pose) -> Option<(f64, DVec2)> {
     let height = |corner: DVec2, normal: DVec2| {
         let above = |place: &DVec2| normal.dot(pose.point_to_world(*place) - corner);
@@ -111,7 +112,7 @@ pub(crate) mod tests {
         /// Distance of the surfaces if the cores are apart.
         pub fn distance(a: &Hull, pose_a: &Pose, b: &Hull, pose_b: &Pose) -> f64 {
             let pose = |hull: &Hull, pose: &Pose| {
-                // A ball stands at its own origin.
+                // A ball has its centre at its origin.
                 let shift = if hull.corners().len() == 1 { hull.corners()[0] } else { DVec2::ZERO };
                 let place = pose.point_to_world(shift);
                 let angle = libm::atan2(pose.rotation.y, pose.rotation.x);
@@ -125,9 +126,9 @@ pub(crate) mod tests {
     proptest! {
         #![proptest_config(crate::cases(6, 3000))]
 
-        /// Law: the distance is that of parry2d, and the same from both sides. Tolerance: parry2d ends its iteration where
-        /// bounds differ by sqrt(10 epsilon), 5e-8 of the distance, here below 6 m. The next law is sharper. Cores that
-        /// overlap have no distance there.
+        /// Law: the distance is that of parry2d, and the same from both sides. Tolerance: parry2d ends its iteration
+        /// when bounds differ by sqrt(10 epsilon), 5e-8 of the distance, here below 6 m. The next law is sharper. Cores
+        /// that overlap have no distance there.
         #[test]
         fn the_distance_is_that_of_parry(
             first in prop::collection::vec(0.0..1.0, 1..7), second in prop::collection::vec(0.0..1.0, 1..7),

@@ -1,13 +1,13 @@
-//! Why a shape cannot be made, and what the maker mended in one that can.
+//! The reasons why a shape cannot be made, and the corrections in one that can.
 
 use std::fmt;
 
 use glam::DVec2;
 
-/// A change that a maker made to the points that stand in the scene.
+/// A correction of the points in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mended {
-    /// The points ran clockwise; they run counter-clockwise now.
+    /// The points ran clockwise, and were reversed.
     Turned,
     /// The point of this index lay exactly on the line through its neighbours, and was left out.
     Straight {
@@ -56,10 +56,10 @@ pub enum ShapeError {
         first: usize,
         /// Index of the other side.
         second: usize,
-        /// Where they meet, in metres.
+        /// Their meeting point, in metres.
         at: DVec2,
     },
-    /// The outline bends inwards at a point, where a convex one was asked for.
+    /// The outline bends inwards at a point, although it has to be convex.
     NotConvex {
         /// Index of the point.
         point: usize,
@@ -90,7 +90,7 @@ pub enum ShapeError {
         /// Its value in metres.
         found: f64,
     },
-    /// The rounding goes inwards farther than the shape allows.
+    /// The rounding is larger than the shape allows.
     RoundingTooLarge {
         /// The rounding asked for, in metres.
         found: f64,
@@ -128,7 +128,7 @@ pub enum ShapeError {
     },
     /// Both flanks of a tooth meet before its tip.
     PointedTooth {
-        /// Width of the tooth at its tip circle or tip line, in metres; below zero where the flanks have crossed.
+        /// Width of the tooth at its tip circle or tip line, in metres; negative if the flanks have crossed.
         tip_width: f64,
     },
     /// Two teeth meet at their roots.

@@ -3,13 +3,13 @@
 //! With z teeth of module m and pressure angle a (ISO 53, ISO 21771):
 //!
 //! * pitch radius r = z m / 2, base radius r cos a, tip radius r + m, root radius r - 1.25 m;
-//! * at radius q the flank has the pressure angle p with cos p = base / q, and inv p = tan p - p;
-//! * half of a tooth spans the angle s / 2r + inv a - inv p there, with its thickness s = pi m / 2 - backlash / 2.
+//! * the flank at radius q has the pressure angle p: cos p = base / q and inv p = tan p - p;
+//! * half of a tooth spans the angle s / 2r + inv a - inv p there. Its thickness is s = pi m / 2 - backlash / 2.
 //!
-//! Below the base circle flanks are radial. Flanks are chords of the involute, whose corners lie on it: the tooth is thinner
-//! between them, by an error that falls with the square of their number. Gears with fewer teeth than
-//! [`Gear::least_without_undercut`] are not undercut, and may jam with others of many teeth. Lengths are in metres, angles in
-//! radians.
+//! Below the base circle flanks are radial. Flanks are chords of the involute, and their corners lie on it. Between
+//! them the tooth is thinner, by an error that falls with the square of their number. Gears with fewer teeth than
+//! [`Gear::least_without_undercut`] are not undercut, and may jam with gears of many teeth. Lengths are in metres,
+//! angles in radians.
 
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
@@ -30,17 +30,18 @@ pub struct Gear {
     pub pressure_angle: f64,
     /// Play between two such gears along the pitch circle, in metres; each gear gives half of it.
     pub backlash: f64,
-    /// Number of chords of each flank above the base circle. Where the tangent of the pressure angle goes from u to u + d, a
-    /// chord misses the involute by about u d^2 / 8 base radii.
+    /// Number of chords of each flank above the base circle. Over a chord the tangent of the pressure angle grows from
+    /// u to u + d. The chord misses the involute by about u d^2 / 8 base radii.
     pub chords: usize,
 }
 
-/// Teeth and chords at most: each tooth is a part with twice as many corners as a flank has chords.
+/// The largest numbers of teeth and chords. Each tooth is a part with twice as many corners as a flank has chords.
 pub(crate) const MOST_TEETH: usize = 1000;
 const MOST_CHORDS: usize = 64;
 
 impl Gear {
-    /// A gear with so many teeth of a module in metres, a pressure angle of 20 degrees, no backlash, 8 chords.
+    /// A gear with a number of teeth and a module in metres. It has a pressure angle of 20 degrees, no backlash and 8
+    /// chords.
     pub fn new(teeth: usize, module: f64) -> Self {
         Self { teeth, module, pressure_angle: PI / 9.0, backlash: 0.0, chords: 8 }
     }
@@ -65,7 +66,8 @@ impl Gear {
         self.pitch_radius() - 1.25 * self.module
     }
 
-    /// Least number of teeth whose flanks a rack meets above the base circle only: 2 / sin^2 of the pressure angle.
+    /// The least number of teeth whose flanks meet a rack only above the base circle. It is 2 / sin^2 of the pressure
+    /// angle.
     pub fn least_without_undercut(pressure_angle: f64) -> f64 {
         2.0 / libm::sin(pressure_angle).powi(2)
     }
@@ -86,9 +88,9 @@ impl Gear {
     /// The body and the teeth as convex parts.
     ///
     /// # Errors
-    /// Numbers that are not finite, not above zero or out of range; fewer than three teeth or more than 1000; no chord or more than
-    /// 64; a pressure angle not
-    /// between 0 and 45 degrees; a negative backlash; flanks that meet at a tip or at a root.
+    /// Numbers that are NaN, infinite, out of range, or not above zero. Fewer than three teeth or more than 1000. No
+    /// chord or more than 64. A pressure angle not between 0 and 45 degrees. A negative backlash. Flanks that meet at a
+    /// tip or at a root.
     pub fn shape(&self) -> Result<Shape, ShapeError> {
         check_count("the number of teeth", self.teeth, 3, MOST_TEETH)?;
         check_count("the number of chords", self.chords, 1, MOST_CHORDS)?;
@@ -157,7 +159,7 @@ impl Gear {
 }
 
 /// # Errors
-/// What makes a tooth of this module, pressure angle and backlash impossible.
+/// The reason why a tooth of this module, pressure angle and backlash is impossible.
 pub(crate) fn check_tooth(module: f64, pressure_angle: f64, backlash: f64) -> Result<(), ShapeError> {
     positive(module, "the module")?;
     check_number(pressure_angle, "the pressure angle")?;
@@ -184,7 +186,7 @@ pub(crate) mod tests {
     use crate::moments::AreaMoments;
     use crate::pose::{Bounds, Pose};
 
-    /// The least distance between two shapes, if that is less than `within`.
+    /// The least distance between two shapes, or `within` if it is larger.
     pub(crate) fn clearance(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose, within: f64) -> f64 {
         let mut least = within;
         for one in &a.hulls {
@@ -196,7 +198,8 @@ pub(crate) mod tests {
         least
     }
 
-    /// The greatest distance between a chord and its involute: at half the roll angle, where the curve is farthest.
+    /// The greatest distance between a chord and its involute. It lies at half the roll angle, the farthest point of
+    /// the curve.
     fn chord_error(gear: &Gear) -> f64 {
         let flank = gear.flank();
         let middles = flank.windows(2).filter(|ends| ends[0].0 >= gear.base_radius()).map(|ends| {
@@ -208,7 +211,8 @@ pub(crate) mod tests {
         middles.fold(0.0, f64::max)
     }
 
-    /// Law: a string unwound from the base circle is as long as the arc it left: flank points lie on the involute.
+    /// Law: a string unwound from the base circle is as long as the arc that it left. Its end runs through the flank
+    /// points.
     #[test]
     fn the_flank_is_the_path_of_an_unwound_string() {
         let gear = Gear::new(24, 0.005);
@@ -254,8 +258,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Law: two gears at the distance (z + y) m / 2 run without touching, with half the backlash times cos a free on both
-    /// sides of a tooth, at all angles. Tolerance: flanks are chords on both sides.
+    /// Law: two gears at the distance (z + y) m / 2 run at all angles without touching. The free gap on both sides of a
+    /// tooth is half the backlash times cos a. Tolerance: flanks are chords on both sides.
     #[test]
     fn two_gears_mesh_with_a_constant_clearance() {
         let (module, backlash) = (0.01, 2e-4);

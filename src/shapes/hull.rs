@@ -1,9 +1,9 @@
-//! The one geometry: the convex hull of 1 to N corners, grown by a radius.
+//! The rounded convex hull: the convex hull of 1 to N corners, grown by a radius. It is the one geometry of all shapes.
 //!
-//! With corners c_i and radius r the hull is the set of points at most r from the convex hull of the c_i, its *core*. One
-//! corner makes a disc, two a capsule (a segment with two sides, back and forth), more a rounded polygon. Side i runs from
-//! corner i to the next corner. Corners run counter-clockwise, so that the outside lies right of each side.
-//! Lengths are in metres.
+//! The *core* is the convex hull of the corners c_i. With radius r the hull is the set of points at most r from the
+//! core. One corner makes a disc. Two make a capsule, a segment with two sides, back and forth. More make a rounded
+//! polygon. Side i runs from corner i to the next corner. Corners run counter-clockwise, so that the outside lies right
+//! of each side. Lengths are in metres.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -28,17 +28,18 @@ pub struct Side {
     pub inner: bool,
 }
 
-/// In which outward directions a corner is the outline of its shape, and no other part of the shape is.
+/// The outward directions in which a corner lies on the outline of its shape. No other part of the shape does so there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Free {
-    /// In all directions between the normals of its sides.
+    /// All directions between the normals of its sides.
     Whole,
     /// Counter-clockwise from the first unit normal to the second.
     Between(DVec2, DVec2),
-    /// In all of them, as the end of a side: the outline bends inwards there, and goes on at another part. Such a corner touches nothing by
-    /// itself. What rolls out of the hollow leaves the side at its end, without a jump of the force.
+    /// All of them, as the end of a side. The outline bends inwards there, and continues at another part. Such a corner
+    /// by itself touches nothing. A body that rolls out of the hollow leaves the side at its end, without a jump of the
+    /// force.
     Hollow,
-    /// In none: it lies inside, or belongs to another part.
+    /// No direction: the corner lies inside, or belongs to another part.
     Nowhere,
 }
 
@@ -68,7 +69,7 @@ impl Hull {
     /// A disc. `center` and `radius` are in metres; a radius of zero makes a point.
     ///
     /// # Errors
-    /// Numbers that are not finite or out of range; a radius below zero.
+    /// Numbers that are NaN, infinite or out of range; a radius below zero.
     pub fn disc(center: DVec2, radius: f64) -> Result<Self, ShapeError> {
         check_points(&[center], "a coordinate of the center")?;
         check_radius(radius)?;
@@ -78,7 +79,7 @@ impl Hull {
     /// All points at most `radius` from the segment between two points, in metres. A radius of zero makes a segment.
     ///
     /// # Errors
-    /// Numbers that are not finite or out of range; a radius below zero; both ends at one place.
+    /// Numbers that are NaN, infinite or out of range; a radius below zero; coinciding ends.
     pub fn capsule(from: DVec2, to: DVec2, radius: f64) -> Result<Self, ShapeError> {
         check_points(&[from, to], "a coordinate of an end")?;
         check_radius(radius)?;
@@ -86,18 +87,18 @@ impl Hull {
         Ok(Self::of_corners(vec![from, to], radius))
     }
 
-    /// A convex polygon grown by `radius`, both in metres, and what was mended: a clockwise order is turned round, points
-    /// exactly on a straight side are left out.
+    /// A convex polygon grown by `radius`, both in metres, and the corrections. A clockwise order is reversed, and
+    /// points exactly on a straight side are left out.
     ///
     /// # Errors
-    /// Numbers that are not finite or out of range; a radius below zero; fewer than three points; two neighbours at one
-    /// place; an area of zero; an outline that bends inwards or runs round more than once.
+    /// Numbers that are NaN, infinite or out of range. A radius below zero. Fewer than three points. Two coinciding
+    /// neighbours. An area of zero. An outline that bends inwards or runs round more than once.
     pub fn polygon(points: &[DVec2], radius: f64) -> Result<(Self, Vec<Mended>), ShapeError> {
         check_points(points, "a coordinate of a point")?;
         check_radius(radius)?;
         let (kept, mut mended) = without_straight(points)?;
         let turns: Vec<f64> = around(&kept).map(|[a, b, c]| orientation(points[a], points[b], points[c])).collect();
-        // The sign that most corners have is that of the whole; a convex outline has no other.
+        // The polygon has the sign of most corners. In a convex outline all corners have it.
         let left = turns.iter().filter(|turn| **turn > 0.0).count();
         let clockwise = 2 * left < turns.len();
         if let Some(bad) = turns.iter().position(|turn| (*turn < 0.0) != clockwise) {
@@ -140,7 +141,7 @@ impl Hull {
         &self.corners
     }
 
-    /// The sides of the core: none of a disc, two of a capsule, else as many as corners. Side i begins at corner i.
+    /// The sides of the core: none of a disc, two of a capsule, else one for each corner. Side i begins at corner i.
     #[inline]
     pub fn sides(&self) -> &[Side] {
         &self.sides
@@ -152,7 +153,8 @@ impl Hull {
         self.radius
     }
 
-    /// The core of the concave polygon of which the hull is a part, counter-clockwise, in metres; empty if it is no such part.
+    /// The core of the concave polygon of which the hull is a part, counter-clockwise, in metres. Empty for other
+    /// hulls.
     #[inline]
     pub fn outline(&self) -> &[DVec2] {
         &self.outline
@@ -175,14 +177,14 @@ impl Hull {
         (self.corners[side], self.corners[(side + 1) % self.corners.len()])
     }
 
-    /// Whether a corner is a convex vertex of the outline of its shape, so that contacts look where it touches others. Where
-    /// several parts of a shape share the vertex, one of them has it.
+    /// Whether a corner is a convex vertex of the outline of its shape. If so, contacts check it against other shapes.
+    /// If several parts of a shape share the vertex, one of them owns it.
     #[inline]
     pub fn probes(&self, corner: usize) -> bool {
         !matches!(self.free[corner], Free::Nowhere | Free::Hollow)
     }
 
-    /// In which directions a corner is the outline of its shape.
+    /// The directions in which a corner lies on the outline of its shape.
     #[inline]
     pub fn free(&self, corner: usize) -> Free {
         self.free[corner]
@@ -222,8 +224,9 @@ impl Hull {
         turned
     }
 
-    /// Half of the least width of the hull in metres: for a disc or a capsule its radius. For a part of a concave polygon half of how thick the
-    /// whole is behind the sides of the part, or behind all sides if the part has none of them.
+    /// Half of the least width of the hull in metres; for a disc or a capsule its radius. For a part of a concave
+    /// polygon it is half the thickness of the polygon behind the sides of the part. If the part has no side of the
+    /// outline, all sides count.
     pub fn half_width(&self) -> f64 {
         let least = |widths: &mut dyn Iterator<Item = f64>| widths.fold(f64::INFINITY, f64::min);
         let all = 0..self.outline.len();
@@ -246,7 +249,7 @@ impl Hull {
         0.5 * width + self.radius
     }
 
-    /// How thick the core of the whole concave polygon is behind the middle of a side of its outline, in metres.
+    /// The thickness of the whole concave polygon's core behind the middle of a side of its outline, in metres.
     pub fn thickness(&self, side: usize) -> f64 {
         let (outline, count) = (&self.outline, self.outline.len());
         let ends = |index: usize| (outline[index % count], outline[(index + 1) % count]);
@@ -307,13 +310,13 @@ pub(crate) fn without_straight(points: &[DVec2]) -> Result<(Vec<usize>, Vec<Mend
 }
 
 /// # Errors
-/// The first number that is not finite or too large.
+/// An error for the first number that is NaN, infinite or too large.
 pub(crate) fn check_points(points: &[DVec2], quantity: &'static str) -> Result<(), ShapeError> {
     points.iter().flat_map(|point| point.to_array()).try_for_each(|number| check_number(number, quantity))
 }
 
 /// # Errors
-/// A number that is not finite or too large.
+/// An error for a number that is NaN, infinite or too large.
 pub(crate) fn check_number(number: f64, quantity: &'static str) -> Result<(), ShapeError> {
     if !number.is_finite() {
         return Err(ShapeError::NotFinite { quantity });
@@ -337,7 +340,7 @@ pub(crate) fn check_count(quantity: &'static str, found: usize, least: usize, mo
 }
 
 /// # Errors
-/// A radius that is not finite, below zero, or out of range.
+/// An error for a radius that is NaN, infinite, below zero, or out of range.
 pub(crate) fn check_radius(radius: f64) -> Result<(), ShapeError> {
     check_number(radius, "the radius")?;
     if radius < 0.0 {
@@ -400,7 +403,8 @@ mod tests {
         assert_eq!(Hull::polygon(&flat, 0.0).unwrap().0.corners().len(), 4);
     }
 
-    /// Behind the side of a spike lies its other side: at the tangent of its angle, 3/4, times half the side. Tolerance: a few operations round.
+    /// Behind the side of a spike lies its other side. Its depth there is the tangent of the angle, 3/4, times half the
+    /// side. Tolerance: a few operations round.
     #[test]
     fn a_spike_is_as_thick_as_its_other_side_is_near() {
         let star = points(&[

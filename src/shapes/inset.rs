@@ -1,6 +1,7 @@
-//! Sharp corners rounded off: the sides move inwards by a radius, and the hull is grown by it.
+//! Rounding of sharp corners: the sides move inwards by a radius, and the hull is grown by it.
 //!
-//! The sides stay where they were, but for their ends: each corner becomes an arc that touches both sides. Lengths are in metres.
+//! The sides keep their lines and only lose their ends: each corner becomes an arc that touches both sides. Lengths are
+//! in metres.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -20,11 +21,11 @@ pub struct Rounded {
 }
 
 impl Hull {
-    /// The hull with sharp corners rounded off by a radius in metres, or by less where a side would lose more than half of its length. Cuts
-    /// between parts stay where they are.
+    /// The hull with sharp corners rounded off by a radius in metres. The radius is smaller if a side would lose more
+    /// than half of its length. Cuts between parts stay in place.
     ///
-    /// None if it is round already, if it has fewer than three corners, or if a corner of the outline begins at a cut that no outline tells
-    /// more of.
+    /// `None` if it is round, or has fewer than three corners. Also `None` if a corner of the outline begins at a cut
+    /// for which no outline is known.
     pub fn rounded(&self, radius: f64) -> Option<Rounded> {
         if self.radius() > 0.0 || self.corners().len() < 3 {
             return None;
@@ -64,7 +65,7 @@ struct Ring {
 }
 
 impl Ring {
-    /// The outline of the concave polygon of which the hull is a part, if it is one.
+    /// The outline of the concave polygon of which the hull is a part, if there is one.
     fn of_outline(hull: &Hull) -> Option<Self> {
         let corners = hull.outline().to_vec();
         let next = |index: usize| corners[(index + 1) % corners.len()];
@@ -82,7 +83,8 @@ impl Ring {
         (corner + self.corners.len() - 1) % self.corners.len()
     }
 
-    /// How far a corner goes for each metre of the radius: to where the lines of both sides meet. None if those are parallel.
+    /// The shift of a corner for each metre of the radius, up to the crossing of the moved sides. `None` if those are
+    /// parallel.
     fn shift(&self, corner: usize) -> Option<DVec2> {
         let ((first, by_first), (second, by_second)) = (self.sides[self.before(corner)], self.sides[corner]);
         let sine = first.perp_dot(second);
@@ -117,7 +119,8 @@ mod tests {
         Hull::polygon(&points, 0.0).unwrap().0
     }
 
-    /// The lines of the sides stay: the middle of each side is as far from the round hull as from the sharp one. Tolerance: rounding.
+    /// The lines of the sides stay. So the middle of each side is equally far from the round hull and the sharp one.
+    /// Tolerance: rounding.
     #[test]
     fn sides_stay_and_corners_come_nearer() {
         for hull in

@@ -1,7 +1,7 @@
 //! Shapes as rounded convex hulls: the corners' convex hull, grown by a radius on all sides.
 //!
-//! The hull of the corners is the *core*. Discs, capsules, polygons and gears all become hulls; concave shapes become several.
-//! Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
+//! The hull of the corners is the *core*. Discs, capsules, polygons and gears become one hull or several; concave
+//! shapes become several. Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
 
 mod boundary;
 mod compound;

@@ -1,8 +1,9 @@
-//! Area, centre and second moment of a rounded hull, and of the union of several, exactly.
+//! Exact area, centre and second moment of a rounded hull, and of the union of several.
 //!
-//! The boundary of a union consists of those stretches of the boundaries of its parts that lie in no other part; fans over
-//! them sum up ([`crate::boundary`]). Sums are taken about the middle of the shape, so that a far origin costs no digits.
-//! With a density the second moment becomes the moment of inertia. Area is in m2, centre in m, second moment in m4.
+//! The boundary of a union consists of the stretches of its parts' boundaries that lie in no other part. The fans over
+//! them sum up ([`crate::boundary`]). Sums are taken about the middle of the shape, so that a far origin costs no
+//! digits. With a density the second moment becomes the moment of inertia. Area is in m2, centre in m, second moment in
+//! m4.
 
 use glam::DVec2;
 
@@ -33,10 +34,11 @@ impl AreaMoments {
         Self::about(middle, sum)
     }
 
-    /// The moments of what the hulls cover together, overlaps counted once.
+    /// The moments of the union of the hulls, in which overlaps count once.
     ///
-    /// Boundaries nearer to each other than 64 units in the last place of the greatest coordinate count as one. Where such
-    /// boundaries meet at an angle below 1/64, each meeting may change the area by that distance times the size of the shape.
+    /// Boundaries nearer to each other than 64 units in the last place of the greatest coordinate count as one. If such
+    /// boundaries meet at an angle below 1/64, each meeting may change the area. The change is at most that distance
+    /// times the size of the shape.
     pub fn union_of(hulls: &[Hull]) -> Self {
         if let [hull] = hulls {
             return Self::of(hull);
@@ -58,11 +60,11 @@ impl AreaMoments {
             return Self { centre: middle, ..Self::default() };
         }
         let centre = first / area;
-        // p^2 dA about the middle, less that of the whole area in its centre.
+        // p^2 dA about the middle, minus that of the whole area in its centre.
         Self { area, centre: middle + centre, second_moment: polar - area * centre.length_squared() }
     }
 
-    /// The moments of both, if they have no area in common.
+    /// The moments of both together, if they have no area in common.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         let area = self.area + other.area;
@@ -78,7 +80,7 @@ impl AreaMoments {
 
 /// By how much boundaries that count as one may differ, in metres.
 ///
-/// A place on a boundary comes from a coordinate, a unit normal times the radius, and a product along a side: each rounds by
+/// A boundary point comes from a coordinate, a unit normal times the radius, and a product along a side. Each rounds by
 /// at most a unit in the last place of the greatest coordinate. Points that a scene computed carry a few more. 64 units
 /// hold all of them, and change areas by no more than rounding itself does.
 pub(crate) fn tie(hulls: &[Hull]) -> f64 {
@@ -104,7 +106,7 @@ pub(crate) fn free_boundary(parts: &[Hull], tie: f64) -> Vec<Vec<(Piece, Spans)>
     (0..parts.len()).map(of_part).collect()
 }
 
-/// A hull without a radius that is lost among ties; nothing if it is itself thinner than a few of them.
+/// The hull, without its radius if the radius is lost among ties. `None` if the hull itself is thinner than a few ties.
 pub(crate) fn thick(hull: &Hull, tie: f64) -> Option<Hull> {
     if hull.radius() > 4.0 * tie {
         return Some(hull.clone());
@@ -169,7 +171,7 @@ mod tests {
         let (w, h, r) = (3.0, 2.0, 0.5);
         let found = AreaMoments::of(&rectangle((1.0, 1.0), (1.0 + w, 1.0 + h), r));
         let area = w * h + 2.0 * r * (w + h) + PI * r * r;
-        // The quarters make one disc, drawn apart by (w, h) / 2; the centre of each lies 4 r / 3 pi from its corner.
+        // The quarters make one disc, drawn apart by (w, h) / 2. The centre of each lies 4 r / 3 pi from its corner.
         let shift = 4.0 * r / (3.0 * PI);
         let quarters = PI * r.powi(4) / 2.0 + PI * r * r * ((w * w + h * h) / 4.0 + shift * (w + h));
         let strip = |a: f64, b: f64| a * r * (a * a + r * r) / 12.0 + a * r * ((b + r) / 2.0).powi(2);
@@ -222,8 +224,8 @@ mod tests {
         }
     }
 
-    /// Ties of curves: capsules that share an end, at all angles; discs that touch from outside and from inside; a disc in
-    /// the end of a capsule. The expected values are sums and closed forms.
+    /// Ties of curves: capsules that share an end, at all angles. Discs that touch from outside and from inside. A disc
+    /// in the end of a capsule. The expected values are sums and closed forms.
     #[test]
     fn curves_that_touch_are_counted_once() {
         let (r, l) = (0.3, 2.0);
@@ -233,7 +235,8 @@ mod tests {
                 let end = DVec2::new(libm::cos(angle), libm::sin(angle)) * l;
                 Hull::capsule(DVec2::new(0.1, 0.2), DVec2::new(0.1, 0.2) + end, r).unwrap()
             };
-            // On the inside of the bend both strips cover a kite, if they are long enough; outside a sector is added.
+            // On the inside of the bend both strips cover a kite, if they are long enough. On the outside a sector is
+            // added.
             let cotangent = libm::cos(angle / 2.0) / libm::sin(angle / 2.0);
             if r * cotangent > l {
                 continue;
@@ -281,8 +284,9 @@ mod tests {
     proptest! {
         #![proptest_config(crate::cases(3, 60))]
 
-        /// Law: the area is what a grid of points counts. Tolerance: only cells on the boundary count wrongly; with a
-        /// boundary of length L there are at most 4 L / cell of them, and about their square root is left over, five times.
+        /// Law: the area equals the count of a grid of points. Tolerance: only cells on the boundary count wrongly. A
+        /// boundary of length L has at most 4 L / cell of them. About their square root remains after cancellation, and
+        /// the test takes five times that.
         #[test]
         fn a_union_has_the_area_that_a_grid_counts(numbers in prop::collection::vec(0.0..1.0, 40)) {
             let hulls = random(&numbers);
@@ -308,7 +312,7 @@ mod tests {
     proptest! {
         #![proptest_config(crate::cases(4, 2000))]
 
-        /// Law: the union does not know the order of its parts, nor parts given twice, nor where its origin is.
+        /// Law: the union depends neither on the order of its parts, nor on repeated parts, nor on its origin.
         #[test]
         fn a_union_knows_no_order_and_no_repetition(numbers in prop::collection::vec(0.0..1.0, 40), x in -2.0..2.0) {
             let hulls = random(&numbers);

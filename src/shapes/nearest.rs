@@ -1,10 +1,10 @@
-//! The nearest place on a core to a point, and the normal there.
+//! The nearest point on a core to a given point, and the normal there.
 //!
-//! Outside a convex core the side with the greatest height h_i = n_i . (p - c_i) has the nearest place: within the side, or
-//! at the end beyond which p lies. For the direction u from the nearest place to p lies between the normals of the sides that
-//! meet there, so that no other normal is nearer to u; and no other side passes above that place. Inside, the greatest height
-//! is minus the depth. Heights equal to the last bit go to the lowest index. Distances are in metres, to the core: the radius
-//! of the hull is for the caller to subtract.
+//! Outside a convex core the side with the greatest height h_i = n_i . (p - c_i) has the nearest point. It lies within
+//! the side, or at the end beyond which p lies. The direction u from the nearest point to p lies between the normals of
+//! the adjacent sides. So no other normal is nearer to u, and no other side passes above that point. Inside, the
+//! greatest height is minus the depth. Heights equal to the last bit go to the lowest index. Distances are in metres,
+//! to the core. The caller subtracts the radius of the hull.
 
 use glam::DVec2;
 
@@ -37,7 +37,7 @@ pub struct Nearest {
     pub distance: f64,
     /// Unit normal, outwards at the nearest place.
     pub normal: DVec2,
-    /// Where the nearest place lies.
+    /// The feature that holds the nearest point.
     pub feature: Feature,
 }
 
@@ -55,9 +55,10 @@ impl Hull {
 
 /// The nearest place of the core to a point in the hull's frame, in metres.
 ///
-/// Inside a part of a concave polygon the whole outline of that counts. Inside another core only sides that are not inner count, by the height under their line, so that no normal points through a
-/// cut; if all are inner, all count. Outside, an inner feature may be the nearest: [`Hull::owns`] tells. At the centre of a
-/// disc, where all directions are equal, the normal points along +y.
+/// Inside a part of a concave polygon the whole outline of the polygon counts. Inside another core only sides on the
+/// outline count, by the height under their line. So no normal points through a cut. If all sides are inner, all count.
+/// Outside, an inner feature may be the nearest, which [`Hull::owns`] shows. At the centre of a disc, where all
+/// directions are equal, the normal points along +y.
 pub fn nearest(hull: &Hull, point: DVec2) -> Nearest {
     match *hull.corners() {
         [_] => distance_to(hull, Feature::Corner(0), point),
@@ -66,8 +67,8 @@ pub fn nearest(hull: &Hull, point: DVec2) -> Nearest {
     }
 }
 
-/// Whether a point in the hull's frame may be nearer to the core than a `distance` in metres: what is as near is, and little else, near
-/// corners. It takes less than the distance.
+/// Whether a point in the hull's frame may be nearer to the core than a `distance` in metres. It is true for all nearer
+/// points, and for few others near corners. It takes less time than the distance.
 #[inline]
 pub fn may_be_nearer(hull: &Hull, point: DVec2, distance: f64) -> bool {
     if hull.corners().len() < 3 {
@@ -76,8 +77,9 @@ pub fn may_be_nearer(hull: &Hull, point: DVec2, distance: f64) -> bool {
     hull.sides().iter().zip(hull.corners()).all(|(side, corner)| side.normal.dot(point - *corner) < distance)
 }
 
-/// Signed distance and normal of one feature, whether or not it is the nearest: of the whole line of a side, or of the
-/// corner alone. The point is in the hull's frame. An integrator that freezes the feature in a step sees a smooth function.
+/// Signed distance and normal of one feature, whether or not it is the nearest. The feature is the whole line of a
+/// side, or the corner alone. The point is in the hull's frame. An integrator that freezes the feature in a step sees a
+/// smooth function.
 ///
 /// # Panics
 /// If the hull has no such feature.
@@ -94,7 +96,7 @@ pub fn distance_to(hull: &Hull, feature: Feature, point: DVec2) -> Nearest {
             Nearest { distance: normal.dot(point - from), normal, feature }
         }
         Feature::OutlineCorner(index) => {
-            // Seen from within, where the distance is negative and the normal points to the corner.
+            // The view from within: the distance is negative and the normal points to the corner.
             let (inwards, distance) = direction(point - hull.outline()[index]);
             Nearest { distance: -distance, normal: -inwards, feature }
         }
@@ -156,7 +158,7 @@ fn nearest_on_polygon(hull: &Hull, point: DVec2) -> Nearest {
     }
 }
 
-/// The first of the highest, with its height; none is lower than all.
+/// The first of the highest, with its height; index 0 and minus infinity for an empty list.
 #[inline(always)]
 fn highest(among: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
     among.fold((0, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
@@ -233,8 +235,8 @@ mod tests {
     proptest! {
         #![proptest_config(crate::cases(1, 2000))]
 
-        /// Law: the distance is the least one to all places of the outline, signed. Source: definition. Tolerance: products
-        /// of numbers near 4 round, and where an angle is flat the rounding of a normal acts over the distance.
+        /// Law: the distance is the least one to all places of the outline, signed. Source: definition. Tolerance:
+        /// products of numbers near 4 round. At flat angles the rounding of a normal acts over the distance.
         #[test]
         fn the_distance_is_the_least_to_all_sides(
             angles in prop::collection::vec(0.0..std::f64::consts::TAU, 1..9),
@@ -252,8 +254,8 @@ mod tests {
             prop_assert!(found.distance < 0.0 || (farther.distance - found.distance - step).abs() < 1e-14);
         }
 
-        /// Law: outside, distance and normal have no jumps. Distance changes by no more than the path. The normal turns by no
-        /// more than path over distance, twice over as the point may come nearer.
+        /// Law: outside, distance and normal have no jumps. Distance changes by no more than the path. The normal turns
+        /// by no more than twice the path over the distance, because the point may come nearer.
         #[test]
         fn distance_and_normal_are_continuous_outside(
             angles in prop::collection::vec(0.0..std::f64::consts::TAU, 1..9),
@@ -268,7 +270,8 @@ mod tests {
             }
         }
 
-        /// Law: the quick look at a point leaves out none that is near, and none of those within a core. Tolerance: rounding of both.
+        /// Law: the quick check of a point omits no near point, and no point within a core. Tolerance: rounding of
+        /// both.
         #[test]
         fn what_is_near_may_be_near(
             angles in prop::collection::vec(0.0..std::f64::consts::TAU, 1..9),
@@ -322,7 +325,7 @@ mod tests {
         cut.set_inner(1, true);
         let found = nearest(&cut, DVec2::new(1.9, 1.5));
         assert_eq!((found.feature, found.distance), (Feature::Side(2), -0.5));
-        // Beyond the cut the side is still the nearest, and says that it is inner.
+        // Beyond the cut the side is still the nearest, and it is marked as inner.
         let beyond = nearest(&cut, DVec2::new(2.25, 1.5));
         assert_eq!((beyond.feature, beyond.distance), (Feature::Side(1), 0.25));
         assert!(!cut.owns(&beyond) && cut.owns(&nearest(&cut, DVec2::new(2.25, 2.5))));

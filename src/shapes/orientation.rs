@@ -1,7 +1,8 @@
-//! On which side of a line a point lies, exactly.
+//! The exact orientation of three points: the side of a line on which a point lies.
 //!
-//! The sign is that of (b - a) x (c - a), by the adaptive predicate of Shewchuk (1997), "Adaptive precision floating-point
-//! arithmetic and fast robust geometric predicates". The sign is right for all coordinates that [`crate::hull`] admits.
+//! The sign is that of (b - a) x (c - a), by the adaptive predicate of Shewchuk (1997). The title is "Adaptive
+//! precision floating-point arithmetic and fast robust geometric predicates". The sign is right for all coordinates
+//! that [`crate::hull`] admits.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};

@@ -1,8 +1,8 @@
-//! The outline of a simple polygon: its points checked, put counter-clockwise, and moved inwards.
+//! The outline of a simple polygon: its points are checked, put counter-clockwise, and moved inwards.
 //!
-//! Moved inwards by r, each side stays parallel, and the corner between the normals m and n goes to
-//! c - r (m + n) / (1 + m . n), the mitre. With a turn b at a convex corner, the disc that rolls inside loses
-//! r^2 (tan(b/2) - b/2) of the area there. All signs are exact. Lengths are in metres.
+//! If the outline moves inwards by r, each side stays parallel. The corner between the normals m and n moves to c - r
+//! (m + n) / (1 + m . n), the mitre. The disc that rolls inside loses area at a convex corner: r^2 (tan(b/2) - b/2) for
+//! a turn b. All signs are exact. Lengths are in metres.
 
 use glam::DVec2;
 
@@ -10,10 +10,11 @@ use crate::error::{Mended, ShapeError};
 use crate::hull::{around, check_points, direction, without_straight};
 use crate::orientation::orientation;
 
-/// The corners of a simple polygon, counter-clockwise, none of them straight, and what was mended.
+/// The corners of a simple polygon, counter-clockwise and without straight ones, and the corrections.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; too few points; two points at one place; no area; sides that cross or touch.
+/// Numbers that are NaN, infinite or out of range. Too few points. Coinciding points. No area. Sides that cross or
+/// touch.
 pub(crate) fn simple(points: &[DVec2]) -> Result<(Vec<DVec2>, Vec<Mended>), ShapeError> {
     check_points(points, "a coordinate of a point")?;
     if points.len() < 3 {
@@ -94,7 +95,7 @@ fn sides_at(corners: &[DVec2]) -> Vec<[DVec2; 2]> {
     around(&all).map(|[a, b, c]| [along(a, b), along(b, c)]).collect()
 }
 
-/// The outline moved inwards, if all sides keep their direction and none meet.
+/// The outline moved inwards, if all sides keep their direction and no sides meet.
 fn moved_inwards(corners: &[DVec2], sides: &[[DVec2; 2]], by: f64) -> Option<Vec<DVec2>> {
     let mitre = |(corner, [before, after]): (&DVec2, &[DVec2; 2])| {
         *corner + (before.perp() + after.perp()) * (by / (1.0 + before.dot(*after)))
@@ -118,7 +119,7 @@ pub(crate) fn inset(corners: &[DVec2], rounding: f64) -> Result<Vec<DVec2>, Shap
     if let Some(moved) = moved_inwards(corners, &sides, rounding) {
         return Ok(moved);
     }
-    // Halved until no number lies between what is possible and what is not.
+    // Bisection until no number lies between the possible and the impossible.
     let (mut greatest, mut too_large) = (0.0, rounding);
     loop {
         let middle = greatest + (too_large - greatest) / 2.0;
@@ -171,8 +172,8 @@ mod tests {
         assert_eq!(along, Err(ShapeError::SelfCrossing { first: 0, second: 3, at: DVec2::ZERO }));
     }
 
-    /// Law: the greatest rounding of a triangle is the radius of its inscribed circle; that of a bar is half its width; a
-    /// neck allows half its own width.
+    /// Law: the greatest rounding of a triangle is the radius of its inscribed circle. That of a bar is half its width.
+    /// A neck allows half its width.
     #[test]
     fn the_greatest_rounding_is_told() {
         let triangle = points(&[(0.0, 0.0), (4.0, 0.0), (0.0, 3.0)]);

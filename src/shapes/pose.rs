@@ -1,7 +1,7 @@
-//! Where a hull stands, and the box about it.
+//! The pose of a hull, and its bounding box.
 //!
-//! A pose maps a place p of the hull's frame to x + R p, with R = [cos, -sin; sin, cos]. Cosine and sine come anew from the
-//! angle each time, so that R stays a rotation. Lengths are in metres, angles in radians.
+//! A pose maps a point p of the hull's frame to x + R p, with R = [cos, -sin; sin, cos]. Cosine and sine are computed
+//! from the angle each time, so that R stays a rotation. Lengths are in metres, angles in radians.
 
 use glam::DVec2;
 
@@ -10,7 +10,7 @@ use crate::hull::Hull;
 /// Position and orientation of a hull's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Where the origin of the hull's frame is, in metres.
+    /// The position of the origin of the hull's frame, in metres.
     pub position: DVec2,
     /// Cosine and sine of the angle, counter-clockwise.
     pub rotation: DVec2,
@@ -86,7 +86,7 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Whether two boxes have a place in common, be it on their edges.
+    /// Whether two boxes have a point in common, inside or on their edges.
     pub fn touches(&self, other: &Self) -> bool {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }

@@ -1,8 +1,8 @@
 //! A toothed rack: the gear of infinite radius, with straight flanks.
 //!
-//! With module m and pressure angle a (the basic rack of ISO 53): pitch pi m, teeth m high above the pitch line and 1.25 m deep
-//! below it, flanks at the angle a to the normal of the pitch line. The pitch line is y = 0, teeth point along +y, and the
-//! middle of the row is at x = 0. Lengths are in metres, angles in radians.
+//! With module m and pressure angle a (the basic rack of ISO 53) the pitch is pi m. Teeth are m high above the pitch
+//! line and 1.25 m deep below it. Flanks stand at the angle a to the normal of the pitch line. The pitch line is y = 0,
+//! teeth point along +y, and the middle of the row is at x = 0. Lengths are in metres, angles in radians.
 
 use std::f64::consts::PI;
 
@@ -29,7 +29,8 @@ pub struct Rack {
 }
 
 impl Rack {
-    /// A rack with so many teeth of a module in metres, a pressure angle of 20 degrees, no backlash, a bar two modules thick.
+    /// A rack with a number of teeth and a module in metres. It has a pressure angle of 20 degrees, no backlash and a
+    /// bar two modules thick.
     pub fn new(teeth: usize, module: f64) -> Self {
         Self { teeth, module, pressure_angle: PI / 9.0, backlash: 0.0, back: 2.0 * module }
     }
@@ -47,8 +48,8 @@ impl Rack {
     /// The bar and the teeth as convex parts.
     ///
     /// # Errors
-    /// Numbers that are not finite, not above zero or out of range; no tooth or more than 1000; a pressure angle not between 0 and 45 degrees; a
-    /// negative backlash; flanks that meet at a tip or at a root.
+    /// Numbers that are NaN, infinite, out of range, or not above zero. No tooth or more than 1000. A pressure angle
+    /// not between 0 and 45 degrees. A negative backlash. Flanks that meet at a tip or at a root.
     pub fn shape(&self) -> Result<Shape, ShapeError> {
         check_count("the number of teeth", self.teeth, 1, MOST_TEETH)?;
         check_tooth(self.module, self.pressure_angle, self.backlash)?;
@@ -71,7 +72,7 @@ impl Rack {
             outline.extend(corners.map(|(aside, height)| DVec2::new(middle + aside, height)));
         }
         outline.push(DVec2::new(-end, root));
-        // The parameters give the points: none of them is for a reader to mend.
+        // The parameters give the points, so the author has nothing to correct in them.
         Ok(Shape { mended: Vec::new(), ..polygon(&outline, 0.0)? })
     }
 }

@@ -1,14 +1,15 @@
-//! Where a ray first meets a hull.
+//! Ray casting: the first point at which a ray meets a hull.
 //!
-//! The outline of a hull is made of its sides, moved outwards by the radius, and of arcs about its corners. Lengths are in metres.
+//! The outline of a hull consists of its sides, moved outwards by the radius, and of arcs about its corners. Lengths
+//! are in metres.
 
 use glam::DVec2;
 
 use crate::hull::Hull;
 use crate::nearest::nearest;
 
-/// The distance in metres from a place, along a unit direction, to where the ray first meets a hull; zero inside it; none if it misses.
-/// Place and direction are in the hull's frame.
+/// The distance in metres from a point, along a unit direction, to the first hit on the hull. It is zero inside the
+/// hull, and `None` if the ray misses. Point and direction are in the hull's frame.
 pub fn ray(hull: &Hull, from: DVec2, direction: DVec2) -> Option<f64> {
     if nearest(hull, from).distance <= hull.radius() {
         return Some(0.0);
@@ -53,8 +54,9 @@ mod tests {
     proptest! {
         #![proptest_config(cases(20, 400))]
 
-        /// Law: where a ray meets a hull its distance is zero, and before that it is not. Tolerance: roundings of numbers near 10, divided by
-        /// the sine of the angle between ray and side, which is 1e-3 at least in what is tried.
+        /// Law: the distance of a hull is zero at the point where a ray meets it, and above zero before. Tolerance:
+        /// roundings of numbers near 10, divided by the sine of the angle between ray and side. In the tried cases that
+        /// sine is at least 1e-3.
         #[test]
         fn the_place_of_meeting_is_on_the_surface(
             x in -3.0..3.0, y in -3.0..3.0, angle in 0.0..std::f64::consts::TAU, radius in 0.0..0.4,

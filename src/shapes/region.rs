@@ -1,7 +1,7 @@
-//! The region of points to which a corner or a side of a hull is the nearest (its Voronoi region), and what lies beyond its borders.
+//! Voronoi regions: the points to which a corner or side of a hull is nearest, and the features beyond their borders.
 //!
-//! Outside the core the region of a side is a strip, that of a corner a wedge between the normals of the sides that meet there. Two
-//! borders limit each: the first is passed clockwise round the hull, the second counter-clockwise.
+//! Outside the core the region of a side is a strip. The region of a corner is a wedge between the normals of its
+//! sides. Each has two borders: the first is passed clockwise round the hull, the second counter-clockwise.
 
 use glam::DVec2;
 
@@ -12,10 +12,11 @@ use crate::nearest::Feature;
 pub type Beyond = (usize, Feature);
 
 impl Hull {
-    /// How far a point is from the two borders of the region of a feature, in metres along the direction in which it passes each; positive
-    /// inside. The second numbers are the rates for a point that moves with `velocity`, in m/s. All in the hull's frame.
+    /// The distances of a point from the two borders of a feature's region, in metres; positive inside. Each is
+    /// measured along the direction in which the point passes the border. The second numbers are their rates for a
+    /// point that moves with `velocity`, in m/s. All are in the hull's frame.
     ///
-    /// None if the feature is no corner or side of the hull, or the hull is a disc: then there is no border.
+    /// `None` if the feature is not a corner or side of the hull. A disc has no border, so it gives `None` too.
     pub fn borders(&self, feature: Feature, point: DVec2, velocity: DVec2) -> Option<[(f64, f64); 2]> {
         let along = |side: usize| self.sides()[side].normal.perp();
         let seen = |from: DVec2, inwards: DVec2| ((point - from).dot(inwards), velocity.dot(inwards));
@@ -51,9 +52,9 @@ impl Hull {
     }
 }
 
-/// What a point comes to that leaves the region of a feature of `hulls[hull]`, by its first or second border. Hulls that share a corner
-/// are parts of one shape; the outline goes on at the part that owns it. None beyond the end of a side in a hollow: another part is nearest
-/// there.
+/// The hull and feature that a point enters when it leaves the region of a feature of `hulls[hull]`. `second` chooses
+/// the border. Hulls that share a corner are parts of one shape. The outline continues at the part that owns the
+/// corner. `None` beyond the end of a side in a hollow: another part is nearest there.
 pub fn beyond(hulls: &[&Hull], hull: usize, feature: Feature, second: bool) -> Option<Beyond> {
     let of = hulls[hull];
     match feature {
@@ -119,8 +120,8 @@ mod tests {
     proptest! {
         #![proptest_config(crate::cases(11, 2000))]
 
-        /// Law: as long as both borders are positive, and only then, a feature is the nearest; beyond the one that is passed lies the
-        /// feature that is nearest then.
+        /// Law: a feature is the nearest if and only if both its borders are positive. Beyond a passed border lies the
+        /// next nearest feature.
         #[test]
         fn borders_part_the_regions(turn in 0.0..std::f64::consts::TAU, step in 0.001..0.3_f64, which in 0..3_usize) {
             let shape = match which {
@@ -154,8 +155,8 @@ mod tests {
         }
     }
 
-    /// Law: an L is cut into parts. Once round its outline each part hands over to the next where they meet, and none follows beyond
-    /// the concave corner, where a side of another part is nearest.
+    /// Law: an L is cut into parts. Once round its outline each part leads to the next at their meeting point. At the
+    /// concave corner no part follows, because a side of another part is nearest.
     #[test]
     fn parts_hand_over_along_the_outline() {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(DVec2::from);

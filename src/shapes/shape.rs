@@ -1,7 +1,7 @@
-//! Shapes by their parameters, each turned into rounded convex hulls.
+//! Shapes by their parameters, each converted into rounded convex hulls.
 //!
-//! Measures are those of the outside. Rounding goes inwards: the core is smaller by the rounding, and the hull grows by it
-//! again. Corners are round then, and the sides stay where they are. Lengths are in metres.
+//! Measures are those of the outside. Rounding goes inwards: the core is smaller by the rounding, and the hull grows by
+//! it again. So corners become round, and the sides stay in place. Lengths are in metres.
 
 use glam::DVec2;
 
@@ -11,12 +11,12 @@ use crate::error::{Mended, ShapeError};
 use crate::hull::{Hull, LEAST, check_count, check_number, check_radius};
 use crate::outline::{inset, lost_area, simple};
 
-/// What a shape becomes.
+/// A shape as rounded convex hulls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// The convex parts; they may overlap.
     pub hulls: Vec<Hull>,
-    /// What was changed in the points as given.
+    /// The corrections of the given points.
     pub mended: Vec<Mended>,
     /// Area that rounding took off the corners, in m2.
     pub lost_area: f64,
@@ -43,7 +43,7 @@ impl Shape {
 /// A disc with center and radius in metres.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; a radius that is not above zero.
+/// Numbers that are NaN, infinite or out of range; a radius that is not above zero.
 pub fn disc(center: DVec2, radius: f64) -> Result<Shape, ShapeError> {
     positive(radius, "the radius")?;
     Hull::disc(center, radius).map(Shape::of)
@@ -52,7 +52,7 @@ pub fn disc(center: DVec2, radius: f64) -> Result<Shape, ShapeError> {
 /// A bar with round ends about the segment between two points, in metres.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; a radius that is not above zero; both ends at one place.
+/// Numbers that are NaN, infinite or out of range. A radius that is not above zero. Coinciding ends.
 pub fn capsule(from: DVec2, to: DVec2, radius: f64) -> Result<Shape, ShapeError> {
     positive(radius, "the radius")?;
     Hull::capsule(from, to, radius).map(Shape::of)
@@ -62,8 +62,8 @@ pub fn capsule(from: DVec2, to: DVec2, radius: f64) -> Result<Shape, ShapeError>
 /// it is a capsule, or a disc.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; a width or height that is not above zero; a rounding below zero or above half
-/// of the smaller measure.
+/// Numbers that are NaN, infinite or out of range. A width or height that is not above zero. A rounding below zero or
+/// above half of the smaller measure.
 pub fn rectangle(width: f64, height: f64, rounding: f64) -> Result<Shape, ShapeError> {
     positive(width, "the width")?;
     positive(height, "the height")?;
@@ -88,8 +88,8 @@ const MOST_SIDES: usize = 10_000;
 /// are rounded, in metres.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; fewer than three sides or more than 10 000; a radius that is not above zero; a rounding below zero
-/// or above the radius of the inscribed circle.
+/// Numbers that are NaN, infinite or out of range. Fewer than three sides or more than 10 000. A radius that is not
+/// above zero. A rounding below zero or above the radius of the inscribed circle.
 pub fn regular(sides: usize, radius: f64, rounding: f64) -> Result<Shape, ShapeError> {
     check_count("the number of sides", sides, 3, MOST_SIDES)?;
     positive(radius, "the radius")?;
@@ -113,8 +113,8 @@ pub fn regular(sides: usize, radius: f64, rounding: f64) -> Result<Shape, ShapeE
 /// concave one is cut into convex parts.
 ///
 /// # Errors
-/// Numbers that are not finite or out of range; fewer than three points; two points at one place; no area; sides that cross or
-/// touch; a rounding below zero, or so large that sides vanish or meet.
+/// Numbers that are NaN, infinite or out of range. Fewer than three points. Coinciding points. No area. Sides that
+/// cross or touch. A rounding below zero, or so large that sides vanish or meet.
 pub fn polygon(points: &[DVec2], rounding: f64) -> Result<Shape, ShapeError> {
     let (corners, mut mended) = simple(points)?;
     check_rounding(rounding, f64::INFINITY)?;
@@ -142,7 +142,7 @@ pub fn compound(parts: &[Shape]) -> Result<Shape, ShapeError> {
 }
 
 /// # Errors
-/// A number that is not finite, not above zero, or out of range.
+/// An error for a number that is NaN, infinite, not above zero, or out of range.
 pub(crate) fn positive(number: f64, quantity: &'static str) -> Result<(), ShapeError> {
     check_number(number, quantity)?;
     if number <= 0.0 {
@@ -155,7 +155,7 @@ pub(crate) fn positive(number: f64, quantity: &'static str) -> Result<(), ShapeE
 }
 
 /// # Errors
-/// A rounding that is not finite, below zero, or above the greatest possible.
+/// An error for a rounding that is NaN, infinite, below zero, or above the greatest possible.
 fn check_rounding(rounding: f64, greatest: f64) -> Result<(), ShapeError> {
     if rounding < 0.0 {
         return Err(ShapeError::Negative { quantity: "the rounding", found: rounding });
@@ -173,7 +173,8 @@ mod tests {
     use crate::moments::AreaMoments;
     use crate::pose::{Bounds, Pose};
 
-    /// Law: area = that of the sharp shape, less what rounding took. Tolerance: a few dozen terms below `size`^2 round.
+    /// Law: area = that of the sharp shape, minus the loss by rounding. Tolerance: a few dozen terms below `size`^2
+    /// round.
     fn assert_area(shape: &Shape, sharp: f64, size: f64) {
         let found = AreaMoments::union_of(&shape.hulls).area;
         assert!((found + shape.lost_area - sharp).abs() < 64.0 * f64::EPSILON * size * size, "{found} {shape:?}");
@@ -210,7 +211,7 @@ mod tests {
         assert!(matches!(regular(2, 1.0, 0.0), Err(ShapeError::TooFew { found: 2, .. })));
     }
 
-    /// Convex corners are rounded, the reflex corner stays sharp, as the rounded parts meet there on both sides.
+    /// Convex corners are rounded. The reflex corner stays sharp, because the rounded parts meet there on both sides.
     #[test]
     fn a_concave_polygon_is_cut_and_said() {
         let bracket =

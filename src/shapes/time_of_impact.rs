@@ -1,15 +1,16 @@
-//! When two moving hulls touch first.
+//! The time of impact of two moving hulls, by conservative advancement (Mirtich 1996).
 //!
-//! **Conservative advancement** (Mirtich 1996): along the normal n of the present separation the gap between corner i of one
-//! core and corner j of the other is a known function of time, and the surfaces cannot touch before the least of these gaps is
-//! zero. With arms u, w from the origins, spins p, q and relative velocity v, the gap after a time s is at least each of
+//! The normal n of the current separation is fixed. Along it the gap between corners i and j of the two cores is a
+//! known function of time. The surfaces cannot touch before the least of these gaps is zero. The arms from the origins
+//! are u and w, the spins p and q, and the relative velocity v. Then the gap after a time s is at least each of
 //!
-//! * g + s (n . v + q n . w' - p n . u') - s^2 (p^2 |u| + q^2 |w|) / 2, with ' a quarter turn: Taylor, |second derivative|;
+//! * g + s (n . v + q n . w' - p n . u') - s^2 (p^2 |u| + q^2 |w|) / 2, with ' a quarter turn. This is Taylor's formula
+//!   with a bound on the second derivative;
 //! * g + s n . v - s (|p| |u| + |q| |w|): the speeds of the corners;
 //! * g + s n . v - 2 (|u| + |w|): no corner is farther away than the far side of its circle.
 //!
-//! Time goes on to where all three have been zero for some pair, and the separation is found anew. The first bound makes the
-//! steps those of Newton. No step leads past a contact. Times are in s, lengths in m, spins in rad/s.
+//! Time advances until all three have been zero for some pair, and the separation is computed again. The first bound
+//! makes the steps those of Newton. No step leads past a contact. Times are in s, lengths in m, spins in rad/s.
 
 use glam::DVec2;
 
@@ -20,7 +21,7 @@ use crate::pose::Pose;
 /// A motion with constant velocity and spin. The hull turns about the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// Where the hull is at time zero.
+    /// The pose of the hull at time zero.
     pub start: Pose,
     /// Velocity of the origin of its frame, in m/s.
     pub velocity: DVec2,
@@ -40,16 +41,17 @@ impl Motion {
     }
 }
 
-/// The first time in `0..=within`, in seconds, at which the surfaces touch; zero if they do at the start, nothing if they do
-/// not in that time.
+/// The first time in `0..=within`, in seconds, at which the surfaces touch. Zero if they touch at the start, `None` if
+/// they do not touch in that time.
 ///
-/// Surfaces count as touching below 1e-12 of the size of the hulls, or below what rounding leaves of the path between
-/// them. A near miss by less counts as a contact.
+/// Surfaces count as touching below 1e-12 of the size of the hulls, or below the rounding of their path. A near miss by
+/// less counts as a contact.
 pub fn time_of_impact(a: &Hull, motion_a: &Motion, b: &Hull, motion_b: &Motion, within: f64) -> Option<f64> {
     let start = motion_b.start.position - motion_a.start.position;
     let velocity = motion_b.velocity - motion_a.velocity;
     let size = [a, b].iter().map(|hull| hull.reach_of_core(DVec2::ZERO) + hull.radius()).sum::<f64>();
-    // A place rounds when the path is added, when the arm is turned, and twice when both are taken to another frame.
+    // A position rounds when the path is added and when the arm is turned. It rounds twice when both are taken to
+    // another frame.
     let rounding = 4.0 * f64::EPSILON * (start.length() + velocity.length() * within + size);
     let touching = f64::max(1e-12 * size, rounding);
     let mut time = 0.0;
@@ -67,7 +69,7 @@ pub fn time_of_impact(a: &Hull, motion_a: &Motion, b: &Hull, motion_b: &Motion, 
             return None;
         }
         if next == time {
-            // No time lies between now and the contact.
+            // No representable time lies between this one and the contact.
             return Some(time);
         }
         time = next;
@@ -88,7 +90,7 @@ struct Arm {
     place: f64,
     /// Rate of the place, in m/s.
     rate: f64,
-    /// Distance from the origin of its own hull, in m.
+    /// Distance from the origin of its hull, in m.
     length: f64,
     /// Spin in rad/s, without sign.
     spin: f64,
@@ -116,7 +118,7 @@ fn free_time(a: &Course, b: &Course, velocity: DVec2, normal: DVec2, distance: f
     let mut least = f64::INFINITY;
     for u in a.arms(normal) {
         for w in b.arms(normal) {
-            // No gap is less than the distance; rounding may say so.
+            // No gap is less than the distance, although rounding may make it so.
             let gap = f64::max(w.place - u.place - radii, distance);
             let rate = parting + w.rate - u.rate;
             let bend = u.spin * u.spin * u.length + w.spin * w.spin * w.length;
@@ -157,7 +159,7 @@ mod tests {
         Motion { start: Pose::new(position, angle), velocity, spin }
     }
 
-    /// What the definition asks: apart at all sampled times before, touching at the time found.
+    /// Checks the definition: apart at all sampled times before, touching at the time found.
     fn check(a: &Hull, motion_a: &Motion, b: &Hull, motion_b: &Motion, within: f64) -> Option<f64> {
         let found = time_of_impact(a, motion_a, b, motion_b, within);
         let gap = |time: f64| distance(a, &motion_a.at(time), b, &motion_b.at(time));
@@ -187,7 +189,7 @@ mod tests {
         assert_eq!(time_of_impact(&disc, &left, &disc, &left, 1.0), Some(0.0));
     }
 
-    /// Closed form: a rod of half length 1 turns at 1 rad/s; its end meets a wall at height h when sin t = h.
+    /// Closed form: a rod of half length 1 turns at 1 rad/s. Its end meets a wall at height h when sin t = h.
     #[test]
     fn a_turning_rod_meets_a_wall_at_the_arc_sine() {
         let rod = Hull::capsule(-DVec2::X, DVec2::X, 0.0).unwrap();
@@ -208,8 +210,8 @@ mod tests {
     proptest! {
         #![proptest_config(crate::cases(7, 1000))]
 
-        /// Law: no bullet passes a wall of 1 mm, spinning at up to 1e4 rad/s and flying at up to 1 km/s. Each starts in front
-        /// of it and would end behind.
+        /// Law: no bullet passes a wall of 1 mm. Its spin is at most 1e4 rad/s and its speed at most 1 km/s. Each
+        /// starts in front of the wall, and its free flight would end behind it.
         #[test]
         fn no_bullet_passes_a_thin_wall(
             corners in prop::collection::vec(0.0..1.0, 1..7), radius in 0.0..0.5, size in 0.001..0.02,

@@ -1,13 +1,12 @@
-//! Memory that begins where a line of the cache begins.
+//! Allocation of arrays at the beginning of a cache line (64 bytes).
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
 /// Bytes of a line of the cache, and of the widest vector.
 const LINE: usize = 64;
 
-/// The allocator of the system, but for one thing: whatever is at least a few lines long begins at a line of the cache. Vectors
-/// that are loaded from arrays otherwise lie across two lines, each of them, which made ticks of
-/// 10 000 discs 13 % slower.
+/// The allocator of the system, except that each allocation of several cache lines begins at a cache line. Otherwise
+/// each vector that is loaded from an array lies across two lines, and ticks of large scenes take longer.
 ///
 /// A program that runs large scenes with the library makes it its own:
 ///
@@ -19,15 +18,15 @@ const LINE: usize = 64;
 /// ```
 pub struct Lines;
 
-/// Gives memory that is not used back to the system, where the C library can. It keeps what a large scene took while it was read,
-/// for whoever asks next: up to twice the largest list.
+/// Returns unused memory to the system, if the C library can. The C library keeps the memory that the reading of a
+/// large scene took, for later allocations. It amounts to up to twice the largest list.
 pub fn give_back() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
         unsafe extern "C" {
             fn malloc_trim(pad: usize) -> std::ffi::c_int;
         }
-        // SAFETY: it is declared as in `malloc.h`, locks what it works on, and touches nothing that is allocated.
+        // SAFETY: the declaration is that of `malloc.h`. The function locks its data, and touches no allocated memory.
         unsafe { malloc_trim(0) };
     }
 }

@@ -1,4 +1,5 @@
-//! Which instructions the processor has, and kernels compiled for each of them.
+//! Vector instructions of the processor, chosen at run time, and kernels compiled for each level (function
+//! multiversioning).
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,8 +14,8 @@ use super::x86::{F64x2, F64x4, F64x8};
 pub enum Level {
     /// One number at a time. On any processor.
     Scalar,
-    /// What each processor of the architecture has: two numbers at once on x86-64; elsewhere one, as far as the compiler
-    /// finds no more.
+    /// The instructions of every processor of the architecture: two numbers at once on x86-64. Elsewhere it is one
+    /// number, unless the compiler vectorises.
     Baseline,
     /// Four numbers at once.
     Avx2,
@@ -50,7 +51,7 @@ impl Level {
         *BEST.get_or_init(|| available().last().unwrap_or(Self::Scalar))
     }
 
-    /// The word for it on the command line.
+    /// Its word on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scalar => "scalar",
@@ -71,7 +72,7 @@ impl FromStr for Level {
     type Err = String;
 
     /// # Errors
-    /// A word that is none of them, or a level that this processor does not have.
+    /// An unknown word, or a level that this processor does not have.
     fn from_str(word: &str) -> Result<Self, String> {
         let known = Self::ALL.into_iter().find(|level| level.name() == word);
         let level = known.ok_or_else(|| "expected `scalar`, `baseline`, `avx2` or `avx512`".to_owned())?;
@@ -95,7 +96,7 @@ impl Default for Level {
 
 /// Work that can be done with any number of lanes.
 pub trait Kernel {
-    /// What it returns.
+    /// The result.
     type Output;
 
     /// Does it. To be marked `#[inline(always)]`, like all that it calls: only then it is compiled for each level.
@@ -112,7 +113,7 @@ pub fn run<K: Kernel>(level: Level, kernel: K) -> K::Output {
         Level::Scalar => kernel.run::<f64>(),
         #[cfg(target_arch = "x86_64")]
         Level::Baseline => kernel.run::<F64x2>(),
-        // SAFETY: the processor has the instructions, as was asserted.
+        // SAFETY: the assertion has checked that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => unsafe { with_avx2(kernel) },
         // SAFETY: likewise.

@@ -1,11 +1,11 @@
-//! Numbers side by side: the same arithmetic on one, two, four or eight of them at once.
+//! Vectors of numbers (SIMD): the same arithmetic on one, two, four or eight numbers at once.
 //!
-//! A kernel is written once, generic over [`Lanes`], and compiled for each [`Level`] of the processor; which one runs is
-//! chosen when the program starts. All levels give the same bits: each operation is the one of IEEE 754 on each lane,
-//! nothing is fused, and sums over lanes are kept apart in eight partial sums whatever the width.
+//! A kernel is written once, generic over [`Lanes`], and compiled for each [`Level`] of the processor. The program
+//! chooses the level when it starts. All levels give the same bits. Each operation is that of IEEE 754 on each lane,
+//! and no operations are fused. Sums over lanes are eight partial sums, whatever the width.
 //!
-//! This is the one place of the project where `unsafe` stands: vector instructions may be called only where the
-//! processor has them, and [`run`] looks before it calls.
+//! Only this crate of the project uses `unsafe`. Vector instructions are sound only on processors that have them, and
+//! [`run`] checks that before it calls.
 #![expect(
     unsafe_code,
     reason = "vector instructions, and an allocator that aligns, cannot be called otherwise; each call says why it is sound"
@@ -39,7 +39,7 @@ pub use vectors::Vectors;
 #[repr(C, align(64))]
 pub struct Record(pub [f64; BLOCK]);
 
-/// Has a line of the cache brought near that will be read soon. It may be any place: nothing is read from what is not there.
+/// Prefetches a cache line that will be read soon. The pointer may be invalid: nothing is read through it.
 #[inline(always)]
 pub fn fetch<T>(place: *const T) {
     #[cfg(target_arch = "x86_64")]
@@ -51,7 +51,7 @@ pub fn fetch<T>(place: *const T) {
     let _ = place;
 }
 
-/// Numbers in a block. Partial sums are as many, whatever the number of lanes.
+/// The count of numbers in a block. It is also the count of partial sums, whatever the number of lanes.
 pub const BLOCK: usize = 8;
 
 /// Several numbers side by side.
@@ -61,10 +61,10 @@ pub trait Lanes:
     /// How many: a divisor of [`BLOCK`].
     const COUNT: usize;
 
-    /// Half as many, for what is left of a list; one stays one.
+    /// Half the number of lanes, for the rest of a list. One lane stays one.
     type Half: Lanes;
 
-    /// For each lane yes or no.
+    /// One truth value for each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 
     /// The same number in all lanes.
@@ -79,7 +79,7 @@ pub trait Lanes:
     /// Numbers of two in turns, first of the first: the first half of them, and the other.
     fn interleaved(first: Self, second: Self) -> (Self, Self);
 
-    /// What was [interleaved](Lanes::interleaved).
+    /// The inverse of [interleaving](Lanes::interleaved).
     fn parted(low: Self, high: Self) -> (Self, Self);
 
     /// Each number twice in a row: the first half of them, and the other.
@@ -103,8 +103,9 @@ pub trait Lanes:
     /// The records at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
     fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK];
 
-    /// The records of two lists of places, each written as that of the first number, transposed: of the first six numbers what the
-    /// second is more than the first; the last two numbers of the second, then those of the first.
+    /// The records of pairs, transposed. `first` and `second` hold their indices times [`BLOCK`]. The result holds the
+    /// first six numbers of the second record minus those of the first. The last two numbers of the second record
+    /// follow, and then those of the first.
     ///
     /// # Safety
     /// The first [`Lanes::COUNT`] places of both lists are those of records.
@@ -125,7 +126,7 @@ pub trait Lanes:
         (second, [first[BLOCK - 2], first[BLOCK - 1]])
     }
 
-    /// Writes as many records to the beginning of a list: item `k` holds the `k`th two numbers of each.
+    /// Writes [`Lanes::COUNT`] records to the beginning of a list. Item `k` holds the `k`th two numbers of each record.
     fn store_records(numbers: [Vectors<Self>; BLOCK / 2], records: &mut [Record]);
 
     /// The quads at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
@@ -148,7 +149,7 @@ pub trait Lanes:
         [Self::load(&numbers[0]), Self::load(&numbers[1]), Self::load(&numbers[2]), Self::load(&numbers[3])]
     }
 
-    /// Writes quads to as many places of a list, one after the other.
+    /// Writes quads to the given indices of a list, one after the other.
     ///
     /// # Safety
     /// The places are those of quads.
@@ -176,10 +177,10 @@ pub trait Lanes:
     /// The magnitude of each with the sign of the other.
     fn copysign(self, sign: Self) -> Self;
 
-    /// Where it is less.
+    /// True in each lane whose number is less.
     fn lt(self, other: Self) -> Self::Mask;
 
-    /// Where it is greater.
+    /// True in each lane whose number is greater.
     #[inline(always)]
     fn gt(self, other: Self) -> Self::Mask {
         other.lt(self)
@@ -191,17 +192,17 @@ pub trait Lanes:
     /// A mask as bits.
     fn bits(mask: Self::Mask) -> u8;
 
-    /// The first where the mask says so, else the second.
+    /// The first number in lanes whose mask is true, else the second.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// Zero where a number is less; zero for what is no number.
+    /// Zero in place of negative numbers and of NaN.
     #[inline(always)]
     fn at_least_zero(self) -> Self {
         let zero = Self::splat(0.0);
         Self::select(self.gt(zero), self, zero)
     }
 
-    /// The number where the mask says so, else zero.
+    /// The number in lanes whose mask is true, else zero.
     #[inline(always)]
     fn only(self, mask: Self::Mask) -> Self {
         Self::select(mask, self, Self::splat(0.0))

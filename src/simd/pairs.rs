@@ -1,6 +1,7 @@
-//! Pairs of places in lists: the records of both sides are loaded together, and both sides are pushed.
+//! Pairs of indices into lists (gather and scatter). The records of both sides are loaded together, and both sides
+//! receive a push.
 //!
-//! Places are looked at once, when the pairs are listed, and not at each access.
+//! Indices are checked once, when the pairs are listed, and not at each access.
 
 use glam::DVec2;
 
@@ -8,8 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{BLOCK, Lanes, Record};
 
-/// Eight pairs: the first place of each, then the second. A line of the cache. A place is written as that of the first number of a
-/// record, [`BLOCK`] times itself: so the processor finds records, forces and torques without working out where they are.
+/// Eight pairs: the first index of each, then the second, in one cache line. Each index is stored times [`BLOCK`],
+/// which is the index of the first number of a record. So the processor addresses records, forces and torques without a
+/// multiplication.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(64))]
 pub struct PairBlock {
@@ -44,7 +46,7 @@ pub struct PairBlocks {
     records: usize,
 }
 
-/// What is saved of blocks. Bounds are found anew, as the kernels trust them.
+/// The saved form of blocks. Bounds are computed from the indices, because the kernels trust them.
 #[derive(Serialize, Deserialize)]
 struct Listed {
     blocks: Vec<[[u32; BLOCK]; 2]>,
@@ -88,12 +90,13 @@ impl TryFrom<Listed> for PairBlocks {
 const NOT_A_PLACE: &str = "places of pairs are not among those there are";
 
 impl PairBlocks {
-    /// Lists pairs anew.
+    /// Replaces the list of pairs.
     ///
     /// # Panics
-    /// If a place is [`MOST_PLACES`] or more, or the iterator gives more pairs than it said; then the list is empty.
+    /// If an index is [`MOST_PLACES`] or more, or the iterator gives more pairs than it announced. The list is then
+    /// empty.
     pub fn list(&mut self, pairs: impl ExactSizeIterator<Item = (u32, u32)>) {
-        // What kernels trust is put back when all places have been looked at.
+        // The fields that kernels trust are set when all indices have been checked.
         let Self { mut blocks, .. } = std::mem::take(self);
         blocks.clear();
         blocks.resize(pairs.len().div_ceil(BLOCK), PairBlock::default());
@@ -108,7 +111,8 @@ impl PairBlocks {
         *self = Self { blocks, bound, sides: Vec::new(), records: bound };
     }
 
-    /// The records of both sides stand elsewhere: for each place where that is, and how many records there are.
+    /// Sets other indices for the records of both sides. `of` maps each index to that of its record, and `count` is the
+    /// number of records.
     ///
     /// # Panics
     /// If one is not there; then all is as before.
@@ -164,12 +168,12 @@ impl PairedRecords<'_> {
     #[inline(always)]
     pub fn load<V: Lanes>(&self, block: usize, lane: usize) -> ([V; BLOCK], [V; 2]) {
         let PairBlock { first, second } = &self.sides[block];
-        // SAFETY: all places were below the bound when they were listed, and there are as many records.
+        // SAFETY: all indices were below the bound when they were listed, and the list has at least that many records.
         unsafe { V::record_pairs(self.records, &first[lane..], &second[lane..]) }
     }
 
-    /// Has the records of the second sides of a block brought near, where there is such a block: those of the first sides were
-    /// second ones a few blocks before. Without it half of the time of the loads is spent on waiting.
+    /// Prefetches the records of the second sides of a block, if there is such a block. Those of the first sides were
+    /// second sides a few blocks before. Without it the loads wait for half of their time.
     #[inline(always)]
     pub fn fetch(&self, block: usize) {
         if let Some(PairBlock { second, .. }) = self.sides.get(block) {
@@ -200,7 +204,8 @@ impl PairedRecords<'_> {
     }
 }
 
-/// What the pairs of a block give to their sides: a force to the second, the opposite to the first, a torque to each.
+/// The forces and torques of the pairs of a block. The force acts on the second side, and its opposite on the first.
+/// Each side has its torque.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct Pushes {
@@ -213,12 +218,13 @@ pub struct Pushes {
 }
 
 impl Pushes {
-    /// Nothing.
+    /// No forces and no torques.
     pub const NONE: Self =
         Self { force: [DVec2::ZERO; BLOCK], torque_first: [0.0; BLOCK], torque_second: [0.0; BLOCK] };
 
-    /// Adds the pushes of some pairs of a block, one after the other, to forces and torques of bodies in a row from place
-    /// `first` on. Nothing is done unless both sides of all pairs are among them, which is returned.
+    /// Adds the pushes of some pairs of a block, one after the other, to forces and torques of consecutive bodies.
+    /// `first` is the index of the first of these bodies. If some side of the pairs is not among them, it does nothing
+    /// and returns false.
     #[inline(always)]
     pub fn give(
         &self,
@@ -231,12 +237,12 @@ impl Pushes {
         if !pairs.are_among(block, first, force.len().min(torque.len())) {
             return false;
         }
-        // Where body 0 would stand: so nothing is taken off at each access.
+        // The address of body 0, so that no access needs a subtraction.
         let bodies = (force.as_mut_ptr().wrapping_sub(first), torque.as_mut_ptr().wrapping_sub(first));
         if lanes == u8::MAX {
             let mut lane = 0;
             while lane < BLOCK {
-                // SAFETY: both sides of all pairs are there, as was looked at.
+                // SAFETY: both sides of all pairs were checked to be in range.
                 unsafe { self.give_one(block, lane, bodies) };
                 lane += 1;
             }
@@ -252,11 +258,11 @@ impl Pushes {
     }
 
     /// # Safety
-    /// Forces and torques of both sides of the pair stand so many places behind those of body 0.
+    /// The indices of both sides of the pair are within the lists, counted from body 0.
     #[inline(always)]
     unsafe fn give_one(&self, block: &PairBlock, lane: usize, (force, torque): (*mut DVec2, *mut f64)) {
         let (a, b) = (block.first[lane] as usize, block.second[lane] as usize);
-        // Of eight bytes times its place a body has eight for its torque and twice as many for its force.
+        // A stored index is eight times the body's index. A body has eight bytes of torque and sixteen of force.
         let force = |place: usize| force.wrapping_byte_add(place * size_of::<DVec2>() / BLOCK);
         let torque = |place: usize| torque.wrapping_byte_add(place * size_of::<f64>() / BLOCK);
         // SAFETY: as the caller promises. Both may be the same body: one is done after the other.

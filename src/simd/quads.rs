@@ -1,7 +1,7 @@
-//! Four numbers that belong together, such as three velocities and a mass: those of two places are loaded, changed and written back,
-//! for several pairs of places at once.
+//! Four numbers that belong together, such as three velocities and a mass. Those of both sides are loaded, changed and
+//! written back, for several pairs at once.
 //!
-//! Places are looked at once, when the pairs are listed, and not at each access.
+//! Indices are checked once, when the pairs are listed, and not at each access.
 
 use super::{BLOCK, Lanes};
 
@@ -33,7 +33,7 @@ impl QuadPairs {
         self.blocks.len()
     }
 
-    /// Whether there are none.
+    /// Whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.blocks.is_empty()
     }
@@ -48,7 +48,7 @@ impl QuadPairs {
     /// The quads of these pairs.
     ///
     /// # Panics
-    /// If there are fewer than the places say.
+    /// If `quads` is shorter than the indices require.
     pub fn of<'a>(&'a self, quads: &'a mut [Quad]) -> PairedQuads<'a> {
         assert!(self.bound <= quads.len(), "a pair of what is not there");
         PairedQuads { blocks: &self.blocks, quads }
@@ -67,12 +67,12 @@ impl PairedQuads<'_> {
     #[inline(always)]
     pub fn load<V: Lanes>(&self, block: usize, lane: usize) -> [[V; QUAD]; 2] {
         let [first, second] = &self.blocks[block];
-        // SAFETY: all places are below the bound, and there are as many quads.
+        // SAFETY: all indices are below the bound, and the list has at least that many quads.
         unsafe { [V::quads(self.quads, &first[lane..]), V::quads(self.quads, &second[lane..])] }
     }
 
-    /// Writes what was [loaded](PairedQuads::load): the first sides, then the second ones. Of a place that stands several times the
-    /// last remains.
+    /// Writes what was [loaded](PairedQuads::load): the first sides, then the second ones. If an index occurs several
+    /// times, the last write remains.
     #[inline(always)]
     pub fn store<V: Lanes>(&mut self, block: usize, lane: usize, [a, b]: [[V; QUAD]; 2]) {
         let [first, second] = &self.blocks[block];

@@ -2,7 +2,7 @@ use glam::DVec2;
 
 use super::*;
 
-/// Each operation on numbers that are hard to get right, as bits.
+/// Each operation on numbers that are hard to round, as bits.
 struct Everything<'a> {
     numbers: &'a [f64; BLOCK],
     others: &'a [f64; BLOCK],
@@ -76,7 +76,7 @@ impl Kernel for Everything<'_> {
     }
 }
 
-/// Promise: all levels give the same bits. What is no number may have any bits of those that are none.
+/// Promise: all levels give the same bits. A NaN may have any of its bit patterns.
 #[test]
 fn all_levels_give_the_same_bits() {
     let numbers = [1.0 / 3.0, -0.0, f64::MIN_POSITIVE / 8.0, -2.5e300, f64::INFINITY, f64::NAN, 7.0, 0.0];
@@ -92,7 +92,7 @@ fn all_levels_give_the_same_bits() {
     assert_eq!(expected[expected.len() - 5], 0b0000_1100);
 }
 
-/// Promise: where records of a few places alone are listed, pairs have the same sides, and their bodies stay where they are.
+/// Promise: if only the records of a few indices are listed, pairs keep their sides and bodies their indices.
 #[test]
 fn records_that_stand_elsewhere_are_found() {
     let record = |place: u32| Record(std::array::from_fn(|column| f64::from(place * 10) + column as f64));
@@ -154,7 +154,7 @@ fn pushes_reach_no_body_outside_the_row() {
     assert_eq!(given(places, 3, 3).1, [DVec2::new(-4.0, 0.0), DVec2::new(-4.0, 0.0), DVec2::new(8.0, 0.0)]);
 }
 
-/// What a call does that panics, as its message.
+/// The message of a call that panics.
 fn panics(call: impl FnOnce()) -> bool {
     std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).is_err()
 }
@@ -179,7 +179,7 @@ fn lists_that_cannot_be_leave_nothing_behind_that_kernels_trust() {
     assert_eq!(apart[0], -1.0);
 }
 
-/// Quads of two lists of places, and what is left of them after both were written back with other numbers.
+/// Quads of two lists of indices, and the quads after both sides were written back with other numbers.
 struct Swapped<'a>(&'a mut [Quad], &'a QuadPairs);
 
 impl Kernel for Swapped<'_> {
@@ -212,7 +212,7 @@ fn quads_are_loaded_and_stored_alike_at_all_levels() {
             quads
         })
         .collect();
-    // Place 0 stands in one pair, as the first with 19: it has the numbers that the kernel makes of both.
+    // Index 0 occurs in one pair, as the first with 19. It has the numbers that the kernel makes of both.
     assert_eq!(results[0][0], Quad([191.0, 190.0, 195.0, 193.0]));
     assert_eq!(results[0][19], Quad([0.0, 1.0, 3.0, -188.0]));
     assert!(results.iter().all(|result| *result == results[0]));

@@ -1,6 +1,7 @@
-//! Vectors of the plane side by side, as they lie in memory: both numbers of the first, both of the second, and so on.
+//! Vectors of the plane side by side, in the order of memory. It is x and y of the first vector, then of the second,
+//! and so on.
 //!
-//! What is done to both numbers of a vector alike needs no other order, and to bring them into one takes longer than to add.
+//! Operations that treat x and y alike need no other order. To sort x and y apart takes longer than an addition.
 
 use std::ops::{Add, Mul, Sub};
 

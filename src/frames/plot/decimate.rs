@@ -1,4 +1,4 @@
-//! Fewer samples that draw the same curve: of each column the first, the lowest, the highest and the last one.
+//! Decimation of a curve by minimum and maximum: each column keeps its first, lowest, highest and last sample.
 
 use super::Sample;
 
@@ -23,7 +23,7 @@ impl Decimator {
     pub fn push(&mut self, number: i64, sample: Sample) {
         match &mut self.column {
             Some(column) if column.number == number => {
-                // What is no number is neither low nor high; the first number is both.
+                // NaN is neither low nor high. The first number is both.
                 if sample.y < column.lowest.y || column.lowest.y.is_nan() {
                     column.lowest = sample;
                 }
@@ -49,7 +49,7 @@ impl Decimator {
         }
     }
 
-    /// What is left, from early to late.
+    /// The remaining samples, from early to late.
     pub fn finish(mut self) -> Vec<Sample> {
         self.close();
         self.kept
@@ -60,8 +60,8 @@ impl Decimator {
 mod tests {
     use super::*;
 
-    /// Law: the lowest and the highest value of each column are kept, and its first and last one; at most four of them.
-    /// Exact: samples are chosen, never computed.
+    /// Law: each column keeps its lowest, highest, first and last sample, hence at most four. Exact: samples are
+    /// chosen, never computed.
     #[test]
     fn the_extremes_of_every_column_are_kept() {
         let noise = |place: u32| {

@@ -1,4 +1,4 @@
-//! What the colours of a film mean, and a few facts of its scene, as plain data.
+//! The legend of a film: its colours, and a few facts of its scene, as plain data.
 
 /// A legend: entries, and lines of facts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,13 +14,13 @@ pub struct Legend {
 /// One line of a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegendEntry {
-    /// What it is.
+    /// The words.
     pub label: String,
-    /// What it looks like.
+    /// The picture.
     pub mark: LegendMark,
 }
 
-/// What stands before a line of a legend.
+/// The mark before a line of a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LegendMark {
     /// A patch in the colour of the body at this place of the cast.

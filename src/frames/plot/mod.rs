@@ -1,4 +1,4 @@
-//! What plots show, as plain data: sampled from a run beforehand, or read from a file.
+//! Plots as plain data, sampled from a run beforehand, or read from a file.
 
 mod decimate;
 mod legend;
@@ -14,31 +14,31 @@ pub use names::{common, headed, with_unit};
 pub struct Sample {
     /// Time in seconds.
     pub time: f64,
-    /// What is plotted to the right; equal to the time if that is.
+    /// The value to the right; for a plot over time, the time.
     pub x: f64,
-    /// What is plotted upwards.
+    /// The value upwards.
     pub y: f64,
 }
 
-/// A curve: samples from early to late. One that is not finite leaves a gap.
+/// A curve: samples from early to late. A NaN or infinite sample leaves a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// What tells it from the other curves of the plot.
+    /// The label among the curves of the plot.
     pub label: String,
-    /// The place in the cast of the body of which it was measured, if it was of one.
+    /// The index in the cast of the measured body, if the curve belongs to a body.
     pub body: Option<usize>,
     /// Its samples.
     pub samples: Vec<Sample>,
 }
 
-/// What stands at an axis.
+/// An axis of a plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// What is measured.
+    /// The measured quantity.
     pub label: String,
     /// Its unit; empty for a pure number, or where curves have different ones.
     pub unit: String,
-    /// From where to where; `None`: what the samples need.
+    /// The ends of the axis. `None`: those of the samples.
     pub range: Option<(f64, f64)>,
     /// Equal factors take equal lengths.
     pub logarithmic: bool,
@@ -47,8 +47,8 @@ pub struct Axis {
 /// A histogram that changes with time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bars {
-    /// Times in seconds from early to late, and from then on the number in each of the bins, which are equally wide.
-    /// What lies outside of all of them is counted last.
+    /// Times in seconds from early to late, each with the number in every bin from that time on. The bins are equally
+    /// wide. The last number counts the values outside of all bins.
     pub counts: Vec<(f64, Vec<u64>)>,
 }
 
@@ -60,13 +60,13 @@ impl Bars {
     }
 }
 
-/// What is drawn in a plot.
+/// The content of a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Quantities against time.
     Times(Vec<Curve>),
-    /// Quantities against another one, as time goes by; with a number, only what is so many seconds old is seen, and
-    /// fades.
+    /// Quantities against another one, in the course of time. With a number, older samples than that many seconds are
+    /// hidden, and the others fade.
     Phases(Vec<Curve>, Option<f64>),
     /// How often values occur.
     Bars(Bars),
@@ -75,18 +75,18 @@ pub enum Content {
 /// One plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What stands above it.
+    /// The words above it.
     pub title: String,
     /// The axis to the right.
     pub across: Axis,
     /// The axis upwards.
     pub up: Axis,
-    /// What is drawn.
+    /// The curves, phases or histogram.
     pub content: Content,
 }
 
 impl Plot {
-    /// The curves; none in a histogram.
+    /// The curves; empty for a histogram.
     pub fn curves(&self) -> &[Curve] {
         match &self.content {
             Content::Times(curves) | Content::Phases(curves, _) => curves,
@@ -95,11 +95,11 @@ impl Plot {
     }
 }
 
-/// What stands beside a film.
+/// The panel beside a film.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Board {
     /// The plots in the order of the scene.
     pub plots: Vec<Plot>,
-    /// What the colours mean.
+    /// The meaning of the colours.
     pub legend: Legend,
 }

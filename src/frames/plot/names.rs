@@ -1,7 +1,7 @@
-//! What curves are called: a plot's channels share words that need not stand at each of them.
+//! Names of curves: a plot's channels share words, which each curve then omits.
 
-/// What all names share, and what is left of each: `energy.kinetic` and `energy.total` share `energy`, `T.position.x`
-/// and `S.position.x` share `position.x`. A single name is left as it is.
+/// The common words of all names, and the rest of each. `energy.kinetic` and `energy.total` share `energy`,
+/// `T.position.x` and `S.position.x` share `position.x`. A single name is left as it is.
 pub fn common(names: &[&str]) -> (String, Vec<String>) {
     let parts: Vec<Vec<&str>> = names.iter().map(|name| name.split('.').collect()).collect();
     let whole = || names.iter().map(|&name| name.to_owned()).collect();
@@ -19,7 +19,7 @@ pub fn common(names: &[&str]) -> (String, Vec<String>) {
     (words.copied().collect::<Vec<_>>().join("."), left)
 }
 
-/// The first words that two names share, and what is left of each: at least one word.
+/// The first words that two names share, and the rest of each, which has at least one word.
 pub fn headed(names: [&str; 2]) -> (String, [String; 2]) {
     let [one, other] = names.map(|name| name.split('.').collect::<Vec<_>>());
     let most = one.len().min(other.len()) - 1;

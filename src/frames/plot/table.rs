@@ -1,4 +1,4 @@
-//! Tables of numbers: comma-separated values with a line of names, as `jostle run` writes them and others do.
+//! Tables of numbers: comma-separated values with a line of names, as `jostle run` and other programs write them.
 
 use std::fmt;
 
@@ -9,18 +9,18 @@ use jostle_language::{cells, drop_empty_ends, separator};
 pub struct Column {
     /// Its name, without the unit.
     pub name: String,
-    /// The unit that stands in brackets after the name; empty if none does.
+    /// The unit in brackets after the name, or an empty text.
     pub unit: String,
     /// Its numbers; an empty cell is not a number.
     pub values: Vec<f64>,
 }
 
-/// What is wrong with a table, and where.
+/// The mistake in a table, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableError {
     /// The line, counted from 1.
     pub line: usize,
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
 }
 
@@ -32,8 +32,8 @@ impl fmt::Display for TableError {
 
 impl std::error::Error for TableError {}
 
-/// Reads a table: names in the first line, `height [m]` or `height (m)`, then a row of numbers in each line. Cells are
-/// separated by commas, semicolons or tabs, whichever is most frequent in the first line; they may stand in double
+/// Reads a table: names in the first line, `height [m]` or `height (m)`, then a row of numbers in each line. Commas,
+/// semicolons or tabs separate the cells, whichever is most frequent in the first line. Cells may stand in double
 /// quotes. Empty lines, lines that begin with `#` and empty cells behind the last column are skipped.
 ///
 /// # Errors

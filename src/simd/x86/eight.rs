@@ -56,7 +56,7 @@ impl F64x8 {
         Self(unsafe { _mm512_mask_sub_pd(self.0, 0b0011_1111, self.0, other.0) })
     }
 
-    /// The last two numbers of four records: those at the first place of a list, the third, the fifth and the seventh.
+    /// The last two numbers of four records. Their indices are the first, third, fifth and seventh of a list.
     ///
     /// # Safety
     /// The places are those of records.
@@ -139,14 +139,14 @@ impl Lanes for F64x8 {
     #[inline(always)]
     fn load(numbers: &[f64]) -> Self {
         let numbers = &numbers[..Self::COUNT];
-        // SAFETY: as many numbers stand there.
+        // SAFETY: the list has that many numbers.
         Self(unsafe { _mm512_loadu_pd(numbers.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, numbers: &mut [f64]) {
         let numbers = &mut numbers[..Self::COUNT];
-        // SAFETY: there is room for as many.
+        // SAFETY: the list has room for that many numbers.
         unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) }
     }
 
@@ -176,7 +176,7 @@ impl Lanes for F64x8 {
         let (first, second) = (&first[..BLOCK], &second[..BLOCK]);
         let mut rows = [Self::splat(0.0); BLOCK];
         let mut lane = 0;
-        // SAFETY: the places are those of records, as the caller promises; see the head of the folder.
+        // SAFETY: the indices are those of records, as the caller promises; see the head of the folder.
         unsafe {
             while lane < BLOCK {
                 let own = Self::load(record_at(records, first[lane]));
@@ -192,7 +192,7 @@ impl Lanes for F64x8 {
     #[inline(always)]
     unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
         let places = &places[..BLOCK];
-        // SAFETY: the places are those of quads, as the caller promises.
+        // SAFETY: the indices are those of quads, as the caller promises.
         let row = |lane: usize| unsafe {
             let low = _mm512_castpd256_pd512(quad_at(quads, places[lane]));
             Self(_mm512_insertf64x4::<1>(low, quad_at(quads, places[lane + QUAD])))
@@ -251,7 +251,7 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn at_least_zero(self) -> Self {
-        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        // SAFETY: likewise. If an operand is NaN, or both are zero, the instruction gives its second operand.
         Self(unsafe { _mm512_max_pd(self.0, Self::splat(0.0).0) })
     }
 

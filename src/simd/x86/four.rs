@@ -65,14 +65,14 @@ impl Lanes for F64x4 {
     #[inline(always)]
     fn load(numbers: &[f64]) -> Self {
         let numbers = &numbers[..Self::COUNT];
-        // SAFETY: as many numbers stand there.
+        // SAFETY: the list has that many numbers.
         Self(unsafe { _mm256_loadu_pd(numbers.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, numbers: &mut [f64]) {
         let numbers = &mut numbers[..Self::COUNT];
-        // SAFETY: there is room for as many.
+        // SAFETY: the list has room for that many numbers.
         unsafe { _mm256_storeu_pd(numbers.as_mut_ptr(), self.0) }
     }
 
@@ -108,7 +108,7 @@ impl Lanes for F64x4 {
         let (first, second) = (&first[..Self::COUNT], &second[..Self::COUNT]);
         let mut rows = [(Self::splat(0.0), Self::splat(0.0)); Self::COUNT];
         let mut lane = 0;
-        // SAFETY: the places are those of records, as the caller promises; see the head of the folder.
+        // SAFETY: the indices are those of records, as the caller promises; see the head of the folder.
         unsafe {
             while lane < Self::COUNT {
                 let own = record_at(records, first[lane]);
@@ -127,7 +127,7 @@ impl Lanes for F64x4 {
     #[inline(always)]
     unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
         let places = &places[..Self::COUNT];
-        // SAFETY: the places are those of quads, as the caller promises.
+        // SAFETY: the indices are those of quads, as the caller promises.
         let row = |lane: usize| Self(unsafe { quad_at(quads, places[lane]) });
         quarters([row(0), row(1), row(2), row(3)])
     }
@@ -179,7 +179,7 @@ impl Lanes for F64x4 {
 
     #[inline(always)]
     fn at_least_zero(self) -> Self {
-        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        // SAFETY: likewise. If an operand is NaN, or both are zero, the instruction gives its second operand.
         Self(unsafe { _mm256_max_pd(self.0, Self::splat(0.0).0) })
     }
 

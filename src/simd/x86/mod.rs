@@ -1,7 +1,7 @@
 //! Two, four and eight lanes on x86-64.
 //!
-//! Each operation is one instruction of the processor. The types are made only inside [`super::run`], which has looked
-//! whether the instructions are there; that is what makes the calls below sound.
+//! Each operation is one instruction of the processor. The types are made only inside [`super::run`], which checks the
+//! instructions of the processor. That makes the calls below sound.
 
 mod eight;
 mod four;
@@ -36,7 +36,7 @@ macro_rules! operators {
     };
 }
 
-/// Masks that are numbers with all bits set or none.
+/// Masks are numbers with all bits set or no bit set.
 macro_rules! bit_operators {
     ($name:ident, $and:ident, $or:ident, $xor:ident, $all:expr) => {
         impl BitAnd for $name {
@@ -73,7 +73,7 @@ use {bit_operators, operators};
 /// The numbers of a record.
 ///
 /// # Safety
-/// The place is that of the first number of a record.
+/// The index is that of the first number of a record.
 #[inline(always)]
 unsafe fn record_at(records: &[Record], place: u32) -> &[f64; BLOCK] {
     // SAFETY: as the caller promises.
@@ -83,7 +83,7 @@ unsafe fn record_at(records: &[Record], place: u32) -> &[f64; BLOCK] {
 /// The numbers of a quad.
 ///
 /// # Safety
-/// The place is that of a quad.
+/// The index is that of a quad.
 #[inline(always)]
 unsafe fn quad_at(quads: &[Quad], place: u32) -> __m256d {
     // SAFETY: as the caller promises.

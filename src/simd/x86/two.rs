@@ -1,4 +1,4 @@
-//! Two lanes: what each x86-64 processor has.
+//! Two lanes: SSE2, which every x86-64 processor has.
 
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -35,14 +35,14 @@ impl Lanes for F64x2 {
     #[inline(always)]
     fn load(numbers: &[f64]) -> Self {
         let numbers = &numbers[..Self::COUNT];
-        // SAFETY: as many numbers stand there.
+        // SAFETY: the list has that many numbers.
         Self(unsafe { _mm_loadu_pd(numbers.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, numbers: &mut [f64]) {
         let numbers = &mut numbers[..Self::COUNT];
-        // SAFETY: there is room for as many.
+        // SAFETY: the list has room for that many numbers.
         unsafe { _mm_storeu_pd(numbers.as_mut_ptr(), self.0) }
     }
 
@@ -95,7 +95,7 @@ impl Lanes for F64x2 {
 
     #[inline(always)]
     fn at_least_zero(self) -> Self {
-        // SAFETY: likewise. The instruction gives its second operand where one is no number, and where both are zero.
+        // SAFETY: likewise. If an operand is NaN, or both are zero, the instruction gives its second operand.
         Self(unsafe { _mm_max_pd(self.0, Self::splat(0.0).0) })
     }
 
