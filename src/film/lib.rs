@@ -1,4 +1,4 @@
-//! Plain frames -> pictures -> files. Nothing in here knows the ECS.
+//! From plain frames to pictures to files. This crate does not use the ECS.
 
 pub mod raster;
 

@@ -1,7 +1,7 @@
-//! APNG: true colours, lossless, only what changed from frame to frame, played for ever.
+//! APNG films: true colours, lossless, endless, and only the changes from frame to frame.
 //!
-//! The `png` crate packs the pictures; the animation's own chunks are written here, because the crate asks for the
-//! number of frames beforehand and packs one picture after the other. The number is written when it is known.
+//! The `png` crate packs the pictures. This file writes the chunks of the animation. The crate would need the number of
+//! frames beforehand, and packs one picture at a time. The number is written at the end, when it is known.
 //!
 //! Source: PNG specification, third edition (W3C 2025), chunks acTL, fcTL and fdAT.
 
@@ -19,10 +19,11 @@ pub(super) const FORMAT: Format = Format { ending: ".apng", open };
 
 const SIGNATURE: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n'];
 
-/// Where the chunk with the number of frames begins: after the signature and the header (13 bytes in a chunk of 12).
+/// First byte of the chunk with the number of frames. The signature and the header precede it (13 bytes in a chunk of
+/// 12).
 const COUNT_AT: u64 = 8 + 13 + 12;
 
-/// Longest and shortest times a frame may be shown follow from its 16 bits, counted in these parts of a second.
+/// A frame stores its duration as 16 bits of these parts of a second, which limits the durations.
 const FINE: f64 = 10_000.0;
 const COARSE: f64 = 100.0;
 const MOST: f64 = u16::MAX as f64;
@@ -49,7 +50,7 @@ struct Apng {
     sequence: u32,
 }
 
-/// What changed, and its packed pixels.
+/// The changed box, and its packed pixels.
 struct Packed {
     patch: Patch,
     data: Vec<u8>,
@@ -135,7 +136,8 @@ fn pixels(bytes: Option<Patch>) -> Option<Patch> {
     })
 }
 
-/// Parts of a second in which frames are counted: a whole rate is met by every frame, others on the whole.
+/// The parts of a second that count the durations of frames. A whole rate is exact for every frame, other rates on
+/// average.
 fn parts(rate: f64) -> f64 {
     if rate.fract() == 0.0 && rate >= 1.0 {
         rate
@@ -175,7 +177,7 @@ fn data_of(file: &[u8]) -> Vec<u8> {
         if &kind == b"IDAT" {
             data.extend_from_slice(tail.get(..length).unwrap_or_default());
         }
-        // Behind the data stands their check sum.
+        // The check sum of the data follows them.
         rest = tail.get(length + 4..).unwrap_or_default();
     }
     data

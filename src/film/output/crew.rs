@@ -1,9 +1,9 @@
-//! Sharing work out among threads.
+//! Distribution of work among threads.
 
 use std::sync::Mutex;
 
-/// Does `work` once for each job. Each worker is one thread with its own tools and takes the next job when it is
-/// done with the last; a single worker does all in this thread. Returns when every job is done.
+/// Does `work` once for each job. Each worker is one thread with its tools, and takes the next job when it has finished
+/// the last. A single worker does all jobs in this thread. Returns when every job is done.
 pub(super) fn share_out<Worker: Send, Job: Send>(
     workers: &mut [Worker],
     jobs: &mut [Job],

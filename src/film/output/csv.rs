@@ -1,5 +1,5 @@
 //! Channels as comma-separated values: a header with names and units, then a row per sample. Numbers are written so
-//! that they read back to the same bits.
+//! that they read back with the same bits.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -78,7 +78,7 @@ impl Table {
     }
 }
 
-/// A number in the fewest digits that read back to the same bits: in full, or with an exponent where that is shorter.
+/// A number in the fewest digits that read back with the same bits. It has an exponent if that is shorter.
 pub fn number(value: f64) -> String {
     let (full, exponent) = (value.to_string(), format!("{value:e}"));
     if full.len() <= exponent.len() + 3 { full } else { exponent }

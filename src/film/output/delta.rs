@@ -1,4 +1,4 @@
-//! What changed between two pictures of palette places: the smallest box that holds it.
+//! The smallest box that holds all changes between two pictures of palette indices.
 
 /// The box of pixels that changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ impl Patch {
         Patch { left: 0, top: 0, width, height }
     }
 
-    /// What changed from one picture to the next, both `width` wide; `None` if nothing did.
+    /// The changes from one picture to the next, both `width` wide; `None` without a change.
     pub(super) fn between(before: &[u8], after: &[u8], width: usize) -> Option<Patch> {
         let rows = || before.chunks_exact(width).zip(after.chunks_exact(width));
         let top = rows().position(|(before, after)| before != after)?;

@@ -1,4 +1,4 @@
-//! What can go wrong when a film is written: each error names the file, the cause and what would help.
+//! The errors of writing a film. Each names the file, the cause and the remedy.
 
 use std::fmt;
 use std::io;
@@ -10,11 +10,11 @@ use jostle_language::number;
 /// Why a film could not be written.
 #[derive(Debug)]
 pub enum OutputError {
-    /// The target's ending is none of a known format.
+    /// The ending of the target belongs to no known format.
     UnknownFormat {
         /// The target.
         path: PathBuf,
-        /// The known endings, as they are to be written.
+        /// The known endings, as people write them.
         known: Vec<&'static str>,
     },
     /// A picture of that size cannot be made, or not in this format.
@@ -60,9 +60,9 @@ pub enum OutputError {
     Io {
         /// The file or directory.
         path: PathBuf,
-        /// What the system said.
+        /// The message of the system.
         cause: io::Error,
-        /// Where lies what was written so far, if anything was.
+        /// The path of the part that was written, if there is one.
         kept: Option<PathBuf>,
     },
     /// The program that makes videos is not installed.
@@ -76,7 +76,7 @@ pub enum OutputError {
         path: PathBuf,
         /// How it ended.
         ended: String,
-        /// What it said last.
+        /// Its last message.
         said: String,
     },
     /// The film has grown beyond the size it may have.
@@ -88,7 +88,7 @@ pub enum OutputError {
         /// How many frames that are.
         frames: u64,
     },
-    /// Writing went on after it had failed.
+    /// A write followed a failed one.
     GivenUp {
         /// The target.
         path: PathBuf,
@@ -161,7 +161,7 @@ impl fmt::Display for OutputError {
     }
 }
 
-/// What would help against an error of the system.
+/// The remedy against an error of the system.
 fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
     match kind {
         io::ErrorKind::NotFound => Some("create its directory first"),

@@ -1,7 +1,7 @@
-//! GIF: one palette for the whole film, only what changed from frame to frame, exact length, played for ever.
+//! GIF films: one palette for the whole film, only the changes from frame to frame, exact length, endless.
 //!
-//! A GIF counts time in hundredths of a second. The frames of a film at 30 frames per second last 3, 3, 4, 3, 3, 4 ...
-//! of them, so that the film as a whole is exactly as long as it should be.
+//! A GIF counts time in hundredths of a second. At 30 frames per second the frames of a film last 3, 3, 4, 3, 3, 4 ...
+//! of them. So the film as a whole has its exact length.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,8 +18,8 @@ use jostle_frames::frame::Frame;
 
 pub(super) const FORMAT: Format = Format { ending: ".gif", open };
 
-/// The palette is chosen from this many frames out of the first [`SAMPLED_FROM`]: always the same ones, whatever the
-/// number of threads.
+/// The palette comes from this many frames out of the first [`SAMPLED_FROM`]. They are always the same ones, whatever
+/// the number of threads.
 const SAMPLES: usize = 8;
 const SAMPLED_FROM: usize = 48;
 
@@ -41,7 +41,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
     if !(allowed.0..=allowed.1).contains(&rate) {
         return Err(OutputError::Rate { frames_per_second: rate, allowed });
     }
-    // Whoever limits the size has no use for what is beyond it.
+    // A film with a limit of size is useless beyond it.
     let unfinished = if settings.most_bytes.is_some() { Unfinished::Removed } else { Unfinished::Kept };
     let file = PartFile::create(path, unfinished)?;
     let studio = Studio::new(view);
@@ -72,7 +72,7 @@ struct Gif {
     stage: Stage,
     scenery: Option<Arc<Scenery>>,
     waiting: Vec<Frame>,
-    /// The last frame written, as places of the palette; empty before the first.
+    /// The last written frame, as palette indices; empty before the first.
     last: Vec<u8>,
     frames: u64,
     settings: FilmSettings,
@@ -127,7 +127,7 @@ impl Worker {
     }
 }
 
-/// What never moves, as places of the palette.
+/// The parts that never move, as palette indices.
 struct Scenery {
     painter: Arc<Painter>,
     places: Vec<u8>,
@@ -146,7 +146,7 @@ struct Packed {
 }
 
 impl Gif {
-    /// Writes as many of the waiting frames as make full groups, or all of them.
+    /// Writes all full groups of the waiting frames, or all frames.
     fn advance(&mut self, all: bool) -> Result<(), OutputError> {
         let stage = std::mem::replace(&mut self.stage, Stage::GivenUp);
         let (palette, mut encoder) = match stage {
@@ -238,7 +238,7 @@ impl Gif {
         Ok(())
     }
 
-    /// The scenery of a frame: the last one, as long as the cast stays the same.
+    /// The scenery of a frame. It is reused while the cast stays the same.
     fn scenery(&mut self, frame: &Frame, palette: &Palette) -> Result<Arc<Scenery>, OutputError> {
         if let Some(scenery) = self.scenery.as_ref().filter(|scenery| scenery.painter.suits(frame)) {
             return Ok(scenery.clone());

@@ -1,9 +1,8 @@
 //! The compression of GIF: Lempel-Ziv-Welch with codes of growing width.
 //!
-//! Two things a general encoder cannot know make it fast and small here. Pixels come in runs: for each symbol the
-//! codes of its runs are at hand, so a match begins with the longest known run at once; the output stays that of the
-//! plain greedy encoder. And a pixel that did not change may be coded as transparent or by its colour: whichever
-//! prolongs the match is taken.
+//! Two properties of films make it fast and small here. Pixels come in runs. The codes of each symbol's runs are at
+//! hand, so a match begins with the longest known run at once. The output equals that of the plain greedy encoder. An
+//! unchanged pixel may be coded as transparent or by its colour, whichever prolongs the match.
 
 /// The widest codes GIF allows, in bits.
 const WIDEST: u32 = 12;
@@ -29,8 +28,9 @@ impl Default for Packer {
 }
 
 impl Packer {
-    /// Packs `symbols`, which are all below two to the `bits` (2 to 8). Where the symbol is `loose`, the one at the
-    /// same place of `alternatives` means the same picture. The result begins with the code size, as the format wants.
+    /// Packs `symbols`, which are all below two to the `bits` (2 to 8). If the symbol is `loose`, the symbol at the
+    /// same index of `alternatives` means the same picture. The result begins with the code size, as the format
+    /// requires.
     pub(super) fn pack(&mut self, symbols: &[u8], alternatives: &[u8], loose: u8, bits: u32) -> Vec<u8> {
         let clear = 1 << bits;
         let mut output = Bits { bytes: vec![bits as u8], pending: 0, count: 0, width: bits + 1 };
@@ -72,7 +72,7 @@ impl Packer {
         output.finish()
     }
 
-    /// Empties the table but for the single symbols; gives the first free code.
+    /// Empties the table except for the single symbols, and returns the first free code.
     fn forget(&mut self, clear: u32) -> u32 {
         self.table.fill(EMPTY);
         for (symbol, runs) in self.runs.iter_mut().enumerate() {
@@ -121,7 +121,7 @@ impl Packer {
     }
 }
 
-/// Where the search for a key begins: multiplicative hashing with the golden ratio.
+/// The first slot for a key, by multiplicative hashing with the golden ratio (Fibonacci hashing).
 fn slot(key: u32) -> usize {
     (key.wrapping_mul(0x9E37_79B1) >> (32 - SLOTS.trailing_zeros())) as usize
 }
@@ -159,7 +159,7 @@ mod tests {
     use rand::{Rng, RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// What a reader independent of this file makes of the packed bytes.
+    /// The output of a decoder that is independent of this file.
     fn unpack(packed: Vec<u8>, length: usize) -> Vec<u8> {
         let mut file = Vec::new();
         let palette: Vec<u8> = (0..=255_u8).flat_map(|level| [level; 3]).collect();
@@ -198,7 +198,8 @@ mod tests {
     #[test]
     fn loose_symbols_come_back_as_themselves_or_their_alternative() {
         let mut random = ChaCha8Rng::seed_from_u64(2);
-        // A pattern with gaps at random: who may fill them finds it again, who may not sees noise.
+        // A pattern with random gaps. With the alternatives an encoder finds the pattern again, and without them it
+        // sees noise.
         let alternatives: Vec<u8> = (0..50_000).map(|place| [0, 1, 2, 0, 3, 1, 1][place % 7]).collect();
         let gap = |symbol: &u8| if random.next_u32() % 10 == 0 { 7 } else { *symbol };
         let symbols: Vec<u8> = alternatives.iter().map(gap).collect();

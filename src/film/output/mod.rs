@@ -1,8 +1,8 @@
-//! Frames -> files: films as GIF, APNG, video or raw pictures; stills as PNG. One format, one file.
+//! From frames to files: films as GIF, APNG, video or raw pictures; stills as PNG. Each format has one file.
 //!
-//! Frames stream: they are drawn and packed in small groups, several at once, and written in order, so the memory
-//! needed does not grow with the length of the film, and the bytes do not depend on the number of threads. A file is
-//! written beside its target as `<name>.<random letters>.part` and takes the target's name when it is complete.
+//! Frames stream: they are drawn and packed in small groups, several at once, and written in order. So the memory does
+//! not grow with the length of the film. Nor do the bytes depend on the number of threads. A file is written beside its
+//! target as `<name>.<random letters>.part` and takes the target's name when it is complete.
 
 mod apng;
 mod crew;
@@ -40,8 +40,8 @@ pub struct FilmSettings {
     pub frames_per_second: f64,
     /// How many threads draw and pack; 0 counts as 1. The bytes do not depend on it.
     pub threads: usize,
-    /// Each frame is written as soon as it is pushed, for a reader that shows it at once; otherwise several are drawn
-    /// together. Only raw pictures and videos heed it.
+    /// Whether each frame is written as soon as it is pushed, for a reader that shows it at once. Otherwise several are
+    /// drawn together. Only raw pictures and videos use it.
     pub live: bool,
     /// Colours of a GIF, from 3 to 255; other formats have them all.
     pub colors: usize,
@@ -50,7 +50,7 @@ pub struct FilmSettings {
 }
 
 impl Default for FilmSettings {
-    /// 30 frames per second by one thread, of any size, in as many colours as there can be.
+    /// 30 frames per second by one thread, without a limit of size, in the most colours of the format.
     fn default() -> FilmSettings {
         FilmSettings { frames_per_second: 30.0, threads: 1, live: false, colors: 255, most_bytes: None }
     }
@@ -67,14 +67,14 @@ pub trait Film: Send {
     /// film is lost beyond the frames written so far.
     fn push(&mut self, frame: Frame) -> Result<(), OutputError>;
 
-    /// Writes what is left, and leaves it open whether the film is kept. May be called at any time: the film then ends
-    /// with the last frame pushed.
+    /// Writes the rest, and lets the caller decide whether the film is kept. May be called at any time: the film then
+    /// ends with the last frame pushed.
     ///
     /// # Errors
     /// If there is no frame, or the system refuses to write.
     fn close(self: Box<Self>) -> Result<Draft, OutputError>;
 
-    /// Writes what is left and gives the file its name.
+    /// Writes the rest and gives the file its name.
     ///
     /// # Errors
     /// If there is no frame, or the system refuses to write.
@@ -83,12 +83,12 @@ pub trait Film: Send {
     }
 }
 
-/// A film that is complete, but for its name. Dropped, it is given up as any other unfinished film.
+/// A complete film whose file has no name yet. If it is dropped, it is removed like any unfinished film.
 #[derive(Debug)]
 pub struct Draft {
-    /// What will have been written.
+    /// The report of the film, once it has its name.
     written: Written,
-    /// None where there is no name to be given.
+    /// `None` for an output without a name.
     file: Option<PartFile>,
 }
 
@@ -109,7 +109,7 @@ impl Draft {
     }
 }
 
-/// What was written.
+/// The report of a written film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// The file, or the directory of a sequence.
@@ -127,7 +127,7 @@ pub struct Written {
 /// A format of films.
 #[derive(Debug)]
 struct Format {
-    /// The ending of its files, as it is to be written.
+    /// The ending of its files, as people write it.
     ending: &'static str,
     open: fn(&Path, &FilmSettings, View) -> Opened,
 }
@@ -138,7 +138,7 @@ type Opened = Result<Box<dyn Film>, OutputError>;
 const FORMATS: [&Format; 7] =
     [&gif::FORMAT, &apng::FORMAT, &video::MP4, &video::WEBM, &raw::FORMAT, &png::STILL, &png::SEQUENCE];
 
-/// Where a film goes, and in which format.
+/// The path and format of a film.
 #[derive(Clone, Debug)]
 pub struct Target {
     path: PathBuf,
@@ -146,9 +146,9 @@ pub struct Target {
 }
 
 impl Target {
-    /// The target at a path; its ending tells the format. `film.gif` is a film, and so are `.apng`, `.mp4`, `.webm` and
-    /// `.rgba` (raw pictures); `-` is raw pictures to standard output; `picture.png` is the last frame pushed; a path
-    /// that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
+    /// The target at a path, whose ending gives the format. `film.gif` is a film, and so are `.apng`, `.mp4`, `.webm`
+    /// and `.rgba` (raw pictures). `-` is raw pictures to standard output, and `picture.png` is the last frame pushed.
+    /// A path that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
     ///
     /// # Errors
     /// [`OutputError::UnknownFormat`] names the known endings.
@@ -179,7 +179,7 @@ impl Target {
         self.format.ending == gif::FORMAT.ending
     }
 
-    /// Whether it is raw pictures, which tell nothing of their size and rate.
+    /// Whether it is raw pictures, which lack size and rate.
     pub fn is_raw(&self) -> bool {
         self.format.ending == raw::FORMAT.ending
     }
@@ -190,8 +190,8 @@ impl Target {
     }
 }
 
-/// Begins a film. Its size is that of the view's camera. Nothing is written yet but an empty `.part` file, so that a
-/// target that cannot be written is known before the run.
+/// Begins a film. Its size is that of the view's camera. It writes only an empty `.part` file, so that an unwritable
+/// target is known before the run.
 ///
 /// # Errors
 /// If the format does not allow the size or the rate, or the file cannot be created.

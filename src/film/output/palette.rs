@@ -1,5 +1,5 @@
-//! The colours of a GIF: 255 for the whole film. The flat colours of the scene stay exact; the blends at edges share
-//! what is left, chosen where they matter most in sampled frames.
+//! The colours of a GIF: 255 for the whole film. The flat colours of the scene stay exact. The blends at edges share
+//! the rest, and sampled frames decide which blends matter most.
 
 use std::collections::HashMap;
 
@@ -8,7 +8,7 @@ use jostle_frames::frame::Rgb;
 /// Colours beside the transparent one.
 const MOST_COLORS: usize = 255;
 
-/// The share of places that flat colours may take, in quarters; the rest is for blends, without which every edge would
+/// The share of palette entries for flat colours, in quarters. The rest is for blends, without which every edge would
 /// be ragged.
 const PINNED_QUARTERS: usize = 3;
 
@@ -50,9 +50,9 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// Takes the pinned colours, then again and again the sampled colour that is worst served: by its distance to the
-    /// nearest one taken times the square root of its count, so that large areas and rare but strong edges both get
-    /// their share.
+    /// Takes the pinned colours first, and then repeatedly the sampled colour with the worst match. A match is rated by
+    /// the distance to the nearest taken colour, times the square root of the count. So large areas and rare but strong
+    /// edges both get their share.
     pub(super) fn new(pinned: &[Rgb], sampled: Histogram, most: usize) -> Palette {
         let most = most.clamp(3, MOST_COLORS);
         let mut colors: Vec<Rgb> = pinned.iter().copied().take(most * PINNED_QUARTERS / 4).collect();
@@ -97,7 +97,7 @@ impl Palette {
             // Further on the green alone is worse than the best so far.
             error(Rgb(0, color.1, 0), Rgb(0, own.1, 0)) <= best >> 8
         };
-        // `all` stops at the first that says no.
+        // `all` stops at the first false.
         above.iter().all(&mut try_on);
         below.iter().rev().all(&mut try_on);
         best as u8

@@ -1,4 +1,4 @@
-//! The one writer of files: each gets its name when it is complete, and until then nothing that has a name is touched.
+//! Atomic writing of files: each file gets its name when it is complete. Until then no file with a name is touched.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -9,25 +9,25 @@ use tempfile::TempPath;
 
 use super::OutputError;
 
-/// What becomes of a file that is never completed.
+/// The fate of a file that is never completed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unfinished {
-    /// It stays where it is, unless it is empty: its beginning can be shown.
+    /// It stays in place unless it is empty, because its beginning can be shown.
     Kept,
-    /// It goes: its beginning is of no use. Where the system can, it has no name before it is complete, so that a program that is
-    /// killed leaves nothing behind.
+    /// It is removed, because its beginning is useless. If the system allows it, the file has no name until it is
+    /// complete. So a killed program leaves no file.
     Removed,
-    /// It goes, and has a name: another program writes into it.
+    /// It is removed, but has a name because another program writes into it.
     Shared,
 }
 
 /// The ending of names of files in the making.
 const ENDING: &str = ".part";
 
-/// A name with more bytes than this leaves no room for the random letters and the ending in most file systems.
+/// In most file systems a longer name, in bytes, leaves no room for the random letters and the ending.
 const LONGEST_BEGINNING: usize = 200;
 
-/// So many links lead on from each other in Linux; more of them lead in a circle.
+/// Linux follows at most this many links. More of them form a circle.
 const MOST_LINKS: usize = 40;
 
 /// A file in the making: without a name, or `<name>.<random letters>.part` beside its target. Two programs that write one target
@@ -36,20 +36,21 @@ const MOST_LINKS: usize = 40;
 pub(super) struct PartFile {
     /// As messages call it.
     name: PathBuf,
-    /// What takes the place: the file that a link leads to.
+    /// The file that is replaced: the end of the chain of links.
     target: PathBuf,
-    /// Where the file is, as messages call the folder.
+    /// The path of the file, with the folder as in messages.
     shown: PathBuf,
-    /// None once complete, and as long as it has no name.
+    /// `None` once complete, and while it has no name.
     part: Option<TempPath>,
-    /// None once complete.
+    /// `None` once complete.
     file: Option<BufWriter<File>>,
     bytes: u64,
     unfinished: Unfinished,
 }
 
 impl PartFile {
-    /// Creates the temporary file for a target. A target that is there keeps its permissions and, if it is a link, stays one.
+    /// Creates the temporary file for a target. An existing target keeps its permissions. If it is a link, it stays
+    /// one.
     pub(super) fn create(name: &Path, unfinished: Unfinished) -> Result<PartFile, OutputError> {
         let told = |cause: io::Error| OutputError::io(name, cause);
         let target = behind_links(name).map_err(told)?;
@@ -71,12 +72,12 @@ impl PartFile {
         Ok(PartFile { name: name.to_path_buf(), target, shown, part, file, bytes: 0, unfinished })
     }
 
-    /// Where the file is until it is complete, if it has a name: see [`Unfinished`].
+    /// The path of the incomplete file, if it has a name: see [`Unfinished`].
     pub(super) fn part(&self) -> &Path {
         &self.shown
     }
 
-    /// Where its beginning stays if it is never completed.
+    /// The path at which its beginning stays if it is never completed.
     pub(super) fn beginning(&self) -> Option<PathBuf> {
         (self.unfinished == Unfinished::Kept).then(|| self.shown.clone())
     }
@@ -90,7 +91,7 @@ impl PartFile {
         self.unfinished == Unfinished::Kept && self.bytes > 0
     }
 
-    /// Writes over what was written at a place.
+    /// Overwrites the bytes at an offset.
     pub(super) fn overwrite(&mut self, place: u64, bytes: &[u8]) -> io::Result<()> {
         let Some(file) = &mut self.file else { return Ok(()) };
         // Seeking writes out what waits.
@@ -106,7 +107,7 @@ impl PartFile {
         named.and_then(|()| sync_folder(folder_of(&self.target))).map_err(|cause| self.failed(cause))
     }
 
-    /// The same where no file has the name yet.
+    /// Like `complete`, but only if no file has the name yet.
     pub(super) fn complete_new(mut self) -> Result<(), OutputError> {
         let named = self.name_it(|part, target| part.persist_noclobber(target));
         named.and_then(|()| sync_folder(folder_of(&self.target))).map_err(|cause| self.failed(cause))
@@ -144,13 +145,13 @@ impl PartFile {
     }
 }
 
-/// A new file beside a target, with a name that no other file has, which goes with the path.
+/// A new file beside a target with an unused name, which is removed together with the path.
 fn named(target: &Path) -> io::Result<(File, TempPath)> {
     // Permissions are those of any new file: the maker's own way would let only the user read it.
     made_at(target, |path| File::options().write(true).create_new(true).open(path))
 }
 
-/// What is made at a name that no other file has.
+/// The result of `make` with an unused name.
 fn made_at<T>(target: &Path, make: impl FnMut(&Path) -> io::Result<T>) -> io::Result<(T, TempPath)> {
     let mut maker = tempfile::Builder::new();
     let made = maker.prefix(&beginning(target)).suffix(ENDING).make_in(folder_of(target), make)?;
@@ -170,7 +171,7 @@ mod unnamed {
 
     use super::{made_at, named};
 
-    /// A file in a folder; none where the file system or the system has no such thing.
+    /// A file without a name in a folder; `None` if the system cannot make one.
     pub(super) fn create(folder: &Path) -> Option<File> {
         let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
         let file = File::from(open(folder, flags, Mode::from_raw_mode(0o666)).ok()?);
@@ -182,7 +183,7 @@ mod unnamed {
         format!("/proc/self/fd/{}", file.as_raw_fd()).into()
     }
 
-    /// Gives a complete file a name of its own beside its target.
+    /// Gives a complete file a name beside its target.
     pub(super) fn name(file: &File, target: &Path) -> io::Result<TempPath> {
         let link = |path: &Path| Ok(linkat(CWD, entry(file), CWD, path, AtFlags::SYMLINK_FOLLOW)?);
         match made_at(target, link) {
@@ -234,7 +235,7 @@ impl Write for PartFile {
 
 impl Drop for PartFile {
     fn drop(&mut self) {
-        // The temporary file goes with its path, unless its beginning can be shown.
+        // The temporary file disappears with its path, unless its beginning can be shown.
         let kept = self.is_kept();
         if let Some(part) = &mut self.part {
             part.disable_cleanup(kept);
@@ -247,16 +248,16 @@ pub(super) fn look_at(name: &Path) -> io::Result<()> {
     behind_links(name).and_then(|target| writable(&target)).map(|_| ())
 }
 
-/// The file that a name stands for, whether it is there or not: renaming would put a file in the place of a link.
+/// The file behind a name, whether it exists or not. Renaming would replace a link by a file.
 ///
 /// # Errors
-/// If links lead in a circle, or a name that tells something else leads to a scene.
+/// An error if links form a circle, or if a name with another ending leads to a scene.
 pub fn behind_links(name: &Path) -> io::Result<PathBuf> {
     let mut target = name.to_path_buf();
     for _ in 0..MOST_LINKS {
         // A link may lead to a file that is still to be made.
         let Ok(next) = fs::read_link(&target) else {
-            // A name that tells something else leads to a scene by mistake only.
+            // A name with another ending leads to a scene only by mistake.
             if is_scene(&target) && !is_scene(name) {
                 return Err(io::Error::new(ErrorKind::InvalidInput, "it is a link to a scene"));
             }
@@ -271,7 +272,7 @@ fn is_scene(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
-/// The permissions of a file that is there. Renaming would replace it even where it may not be written.
+/// The permissions of an existing file. Renaming would replace even a read-only file.
 fn writable(target: &Path) -> io::Result<Option<fs::Permissions>> {
     let before = match fs::metadata(target) {
         Ok(before) => before,
@@ -287,7 +288,7 @@ fn writable(target: &Path) -> io::Result<Option<fs::Permissions>> {
     if before.permissions().readonly() {
         return Err(io::Error::new(ErrorKind::PermissionDenied, "it is read-only"));
     }
-    // Opening changes nothing, and the system knows more reasons against it than the permissions tell.
+    // Opening changes nothing, and the system has more reasons to refuse than the permissions show.
     File::options().write(true).open(target)?;
     Ok(Some(before.permissions()))
 }
@@ -297,7 +298,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What the names of temporary files for a target begin with.
+/// The prefix of the names of temporary files for a target.
 fn beginning(target: &Path) -> OsString {
     let mut name = target.file_name().unwrap_or_default().to_os_string();
     if name.len() > LONGEST_BEGINNING {
@@ -308,7 +309,8 @@ fn beginning(target: &Path) -> OsString {
     name
 }
 
-/// Writes out that a file has its name. Some systems have no such thing for folders, and some folders may not be read.
+/// Synchronises a folder, so that the name of a file is on the disk. Some systems cannot do it for folders, and some
+/// folders are unreadable.
 pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
     if !cfg!(unix) {
         return Ok(());

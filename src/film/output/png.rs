@@ -23,7 +23,7 @@ pub(super) const SEQUENCE: Format = Format { ending: "/", open: open_sequence };
 /// Frames drawn at once, for each thread.
 const FRAMES_PER_THREAD: usize = 4;
 
-/// Rates a sequence may be meant for, in frames per second: files have none of their own.
+/// Possible rates of a sequence, in frames per second. Picture files do not store a rate.
 const RATES: (f64, f64) = (1e-6, 1e6);
 
 fn open_still(path: &Path, _: &FilmSettings, view: View) -> Opened {
@@ -117,7 +117,7 @@ impl Sequence {
         self.path.join(format!("frame_{place:05}.png"))
     }
 
-    /// Notes that the sequence has a gap now, and adds to the error where the frames before it are.
+    /// Marks the sequence as broken, and adds the path of its first frames to the error.
     fn gave_up(&mut self, error: OutputError) -> OutputError {
         self.given_up = true;
         match error {
@@ -176,7 +176,8 @@ pub fn write_picture(path: &Path, picture: &Pixmap) -> Result<u64, OutputError> 
     write_whole(path, &packed).map(|()| packed.len() as u64)
 }
 
-/// A picture of few colours, such as a diagram, as the bytes of a PNG file: small, and slower than a frame of a film could bear.
+/// A picture of few colours, such as a diagram, as the bytes of a PNG file. It is small, but slower than a film could
+/// afford for each frame.
 ///
 /// # Errors
 /// When there is no such picture.
@@ -196,7 +197,7 @@ pub fn flat_picture(picture: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
 
 /// A picture as the bytes of a PNG file. `rgb` is room for its pixels, kept to spare allocations.
 ///
-/// Fast compression wants the Paeth filter: without a filter it would store the picture nearly as it is.
+/// Fast compression needs the Paeth filter, because without a filter it would hardly compress the picture.
 pub(super) fn pack(picture: &Pixmap, rgb: &mut Vec<u8>) -> Result<Vec<u8>, png::EncodingError> {
     rgb.clear();
     rgb.extend(picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]));

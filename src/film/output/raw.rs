@@ -1,5 +1,5 @@
-//! Raw pictures for other programs: four bytes each pixel (red, green, blue, 255), row by row from the top, frame after
-//! frame, to standard output (`-`) or a file. There is no head: size and rate are told apart from it.
+//! Raw pictures for other programs, to standard output (`-`) or a file. Each pixel has four bytes (red, green, blue,
+//! 255). Rows run from the top, frame after frame. There is no header, so size and rate must be known otherwise.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -15,7 +15,7 @@ pub(super) const FORMAT: Format = Format { ending: ".rgba", open };
 /// The name of standard output on the command line.
 pub(super) const STANDARD_OUTPUT: &str = "-";
 
-/// Rates the frames may be meant for, in frames per second: the bytes have none of their own.
+/// Possible rates of the frames, in frames per second. The bytes do not store a rate.
 const RATES: (f64, f64) = (1e-6, 1e6);
 
 fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {

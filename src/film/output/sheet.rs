@@ -14,7 +14,7 @@ use jostle_frames::frame::Frame;
 /// Pixels between two frames.
 pub const GAP: u32 = 6;
 
-/// More pixels than this no program likes to show: as many as the largest frame has.
+/// Few programs show more pixels than this, which is the size of the largest frame.
 const MOST_PIXELS: u64 = 8192 * 8192;
 
 /// The size in pixels of a sheet of `columns` x `rows` frames of one size.

@@ -14,7 +14,7 @@ use jostle_frames::frame::Frame;
 /// Frames drawn at once, for each thread. They are whole pictures: more of them would take more memory than time is won.
 const FRAMES_PER_THREAD: usize = 2;
 
-/// How a format packs pictures, and where they go.
+/// The packing and the target of a format.
 pub(super) trait Sink: Send + Sync {
     /// A packed picture.
     type Packed: Send;
@@ -29,13 +29,13 @@ pub(super) trait Sink: Send + Sync {
     /// Writes the next picture.
     fn write(&mut self, packed: Self::Packed) -> Result<(), OutputError>;
 
-    /// Writes what is left.
+    /// Writes the rest.
     fn close(self, frames: u64) -> Result<Closed, OutputError>;
 }
 
 /// A film whose pictures are all written.
 pub(super) struct Closed {
-    /// What is to get its name; none for standard output.
+    /// The file that is to get its name; `None` for standard output.
     pub file: Option<PartFile>,
     /// How many bytes it has.
     pub bytes: u64,
@@ -53,7 +53,7 @@ pub(super) struct Stream<S> {
     /// The last picture written; empty before the first.
     last: Vec<u8>,
     frames: u64,
-    /// None after an error.
+    /// `None` after an error.
     sink: Option<S>,
 }
 
@@ -87,7 +87,7 @@ impl<S: Sink> Stream<S> {
         Ok(())
     }
 
-    /// Packs pictures and keeps the last one for the next group, if it is looked at.
+    /// Packs pictures and keeps the last one for the next group, if the format compares frames.
     fn pack(&mut self, sink: &S, mut pictures: Vec<Vec<u8>>) -> Vec<io::Result<S::Packed>> {
         if !S::COMPARES {
             return pictures.into_iter().map(|picture| sink.pack(&[], picture.into())).collect();

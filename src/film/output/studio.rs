@@ -1,4 +1,4 @@
-//! What every film needs to draw its frames: the view, the painter of the cast at hand, one set of tools per thread.
+//! The tools of every film: the view, the painter of the current cast, and one scratch per thread.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ impl Studio {
         Studio { view, painter: None }
     }
 
-    /// The painter for a frame: the last one, as long as the cast stays the same.
+    /// The painter for a frame. It is reused while the cast stays the same.
     pub(super) fn painter(&mut self, frame: &Frame) -> Result<Arc<Painter>, OutputError> {
         if let Some(painter) = self.painter.as_ref().filter(|painter| painter.suits(frame)) {
             return Ok(painter.clone());

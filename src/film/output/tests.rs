@@ -12,7 +12,7 @@ use jostle_frames::mark::{Mark, MarkShape};
 
 const SIZE: (u32, u32) = (160, 120);
 
-/// A directory of its own for each test, gone at its end.
+/// A directory for each test, removed at its end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -94,7 +94,7 @@ fn film(path: &Path, threads: usize, frames: &[Frame]) -> Result<Written, Output
     film.finish()
 }
 
-/// The whole pictures of a GIF, as a viewer shows them, with their delays.
+/// The whole pictures of a GIF, as a viewer composes them, with their delays.
 fn watch(path: &Path) -> Vec<(Vec<[u8; 4]>, u16)> {
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);
@@ -139,14 +139,14 @@ fn a_gif_shows_the_frames_that_were_drawn() {
             }
             squares += wanted.iter().zip(seen).map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum::<f64>();
         }
-        // Only blends at edges are off. One level of mean error, 48 dB, is far beyond what 255 fixed colours without
-        // regard to the film would reach (about 36 dB).
+        // Only blends at edges are off. One level of mean error is 48 dB. That is far better than 255 fixed colours,
+        // which would reach about 36 dB.
         assert!((squares / (3.0 * screen.len() as f64)).sqrt() < 1.0, "at {} s", frame.time);
     }
 }
 
-/// Frames that change, stand still and change again; a single frame; whole groups and parts of them. Decoded by the
-/// `image` crate, which composes the frames by itself.
+/// Frames that change, stand still and change again; a single frame; whole groups and parts of them. The `image` crate
+/// decodes them, and composes the frames independently.
 #[test]
 fn an_apng_shows_exactly_the_frames_that_were_drawn() {
     use image::AnimationDecoder;
@@ -173,7 +173,7 @@ fn an_apng_shows_exactly_the_frames_that_were_drawn() {
     assert_eq!(folder.names(), ["film.apng"]);
 }
 
-/// A film that may have few bytes is given up, and nothing is left of it; one of few colours is smaller.
+/// A film that exceeds its limit of bytes is abandoned, and no file of it remains. A film of few colours is smaller.
 #[test]
 fn a_gif_keeps_to_its_limits() {
     let folder = Folder::new("limits");
@@ -323,7 +323,7 @@ fn a_frame_without_its_poses_is_refused() {
     }
 }
 
-/// The disk takes no more than 16 kB: the test runs once more, as a child with the shell's limit for files.
+/// The disk takes no more than 16 kB. For this the test runs again as a child process with the shell's limit for files.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_said_with_its_remedy() {

@@ -1,5 +1,5 @@
-//! MP4 (H.264) and WebM (VP9) by the program `ffmpeg`, if it is installed: it is given raw pictures through a pipe. The
-//! bytes are those of its version, so they are not promised to stay the same.
+//! MP4 (H.264) and WebM (VP9) by the program `ffmpeg`, if it is installed. It receives raw pictures through a pipe. The
+//! bytes depend on its version, so they are not promised to stay the same.
 
 use std::borrow::Cow;
 use std::io::{self, Read, Write};
@@ -17,17 +17,17 @@ pub(super) const MP4: Format =
 pub(super) const WEBM: Format =
     Format { ending: ".webm", open: |path, settings, view| open(path, settings, view, &VP9) };
 
-/// What ffmpeg is asked to make. Qualities are those at which edges of flat colours show no blocks.
+/// The options of ffmpeg. At these qualities the edges of flat colours show no blocks.
 const H264: [&str; 10] = ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"];
 const VP9: [&str; 10] = ["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"];
 
-/// Half of the colours are left out by both, so sides must be even: the last row and column are filled up.
+/// Both codecs halve the resolution of colours, so sides must be even. The last row and column are padded.
 const EVEN: [&str; 4] = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"];
 
 /// Rates that videos are made for, in frames per second.
 const RATES: (f64, f64) = (0.01, 1000.0);
 
-/// How much of what ffmpeg says in the end is told.
+/// The number of characters of ffmpeg's last message that the error quotes.
 const SAID: usize = 600;
 
 fn open(path: &Path, settings: &FilmSettings, view: View, codec: &[&str]) -> Opened {
@@ -53,7 +53,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View, codec: &[&str]) -> Ope
             said: cause.to_string(),
         },
     })?;
-    // Read aside: a child whose messages nobody takes would wait for ever.
+    // A separate thread reads the messages, because a child with a full pipe would wait for ever.
     let said = child.stderr.take().map(|mut messages| {
         std::thread::spawn(move || {
             let mut said = Vec::new();
@@ -67,7 +67,7 @@ fn open(path: &Path, settings: &FilmSettings, view: View, codec: &[&str]) -> Ope
 
 struct Video {
     path: PathBuf,
-    /// None once complete.
+    /// `None` once complete.
     file: Option<PartFile>,
     child: Child,
     said: Option<JoinHandle<String>>,
@@ -105,7 +105,7 @@ impl Sink for Video {
     fn write(&mut self, picture: Vec<u8>) -> Result<(), OutputError> {
         let Some(pipe) = &mut self.child.stdin else { return Err(OutputError::GivenUp { path: self.path.clone() }) };
         let Err(cause) = pipe.write_all(&picture) else { return Ok(()) };
-        // It has ended before the film did: why is what it said.
+        // It ended before the film did, and its message gives the reason.
         self.wait()?;
         Err(OutputError::io(&self.path, cause))
     }

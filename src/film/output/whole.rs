@@ -1,4 +1,4 @@
-//! A file that is written in one go: a table, a report, a text.
+//! A file that is written at once: a table, a report, a text.
 
 use std::io::Write;
 use std::path::Path;
@@ -6,8 +6,8 @@ use std::path::Path;
 use super::OutputError;
 use super::part::{self, PartFile, Unfinished};
 
-/// Writes a file so that a reader finds the old one or the whole new one, never a part. A file that is there keeps
-/// its permissions; a link stays a link; a file that is read-only stays as it is.
+/// Writes a file so that a reader finds the old one or the whole new one, never a part. An existing file keeps its
+/// permissions, and a link stays a link. A read-only file is not changed.
 ///
 /// # Errors
 /// If the system refuses to write.
@@ -15,7 +15,7 @@ pub fn write_whole(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputE
     written(path, content.as_ref())?.complete()
 }
 
-/// Whether a file may be written, as far as that can be known beforehand.
+/// Whether a file can be written, as far as that is known beforehand.
 ///
 /// # Errors
 /// If it is read-only, a folder, a device or a pipe.
@@ -23,7 +23,7 @@ pub fn may_be_written(path: &Path) -> Result<(), OutputError> {
     part::look_at(path).map_err(|cause| OutputError::io(path, cause))
 }
 
-/// Writes a file whose name no other file has. A file that gets the name meanwhile stays as it is.
+/// Writes a file with an unused name. If another file takes the name meanwhile, that file stays.
 ///
 /// # Errors
 /// If there is such a file, or the system refuses to write.

@@ -1,4 +1,4 @@
-//! The camera: from the world (metres, y up) to the picture (pixels, y down).
+//! The camera: an affine map from the world (metres, y up) to the picture (pixels, y down).
 
 use glam::DVec2;
 
@@ -20,8 +20,8 @@ impl Bounds {
         finite.map(|point| Bounds { low: point, high: point }).reduce(Bounds::union)
     }
 
-    /// The smallest rectangle that holds everything in a frame: the discs and hulls of all bodies and the points that define
-    /// the walls. `None` if there is nothing.
+    /// The smallest rectangle that holds all discs and hulls of bodies in a frame, and the defining points of walls.
+    /// `None` for an empty frame.
     pub fn of_frame(frame: &Frame) -> Option<Bounds> {
         let walls = frame
             .cast
@@ -46,7 +46,7 @@ impl Bounds {
     }
 }
 
-/// Where the camera stands and how large its picture is.
+/// The position of the camera and the size of its picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     center: DVec2,
@@ -55,10 +55,10 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The camera that shows all of `bounds` with at least `margin` of free space on every side, as a share of the
-    /// picture's shorter side (0.05 is a good one; it is taken between 0 and 0.45). `size` in pixels, width first.
+    /// The camera that shows all of `bounds` with at least `margin` of free space on every side. The margin is a share
+    /// of the picture's shorter side, such as 0.05, and is clamped to 0 to 0.45. `size` in pixels, width first.
     ///
-    /// Walls fill what lies behind them, so in a closed room the margin is the strip of wall at the picture's border.
+    /// Walls fill the area behind them. So in a closed room the margin is the strip of wall at the picture's border.
     pub fn fit(bounds: Bounds, margin: f64, size: (u32, u32)) -> Camera {
         let picture = DVec2::new(f64::from(size.0), f64::from(size.1));
         let margin = if margin.is_finite() { margin.clamp(0.0, 0.45) } else { 0.0 };
@@ -70,8 +70,8 @@ impl Camera {
         Camera { center: 0.5 * (bounds.low + bounds.high), pixels_per_meter, size }
     }
 
-    /// The camera that looks at `center` (m) and shows `height` metres from bottom to top; the width follows from the
-    /// picture. A height that is not positive and finite is taken as one metre.
+    /// The camera that looks at `center` (m) and shows `height` metres from bottom to top. The width follows from the
+    /// picture. A height that is NaN, infinite or not positive counts as one metre.
     pub fn look(center: DVec2, height: f64, size: (u32, u32)) -> Camera {
         let height = if height.is_finite() && height > 0.0 { height } else { 1.0 };
         Camera { center, pixels_per_meter: f64::from(size.1) / height, size }
@@ -83,8 +83,8 @@ impl Camera {
         Camera { center, ..self }
     }
 
-    /// The same view in a picture of another size. What it shows is as high as before, and as wide if the picture has
-    /// the same proportions.
+    /// The same view in a picture of another size. The shown height stays, and so does the width if the picture has the
+    /// same proportions.
     #[must_use]
     pub fn resized(self, size: (u32, u32)) -> Camera {
         let pixels_per_meter = self.pixels_per_meter * f64::from(size.1) / f64::from(self.size.1.max(1));
@@ -129,7 +129,7 @@ mod tests {
         let bounds = Bounds { low: DVec2::ZERO, high: DVec2::new(6.0, 6.0) };
         let camera = Camera::fit(bounds, 0.05, (1280, 720));
         assert!(close(camera.to_picture(DVec2::new(3.0, 3.0)), DVec2::new(640.0, 360.0)));
-        // 5 % of 720 pixels above and below; the y axis turns over.
+        // A margin of 36 of 720 pixels above and below; the y axis turns over.
         assert!(close(camera.to_picture(DVec2::new(3.0, 6.0)), DVec2::new(640.0, 36.0)));
         assert!(close(camera.to_picture(DVec2::new(3.0, 0.0)), DVec2::new(640.0, 684.0)));
         let wide = Camera::fit(Bounds { low: DVec2::ZERO, high: DVec2::new(100.0, 1.0) }, 0.1, (1000, 500));

@@ -1,7 +1,7 @@
-//! Filling shapes known by their signed distance: exact edges, no stroker, no seams.
+//! Filling of shapes by their signed distance: exact edges without a stroker and without seams.
 //!
-//! All arithmetic is `f32` add, multiply and square root, and whole numbers: the bytes are the same on every machine
-//! that keeps to IEEE 754.
+//! All arithmetic is on whole numbers, or addition, multiplication and square root of `f32`. So the bytes are the same
+//! on every machine that follows IEEE 754.
 
 use tiny_skia::Pixmap;
 
@@ -32,7 +32,7 @@ impl Ink {
         if filled <= 0.0 {
             return (self.outline, inside);
         }
-        // Of what is covered a share is fill: where the line is thinner than a pixel its light is shared with the fill.
+        // The fill's share of the covered part. A line thinner than a pixel shares its light with the fill.
         let share = filled / inside;
         (mix(self.outline, self.fill, (share * 256.0 + 0.5) as u32), inside)
     }
@@ -92,10 +92,11 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// The pixels that an interval about `center` touches, within 0 to `end`; one more where it ends between two.
+/// The pixels that an interval about `center` touches, within 0 to `end`. The range is one longer if the interval ends
+/// between two pixels.
 pub(super) fn span(center: f32, half: f32, end: usize) -> std::ops::Range<usize> {
-    // Casts cut off the fraction, saturate, and turn not-a-number into 0: whatever the pose, the range lies in the
-    // picture. (Rounding down and up by name would be calls where the processor has no instruction for it.)
+    // Casts truncate, saturate, and turn NaN into 0. So the range lies in the picture for every pose. (`floor` and
+    // `ceil` would be calls if the processor has no instruction for them.)
     let high = center + half;
     let to = if high > 0.0 { (high as usize).saturating_add(1).min(end) } else { 0 };
     let from = (center - half) as usize;

@@ -1,5 +1,5 @@
-//! Colours mixed as light mixes. sRGB values (IEC 61966-2-1) go through two constant tables, so that an edge that covers
-//! half of a pixel gives half of the light, and the bytes are the same on every machine.
+//! Mixing of colours in linear light. sRGB values (IEC 61966-2-1) pass through two constant tables. So an edge that
+//! covers half of a pixel gives half of the light. The bytes are the same on every machine.
 
 use jostle_frames::frame::Rgb;
 

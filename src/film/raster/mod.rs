@@ -1,6 +1,6 @@
-//! A frame, a camera and a theme -> a picture. A pure function: the same frame gives the same bytes, whoever draws it.
+//! From a frame, a camera and a theme to a picture. It is a pure function: the same frame always gives the same bytes.
 //!
-//! What never moves (background, grid, walls, fixed bodies, title) is drawn once and copied into each frame. One
+//! The immobile parts (background, grid, walls, fixed bodies, title) are drawn once and copied into each frame. One
 //! thread draws a whole frame; several frames may be drawn at once.
 
 mod camera;
@@ -39,13 +39,13 @@ use text::{Lettering, Weight};
 /// How a film looks at the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// Where the camera stands, and the size of the picture.
+    /// The position of the camera, and the size of the picture.
     pub camera: Camera,
     /// The colours.
     pub theme: Theme,
-    /// The time from frame to frame in seconds of physics: the clock shows enough decimals to tell frames apart.
+    /// The time from frame to frame in seconds of physics. The clock shows enough decimals to distinguish frames.
     pub frame_step: f64,
-    /// What stands beside the film; the camera's picture is what is left of the whole.
+    /// The panel beside the film. The camera's picture takes the remaining space.
     pub panel: Option<Panel>,
 }
 
@@ -64,7 +64,7 @@ impl View {
     }
 }
 
-/// A picture of that size cannot be made: a side is zero, or there is no memory for it.
+/// The error for a picture whose side is zero, or for which memory is insufficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizeError {
     /// Width in pixels.
@@ -81,7 +81,7 @@ impl std::fmt::Display for SizeError {
 
 impl std::error::Error for SizeError {}
 
-/// What drawing one frame needs beside the picture: one for each thread, kept from frame to frame.
+/// The buffers for drawing a frame, one set for each thread, kept from frame to frame.
 #[derive(Debug, Default)]
 pub struct Scratch {
     field: Field,
@@ -104,7 +104,7 @@ pub struct Painter {
     clock: Clock,
     /// Names of bodies.
     writing: Writing,
-    /// What stands in the corner.
+    /// The texts in the corner.
     corner: Writing,
     labels: Column,
     /// The fill of each body.
@@ -189,7 +189,7 @@ impl Painter {
         Arc::ptr_eq(&self.cast, &frame.cast)
     }
 
-    /// What never moves, drawn once. A camera that moves sees it anew in each frame.
+    /// The immobile parts, drawn once. For a moving camera they are drawn again in each frame.
     pub fn backdrop(&self) -> &Pixmap {
         &self.backdrop
     }
@@ -280,7 +280,7 @@ impl Painter {
     }
 }
 
-/// Draws bodies where the frame has them.
+/// Draws bodies at their poses in the frame.
 fn paint_figures(figures: &[(usize, Figure)], frame: &Frame, camera: &Camera, picture: &mut Pixmap, field: &mut Field) {
     let mut canvas = Canvas::new(picture);
     for (place, figure) in figures {

@@ -1,17 +1,18 @@
 //! The outlines of a font, as `tools/font_outlines.py` writes them.
 //!
-//! The first line has the units per em. Each line after it is a character (its number, hexadecimal), the way to the next one, and the
-//! outline in units of the font, y up: `@x,y` shifts the part that follows, `/x,y` begins a contour, `x,y` is the next point on
-//! it, `~x,y` the control point of a quadratic curve. Between two control points the curve goes through their middle.
+//! The first line has the units per em. Each line after it describes one character: its number (hexadecimal), the
+//! advance to the next character, and the outline. The outline is in units of the font, y up. In the outline `@x,y`
+//! shifts the following part, and `/x,y` begins a contour. `x,y` is the next point on it, and `~x,y` the control point
+//! of a quadratic curve. Between two control points the curve goes through their middle.
 
 use std::collections::BTreeMap;
 
 use tiny_skia::{Path, PathBuilder};
 
-/// What stands for a character that the font lacks.
+/// The replacement for a character that the font lacks.
 const LACKING: char = '\0';
 
-/// One letter: its outline at the origin of the baseline (y down), none for a space, and the way to the next one.
+/// One letter: its outline at the origin of the baseline (y down), and its advance. A space has no outline.
 #[derive(Clone, Debug)]
 pub(super) struct Letter {
     pub(super) outline: Option<Path>,
@@ -53,7 +54,7 @@ impl<'a> Font<'a> {
     }
 }
 
-/// Points of outlines lie on a grid of 1/64 pixel, as rasterisers of TrueType fonts lay them.
+/// A grid of 1/64 pixel for the points of outlines, as in rasterisers of TrueType fonts.
 #[derive(Clone, Copy, Default)]
 struct Grid {
     /// Steps of the grid per unit of the font.
@@ -126,7 +127,7 @@ impl Pen {
         self.path.quad_to(pixels(control.0), -pixels(control.1), pixels(to.0), -pixels(to.1));
     }
 
-    /// Ends the contour where it began, if there is one.
+    /// Closes the current contour at its first point.
     fn close(&mut self) {
         if let Some(control) = self.control.take() {
             self.curve(control, self.start);

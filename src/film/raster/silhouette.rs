@@ -1,8 +1,8 @@
-//! One body as one silhouette: the union of its discs, drawn at once, so that no seam shows between neighbours.
+//! The silhouette of a body: the union of its discs, drawn at once, so that no seam shows between neighbours.
 //!
-//! Discs of one size that touch are joined by the straight strip between them, and the pinholes in the middle of
-//! four are closed: a body looks as massive as it is. The outline lies inside the edge, so the edge of the picture
-//! is the edge of the discs. Parts with sides are drawn by their distance too, so that they join discs without a seam.
+//! A straight strip joins discs of one size that touch, and the pinholes between four discs are closed. So a body looks
+//! as massive as it is. The outline lies inside the edge, so the edge of the picture is the edge of the discs. Parts
+//! with sides are drawn by their distance too, so that they join discs without a seam.
 
 use glam::DVec2;
 
@@ -45,7 +45,7 @@ struct Polygon {
     radius: f64,
 }
 
-/// Where a body stands in the picture: centre in pixels, and the direction of its own x axis with y up.
+/// The pose of a body in the picture: centre in pixels, and direction of its x axis with y up.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     pub(super) x: f64,
@@ -110,7 +110,7 @@ impl Silhouette {
         }
     }
 
-    /// Draws the body where it stands.
+    /// Draws the body at its pose.
     pub(super) fn draw(&self, stand: &Stand, ink: &Ink, canvas: &mut Canvas, field: &mut Field) {
         match self.strips.as_slice() {
             [only] if only.from == only.to && self.polygons.is_empty() => {
@@ -262,7 +262,7 @@ impl Outline {
         let (mut highest, mut beyond, mut outer) = (f32::NEG_INFINITY, 0.0, f32::INFINITY);
         for OutlineSide { from, along, length, cut } in &self.sides {
             let (dx, dy) = (x - from.0, y - from.1);
-            // With y down the outside of a counter-clockwise polygon lies to this hand.
+            // With y down, this is the outer side of a counter-clockwise polygon.
             let height = dx * -along.1 + dy * along.0;
             let way = dx * along.0 + dy * along.1;
             let past = (way - length).max(-way).max(0.0);
@@ -296,8 +296,8 @@ impl Reach {
     }
 }
 
-/// The pairs of discs of one size that touch, lower place first, in order. None where discs lie upon each other by the dozen: they
-/// look the same without strips between them, whose number grows with its square.
+/// The pairs of discs of one size that touch, lower index first, in order. The list is empty if discs pile up by the
+/// dozen. Such discs look the same without strips, whose number grows with the square of the pile.
 fn bonds(discs: &[Disc]) -> Vec<(usize, usize)> {
     // A tall chain swept along x would be compared each with each.
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -328,7 +328,7 @@ fn bonds(discs: &[Disc]) -> Vec<(usize, usize)> {
     found
 }
 
-/// One diagonal of each complete square of bonded discs, where a pinhole has to be closed.
+/// One diagonal of each complete square of bonded discs that has a pinhole.
 fn closures(discs: &[Disc], bonds: &[(usize, usize)]) -> Vec<(usize, usize)> {
     let mut neighbors = vec![Vec::new(); discs.len()];
     for &(a, b) in bonds {
@@ -348,7 +348,7 @@ fn closures(discs: &[Disc], bonds: &[(usize, usize)]) -> Vec<(usize, usize)> {
             }
         }
     }
-    // A complete square is seen from two corners. Where these touch each other there is no pinhole between them.
+    // A complete square is seen from two corners. If these two touch each other, there is no pinhole between them.
     corners.sort_unstable();
     let complete = corners
         .windows(2)
@@ -398,7 +398,8 @@ mod tests {
         assert_eq!(closures(&chain, &bonds(&chain)), []);
     }
 
-    /// A chain in which each disc overlaps many is joined as ever; a heap of them is not, for its strips would take gigabytes.
+    /// A chain in which each disc overlaps many gets its strips. A heap of discs does not, because its strips would
+    /// take gigabytes.
     #[test]
     fn discs_by_the_thousand_in_one_place_are_drawn_by_themselves() {
         let chain = |step: f64| -> Vec<Disc> {
@@ -424,7 +425,8 @@ mod tests {
     #[test]
     fn a_body_turns_counter_clockwise() {
         let stand = Stand { x: 10.0, y: 20.0, cosine: 0.0, sine: 1.0 };
-        // A quarter turn brings its right side to the top, its top to the left; up is less y in the picture.
+        // A quarter turn brings its right side to the top, and its top to the left. Up means a smaller y in the
+        // picture.
         assert_eq!(stand.place(DVec2::new(3.0, 0.0)), (10.0, 17.0));
         assert_eq!(stand.place(DVec2::new(0.0, 3.0)), (7.0, 20.0));
     }

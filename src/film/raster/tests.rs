@@ -114,7 +114,7 @@ fn no_size_and_no_pose_are_survived() {
     assert_eq!(Painter::new(&view, &frame).err(), Some(SizeError { width: 0, height: 10 }));
 }
 
-/// A part of 0.1 m, all of it on the ball, fills its corner with the colour of the ball, whatever the camera follows.
+/// A part of 0.1 m on the ball fills its corner with the ball's colour, whatever the camera follows.
 #[test]
 fn an_inset_shows_its_part_enlarged_in_its_corner() {
     let view = view();
@@ -124,7 +124,7 @@ fn an_inset_shows_its_part_enlarged_in_its_corner() {
         let shape =
             MarkShape::Inset { center: DVec2::new(4.0, 2.2), height: 0.1, corner: corner(right, bottom), share: 0.25 };
         frame.marks = vec![Mark::plain(shape)];
-        // A title would stand in front of it.
+        // A title would cover it.
         frame.cast = Arc::new(Cast { title: String::new(), ..(*frame.cast).clone() });
         let painter = Painter::new(&view, &frame).expect("a small picture");
         // A quarter of 180 pixels, and 0.75 of a pad of 6 pixels from both borders.

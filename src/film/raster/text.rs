@@ -1,4 +1,4 @@
-//! Text as outlines: letters of the shipped font become paths, set one after the other without shaping.
+//! Text as outlines: letters of the shipped font become paths, one after the other without shaping.
 
 use std::collections::BTreeMap;
 
@@ -38,7 +38,7 @@ impl Lettering {
         Lettering { letters: text.chars().filter_map(letter).collect(), size }
     }
 
-    /// Like [`Lettering::new`], but all digits are as wide as the widest, so that a running clock stands still.
+    /// Like [`Lettering::new`], but all digits are as wide as the widest, so that a running clock does not jitter.
     pub(super) fn tabular(weight: Weight, size: f32, text: &str) -> Lettering {
         let mut lettering = Lettering::new(weight, size, text);
         let digits = || '0'..='9';
@@ -64,7 +64,7 @@ impl Lettering {
         text.chars().filter_map(|letter| self.letters.get(&letter)).map(|letter| letter.advance).sum()
     }
 
-    /// The outline of a text whose baseline begins at (`x`, `y`) in the picture; `None` if there is nothing to draw.
+    /// The outline of a text whose baseline begins at (`x`, `y`) in the picture; `None` if it is empty.
     pub(super) fn path(&self, text: &str, x: f32, y: f32) -> Option<Path> {
         let mut builder = PathBuilder::new();
         let mut pen = x;

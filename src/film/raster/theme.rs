@@ -1,4 +1,4 @@
-//! Themes: every colour of a film. They stand in `assets/themes/*.ron`, one file each, and are part of the program.
+//! Themes: every colour of a film. Each is a file `assets/themes/*.ron`, and all are part of the program.
 
 use serde::{Deserialize, Deserializer, de};
 
@@ -9,7 +9,7 @@ use jostle_frames::palette::{COLOR_NAMES, THEMES};
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Theme {
-    /// Where there is nothing.
+    /// The colour of the empty background.
     #[serde(deserialize_with = "hexadecimal")]
     pub background: Rgb,
     /// The lines of the grid on the background.
@@ -62,7 +62,7 @@ pub struct Tint {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Swatch {
-    /// The name, as a scene writes it.
+    /// The name in scenes.
     pub name: String,
     /// The colour.
     #[serde(deserialize_with = "hexadecimal")]
@@ -70,7 +70,7 @@ pub struct Swatch {
 }
 
 impl Theme {
-    /// The theme of that name; `None` if there is none.
+    /// The theme of that name, or `None`.
     ///
     /// ```
     /// # extern crate jostle_film as jostle;
@@ -86,7 +86,7 @@ impl Theme {
     /// A theme from its RON text, written like those in `assets/themes`.
     ///
     /// # Errors
-    /// What is wrong with it, with line and column where there is one. A theme has exactly the colours of
+    /// The error names the mistake, with line and column if they are known. A theme has exactly the colours of
     /// [`COLOR_NAMES`], in their order, so that scenes can count on them.
     pub fn read(text: &str) -> Result<Theme, String> {
         let theme: Theme = ron::from_str(text).map_err(|error| error.to_string())?;
@@ -113,7 +113,7 @@ impl Theme {
         swatch.map_or_else(|| parse(name), |swatch| Some(swatch.color))
     }
 
-    /// The colour of a mark of a layer: a role of the theme, a colour that a scene may name, or ink.
+    /// The colour of a layer's mark: a role of the theme, a colour that a scene may name, or ink.
     pub fn mark_color(&self, name: Option<&str>) -> Rgb {
         match name {
             Some("force") => self.force,
@@ -129,8 +129,8 @@ impl Theme {
         self.palette.iter().map(|swatch| swatch.name.as_str())
     }
 
-    /// The fill of a body: the colour asked for; else grey if it is fixed; else the one whose turn it is, counted
-    /// from 0. A name the theme does not know counts as none: whoever reads the scene has said so already.
+    /// The fill of a body. It is the requested colour, or grey if the body is fixed. Otherwise it is the next colour in
+    /// turn, counted from 0. An unknown name counts as no request, because the reader of the scene has reported it.
     pub fn body(&self, asked: Option<&str>, fixed: bool, turn: usize) -> Rgb {
         let own = asked.and_then(|name| self.color(name));
         let by_turn = || {

@@ -1,12 +1,12 @@
-//! Small pictures, one thing each, against the truth: 16 x 16 samples in each pixel, mixed as light.
+//! Comparison of small pictures, one shape each, with supersampling: 16 x 16 samples in each pixel, mixed as light.
 //!
-//! Where the tolerance comes from: a distance to an edge is taken for the share of the pixel behind it. For a straight edge
-//! at 45 degrees, the worst, the share is `(1/sqrt 2 - d)^2` at the distance d, and differs from `1/2 - d` by at most 0.043.
-//! A pixel that two edges cross (a line and its fill) may have that twice, each time a contrast of at most 255: 22 levels.
-//! The samples themselves miss an edge by up to a 32nd of a pixel here or there, on average far less: 4 levels. Together 26.
-//! At a kink between two arcs, where the nearest edge is not the only one in the pixel, a quarter of the pixel may be
-//! missed: 64 more, within 1.5 pixels of it. Differences are those of light, not of sRGB values, of which there are up to
-//! five for one of light in the dark. What this leaves out: text and lines drawn by tiny-skia.
+//! Tolerance: the distance to an edge replaces the share of the pixel behind it. The worst straight edge is at 45
+//! degrees. Its share is `(1/sqrt 2 - d)^2` at the distance d, and differs from `1/2 - d` by at most 0.043. A pixel
+//! that two edges cross (a line and its fill) may have that twice. Each time the contrast is at most 255, which makes
+//! 22 levels. The samples miss an edge by up to a 32nd of a pixel, on average far less: 4 levels. Together that is 26.
+//! At a kink between two arcs a quarter of the pixel may be missed, because two edges share it. That adds 64 levels
+//! within 1.5 pixels of the kink. Differences are those of light and not of sRGB values. In the dark up to five sRGB
+//! values share one level of light. Not tested: text and lines drawn by tiny-skia.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -38,8 +38,8 @@ fn drawn(draw: impl Fn(&mut Pixmap)) -> Pixmap {
     picture
 }
 
-/// The largest difference of light from a colour that is known at each point (pixels, y down), away from the kinks and
-/// near them.
+/// The largest difference of light from a colour that is known at each point (pixels, y down). One value is for points
+/// away from the kinks, the other for points near them.
 fn errors(picture: &Pixmap, kinks: &[DVec2], truth: impl Fn(DVec2) -> Rgb) -> (f64, f64) {
     let (mut away, mut near) = (0.0_f64, 0.0_f64);
     for (row, column) in (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (row, column))) {
@@ -68,7 +68,8 @@ fn assert_true(what: &str, picture: &Pixmap, kinks: &[DVec2], truth: impl Fn(DVe
     assert!(away <= TOLERANCE && near <= AT_KINKS, "{what}: off by {away:.1}, at kinks by {near:.1}");
 }
 
-/// The colour of an outlined shape: `inside` says whether a point lies in it when it is shrunk by so many pixels.
+/// The colour of an outlined shape. `inside` decides whether a point lies in the shape after it shrinks by a number of
+/// pixels.
 fn shaded(ink: &Ink, inside: impl Fn(f64) -> bool) -> Rgb {
     match (inside(0.0), inside(f64::from(ink.width))) {
         (false, _) => PAPER,
@@ -80,7 +81,7 @@ fn shaded(ink: &Ink, inside: impl Fn(f64) -> bool) -> Rgb {
 /// Whether a point of the picture lies in one of the strips between two discs each, shrunk by so much.
 type Inside = Box<dyn Fn(DVec2, f64, &[(usize, usize)]) -> bool>;
 
-/// A body drawn at one pixel per metre, and what is inside of it.
+/// A body drawn at one pixel per metre, and the function that decides whether a point is inside.
 fn body(discs: &[Disc], ink: Ink) -> (Pixmap, Inside) {
     let stand = Stand { x: 21.3, y: 25.6, cosine: 0.8, sine: 0.6 };
     let picture = drawn(|picture| {
@@ -115,7 +116,7 @@ fn a_disc() {
     }
 }
 
-/// A line of a third of a pixel is drawn as thin as it is.
+/// A line of a third of a pixel is drawn with a third of its light.
 #[test]
 fn an_outline_thinner_than_a_pixel() {
     let ink = Ink { width: 0.35, ..INK };
@@ -124,12 +125,12 @@ fn an_outline_thinner_than_a_pixel() {
     assert_true("thin line", &picture, &[], |place| shaded(&ink, |shrunk| place.distance(center) <= 14.2 - shrunk));
 }
 
-/// Two atoms of one body: one silhouette, no line where they overlap.
+/// Two atoms of one body: one silhouette, without a line in the overlap.
 #[test]
 fn two_overlapping_atoms() {
     let discs = [disc(-6.0, 0.0, 9.0), disc(7.0, 2.0, 7.0)];
     let (picture, inside) = body(&discs, INK);
-    // Where the two circles cross, at the edge and at the inner side of the line: radii 9 and 7, then 7 and 5.
+    // The crossings of the two circles, at both sides of the line: radii 9 and 7, then 7 and 5.
     let mut kinks = Vec::new();
     for shrunk in [0.0, 2.0] {
         let (a, b) = (9.0_f64 - shrunk, 7.0_f64 - shrunk);
@@ -164,7 +165,7 @@ fn an_outlined_block() {
         own.distance(own.clamp(DVec2::splat(-9.0), DVec2::splat(9.0))) <= 4.5 - shrunk
     };
     assert_true("block", &picture, &[], |place| shaded(&INK, |shrunk| square(place, shrunk)));
-    // The truth itself: what the strips along the bonds leave open of the square are pinholes alone, which are closed.
+    // Checks the truth itself: the strips along the bonds leave only pinholes of the square open, which are closed.
     let rows = [(0, 2), (3, 5), (6, 8), (0, 6), (1, 7), (2, 8)];
     assert!(inside(DVec2::new(21.3, 25.6), 2.0, &rows));
 }
@@ -229,8 +230,8 @@ fn an_arrow() {
     }
 }
 
-/// The comparison must be able to fail: edges as wide as two pixels, a line half as thick, a seam between two atoms and a
-/// shape half a pixel aside are each found.
+/// The comparison must be able to fail. It finds edges as wide as two pixels, a line half as thick, and a seam between
+/// two atoms. It also finds a shape half a pixel aside.
 #[test]
 fn wrong_pictures_are_found() {
     let center = DVec2::splat(24.0);

@@ -1,10 +1,10 @@
-//! Whether the themes can be told apart: by eyes with two kinds of cones, in print without colour, and text from its
-//! ground.
+//! Whether the colours of the themes differ enough: for dichromats, in print without colour, and as text on its ground.
 //!
-//! Sources: what people without one kind of cones see is simulated with the matrices of Machado, Oliveira, Fernandes
-//! (2009, IEEE TVCG 15, 1291, table 1, severity 1) in linear sRGB. Distances of colours are Euclidean in OKLab (Ottosson
-//! 2020), where 0.02 is just noticeable (CSS Color Module Level 4). Contrast is that of WCAG 2.2. Not tested: people with
-//! three kinds of cones one of which is shifted, who see more than these; small areas, where all eyes see less.
+//! Sources: the vision of dichromats is simulated in linear sRGB with the matrices of Machado, Oliveira, Fernandes.
+//! They stand in IEEE TVCG 15, 1291 (2009), table 1, severity 1. Distances of colours are Euclidean in OKLab (Ottosson
+//! 2020), where 0.02 is just noticeable (CSS Color Module Level 4). Contrast is that of WCAG 2.2. Not tested: people
+//! with three kinds of cones one of which is shifted, because they see more than dichromats. Not tested either: small
+//! areas, which all eyes see less well.
 
 use super::Theme;
 use jostle_frames::frame::Rgb;
@@ -22,7 +22,7 @@ const EYES: [(&str, Matrix); 4] = [
     ("tritanopia", [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]),
 ];
 
-/// Four just noticeable steps: what is told apart at a glance, not only side by side.
+/// Four just noticeable steps: colours that differ at a glance, not only side by side.
 const APART: f64 = 4.0 * 0.02;
 
 fn linear(Rgb(red, green, blue): Rgb) -> [f64; 3] {
@@ -73,7 +73,7 @@ fn cycle(theme: &Theme) -> Vec<(String, Rgb)> {
     theme.cycle.iter().map(|name| (name.clone(), theme.color(name).expect("in the palette"))).collect()
 }
 
-/// Known values: black and white are 21 to 1; red, green and blue in OKLab as Ottosson gives them, to his three digits.
+/// Known values: black and white are 21 to 1. Red, green and blue in OKLab have Ottosson's values, to his three digits.
 #[test]
 fn the_measures_agree_with_their_sources() {
     let (black, white) = (Rgb(0, 0, 0), Rgb(255, 255, 255));
@@ -93,7 +93,7 @@ fn the_measures_agree_with_their_sources() {
     }
 }
 
-/// The colours that bodies take by turns are told apart by everybody: at least six of them, all of the cycle.
+/// All eyes distinguish the colours that bodies take by turns: at least six of them, all of the cycle.
 #[test]
 fn the_colours_of_bodies_stay_apart_for_all_eyes() {
     for (name, theme) in themes() {
@@ -110,7 +110,7 @@ fn the_colours_of_bodies_stay_apart_for_all_eyes() {
     }
 }
 
-/// In print the lightness alone tells the first six colours apart.
+/// In print the lightness alone distinguishes the first six colours.
 #[test]
 fn the_colours_of_print_stay_apart_without_colour() {
     let theme = Theme::named("print").expect("shipped");
@@ -138,8 +138,8 @@ fn text_and_arrows_stand_out_from_their_ground() {
     }
 }
 
-/// The outline of a body and the young end of its trail stand out from the background for everybody, however pale its
-/// fill. A trail covers 0.92 of the ground there.
+/// The outline of a body and the young end of its trail contrast with the background for all eyes. The fill may be as
+/// pale as it likes. A trail covers 0.92 of the ground there.
 #[test]
 fn outlines_and_trails_stand_out_from_the_background() {
     for (name, theme) in themes() {

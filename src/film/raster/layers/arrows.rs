@@ -1,4 +1,4 @@
-//! Arrows: a shaft and a head as one area within a halo that keeps them apart from bodies, filled by exact distance.
+//! Arrows, filled by exact distance: a shaft and a head as one area within a halo. The halo separates them from bodies.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -15,11 +15,11 @@ const HALO: f32 = 0.7;
 /// The head takes at most this share of a short arrow; its widths shrink with it.
 const HEAD_SHARE: f32 = 0.6;
 
-/// How far behind the first head a second one stands, in lengths of heads.
+/// The distance from the first head to the second one, in lengths of heads.
 const SECOND: f64 = 0.8;
 
-/// Draws an arrow between two places in pixels, with so many heads, in its colour within a halo, for lines of `width`
-/// pixels. One that lies nowhere or has no length is not drawn.
+/// Draws an arrow between two points in pixels, with `heads` heads, in its colour within a halo. Lines are `width`
+/// pixels wide. An arrow is not drawn if it has no length, or if an end is NaN or infinite.
 pub(in crate::raster) fn arrow(
     picture: &mut Pixmap,
     (from, to): (DVec2, DVec2),
@@ -30,7 +30,7 @@ pub(in crate::raster) fn arrow(
     let Some(along) = (to - from).try_normalize() else { return };
     let back = along * (SECOND * f64::from(HEAD_LENGTH * width));
     for head in 0..heads {
-        // The later one stands behind and within its own halo, so that both are seen.
+        // The second head lies behind, within its halo, so that both are visible.
         Arrow::new(from, to - back * head as f64, width).draw(&mut Canvas::new(picture), color, halo);
     }
 }

@@ -1,4 +1,4 @@
-//! The background and its faint grid, whose lines stand at round lengths.
+//! The background and its faint grid, whose lines lie at round lengths.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -35,8 +35,8 @@ pub(in crate::raster) fn draw(pixmap: &mut Pixmap, camera: &Camera, theme: &Them
     }
 }
 
-/// The distance of the lines: the smallest 1, 2 or 5 times a power of ten of which a picture `height` metres high
-/// holds no more than [`LINES`].
+/// The distance of the lines: the smallest 1, 2 or 5 times a power of ten within the limit. The limit is [`LINES`]
+/// lines in a picture `height` metres high.
 fn step(height: f64) -> f64 {
     let wanted = height / LINES;
     let mut decade = 1.0;

@@ -1,4 +1,4 @@
-//! Bodies: one silhouette each, with marks that show its atoms and its turning.
+//! Bodies: one silhouette each, with marks that show its atoms and its rotation.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ use jostle_frames::frame::{BodyLook, Disc, Pose, Rgb};
 /// Atoms with a smaller radius than this, in pixels, are not marked: the marks would be noise.
 const SMALLEST_MARKED: f64 = 5.0;
 
-/// Fixed discs have an axle from this radius on, in pixels: a terrain of small discs would be dotted all over.
+/// Fixed discs have an axle from this radius on, in pixels. Otherwise dots would cover a terrain of small discs.
 const SMALLEST_WITH_AXLE: f64 = 12.0;
 
 /// How one body is drawn, at the camera's scale.
@@ -58,8 +58,8 @@ impl Figure {
     }
 }
 
-/// A body of several discs shows each; a single disc that moves has its mark off the centre, so that one sees it
-/// turn; a single disc that is fixed has a small axle.
+/// A body of several discs shows each. A single mobile disc has its mark off the centre, so that its rotation is
+/// visible. A single fixed disc has a small axle.
 fn marks(discs: &[Disc], fixed: bool, scale: f64) -> Vec<Mark> {
     let smallest = if fixed { SMALLEST_WITH_AXLE } else { SMALLEST_MARKED };
     let wide = |disc: &&Disc| disc.radius * scale > smallest;

@@ -1,4 +1,4 @@
-//! The clock: the time of the frame, with digits that stand still, in a unit that suits the steps of the film.
+//! The clock: the time of the frame in a unit that suits the steps of the film. Its digits do not jitter.
 
 use std::collections::BTreeMap;
 
@@ -33,8 +33,8 @@ struct Letter {
 }
 
 impl Clock {
-    /// A clock with letters of `size` pixels that tells frames `step` seconds apart. Its unit is the largest that is not
-    /// longer than a step.
+    /// A clock with letters of `size` pixels that distinguishes frames `step` seconds apart. Its unit is the largest
+    /// that is not longer than a step.
     pub(in crate::raster) fn new(size: f32, step: f64, theme: &Theme) -> Clock {
         let unit = UNITS.into_iter().find(|(seconds, _)| step >= *seconds).unwrap_or((1.0, "s"));
         let decimals = decimals(step / unit.0);
@@ -101,11 +101,11 @@ pub(super) fn grouped(number: &str) -> String {
     text + &number[end..]
 }
 
-/// The decimals that tell two frames `step` seconds apart: at least two, at most nine.
+/// The decimals that distinguish two frames `step` seconds apart: at least two, at most nine.
 fn decimals(step: f64) -> usize {
     let mut decimals = 2;
     let mut smallest = 0.01;
-    // The last digit may count in steps of a few, not stand still: 1/30 s needs two decimals, 1 ms three.
+    // The last digit may advance by a few, but must not stand still. So 1/30 s needs two decimals, 1 ms three.
     while decimals < 9 && step > 0.0 && step < smallest * (1.0 - 1e-9) {
         decimals += 1;
         smallest *= 0.1;

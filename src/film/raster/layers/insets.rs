@@ -1,6 +1,6 @@
 //! Insets: parts of the picture, enlarged in its corners.
 //!
-//! Each has a painter of its own, with a camera that is nearer. A thin frame shows which part of the picture it is.
+//! Each has a separate painter, with a nearer camera. A thin frame shows which part of the picture it is.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -34,7 +34,7 @@ impl Inset {
     pub(in crate::raster) fn all(view: &View, frame: &Frame) -> Result<Vec<Inset>, SizeError> {
         let ((width, height), weights) = (view.camera.size(), Weights::of(view.size()));
         let air = (AIR * weights.pad).round() as u32;
-        // The camera of an inset stands still, whatever that of the film follows.
+        // The camera of an inset is fixed, whatever the film's camera follows.
         let still = Frame { center: None, ..frame.clone() };
         let mut insets = Vec::new();
         for mark in &frame.marks {

@@ -1,4 +1,4 @@
-//! Where the labels stand: beside the room if there is space, else in its upper left corner.
+//! The position of the labels: beside the room if there is space, else in its upper left corner.
 
 use glam::DVec2;
 use tiny_skia::{FillRule, IntRect, LineJoin, Path, Pixmap, PixmapPaint, Stroke, Transform};
@@ -7,7 +7,7 @@ use super::paint;
 use crate::raster::text::Lettering;
 use jostle_frames::frame::Rgb;
 
-/// The part of the picture that no wall covers, as an upright box in pixels, y down.
+/// The part of the picture without walls, as an upright box in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::raster) struct Room {
     pub(in crate::raster) low: DVec2,
@@ -27,13 +27,13 @@ pub(in crate::raster) struct Column {
     pub(in crate::raster) in_room: bool,
     /// Baseline of the last line.
     pub(in crate::raster) bottom: f32,
-    /// Whether that is the only line at the bottom: it stands on the ground below the room.
+    /// Whether the bottom has only that line, on the ground below the room.
     pub(in crate::raster) one_line: bool,
 }
 
 impl Column {
-    /// The column for a room whose walls have a band `band` pixels wide. `needed` is the width of the widest label
-    /// that cannot be broken, `pad` the distance to keep from borders, `height` that of the picture, `small` that of
+    /// The column for a room whose walls have a band `band` pixels wide. `needed` is the width of the widest label that
+    /// cannot be broken, and `pad` the distance from borders. `height` is that of the picture, and `small` that of
     /// small print.
     pub(in crate::raster) fn beside_or_in(
         room: Room,
@@ -58,7 +58,7 @@ impl Column {
     }
 }
 
-/// Outlines drawn once, to be put on pictures at whole pixels: filling them anew in each frame would cost as much as
+/// Outlines that are drawn once, and put on pictures at whole pixels. To fill them in each frame would cost as much as
 /// all bodies.
 #[derive(Clone, Debug)]
 pub(in crate::raster) struct Sticker {
@@ -100,7 +100,7 @@ pub(in crate::raster) fn longest_word(text: &str, lettering: &Lettering) -> f32 
     text.split_whitespace().map(|word| lettering.width(word)).fold(0.0, f32::max)
 }
 
-/// Breaks a text into lines no wider than `width`; a word that is wider stands alone and runs over.
+/// Breaks a text into lines no wider than `width`. A wider word gets one line and exceeds the width.
 pub(in crate::raster) fn break_lines(text: &str, lettering: &Lettering, width: f32) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -1,4 +1,4 @@
-//! Lines: a band behind the surface. Of a line that goes from left to right all that lies below is ground.
+//! Lines: a band behind the surface. If a line runs from left to right, everything below it is ground.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -8,7 +8,7 @@ use crate::raster::canvas::{Canvas, Ink, blend, fill};
 use crate::raster::theme::Theme;
 use jostle_frames::frame::WallLook;
 
-/// How far a pixel lies outside a surface, in pixels, below zero behind it; and how far from the piece that is nearest.
+/// The distance of a pixel outside a surface, in pixels, negative behind it; and the distance from the nearest piece.
 #[derive(Clone, Copy)]
 struct Seen {
     height: f64,
@@ -17,7 +17,7 @@ struct Seen {
 
 const FAR: Seen = Seen { height: f64::INFINITY, distance: f64::INFINITY };
 
-/// Draws all lines; `band` and `line` are the widths of the band and of the line at its edge, in pixels.
+/// Draws all lines. `band` and `line` are the widths of the band and of the line at its edge, in pixels.
 pub(super) fn draw(pixmap: &mut Pixmap, walls: &[WallLook], camera: &Camera, theme: &Theme, band: f32, line: f32) {
     for wall in walls.iter().filter(|wall| wall.points.len() > 1) {
         let color = wall.color.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.wall);
@@ -44,7 +44,7 @@ pub(super) fn draw(pixmap: &mut Pixmap, walls: &[WallLook], camera: &Camera, the
     }
 }
 
-/// What each pixel of a picture sees of a line that is given in pixels.
+/// The distances of each pixel of a picture from a line that is given in pixels.
 fn look(points: &[DVec2], band: f64, (width, height): (usize, usize)) -> Vec<Seen> {
     let mut seen = vec![FAR; width * height];
     let is_ground = points.windows(2).all(|two| two[0].x < two[1].x);
@@ -65,7 +65,8 @@ fn look(points: &[DVec2], band: f64, (width, height): (usize, usize)) -> Vec<See
                 let distance = from.distance(along * share);
                 let across = from.dot(normal);
                 let known = &mut seen[row * width + column];
-                // At a joint both pieces are as near: the side is that of the one which sees it more from the front.
+                // At a joint both pieces are equally near. The piece that faces the pixel more directly decides the
+                // side.
                 let nearer = distance < known.distance - 1e-9
                     || distance < known.distance + 1e-9 && across.abs() > known.height.abs();
                 if nearer && distance <= reach {

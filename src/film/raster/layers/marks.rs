@@ -1,4 +1,4 @@
-//! What layers add in front of the bodies: lines, arrows, circles, dots, rectangles.
+//! Marks of layers in front of the bodies: lines, arrows, circles, dots, rectangles.
 
 use glam::DVec2;
 use tiny_skia::{LineCap, Path, PathBuilder, Pixmap, Stroke, Transform};
@@ -13,7 +13,7 @@ use jostle_frames::mark::{Mark, MarkShape};
 /// Radius of a dot in line widths.
 const DOT: f32 = 1.7;
 
-/// Draws marks with lines of `width` pixels. Trails, labels and what stands in corners are drawn elsewhere.
+/// Draws marks with lines of `width` pixels. Trails, labels and marks in corners are drawn elsewhere.
 pub(in crate::raster) fn draw(picture: &mut Pixmap, marks: &[Mark], camera: &Camera, theme: &Theme, width: f32) {
     let place = |point: DVec2| camera.to_picture(point);
     for mark in marks {

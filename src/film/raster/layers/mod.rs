@@ -1,4 +1,4 @@
-//! What is drawn, one file per thing, from back to front.
+//! The parts of a picture, one file per part, from back to front.
 
 pub(super) mod arrows;
 pub(super) mod backdrop;

@@ -1,4 +1,4 @@
-//! What states scales: the scale bar of the picture, and the keys of arrows, each in a line of small print.
+//! Scales: the scale bar of the picture, and the keys of arrows, each in a line of small print.
 
 use glam::DVec2;
 use tiny_skia::{Pixmap, Rect, Transform};
@@ -14,8 +14,8 @@ use jostle_frames::mark::{Mark, MarkShape};
 /// The longest scale bar, in pixels at the usual letters of 16 pixels.
 const LONGEST: f64 = 110.0;
 
-/// Draws the scales among the marks, from the bottom of the column upwards, or one after the other where there is only
-/// one line. `line` is the width of lines in pixels.
+/// Draws the scales among the marks, from the bottom of the column upwards. If there is only one line, they stand side
+/// by side. `line` is the width of lines in pixels.
 pub(in crate::raster) fn draw(
     picture: &mut Pixmap,
     marks: &[Mark],
@@ -89,7 +89,7 @@ fn round_length(pixels_per_meter: f64, longest: f64) -> (f64, String) {
         decade -= 1;
     }
     let digit = [5.0, 2.0].into_iter().find(|digit| digit * power(decade) <= most).unwrap_or(1.0);
-    // What follows a power of a thousand, and the power itself.
+    // The prefix of a power of a thousand, and the remaining factor.
     let (unit, factor) = match decade {
         9..=11 => ("Gm", decade - 9),
         6..=8 => ("Mm", decade - 6),

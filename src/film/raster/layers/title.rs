@@ -1,4 +1,4 @@
-//! The scene's title.
+//! The title of the scene.
 
 use tiny_skia::{PathBuilder, Pixmap};
 

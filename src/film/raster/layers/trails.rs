@@ -1,5 +1,5 @@
-//! Trails: each is laid over the picture once, as one area whose cover fades with age, so that no seam shows where its
-//! pieces meet or where it crosses itself.
+//! Trails: each is one area whose cover fades with age, laid over the picture once. So no seam shows between its
+//! pieces, or at its crossings with itself.
 
 use glam::DVec2;
 
@@ -7,7 +7,7 @@ use crate::raster::Camera;
 use crate::raster::canvas::{Canvas, blend, span};
 use jostle_frames::frame::Rgb;
 
-/// Half the width of a trail at its young end, and what is left of it at the old one, in line widths.
+/// Half the width of a trail at its young end in line widths, and its share at the old end.
 const HALF_WIDTH: f64 = 1.9;
 const OLD_SHARE: f64 = 0.25;
 
@@ -53,7 +53,7 @@ impl Trail<'_> {
                 let covers = &mut cover.0[start + columns.start..start + columns.end];
                 let pixels = &mut canvas.row(row)[4 * columns.start..4 * columns.end];
                 for (pixel, cover) in pixels.chunks_exact_mut(4).zip(covers) {
-                    // What is laid once is not laid again by the next piece.
+                    // A pixel that is covered once is not covered again by the next piece.
                     if *cover > 0 {
                         blend(pixel, self.color, f32::from(*cover) / 255.0);
                         *cover = 0;

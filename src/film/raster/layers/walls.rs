@@ -1,5 +1,5 @@
-//! Walls: everything behind a half-plane is ground, with a band along the border of the open room. Strips are drawn as they are, lines
-//! by `lines.rs`.
+//! Walls: everything behind a half-plane is ground, with a band along the border of the open room. Strips are drawn
+//! with their thickness, and `lines.rs` draws lines.
 
 use glam::DVec2;
 use tiny_skia::Pixmap;
@@ -27,16 +27,16 @@ impl HalfPlane {
     }
 }
 
-/// The direction of a wall's open side in the world (y up), of length 1: whoever stands there and looks at the wall
-/// has `left` on the left. `None` if the two points agree.
+/// The direction of a wall's open side in the world (y up), of length 1. For an observer there who looks at the wall,
+/// `left` is on the left. `None` if the two points coincide.
 pub(in crate::raster) fn open_side(left: DVec2, right: DVec2) -> Option<DVec2> {
     (-(right - left).perp()).try_normalize()
 }
 
-/// Draws all walls; `band` and `line` are the widths of the band and of the line at its edge, in pixels.
+/// Draws all walls. `band` and `line` are the widths of the band and of the line at its edge, in pixels.
 ///
-/// The distance to the open room is the largest of the depths, so bands of neighbouring walls meet in a mitre and
-/// never run on behind each other.
+/// The distance to the open room is the largest of the depths. So bands of neighbouring walls meet in a mitre and never
+/// continue behind each other.
 pub(in crate::raster) fn draw(
     pixmap: &mut Pixmap,
     walls: &[WallLook],
@@ -71,7 +71,7 @@ pub(in crate::raster) fn draw(
     }
 }
 
-/// Draws walls with ends: at least a line wide, as a strip without thickness would not be seen.
+/// Draws walls with ends. They are at least a line wide, because a strip without thickness would be invisible.
 fn draw_strips(pixmap: &mut Pixmap, walls: &[WallLook], camera: &Camera, theme: &Theme, line: f32) {
     let strips: Vec<_> = walls.iter().filter_map(|wall| Some((wall, wall.thickness?))).collect();
     if strips.is_empty() {
@@ -126,7 +126,7 @@ fn half_planes(walls: &[WallLook], camera: &Camera, theme: &Theme, line: f32) ->
     walls.iter().filter(|wall| wall.thickness.is_none() && wall.points.is_empty()).filter_map(plane).collect()
 }
 
-/// What is left of a convex polygon on the open side.
+/// The part of a convex polygon on the open side.
 fn cut(polygon: Vec<DVec2>, plane: &HalfPlane) -> Vec<DVec2> {
     let mut left = Vec::with_capacity(polygon.len() + 1);
     for (place, &here) in polygon.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Small print: texts drawn once and put on pictures at whole pixels, names beside bodies.
+//! Small print: texts drawn once and put on pictures at whole pixels, and names beside bodies.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
@@ -12,10 +12,10 @@ use crate::raster::theme::Theme;
 use jostle_frames::frame::Rgb;
 use jostle_frames::mark::{Mark, MarkShape};
 
-/// So many texts are remembered; a film with more of them, such as running numbers, draws the others anew.
+/// The number of remembered texts. A film with more of them, such as running numbers, draws the others each time.
 const REMEMBERED: usize = 1024;
 
-/// The small print of a film. A text looks the same whoever asks for it first.
+/// The small print of a film. A text looks the same, whichever thread draws it first.
 #[derive(Clone, Debug)]
 pub(in crate::raster) struct Writing {
     size: f32,
@@ -66,8 +66,8 @@ impl Writing {
         new
     }
 
-    /// Puts the labels among the marks above what they name, or below it where another label stands; one that finds no
-    /// place is left out.
+    /// Puts the labels among the marks above the named things, or below them if another label is there. A label without
+    /// room is left out.
     pub(in crate::raster) fn label(&self, picture: &mut Pixmap, marks: &[Mark], camera: &Camera) {
         let mut taken: Vec<[f32; 4]> = Vec::new();
         for mark in marks {

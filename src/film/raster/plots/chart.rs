@@ -1,4 +1,4 @@
-//! One plot: axes and names, which stand still, and what is drawn up to a moment.
+//! One plot: axes and names, which do not change, and the curves up to a moment.
 
 use tiny_skia::Pixmap;
 
@@ -12,10 +12,10 @@ use crate::raster::canvas::{Canvas, Ink, blend};
 use jostle_frames::frame::Rgb;
 use jostle_frames::plot::{Bars, Content, Decimator, Plot, Sample, with_unit};
 
-/// A curve in a phase portrait that moves less than this, in pixels, stands still.
+/// A curve in a phase portrait that moves less than this, in pixels, counts as at rest.
 const STILL: f32 = 0.4;
 
-/// Beyond so many pixels nothing is told apart, and `f32` still counts well.
+/// Pixels beyond this are indistinguishable, and `f32` is still accurate there.
 const FAR: f64 = 1e4;
 
 /// Between axes that are nearer than so many lines of text, there is no room to name them.
@@ -25,7 +25,7 @@ const LOWEST: f32 = 4.5;
 #[derive(Clone, Debug)]
 pub(in crate::raster) struct Chart {
     title: String,
-    /// What is said beside the title.
+    /// The text beside the title.
     aside: String,
     across_label: String,
     up_label: String,
@@ -57,10 +57,10 @@ struct Trace {
     samples: Vec<Sample>,
 }
 
-/// How a chart says what its axes are.
+/// The labels of the axes of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::raster) enum Naming {
-    /// The unit beside the title, where there is little room.
+    /// The unit beside the title, for little room.
     Brief,
     /// Names at both axes.
     Full,
@@ -78,7 +78,7 @@ impl Chart {
         });
         let traces: Vec<Trace> = traces.collect();
         let turned = naming == Naming::Full || !times;
-        // A single curve that the title or its axis names needs no line of its own.
+        // A single curve needs no line in the list of curves if the title or its axis names it.
         let told = turned || plot.curves().first().is_none_or(|curve| curve.label == plot.title);
         let mut rows = if traces.len() > 1 || !told { rows(&traces, outer.width(), sizes, tones) } else { Vec::new() };
         let top = outer.top + 1.35 * sizes.title + 0.7 * text;
@@ -86,7 +86,7 @@ impl Chart {
             let below = rows as f32 * 1.65 * sizes.legend + if named { 3.3 } else { 2.0 } * text;
             outer.bottom - below - top
         };
-        // Where there is little room, names give way to the curves: first that of the axis, then those below.
+        // If there is little room, names give way to the curves: first that of the axis, then those below.
         let named = left_by(rows.len(), true) >= LOWEST * text;
         if left_by(rows.len(), named) < LOWEST * text {
             rows.clear();
@@ -176,7 +176,7 @@ impl Chart {
         self
     }
 
-    /// The same with curves that look as they are told to.
+    /// The same with the given looks of curves.
     pub(super) fn with_looks(mut self, looks: &[Look]) -> Chart {
         for (trace, look) in self.traces.iter_mut().zip(looks) {
             (trace.color, trace.dash) = self.tones.look(*look, self.sizes.line);
@@ -204,7 +204,7 @@ impl Chart {
         (pixel(self.across.0.place(sample.x)), pixel(self.up.0.place(sample.y)))
     }
 
-    /// The samples that a picture can tell apart, in pixels: against time up to four in each column of pixels.
+    /// The samples that a picture can resolve, in pixels. Against time they are up to four in each column of pixels.
     fn points(&self, samples: &[Sample], times: bool) -> Vec<(f64, Point)> {
         if times {
             let mut decimator = Decimator::default();
@@ -222,7 +222,7 @@ impl Chart {
         points
     }
 
-    /// Draws what stands still.
+    /// Draws the constant parts.
     pub(in crate::raster) fn draw_furniture(&self, picture: &mut Pixmap) {
         let (sizes, tones) = (&self.sizes, &self.tones);
         let (small, heading, label) = (tones.small(sizes), tones.title(sizes), tones.label(sizes));
@@ -309,7 +309,7 @@ impl Chart {
         }
     }
 
-    /// Draws what was measured up to a time (s).
+    /// Draws the measurements up to a time (s).
     pub(in crate::raster) fn draw_until(&self, picture: &mut Pixmap, time: f64, tools: &mut Tools) {
         let now = self.bars.as_ref().and_then(|bars| bars.at(time).last());
         if let Some(count) = now.filter(|count| **count > 0) {
@@ -396,7 +396,7 @@ impl Chart {
     }
 }
 
-/// What drawing needs from frame to frame, to spare allocations.
+/// Buffers of drawing from frame to frame, to spare allocations.
 #[derive(Clone, Debug, Default)]
 pub(in crate::raster) struct Tools {
     sheet: Sheet,
@@ -407,7 +407,7 @@ pub(in crate::raster) struct Tools {
 /// Points without a neighbour, of which no line would be seen.
 fn lonely(points: &[Point]) -> impl Iterator<Item = Point> {
     let is_point = |point: &Point| point.0.is_finite() && point.1.is_finite();
-    // The last point may stand twice, as it is also the last sample.
+    // The last point may occur twice, because it is also the last sample.
     let other = move |a: &Point, b: Option<&Point>| b.is_some_and(|b| is_point(b) && a != b);
     let alone = move |place: &usize| {
         let point = &points[*place];
@@ -417,7 +417,7 @@ fn lonely(points: &[Point]) -> impl Iterator<Item = Point> {
     (0..points.len()).filter(alone).map(|place| points[place])
 }
 
-/// What is said beside the title of a histogram.
+/// The text beside the title of a histogram.
 fn outside(count: u64) -> String {
     if count > 0 { format!("({count} outside)") } else { String::new() }
 }
@@ -458,7 +458,7 @@ fn rows(traces: &[Trace], width: f32, sizes: &Sizes, tones: &Tones) -> Vec<Vec<u
     rows
 }
 
-/// Discs at the heads of curves, back to front, with their radii: where heads meet, those behind are larger, so that each
+/// Discs at the heads of curves, back to front, with their radii. If heads meet, those behind are larger, so that each
 /// shows a ring.
 fn nested(heads: &[(Point, Rgb)], radius: f32) -> Vec<(Point, f32, Rgb)> {
     const RING: f32 = 0.75;
@@ -505,7 +505,7 @@ mod tests {
         picture.take()
     }
 
-    /// Exact: the corners of the ranges stand in the corners of the axes.
+    /// Exact: the corners of the ranges lie in the corners of the axes.
     #[test]
     fn samples_stand_where_the_axes_say() {
         let chart = chart(wave(10), false);
@@ -537,8 +537,8 @@ mod tests {
         }
     }
 
-    /// Law: the number outside is that of the moment: with none outside a histogram looks as if there had never been any,
-    /// and another number is another picture.
+    /// Law: the number outside is that of the moment. Without values outside, a histogram looks as if there had never
+    /// been any. Another number gives another picture.
     #[test]
     fn what_lies_outside_is_counted_at_the_moment() {
         let histogram = |outside: [u64; 3]| {
@@ -559,7 +559,7 @@ mod tests {
         }
     }
 
-    /// What is yet to come changes nothing of what is seen.
+    /// Later samples do not change the picture.
     #[test]
     fn the_future_does_not_show() {
         let (one, mut other) = (wave(5000), wave(5000));
@@ -572,7 +572,7 @@ mod tests {
         assert!(drawn(&one, 6.0) != drawn(&other, 6.0));
     }
 
-    /// Law: a value with gaps at both sides is seen, as a dot, and only such.
+    /// Law: a value with gaps at both sides is visible as a dot, and only such a value.
     #[test]
     fn a_value_alone_is_a_dot() {
         let (gap, a, b) = ((f32::NAN, 1.0), (1.0, 1.0), (2.0, 1.0));

@@ -1,4 +1,4 @@
-//! A work-precision diagram: what runs cost against how wrong they are, a curve for each method, on logarithmic axes.
+//! A work-precision diagram: the cost of runs against their error, a curve for each method, on logarithmic axes.
 
 use tiny_skia::Pixmap;
 
@@ -13,14 +13,14 @@ use crate::raster::{SizeError, canvas};
 use jostle_frames::frame::Rgb;
 use jostle_frames::plot::Plot;
 
-/// What stands at a point of a diagram.
+/// The sign at a point of a diagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// A setting.
     Dot,
     /// A setting that no other one beats.
     Best,
-    /// A setting that went wrong.
+    /// A setting that failed.
     Cross,
 }
 
@@ -29,42 +29,42 @@ pub enum Sign {
 pub struct Spot {
     /// The curve that it belongs to, by its place.
     pub curve: usize,
-    /// Where it stands.
+    /// Its value to the right.
     pub x: f64,
-    /// Where it stands, upwards.
+    /// Its value upwards.
     pub y: f64,
-    /// What stands there.
+    /// Its sign.
     pub sign: Sign,
 }
 
 /// How a curve looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
-    /// In a colour and with dashes, by their places among colours and dashes.
+    /// In a colour and with dashes, by their indices among colours and dashes.
     Main {
         /// Curves of one kind have one colour.
         color: usize,
         /// They differ in their dashes.
         dash: usize,
     },
-    /// In grey, by its place among such.
+    /// In grey, by its index among such curves.
     Aside(usize),
 }
 
 /// A diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagram {
-    /// Its axes, with ranges, and its curves, as phases.
+    /// The axes with their ranges, and the curves, as phases.
     pub plot: Plot,
-    /// What is said beside the title.
+    /// The text beside the title.
     pub aside: String,
     /// How its curves look.
     pub looks: Vec<Look>,
     /// Its points, from back to front.
     pub spots: Vec<Spot>,
-    /// An upright line, and what is written along it.
+    /// An upright line, and the text along it.
     pub floor: Option<(f64, String)>,
-    /// From here on to the right nothing is of use, and what is written there.
+    /// The beginning of the useless range to the right, and the text there.
     pub useless: (f64, String),
 }
 

@@ -1,4 +1,4 @@
-//! Plots as a still figure: below each other, with names at the axes.
+//! Plots as a still figure, below each other, with names at the axes.
 
 use tiny_skia::Pixmap;
 
@@ -12,7 +12,7 @@ use jostle_frames::plot::Plot;
 /// Letters of a figure are larger than those beside a film: it is looked at alone, and often made smaller.
 pub(super) const LETTERS: f32 = 1.45;
 
-/// Draws plots below each other, as they are in the end.
+/// Draws plots below each other, in their final state.
 ///
 /// # Errors
 /// A [`SizeError`] if there is no picture of that size.

@@ -1,4 +1,4 @@
-//! The legend: what the colours of bodies and the marks of layers mean, and a few facts.
+//! The legend: the meaning of the colours of bodies and of the marks of layers, and a few facts.
 
 use tiny_skia::Pixmap;
 
@@ -39,7 +39,7 @@ enum Mark {
 }
 
 impl Key {
-    /// A legend of at most `most` lines, in a column `width` pixels wide; `fills` are the colours of the cast's bodies.
+    /// A legend of at most `most` lines, in a column `width` pixels wide. `fills` are the colours of the cast's bodies.
     pub(in crate::raster) fn new(
         legend: &Legend,
         most: usize,
@@ -48,7 +48,7 @@ impl Key {
         sizes: &Sizes,
         tones: &Tones,
     ) -> Key {
-        // Bodies give way: what a layer draws is seen everywhere.
+        // Bodies give way, because the marks of a layer are visible everywhere.
         let is_body = |entry: &&LegendEntry| matches!(entry.mark, LegendMark::Body(_));
         let bodies: Vec<&LegendEntry> = legend.entries.iter().filter(is_body).collect();
         let others = legend.entries.iter().filter(|entry| !is_body(entry));

@@ -1,5 +1,5 @@
-//! What stands beside the film: plots on its clock, and a legend, on cards at the right, or below a picture that is
-//! taller than wide.
+//! The panel beside the film: plots in step with its clock, and a legend. The cards lie at the right, or below a
+//! picture that is taller than wide.
 
 mod chart;
 mod diagram;
@@ -31,7 +31,7 @@ use style::{Sizes, Tones};
 
 /// The share of the picture that the panel takes of its longer side.
 const SHARE: f32 = 0.297;
-/// Below the film, where the cards stand beside each other, it takes more.
+/// Below the film the cards lie side by side, and the panel takes more.
 const SHARE_BELOW: f32 = 0.34;
 /// Narrower than this, or lower, no panel can be read, in pixels.
 const SMALLEST: u32 = 110;
@@ -49,7 +49,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// The panel of a picture `size` pixels large in all; `None` if there is no room for it, or nothing to show.
+    /// The panel of a picture whose full size is `size` pixels. `None` if it has no room or no content.
     pub fn new(board: &Arc<Board>, size: (u32, u32)) -> Option<Panel> {
         let panel = Panel { board: board.clone(), size };
         let (width, height) = size;
@@ -165,7 +165,7 @@ impl Cards {
         Cards { whole, cards, sizes, tones, background: theme.background }
     }
 
-    /// Draws what stands still.
+    /// Draws the constant parts.
     pub(super) fn draw_furniture(&self, picture: &mut Pixmap) {
         let (left, width) = (self.whole.left as usize, self.whole.right as usize);
         let mut canvas = Canvas::new(picture);
@@ -191,7 +191,8 @@ impl Cards {
         }
     }
 
-    /// Draws the panel as it is at a time (s): what stands still is copied from the backdrop, over whatever left the stage.
+    /// Draws the panel at a time (s). The constant parts are copied from the backdrop, over bodies that left the
+    /// picture.
     pub(super) fn draw(&self, picture: &mut Pixmap, backdrop: &Pixmap, time: f64, tools: &mut Tools) {
         let across = 4 * backdrop.width() as usize;
         let columns = 4 * self.whole.left as usize..across;

@@ -1,4 +1,4 @@
-//! Letters and cards of the panel: everything that stands still.
+//! Letters and cards of the panel: all constant parts.
 
 use tiny_skia::{FillRule, Path, PathBuilder, Pixmap, Stroke, Transform};
 
@@ -7,7 +7,7 @@ use crate::raster::layers::paint;
 use crate::raster::text::{Lettering, Weight};
 use jostle_frames::frame::Rgb;
 
-/// Where a text stands from its point.
+/// The alignment of a text about its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Align {
     Left,
@@ -96,7 +96,7 @@ fn rounded(area: &Area, radius: f32) -> Option<Path> {
     path.finish()
 }
 
-/// A patch with an outline, as bodies have it.
+/// A patch with an outline, like that of a body.
 pub(super) fn patch(picture: &mut Pixmap, area: &Area, fill: Rgb, outline: Rgb, line: f32) {
     let inner = Area {
         left: area.left + 0.5 * line,

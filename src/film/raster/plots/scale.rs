@@ -1,4 +1,4 @@
-//! From values to pixels along one axis.
+//! The map from values to pixels along one axis.
 
 /// A range of values, and the pixels at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,12 +11,12 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// `low` stands at the pixel `from`, `high` at `to`.
+    /// `low` lies at the pixel `from`, `high` at `to`.
     pub(super) fn new((low, high): (f64, f64), (from, to): (f32, f32), logarithmic: bool) -> Scale {
         Scale { low, high, from: f64::from(from), to: f64::from(to), logarithmic }
     }
 
-    /// The pixel of a value; not finite for one that has no place.
+    /// The pixel of a value; NaN or infinite if the axis has no place for the value.
     pub(super) fn place(&self, value: f64) -> f64 {
         let share = if self.logarithmic {
             libm::log10(value / self.low) / libm::log10(self.high / self.low)
@@ -27,14 +27,14 @@ impl Scale {
     }
 }
 
-/// The range of values that an axis has to show: all of them, zero too if it is near; `None` without any.
+/// The range of values that an axis has to show. It includes zero if that is near, and is `None` without values.
 pub(super) fn range_of(values: impl Iterator<Item = f64>, logarithmic: bool) -> Option<(f64, f64)> {
     let shown = values.filter(|value| value.is_finite() && (!logarithmic || *value > 0.0));
     let (low, high) = shown.map(|value| (value, value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
     if logarithmic {
         return Some(if high > low { (low, high) } else { (low / 10.0, high * 10.0) });
     }
-    // What differs by rounding only is one value.
+    // Values that differ only by rounding count as one.
     let size = low.abs().max(high.abs());
     if high - low <= 1e-9 * size {
         let around = if size == 0.0 { 1.0 } else { 0.1 * size };
@@ -48,7 +48,7 @@ pub(super) fn range_of(values: impl Iterator<Item = f64>, logarithmic: bool) -> 
 mod tests {
     use super::*;
 
-    /// Exact: the ends of a range stand at the ends of the axis, and the middle in the middle.
+    /// Exact: the ends of a range lie at the ends of the axis, and the middle in the middle.
     #[test]
     fn values_stand_where_they_belong() {
         let up = Scale::new((-1.0, 3.0), (210.0, 10.0), false);

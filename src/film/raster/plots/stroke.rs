@@ -1,7 +1,7 @@
-//! Curves as the set of points near a line: the coverage of a pixel is that of the nearest segment.
+//! Curves as the set of points near a line: the coverage of a pixel comes from the nearest segment.
 //!
-//! So a curve has no seams, however many segments it is made of, and what is drawn depends on nothing but the segments.
-//! Additions, products, quotients and square roots of `f32`: the same bytes on every machine.
+//! So a curve of many segments has no seams, and the picture depends on the segments alone. All arithmetic is addition,
+//! multiplication, division and square root of `f32`: the same bytes on every machine.
 
 use crate::raster::canvas::{self, Canvas, blend};
 use jostle_frames::frame::Rgb;
@@ -64,7 +64,7 @@ impl Sheet {
         self.rows = self.height..0;
     }
 
-    /// Draws a line from point to point; `weights` are 0 to 1 for each segment, none: 1.
+    /// Draws a line from point to point. `weights` are 0 to 1 for each segment; an empty list means 1.
     pub(super) fn line(&mut self, points: &[Point], width: f32, dash: &Dash, weights: &[f32]) {
         let (mut part, mut left) = (0, dash.first().copied().unwrap_or(f32::INFINITY));
         for (place, ends) in points.windows(2).enumerate() {
@@ -126,7 +126,7 @@ impl Sheet {
         }
     }
 
-    /// Lays what was drawn over a picture.
+    /// Lays the drawn curves over a picture.
     pub(super) fn put(&self, canvas: &mut Canvas, color: Rgb) {
         for row in self.rows.clone() {
             let y = self.top + row;
@@ -162,8 +162,8 @@ mod tests {
         sheet
     }
 
-    /// Every pixel of a line has the coverage that its distance says, found by looking at all pixels: the rows and columns
-    /// that are left out have none. Exact but for rounding (1e-4 of a pixel at 100 pixels).
+    /// Every pixel of a line has the coverage that its distance requires. The check visits all pixels, so skipped rows
+    /// and columns have none. Tolerance: rounding, 1e-4 of a pixel at 100 pixels.
     #[test]
     fn a_line_is_all_points_near_it() {
         for (from, to) in [((12.0, 22.0), (60.3, 50.7)), ((40.0, 25.0), (40.0, 55.0)), ((0.0, 0.0), (90.0, 21.0))] {
@@ -180,7 +180,7 @@ mod tests {
         }
     }
 
-    /// In pieces or whole, forwards or later: the same.
+    /// A line in pieces or whole, forwards or later, is the same.
     #[test]
     fn a_line_in_pieces_is_the_same_line() {
         let points: Vec<Point> = (0..40).map(|place| (12.0 + place as f32, 40.0 + (place * 7 % 11) as f32)).collect();

@@ -1,4 +1,4 @@
-//! Sizes and colours of what stands beside the film.
+//! Sizes and colours of the panel.
 
 use super::diagram::Look;
 use super::pen::Ink;
@@ -7,11 +7,11 @@ use crate::raster::theme::{Theme, Tint};
 use jostle_frames::frame::Rgb;
 use jostle_frames::plot::Curve;
 
-/// The colours of curves, by names of the palette: the first ones are far apart for all eyes, in light and in dark. Yellow
-/// is left out, as a thin line of it is lost on paper.
+/// The colours of curves, by names of the palette. The first ones are far apart for all eyes, in light and in dark
+/// themes. Yellow is left out, as a thin line of it is lost on paper.
 const CURVES: [&str; 8] = ["vermilion", "blue", "teal", "purple", "orange", "sky", "pink", "brown"];
 
-/// How lines are broken, on and off in line widths, in turn with the colours, so that curves differ without them.
+/// The dashes of lines, on and off in line widths. They cycle with the colours, so that curves differ without colours.
 const DASHES: [&[f32]; 5] = [&[], &[], &[3.4, 2.6], &[6.0, 2.4, 1.0, 2.4], &[1.0, 2.2]];
 
 /// Sizes in pixels; the smallest ones are those that can still be read.
@@ -57,7 +57,7 @@ pub(in crate::raster) struct Tones {
     bodies: Vec<Rgb>,
 }
 
-/// A thin line of less contrast than this to its card is lost, as yellow is on paper.
+/// A thin line with less contrast than this to its card is invisible, such as yellow on paper.
 const LEAST_CONTRAST: f64 = 1.6;
 
 impl Tones {
@@ -65,7 +65,7 @@ impl Tones {
         let mix = |from: Rgb, toward: Rgb, share: f32| Tint { toward, share }.of(from);
         let Rgb(red, green, blue) = theme.background;
         let light = u32::from(red) + u32::from(green) + u32::from(blue) > 3 * 128;
-        // Cards lie a little nearer to the light than what is behind them.
+        // Cards are a little lighter than their background.
         let card = if light {
             mix(theme.background, Rgb(255, 255, 255), 0.85)
         } else {
@@ -83,8 +83,8 @@ impl Tones {
         }
     }
 
-    /// With the colours of the cast's bodies: what is measured of a body has its colour, or that of its outline where a
-    /// line of it would be lost.
+    /// Adds the colours of the cast's bodies. A measurement of a body has its colour. If a line of that colour would be
+    /// invisible, it has that of the outline.
     pub(in crate::raster) fn with_bodies(mut self, theme: &Theme, fills: &[Rgb]) -> Tones {
         let seen = |color: &Rgb| contrast(*color, self.card) >= LEAST_CONTRAST;
         let line = |fill: &Rgb| [*fill, theme.outline.of(*fill)].into_iter().find(seen).unwrap_or(self.ink);
@@ -98,15 +98,15 @@ impl Tones {
         let tone = |(place, curve): (usize, &Curve)| {
             let Some(color) = own(curve) else { return self.curve(place, &curve.label, width) };
             let before = curves[..place].iter().filter(|other| own(other) == Some(color)).count();
-            // The first two entries are both unbroken, as their curves have two colours.
+            // The first two entries are both unbroken, because their curves have two colours.
             let dashes = DASHES[1 + before % (DASHES.len() - 1)];
             (color, dashes.iter().map(|length| length * width).collect())
         };
         curves.iter().enumerate().map(tone).collect()
     }
 
-    /// The colour of a curve by its place, and its dashes for a line of some width. What is a total is grey and dashed: it
-    /// goes with the others, not beside them.
+    /// The colour of a curve by its index, and its dashes for a line of some width. A total is grey and dashed, because
+    /// it sums up the other curves.
     pub(super) fn curve(&self, place: usize, label: &str, width: f32) -> (Rgb, Vec<f32>) {
         let total = label == "total" || label.ends_with(".total");
         self.look(if total { Look::Aside(2) } else { Look::Main { color: place, dash: place } }, width)
@@ -158,8 +158,8 @@ fn contrast(a: Rgb, b: Rgb) -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: what is measured of a body is drawn in its colour, and curves that share one differ in their dashes; a colour
-    /// that is lost on the card is replaced by one that is not. Black on white is 21 to 1 by the standard.
+    /// Law: a measurement of a body has the body's colour, and curves that share one differ in their dashes. A colour
+    /// that is invisible on the card is replaced by a visible one. Black on white is 21 to 1 by the standard.
     #[test]
     fn curves_of_bodies_have_their_colours() {
         assert!((contrast(Rgb(0, 0, 0), Rgb(255, 255, 255)) - 21.0).abs() < 1e-9);

@@ -1,33 +1,33 @@
-//! Ticks of an axis: at 1, 2 or 5 times a power of ten, so many that they neither crowd nor leave the axis bare.
+//! Ticks of an axis: at 1, 2 or 5 times a power of ten. Their number neither crowds the axis nor leaves it bare.
 
-/// Where the ticks of an axis stand, and how they are written.
+/// The positions of the ticks of an axis, and their labels.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Ticks {
     /// Values from low to high.
     pub(super) values: Vec<f64>,
-    /// What is written at each of them.
+    /// The label of each tick.
     pub(super) labels: Vec<String>,
     /// The power of ten that all labels leave out.
     pub(super) exponent: i32,
 }
 
-/// The smallest 1, 2 or 5 times a power of ten of which no more than `most` steps lie between two values.
+/// The smallest 1, 2 or 5 times a power of ten with at most `most` steps between two values.
 pub(super) fn step(low: f64, high: f64, most: usize) -> f64 {
     let wanted = (high - low) / most.max(1) as f64;
     let exponent = libm::floor(libm::log10(wanted));
     let decade = power(exponent as i32);
-    // A step that is reached but for rounding is reached.
+    // The tolerance accepts a step that misses by rounding only.
     let fits = |step: &f64| step * decade >= wanted * (1.0 - 1e-9);
     [1.0, 2.0, 5.0].into_iter().find(fits).unwrap_or(10.0) * decade
 }
 
-/// A power of ten as its decimal digits say it.
+/// The power of ten that is nearest to its decimal digits.
 fn power(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(1.0)
 }
 
-/// A range widened to round ends: half-way between ticks too, so that little room is left empty; where factors count, to
-/// powers of ten.
+/// A range widened to round ends. They lie at ticks or half-way between, so that little room is empty. On a logarithmic
+/// axis they are powers of ten.
 pub(super) fn widened(low: f64, high: f64, most: usize, logarithmic: bool) -> (f64, f64) {
     if logarithmic {
         return (
@@ -36,7 +36,7 @@ pub(super) fn widened(low: f64, high: f64, most: usize, logarithmic: bool) -> (f
         );
     }
     let step = step(low, high, 2 * most);
-    // An end that is a whole step but for rounding stays.
+    // An end stays if it is a whole step, up to rounding.
     ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step)
 }
 
@@ -48,7 +48,7 @@ impl Ticks {
         let count = if (last - first).abs() < 1000.0 { (last - first + 1.0).max(0.0) as i64 } else { 0 };
         let values: Vec<f64> = (0..count).map(|place| (first + place as f64) * step).collect();
         let largest = low.abs().max(high.abs());
-        // Powers of a thousand, where the labels would be long.
+        // Powers of a thousand, if the labels would be long.
         let magnitude = libm::floor(libm::log10(largest) + 1e-9) as i32;
         let exponent = if largest > 0.0 && !(-3..=4).contains(&magnitude) { magnitude.div_euclid(3) * 3 } else { 0 };
         let decimals = (exponent - libm::floor(libm::log10(step) + 1e-9) as i32).max(0) as usize;
@@ -60,7 +60,7 @@ impl Ticks {
         Ticks { labels: values.iter().map(label).collect(), values, exponent }
     }
 
-    /// Ticks of a logarithmic axis at powers of ten; where there is only one, at 2 and 5 times them too.
+    /// Ticks of a logarithmic axis at powers of ten. If there is only one, also at 2 and 5 times them.
     pub(super) fn logarithmic(low: f64, high: f64, most: usize) -> Ticks {
         let (first, last) = (libm::floor(libm::log10(low) + 1e-9) as i32, libm::ceil(libm::log10(high) - 1e-9) as i32);
         let every = ((last - first) as usize).div_ceil(most.max(1)).max(1);
@@ -96,7 +96,7 @@ pub(super) fn superscript(number: i32) -> String {
     number.to_string().chars().map(high).collect()
 }
 
-/// A unit as it is set: powers written high, the left-out power of ten before it.
+/// A typeset unit: its powers are raised, and the omitted power of ten precedes it.
 pub(super) fn unit(unit: &str, exponent: i32) -> String {
     let mut set = String::new();
     let mut powers = unit.chars().peekable();
@@ -127,8 +127,8 @@ fn superscript_letter(letter: char) -> String {
 mod tests {
     use super::*;
 
-    /// Law: steps are 1, 2 or 5 times a power of ten, the smallest that keeps to the number allowed; so between a range and
-    /// its double number there are at least 2/5 of it. Rounding: a part in 1e-9.
+    /// Law: steps are 1, 2 or 5 times a power of ten, the smallest that keeps to the allowed number. So a range has at
+    /// least 2/5 of the allowed number of steps. Rounding: a part in 1e-9.
     #[test]
     fn steps_are_one_two_or_five_and_as_small_as_allowed() {
         for most in [1, 2, 4, 5, 10] {
