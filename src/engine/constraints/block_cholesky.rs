@@ -1,8 +1,8 @@
-//! Sparse Cholesky factors of symmetric matrices that consist of small blocks.
+//! Sparse Cholesky factorisation of symmetric matrices of small blocks.
 //!
-//! Blocks are eliminated in the order of minimum degree (Tinney and Walker 1967; George and Liu 1989), leaves first: a tree of
-//! joints has no fill, and its factors take a time linear in its size (Baraff 1996). The structure is found once per topology. Ties go
-//! to the lower index, so that the order is a function of the structure alone.
+//! Blocks are eliminated in the order of minimum degree (Tinney and Walker 1967; George and Liu 1989), leaves first. So
+//! a tree of joints has no fill, and its factors take a time linear in its size (Baraff 1996). The structure is found
+//! once per topology. Ties go to the lower index, so that the order is a function of the structure alone.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,8 @@ use std::collections::BTreeSet;
 struct Below {
     /// Its node.
     node: u32,
-    /// Where its numbers begin: row by row, as many rows as its node has, as many columns as that of the column.
+    /// The index of its first number. Numbers run row by row: its node gives the rows, and that of the column the
+    /// columns.
     at: u32,
 }
 
@@ -23,11 +24,11 @@ pub struct BlockCholesky {
     first: Vec<u32>,
     /// Nodes in the order of elimination.
     order: Vec<u32>,
-    /// Where the diagonal block of each node begins among the numbers.
+    /// The index of the first number of each node's diagonal block.
     diagonal: Vec<u32>,
     /// The blocks below the diagonal of the column of each node, in the order of elimination.
     below: Vec<Vec<Below>>,
-    /// For each node: where the products of two blocks of its column go, pair by pair.
+    /// For each node: the targets of the products of two blocks of its column, pair by pair.
     targets: Vec<Vec<u32>>,
     numbers: Vec<f64>,
     /// Diagonal before elimination.
@@ -122,7 +123,7 @@ impl BlockCholesky {
         }
     }
 
-    /// Where the entry of two unknowns stands among the numbers: unknown `b` of one node, unknown `a` of the same or another one. The
+    /// The index of the entry of two unknowns. Unknown `b` belongs to one node, and `a` to the same or another one. The
     /// nodes have an edge. `None` above the diagonal blocks.
     pub fn entry(&self, (node_a, a): (u32, u32), (node_b, b): (u32, u32)) -> Option<usize> {
         if node_a == node_b {
@@ -317,7 +318,7 @@ mod tests {
         solved(vec![2; 16], &edges);
     }
 
-    /// Law: a tree has no fill: as many blocks below the diagonal as it has edges.
+    /// Law: a tree has no fill. It has one block below the diagonal for each of its edges.
     #[test]
     fn a_tree_has_no_fill() {
         let edges: Vec<(u32, u32)> = (1..50_u32).map(|node| (node, (node - 1) / 3)).collect();

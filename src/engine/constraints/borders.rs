@@ -1,8 +1,9 @@
-//! Held contacts of large islands beside sparse factors of their joints, by the complement of Schur.
+//! The Schur complement: held contacts of large islands beside sparse factors of their joints.
 //!
-//! `A x + B y = a` and `C x + D y = b`, with `A` the matrix of the joints, give `(D - C A^-1 B) y = b - C A^-1 a`. The factors of
-//! `A` exist, so an island of many joints and few contacts costs little more than its joints. What is left is a dense matrix as wide
-//! as the contacts are many. It need not be symmetric: a contact that slides has a force that is not along its row.
+//! `A x + B y = a` and `C x + D y = b`, with `A` the matrix of the joints, give `(D - C A^-1 B) y = b - C A^-1 a`. The
+//! factors of `A` exist, so an island of many joints and few contacts costs little more than its joints. The remaining
+//! matrix is dense, with one row for each contact. It need not be symmetric, because the force of a sliding contact is
+//! not along its row.
 
 use super::block_cholesky::BlockCholesky;
 use super::redundant::{self, Share};
@@ -36,7 +37,7 @@ impl Borders {
         self.islands.clear();
     }
 
-    /// Whether there are none.
+    /// Whether there are no contacts.
     pub fn is_empty(&self) -> bool {
         self.islands.is_empty()
     }
@@ -80,7 +81,8 @@ impl Borders {
         }
     }
 
-    /// Finds the forces of the contacts in `values`, and what they leave to the joints in `joint_answer`, the answer without them.
+    /// Finds the forces of the contacts in `values`. `joint_answer` is the answer of the joints, first without contacts
+    /// and then with them.
     pub fn solve(
         &mut self,
         (rows, joints): (&[Row], &[usize]),

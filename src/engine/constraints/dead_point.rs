@@ -1,17 +1,19 @@
-//! Dead points of loops: where bars come into line, rows of joints depend on each other for a moment.
+//! Detection of dead points of loops. At a dead point bars lie in one line, and rows of joints depend on each other for
+//! a moment.
 //!
-//! A pivot of the factors vanishes there with the square of the distance, so its root `s` is linear in time and changes sign. Steps see
-//! `s` without its sign: where it grows again by as much as it would have fallen below zero, the loop has passed a dead point in
-//! between. A smooth minimum above zero does not do that, unless one step passes it.
+//! There a pivot of the factors vanishes with the square of the distance. So its root `s` is linear in time and changes
+//! sign. The steps only give the absolute value of `s`. If `s` grows again by its extrapolated amount below zero, the
+//! loop has passed a dead point. A smooth minimum above zero does not look like that, unless one step passes it.
 
 use serde::{Deserialize, Serialize};
 
-/// How far `s` may be from the line through the two steps before, as a share: a quarter leaves room for its curvature.
+/// The allowed distance of `s` from the line through the two steps before, as a share. A quarter leaves room for its
+/// curvature.
 const STRAIGHT: f64 = 0.25;
 /// A loop is near a dead point where `s` is below this share of its largest value.
 const NEAR: f64 = 0.05;
 
-/// What is known of dead points of a run.
+/// The dead points of a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DeadPoints {
     /// Time in seconds and `s` of the last two steps, the later one last.
@@ -24,7 +26,8 @@ pub struct DeadPoints {
 }
 
 impl DeadPoints {
-    /// Looks at the end of a step at `time` seconds, where the least pivot is this share of its number before elimination.
+    /// Takes the end of a step at `time` seconds. `pivot` is the least pivot, as a share of its number before
+    /// elimination.
     pub fn look(&mut self, time: f64, pivot: f64) {
         let s = pivot.max(0.0).sqrt();
         // A step that was thrown away is looked at again.

@@ -1,8 +1,9 @@
-//! Islands: what acts on each other within a tick, because it shares a body that moves by forces. Found by union-find.
+//! Islands: links that act on each other within a tick, because they share a body that moves by forces. The algorithm
+//! is union-find.
 
 use crate::world::Bodies;
 
-/// The bodies of a link between two sides: a contact or a joint. Side A may be none: the world, or a wall.
+/// The bodies of a link between two sides: a contact or a joint. Side A may be absent: the world, or a wall.
 pub trait Link {
     /// The body of side A.
     fn other_body(&self) -> Option<usize>;
@@ -22,16 +23,16 @@ fn each_end<L: Link>(links: &[L], mut act: impl FnMut(usize)) {
     }
 }
 
-/// Groups links into islands. What memory it has it keeps for the next tick.
+/// Groups links into islands. Its memory is kept for the next tick.
 #[derive(Debug, Default)]
 pub struct Islands {
-    /// For each body of a link the first of its island.
+    /// For each body of a link the first body of its island.
     root: Vec<u32>,
 }
 
 impl Islands {
-    /// Sorts both lists of links so that links of one island stand together, in canonical order. An island is what shares bodies that
-    /// move by forces, by links of either list.
+    /// Sorts both lists of links so that links of one island are consecutive, in canonical order. An island is a set of
+    /// links of either list that share bodies which move by forces.
     pub fn sort<L: Link, M: Link>(&mut self, links: &mut [L], others: &mut [M], bodies: &Bodies) {
         self.root.resize(bodies.len(), 0);
         let begin = |root: &mut [u32], body: usize| root[body] = body as u32;
@@ -78,7 +79,7 @@ pub(super) fn find(root: &mut [u32], mut body: u32) -> u32 {
 #[derive(Debug, Default)]
 pub struct Marked {
     list: Vec<usize>,
-    /// For each body whether it is.
+    /// For each body whether it is a member.
     is: Vec<bool>,
 }
 
@@ -106,7 +107,7 @@ impl Marked {
     }
 }
 
-/// If one body in so many is of an island, to look at all of them in order is faster than to sort.
+/// If at least one body in so many belongs to the island, a scan of all bodies beats sorting.
 const DENSE: usize = 16;
 
 /// The bodies of an island.
@@ -114,7 +115,7 @@ const DENSE: usize = 16;
 pub struct Members {
     /// In canonical order.
     pub list: Vec<usize>,
-    /// For each body its index in the list and one more; zero for all others.
+    /// For each body its index in the list plus one; zero for all others.
     index: Vec<u32>,
 }
 
@@ -146,7 +147,7 @@ impl Members {
         }
     }
 
-    /// The index of a member behind what does not move by forces, which has the first; that one for all others.
+    /// The index of a member, counted from one. All bodies that are not members have index zero.
     pub fn index(&self, body: usize) -> usize {
         self.index[body] as usize
     }

@@ -10,8 +10,8 @@
 //! | `rest_solver/` | which bounded forces bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | which links act on each other |
 //!
-//! Models give rows in stage Forces ([`Rows::add`]), the engine solves all of them together in stage Constraints, and each model
-//! takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).
+//! Models give rows in stage Forces ([`Rows::add`]). The engine solves all of them together in stage Constraints. Each
+//! model takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).
 
 mod block_cholesky;
 mod borders;

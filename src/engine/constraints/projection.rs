@@ -1,8 +1,8 @@
-//! Brings positions and velocities back onto what joints hold, along the directions in which joints push.
+//! Projection of positions and velocities onto the joints, along the directions in which joints push.
 //!
-//! Positions: `g(q + M^-1 F mu) = 0`, by iteration with the factor of one state (Hairer, Lubich, Wanner, Geometric Numerical Integration,
-//! 2nd ed. 2006, section VII.1.4). Velocities: `J(q) (v + M^-1 F mu) = rate`, one solution and a refinement. Both change the state by
-//! as little as can be, measured by mass.
+//! Positions: `g(q + M^-1 F mu) = 0`, by iteration with the factor of one state (Hairer, Lubich, Wanner, Geometric
+//! Numerical Integration, 2nd ed. 2006, section VII.1.4). Velocities: `J(q) (v + M^-1 F mu) = rate`, by one solution
+//! and one refinement. Both make the least change of the state, measured by mass.
 
 use glam::DVec2;
 
@@ -15,17 +15,18 @@ use crate::world::Bodies;
 const MOST_ITERATIONS: usize = 60;
 /// A gap of less than this share of its size is rounding.
 const ROUNDING: f64 = 1e-15;
-/// An iteration that leaves more than this share of the greatest gap does not converge, unless the gap is within
-/// [`GOOD`] of the size.
+/// An iteration that leaves more than this share of the greatest gap does not converge. It may do so if the gap is
+/// within [`GOOD`] of the size.
 const SLOW: f64 = 0.9;
-/// A rate that is off by more than this share of the greatest speed contradicts other rows: what follows from others is solved to less.
+/// A rate that is off by more than this share of the greatest speed contradicts other rows. A rate that follows from
+/// other rows is solved more precisely.
 const CONTRADICTS: f64 = 1e-6;
 /// A row of which others leave less than this share follows from them.
 const DEPENDENT: f64 = 1e-10;
 /// A gap within this share of its size is good enough where iterations gain no more.
 const GOOD: f64 = 1e-13;
 
-/// What becomes of bodies without velocity whose gaps are good enough.
+/// The treatment of bodies without velocity whose gaps are good enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// They are not moved.
@@ -45,22 +46,22 @@ pub struct Gap {
     pub failed: bool,
 }
 
-/// Working memory of projections: rows of another state than that of the last evaluation.
+/// Working memory of projections: the rows of a state that differs from that of the last evaluation.
 #[derive(Debug, Default)]
 pub struct Projection {
     /// The rows of the present positions.
     pub rows: Rows,
     values: Vec<f64>,
-    /// For the caller: a number for each row.
+    /// For the caller: one number for each row.
     pub noted: Vec<f64>,
     /// Impulses or displacements so far, one for each row of the directions.
     sums: Vec<f64>,
 }
 
 impl Projection {
-    /// Moves bodies along the directions of `along` until the rows that `find` adds to [`Projection::rows`] have no gaps. Both have the
-    /// same rows in the same order. What stands may be left where it is as long as its gap is good enough: otherwise rounding would move
-    /// bodies at rest. Returns what is left.
+    /// Moves bodies along the directions of `along` until the rows that `find` adds to [`Projection::rows`] have no
+    /// gaps. Both have the same rows in the same order. Bodies without velocity may stay if their gaps are good enough,
+    /// because rounding would move bodies at rest. Returns the remaining gap.
     pub fn place(
         &mut self,
         along: &[Row],
@@ -104,7 +105,7 @@ impl Projection {
         Gap { failed: !self.is_good(), ..self.greatest_gap() }
     }
 
-    /// For each row of the directions how far it has moved its bodies: times the inverse mass a displacement.
+    /// For each row of the directions the sum of its corrections. Times the inverse mass it is a displacement.
     pub fn sums(&self) -> &[f64] {
         &self.sums
     }
@@ -122,8 +123,8 @@ impl Projection {
         worst.map_or(Gap::default(), |(row, left)| Gap { left, row, failed: false })
     }
 
-    /// Changes velocities until the rates of `rows` are what they should be. `told` hears of the index and the impulse of each row.
-    /// Returns the index of a row whose rate the others do not allow.
+    /// Changes velocities until the rates of `rows` have their required values. `told` receives the index and the
+    /// impulse of each row. Returns the index of a row whose rate contradicts the others.
     pub fn speed(
         &mut self,
         rows: &[Row],
@@ -144,7 +145,7 @@ impl Projection {
                 }
             }
         }
-        // Rows without a rate never contradict each other: to stand still suits all of them.
+        // Rows without a rate never contradict each other, because zero velocity satisfies all of them.
         if rows.iter().all(|row| row.rate == 0.0) {
             return None;
         }
@@ -152,8 +153,8 @@ impl Projection {
         rows.iter().position(|row| (row.rate - row.velocity(bodies)).abs() > CONTRADICTS * fastest)
     }
 
-    /// The velocity along a row that one unit of impulse along it makes while `others` hold theirs, in m/s for each N s. Zero: the others
-    /// leave the row no motion of its own.
+    /// The velocity along a row, in m/s for each N s, under one unit of impulse while `others` keep theirs. Zero means
+    /// that the others leave the row no free motion.
     pub fn compliance(&mut self, row: &Row, others: &[Row], solver: &mut Solver, bodies: &Bodies) -> f64 {
         self.values.clear();
         self.values.extend(others.iter().map(|other| other.response(row, bodies)));
@@ -165,13 +166,14 @@ impl Projection {
     }
 }
 
-/// Whether a row is left as it is, because its bodies stand and its gap is good enough.
+/// Whether a row is left unchanged, because its bodies have no velocity and its gap is good enough.
 fn is_left(row: &Row, bodies: &Bodies, stay: Standing) -> bool {
     let stands = || row.sides.iter().flatten().all(|side| bodies.stands(side.body));
     stay == Standing::Stays && row.gap.abs() <= GOOD * size(row, bodies) && stands()
 }
 
-/// The numbers from which a gap was found: where a wheel turns about the origin these are zero, but its extent is not.
+/// The magnitude of the numbers from which a gap was found. The position of a wheel that turns about the origin is
+/// zero, but its extent is not.
 fn size(row: &Row, bodies: &Bodies) -> f64 {
     row.sides.iter().flatten().fold(row.size, |most, side| most.max(bodies.extent(side.body)))
 }

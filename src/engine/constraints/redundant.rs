@@ -1,28 +1,28 @@
-//! Linear equations for the forces of held contacts, and which of many answers is taken where they depend on each other.
+//! Weighted minimum-norm solution of the linear equations for the forces of held contacts, which may be redundant.
 //!
-//! A wide block on many atoms stands whatever each of them bears, as long as the sum is right: rigid statics does not say more.
-//! What elastic contacts would bear depends on how deep each is pressed in, and that is part of the state: the forces taken are
-//! those nearest to the pull of the springs as they are, each difference measured by what the contact could bear (normal ones
-//! by `k d`, tangential ones by `mu k d`). So they are unique, a function of the state alone, and as far as they can be within
-//! the bounds of every contact. The motion does not depend on the choice.
+//! A wide block on many atoms is at rest with every distribution of its weight that has the right sum. Rigid statics
+//! does not determine more. The loads of elastic contacts depend on their overlaps, which are part of the state. So the
+//! solution is the one nearest to the current forces of the springs. Each difference is measured by the capacity of the
+//! contact: `k d` for normal forces, `mu k d` for tangential ones. So the forces are unique and a function of the state
+//! alone. They stay within the bounds of every contact as far as possible. The motion does not depend on the choice.
 
 use serde::{Deserialize, Serialize};
 /// A pivot below this share of the largest coefficient of its unknown counts as zero.
 const DEPENDENT: f64 = 1e-12;
-/// A row of which less than this share is left, after what others say has been taken out, says nothing new.
+/// A row is redundant if less than this share of it remains after the projections on other rows are subtracted.
 const NOTHING_NEW: f64 = 1e-10;
 
-/// An unknown force of its own accord.
+/// The preferred value of an unknown force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Share {
-    /// What it would be, in newtons.
+    /// The preferred force, in newtons.
     pub natural: f64,
-    /// What differences are measured by, in newtons; above zero.
+    /// The unit of differences, in newtons; above zero.
     pub measure: f64,
 }
 
-/// Solves `matrix x = answer` in place of `answer`; `matrix` has as many rows as columns. Where rows depend on each other the
-/// solution is that nearest to what `shares` say.
+/// Solves `matrix x = answer` in place of `answer`. The `matrix` is square. If rows depend on each other, the solution
+/// is the one nearest to `shares`.
 pub fn solve(matrix: &[f64], answer: &mut [f64], shares: impl Iterator<Item = Share>, work: &mut Vec<f64>) {
     work.clear();
     work.extend_from_slice(matrix);
@@ -122,8 +122,8 @@ mod tests {
         assert_eq!(solved(&[2.0, 1.0, 1.0, 3.0], &[5.0, 10.0], &shares), [1.0, 3.0]);
     }
 
-    /// Law: a bar on three equal supports, at -1, 0 and 1, whose weight acts at 1/4: sum and moment of the forces are given, and
-    /// the shortest answer is linear along the bar, `1/3 + x/8` (least squares). Tolerance: rounding.
+    /// Law: a bar rests on three equal supports, at -1, 0 and 1, and its weight acts at 1/4. Sum and moment of the
+    /// forces are given. The shortest answer is linear along the bar, `1/3 + x/8` (least squares). Tolerance: rounding.
     #[test]
     fn a_bar_on_three_supports_loads_them_linearly() {
         let places = [-1.0_f64, 0.0, 1.0];
@@ -134,8 +134,8 @@ mod tests {
         }
     }
 
-    /// Law: among springs of which each bears what its depth says, an answer that is right already is not changed; and what is
-    /// missing is borne in proportion to the squares of the measures. Tolerance: rounding.
+    /// Law: springs bear the forces that their depths require, and a right answer is not changed. A missing force is
+    /// distributed in proportion to the squares of the measures. Tolerance: rounding.
     #[test]
     fn what_springs_bear_is_kept() {
         let shares = [Share { natural: 2.0, measure: 2.0 }, Share { natural: 1.0, measure: 1.0 }];

@@ -1,4 +1,4 @@
-//! A row: one direction in which two bodies do not accelerate against each other, and the force that sees to it.
+//! A constraint row: one direction in which two bodies do not accelerate against each other, and its force.
 
 use glam::DVec2;
 
@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 /// The account of the energy that a row takes along its direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LostTo {
-    /// What contacts lose along their normals.
+    /// The loss of contacts along their normals.
     Inelasticity,
-    /// What contacts lose along their surfaces.
+    /// The loss of contacts along their surfaces.
     Friction,
 }
 
-/// What of the relative motion along a row is held.
+/// The part of the relative motion that a row holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
-    /// Its place: a joint. Places, velocities and accelerations are held, and brought back to what they should be after each step.
+    /// Its position: a joint. Positions, velocities and accelerations are held, and corrected after each step.
     Position,
     /// Its velocity: a motor. Velocities are brought back, places are not.
     Velocity,
@@ -32,11 +32,11 @@ pub enum Kind {
 pub struct Side {
     /// The index of its body.
     pub body: usize,
-    /// Direction of the row: how its velocity depends on that of the body.
+    /// Direction of the row: the factor from the body's velocity to that of the row.
     pub direction: DVec2,
-    /// How the velocity of the row depends on the body's spin, in metres; without unit if the row is a turn.
+    /// The factor from the body's spin to the velocity of the row, in metres. It has no unit if the row is a turn.
     pub lever: f64,
-    /// Force on the body of one unit. It differs from `direction` where a contact slides.
+    /// Force on the body of one unit. It differs from `direction` if a contact slides.
     pub force: DVec2,
     /// Torque on the body of one unit, in metres; without unit if the row is a turn.
     pub torque: f64,
@@ -49,28 +49,30 @@ pub struct Row {
     pub sides: [Option<Side>; 2],
     /// The relative acceleration without any force, in m/s2 or rad/s2.
     pub inertial: f64,
-    /// Velocity in m/s of the surface of side A, if that is a wall with one.
+    /// Velocity in m/s of the surface of side A, if that is a moving wall.
     pub surface: DVec2,
-    /// What the row bears where rows depend on each other.
+    /// The preferred load of the row if rows depend on each other.
     pub share: Share,
-    /// The account of what it takes.
+    /// The account of its losses.
     pub lost_to: LostTo,
-    /// What of it is held.
+    /// The quantity that it holds.
     pub kind: Kind,
-    /// How far its place is from where it should be, in m or rad. Zero for rows that hold no place.
+    /// The deviation of its position from the required one, in m or rad. Zero for rows that hold no position.
     pub gap: f64,
-    /// The numbers from which the gap was found, in m or rad: rounding of the gap is a share of that.
+    /// The magnitude of the numbers from which the gap was found, in m or rad. The rounding of the gap is a share of
+    /// it.
     pub size: f64,
     /// The relative velocity that is held, in m/s or rad/s.
     pub rate: f64,
-    /// The greatest force in N, or torque in N m, that it can give; infinite for joints and motors without a limit. A row with a bound
-    /// gives no impulse.
+    /// The greatest force in N, or torque in N m, that it can give. It is infinite for joints and for motors without a
+    /// limit. A row with a bound gives no impulse.
     pub bound: f64,
-    /// Whether it gives its bound at once where it would need more, from tick to tick: motors with a limit.
+    /// Whether it gives its bound if it would need more, in methods that go from tick to tick. Motors with a limit do.
     pub yields: bool,
     /// The sign of the only force and impulse that it gives: a limit pushes, and never pulls. Zero: both signs.
     pub pushes: f64,
-    /// Whether its forces on both sides do not balance, because other joints pass the rest on to the world: gears and racks.
+    /// Whether the forces on its two sides do not balance, because other joints pass the rest on to the world. Gears
+    /// and racks do that.
     pub grounded: bool,
 }
 
@@ -122,7 +124,8 @@ impl Row {
         self.sides.iter().flatten().map(of).fold(surface, |sum, term| sum + term)
     }
 
-    /// Power of one unit of its force on both bodies, in watts: of the part along the row, of the rest, and of what drives.
+    /// Power of one unit of its force on both bodies, in watts. The parts are that along the row, the rest, and that of
+    /// driven bodies and surfaces.
     pub fn powers(&self, bodies: &Bodies) -> [f64; 3] {
         let given = |side: &Side| {
             let whole = side.force.dot(bodies.velocity[side.body]) + side.torque * bodies.spin[side.body];

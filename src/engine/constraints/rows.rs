@@ -1,9 +1,8 @@
-//! All rows of an evaluation as linear equations: the forces that keep the relative accelerations at zero.
+//! The rows of an evaluation as linear equations for the multipliers, which keep the relative accelerations at zero.
 //!
-//! `J a = 0` with `a = M^-1 (f + F lambda)` gives `(J M^-1 F) lambda = -(J M^-1 f + c)`, with `c` the relative accelerations
-//! without any force. A contact that slips along its tangent while its normal is held has a force that is not along its row:
-//! `F` differs from `J^T` there (Baraff 1991). Where rows depend on each other, [`super::redundant`] says which answer is
-//! taken.
+//! `J a = 0` with `a = M^-1 (f + F lambda)` gives `(J M^-1 F) lambda = -(J M^-1 f + c)`, with `c` the relative
+//! accelerations without any force. If a contact slips while its normal is held, its force is not along its row. There
+//! `F` differs from `J^T` (Baraff 1991). If rows depend on each other, [`super::redundant`] chooses the answer.
 
 use glam::DVec2;
 
@@ -50,7 +49,7 @@ pub struct Cancelled {
 pub struct Rows {
     rows: Vec<Row>,
     loads: Vec<Loaded>,
-    /// For each body where its load may stand.
+    /// For each body the index at which its load may be found.
     #[serde(skip)]
     places: Vec<usize>,
     #[serde(skip)]
@@ -60,12 +59,12 @@ pub struct Rows {
     work: Vec<f64>,
     /// How many rows are not those of contacts.
     joints: usize,
-    /// Rows that give their bounds in this evaluation, as their rates would take more.
+    /// Rows that give their bounds in this evaluation, because their rates would need more.
     given: Vec<usize>,
-    /// In a box, as rows are taken out and put back in each tick. None before rows of joints are first solved.
+    /// In a box, because rows are taken out and put back in each tick. `None` before rows of joints are first solved.
     #[serde(skip)]
     solver: Option<Box<Solver>>,
-    /// Whether the solver knows the present rows.
+    /// Whether the solver is prepared for the current rows.
     #[serde(skip)]
     prepared: bool,
 }
@@ -99,7 +98,7 @@ impl Rows {
         self.rows.iter_mut().for_each(|row| row.inertial = 0.0);
     }
 
-    /// Forgets the rows for which `keep` says no.
+    /// Removes the rows for which `keep` is false.
     pub fn retain(&mut self, keep: impl FnMut(&Row) -> bool) {
         self.rows.retain(keep);
         self.joints = self.rows.iter().filter(|row| row.kind != Kind::Acceleration).count();
@@ -121,7 +120,7 @@ impl Rows {
         self.prepared && self.solver.as_ref().is_some_and(|solver| solver.is_dependent())
     }
 
-    /// Whether there are none.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -148,7 +147,8 @@ impl Rows {
         self.answer[index]
     }
 
-    /// The accelerations of a row by the forces of each of these rows, in m/s2 or rad/s2, added up without signs: rounding is a share of that.
+    /// The sum of the absolute accelerations (m/s2 or rad/s2) of a row by the forces of each of these rows. Rounding is
+    /// a share of it.
     pub fn pulls(&self, row: &Row, bodies: &Bodies) -> f64 {
         self.rows.iter().zip(&self.answer).map(|(other, force)| (row.response(other, bodies) * force).abs()).sum()
     }
@@ -166,8 +166,9 @@ impl Rows {
         redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share), &mut self.work);
     }
 
-    /// After [`Rows::solve`]: rows that yield and would need more than their bounds give just these. The others are solved for anew. That
-    /// may bring another one to its bound, so this goes on until none is beyond.
+    /// After [`Rows::solve`]: rows that yield and would need more than their bounds give exactly their bounds. The
+    /// others are solved again. That may bring another row to its bound, so it is repeated until no row exceeds its
+    /// bound.
     pub fn give_way(&mut self, bodies: &Bodies) {
         loop {
             let before = self.given.len();
@@ -192,7 +193,7 @@ impl Rows {
         }
     }
 
-    /// Whether a row gives its bound in this evaluation, as its rate would take more.
+    /// Whether a row gives its bound in this evaluation, because its rate would need more.
     pub fn gives_its_bound(&self, index: usize) -> bool {
         self.given.contains(&index)
     }
@@ -221,8 +222,8 @@ impl Rows {
         self.matrix.extend(rows.iter().flat_map(|row| rows.iter().map(|other| row.response(other, bodies))));
     }
 
-    /// Impulses that make the relative velocities of all rows zero: what rounding and the error of a step of `dt` seconds have
-    /// left there. Says whether anything changed.
+    /// Impulses that make the relative velocities of all rows zero. These velocities come from rounding and from the
+    /// error of a step of `dt` seconds. Returns whether anything changed.
     pub fn stop(&mut self, bodies: &mut Bodies, dt: f64, mut book: impl FnMut(Booking)) -> bool {
         self.answer.clear();
         self.answer.extend(self.rows.iter().map(|row| row.rate - row.velocity(bodies)));
@@ -246,7 +247,7 @@ impl Rows {
         self.answer.iter().any(|impulse| *impulse != 0.0)
     }
 
-    /// Bodies that are as slow as rounding of the forces on them makes them in `dt` seconds stand.
+    /// Stops bodies whose velocities are no more than the rounding of their forces makes in `dt` seconds.
     pub fn still(&self, bodies: &mut Bodies, dt: f64) {
         self.halt(bodies, dt, |_| ());
     }
@@ -261,8 +262,8 @@ impl Rows {
         }
     }
 
-    /// Books the energy of the impulses of all rows, in two halves: with the velocities before them and after. What is not along
-    /// a row is lost to friction.
+    /// Books the energy of the impulses of all rows, half with the velocities before them and half with those after.
+    /// The part across a row is lost to friction.
     fn book_powers(&self, bodies: &Bodies, book: &mut impl FnMut(Booking)) {
         for (row, &impulse) in self.rows.iter().zip(&self.answer).filter(|(_, impulse)| **impulse != 0.0) {
             let [along, across, driven] = row.powers(bodies).map(|power| 0.5 * impulse * power);
@@ -272,7 +273,7 @@ impl Rows {
         }
     }
 
-    /// Bodies that stand and whose forces cancel but for rounding get none. `told` hears of each.
+    /// Bodies without velocity whose forces cancel, up to rounding, get no force. `told` receives each of them.
     pub fn cancel(&mut self, bodies: &mut Bodies, mut told: impl FnMut(&Bodies, Cancelled)) {
         self.loads.clear();
         self.places.resize(bodies.len(), 0);

@@ -1,9 +1,10 @@
-//! Solves `J M^-1 F x = right` for all rows of a list: joints by sparse factors, small islands with held contacts densely, large ones
-//! with the contacts as a border of the joints (`borders.rs`).
+//! Solves `J M^-1 F x = right` for all rows of a list. Joints are solved by sparse factors, and small islands with held
+//! contacts densely. In large islands the contacts are a border of the joints (`borders.rs`).
 //!
-//! Rows of joints have `F = J^T`, so that their matrix is symmetric and never negative. Where it is singular, because rows depend on each
-//! other, it is factored with a share of its diagonal added, and the answer is refined until the rows are satisfied: it tends to the
-//! solution of least norm, each unknown measured by its diagonal and by its [`Share`] (proximal iteration, Rockafellar 1976).
+//! Rows of joints have `F = J^T`, so that their matrix is symmetric and positive semidefinite. If rows depend on each
+//! other, the matrix is singular. Then a share of its diagonal is added before factoring, and the answer is refined
+//! until the rows are satisfied. The answer tends to the solution of least norm (proximal iteration, Rockafellar 1976).
+//! The norm measures each unknown by its diagonal and by its [`Share`].
 
 use super::block_cholesky::BlockCholesky;
 use super::borders::Borders;
@@ -13,14 +14,14 @@ use super::row::{Kind, Row};
 use crate::world::Bodies;
 use glam::DVec2;
 
-/// What is added to the diagonal of a singular matrix, as a share.
+/// The share of the diagonal that is added to a singular matrix.
 const SHARE: f64 = 1e-10;
 /// Refinements of an answer.
 const MOST_REFINEMENTS: usize = 40;
-/// An answer is good when no row is off by more than this share of the greatest number of the right side.
+/// An answer is good if the error of each row is below this share of the greatest right side.
 const ROUNDING: f64 = 1e-15;
 
-/// An island with held contacts and no more rows of joints than this is solved densely, which takes less time there.
+/// An island with held contacts and at most this many rows of joints is solved densely, which is faster there.
 const MOST_DENSE: usize = 32;
 
 /// Marks the side of a row that no force moves.
@@ -59,7 +60,7 @@ pub struct Solver {
     /// Rows of joints outside the dense islands, in the order of the unknowns of the factor.
     sparse: Vec<usize>,
     factor: BlockCholesky,
-    /// Two rows and where their entry stands.
+    /// Two rows and the index of their entry.
     entries: Vec<(u32, u32, u32)>,
     /// Held contacts beside the factor.
     borders: Borders,
@@ -68,7 +69,7 @@ pub struct Solver {
     matrix: Vec<f64>,
     /// Whether sparse rows depend on each other.
     dependent: bool,
-    /// Bodies of sparse rows, and what a list of forces makes of their velocities.
+    /// Bodies of sparse rows, and the velocities that a list of forces gives them.
     moved: Vec<usize>,
     velocity: Vec<DVec2>,
     spin: Vec<f64>,
@@ -78,7 +79,7 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Finds the structure, if it is another one than last time, and the factors.
+    /// Finds the factors, and the structure if it has changed.
     pub fn prepare(&mut self, rows: &[Row], bodies: &Bodies) {
         let same = rows.len() == self.ends.len() && rows.iter().zip(&self.ends).all(|(row, e)| ends(row, bodies) == *e);
         if !same {
@@ -118,7 +119,8 @@ impl Solver {
         self.dependent
     }
 
-    /// The least pivot of the factors as a share of its number before elimination, where joints are loops and no row depends on others.
+    /// The least pivot of the factors as a share of its number before elimination. It exists if joints form loops and
+    /// no row depends on others.
     pub fn least_pivot(&self) -> Option<f64> {
         (self.factor.watch && !self.dependent).then_some(self.factor.least_pivot)
     }
@@ -131,7 +133,7 @@ impl Solver {
         }
     }
 
-    /// Adds a share of the diagonal, the more the less a row is to bear where rows depend on each other.
+    /// Adds a share of the diagonal. It is the greater, the smaller the measure of the row is.
     fn soften(&mut self, rows: &[Row]) {
         let numbers = self.factor.numbers();
         for &(row, _, place) in self.entries.iter().filter(|(a, b, _)| a == b) {
@@ -187,7 +189,7 @@ impl Solver {
         borders.into_iter().for_each(|held| self.borders.add(held, rows, &unknowns));
     }
 
-    /// Rows between the same bodies, one behind the other, are a node; nodes with a body in common have an edge.
+    /// Consecutive rows between the same bodies are a node. Nodes with a body in common have an edge.
     fn find_nodes(&mut self, bodies: &Bodies) {
         let Self { ends, sparse, .. } = self;
         let (mut size, mut owner): (Vec<u32>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! The method of a run.
+//! The choice of the integration method of a run.
 
 use bevy_ecs::prelude::*;
 

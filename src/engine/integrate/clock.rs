@@ -1,4 +1,4 @@
-//! `clock`: how long, in which steps, by which method.
+//! The section `clock`: duration, steps and method of a run.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
@@ -13,7 +13,7 @@ use crate::scene::{Outline, Report, SceneAppExt, Section};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum EventTiming {
-    /// The engine chooses, and says so on the card.
+    /// The engine chooses, and names its choice on the card.
     #[default]
     Auto,
     /// At the moment itself.
@@ -36,8 +36,8 @@ pub struct ClockSection {
     #[serde(default = "auto")]
     #[schemars(extend("x-words" = "method"))]
     pub method: Word,
-    /// The error allowed to places, as a share of how far bodies go, and to velocities, as a share of how fast they are; instead
-    /// of `tick`: the engine finds the steps with which it stays below. Default: none.
+    /// The allowed error, instead of `tick`: the engine finds steps that stay below it. For positions it is a share of
+    /// the distance that bodies go, for velocities a share of their speed. Default: none.
     #[serde(default)]
     pub tolerance: Option<Scalar>,
     /// When jumps of the forces take place. Default: `Auto`.
@@ -55,7 +55,7 @@ impl ClockSection {
     pub const METHODS: &'static str = "method";
     /// The method that leaves the choice to the engine; it must be registered too.
     pub const AUTO: &'static str = "Auto";
-    /// The method that makes the smallest error there is, and says how large it is; it must be registered too.
+    /// The method with the smallest possible error, which it also estimates. It must be registered too.
     pub const REFERENCE: &'static str = "Reference";
     /// Why a tolerance does not go with it.
     pub(crate) const REFERENCE_HAS_NONE: &'static str =
@@ -70,8 +70,8 @@ impl Section for ClockSection {
         Some(generator.subschema_for::<Self>())
     }
 
-    /// Reports lengths of time that are not above zero, a tick longer than the run, unknown methods and what is not
-    /// available yet.
+    /// Reports times that are not above zero and a tick longer than the run. Reports unknown methods and methods that
+    /// are not available yet.
     fn check(&self, outline: &Outline, report: &mut Report) {
         let long = report.positive("duration", self.duration);
         if let Some(tick) = self.tick

@@ -1,10 +1,10 @@
-//! How long steps are: as long as their estimated error allows (Hairer, Norsett, Wanner, *Solving Ordinary Differential
-//! Equations I*, 1993, II.4).
+//! Step size control by the estimated error (Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*,
+//! 1993, II.4).
 //!
-//! Errors of velocities are measured by how fast bodies were so far, those of positions by how far they went, but by no more than
-//! they may go in the step: in a stiff contact, of an overlap that is small beside the way, a wrong place becomes a wrong
-//! velocity within the step. So a run does not depend on what is known of it beforehand, and runs that allow different errors
-//! are alike.
+//! Errors of velocities are measured by the greatest speed so far. Errors of positions are measured by the greatest
+//! distance so far, but at most by that of the step. The reason is a stiff contact with its small overlap: a wrong
+//! position becomes a wrong velocity within the step. So a run needs no scales beforehand, and runs with different
+//! allowed errors are alike.
 
 use glam::DVec2;
 
@@ -13,37 +13,37 @@ use crate::tick::Flow;
 use crate::tick::{Reach, WorldFlow};
 use serde::{Deserialize, Serialize};
 
-/// A step aims at this share of the length at which its error would be what is allowed.
+/// A step aims at this share of the length at which its error would reach the allowance.
 const SAFETY: f64 = 0.9;
-/// Steps grow and shrink by no more than these factors.
+/// Bounds of the ratio of a step to the one before it, for growth and for shrinking.
 const MOST_GROWTH: f64 = 5.0;
 const MOST_SHRINKING: f64 = 0.1;
 /// The first step probes the rates over this share of itself.
 const PROBE: f64 = 0.01;
 
-/// A step of a swing over this angle in radians, times the root of the allowed share, is about what DOP853 is allowed.
+/// The first step of DOP853 swings by about this angle in radians, times the root of the allowed share.
 const BEND: f64 = 6.0;
 /// No first step is longer than a swing over this angle takes: a third of a contact.
 const MOST_BEND: f64 = 1.0;
 
-/// How often the first step is guessed, each time by the sizes that bodies may reach in the step guessed before.
+/// The number of guesses of the first step. Each uses the sizes that bodies may reach in the step guessed before.
 const PASSES: usize = 2;
 
-/// Places are rounded by a share of their distance from the origin; in a step the estimate of the error sees about this much of
-/// it, in velocities as much over the length of the step. Less cannot be asked: stiff contacts turn it into forces, and steps
-/// would shrink for nothing.
+/// Positions round by a share of their distance from the origin. In a step the estimate of the error sees about this
+/// much of it. For velocities that is divided by the length of the step. No smaller error can be reached. Stiff
+/// contacts turn the rounding into forces, and steps would shrink in vain.
 const ROUNDING: f64 = f64::EPSILON / 64.0;
 /// Motion over less than this share of the distance from the origin is itself little more than rounding.
 const STILL: f64 = 1024.0 * f64::EPSILON;
 
-/// What error a step may have.
+/// The allowed error of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Allowance {
-    /// Error of a step, as a share of how far and how fast bodies went so far.
+    /// Error of a step, as a share of the distance and the speed of bodies so far.
     pub share: f64,
     /// The longest step in s.
     pub longest: f64,
-    /// The most steps that may be needed to the end of a tick, about: where more are, the run ends and says so.
+    /// The approximate limit of steps to the end of a tick. If more are needed, the run ends with a message.
     pub most_steps: f64,
 }
 
@@ -54,14 +54,14 @@ pub const MOST_STEPS: f64 = 1e7;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Control {
     allowance: Allowance,
-    /// How far bodies went so far, in m, and how fast, in m/s.
+    /// The greatest distance of bodies so far in m, and their greatest speed in m/s.
     distance: f64,
     speed: f64,
     /// Positions and angles at the beginning of the run.
     origin: Vec<(DVec2, f64)>,
     /// The length to be tried next, in s; nothing after a state that does not follow from the one before.
     next: Option<f64>,
-    /// What errors of each number of the state are measured by.
+    /// The unit of errors for each number of the state.
     measures: Vec<f64>,
     /// Whether the last step was allowed more than was asked for, because of rounding.
     bounded: bool,
@@ -110,7 +110,7 @@ impl Control {
         self.speed = self.speed.max(speed);
     }
 
-    /// The length of the step to be tried, from a state with these rates; no longer than `longest` seconds. The flow may be
+    /// The length of the step to be tried from a state with these rates, at most `longest` seconds. The flow may be
     /// left in another state.
     pub fn length(
         &mut self,
@@ -126,7 +126,7 @@ impl Control {
         length.min(longest)
     }
 
-    /// A first guess: rates change by a small share of themselves, as far as a short probe tells.
+    /// A first guess, by which rates change by a small share of themselves. A short probe measures the change.
     fn first(
         &mut self,
         flow: &mut WorldFlow,
@@ -143,7 +143,7 @@ impl Control {
         let probed: Vec<f64> = state.iter().zip(rates).map(|(state, rate)| state + probe * rate).collect();
         let mut after = vec![0.0; state.len()];
         flow.rates(time + probe, &probed, &mut after);
-        // What acts on bodies at rest may only begin.
+        // Forces on bodies at rest may only begin.
         let later = flow.reach();
         let reach =
             Reach { speed: reach.speed.max(later.speed), acceleration: reach.acceleration.max(later.acceleration) };
@@ -160,15 +160,15 @@ impl Control {
         length
     }
 
-    /// How far and how fast bodies went so far, or may go in a step of `length` seconds, in m and m/s.
+    /// The distance (m) and speed (m/s) of bodies so far, or those that a step of `length` seconds may reach.
     fn sizes(&self, reach: Reach, length: f64) -> (f64, f64) {
         let distance = self.distance.max(length * (reach.speed + 0.5 * length * reach.acceleration));
         let speed = self.speed.max(reach.speed + length * reach.acceleration);
         (distance.min(length * speed).max(f64::MIN_POSITIVE), speed.max(f64::MIN_POSITIVE))
     }
 
-    /// The estimated error of the step that was just made, over what is allowed; nothing if the method knows no estimate.
-    /// `made`: the reach at its beginning, its length in seconds, and the change it made of the state.
+    /// The estimated error of the last step, divided by the allowed one; `None` if the method has no estimate. `made`:
+    /// the reach at its beginning, its length in seconds, and the change it made of the state.
     pub fn error(&mut self, method: &dyn OneStep, flow: &mut WorldFlow, made: (Reach, f64, &[f64])) -> Option<f64> {
         let (reach, length, change) = made;
         let (distance, speed) = self.sizes(reach, length);
@@ -184,16 +184,18 @@ impl Control {
         method.error(&self.measures)
     }
 
-    /// The same with what rounding makes of each number allowed beside it, for what was asked about last.
+    /// The same with an additional allowance for the rounding of each number. It uses the arguments of the last call of
+    /// `error`.
     pub fn error_beside(&mut self, method: &dyn OneStep, rounding: &[f64]) -> Option<f64> {
         self.measures.iter_mut().zip(rounding).for_each(|(size, rounding)| *size += rounding);
         method.error(&self.measures)
     }
 
-    /// After a step of `length` seconds with this error over what is allowed: how long the next one is tried.
+    /// The length of the next step. The last one took `length` seconds, and `error` is the ratio of its error to the
+    /// allowed one.
     pub fn adapt(&mut self, length: f64, error: f64, order: u32) -> f64 {
         let factor = SAFETY * libm::pow(error, -1.0 / f64::from(order));
-        // No estimate at all, as where forces are not finite, asks for the shortest.
+        // NaN or infinite forces leave no estimate, which asks for the shortest step.
         let factor = if factor.is_nan() { MOST_SHRINKING } else { factor.clamp(MOST_SHRINKING, MOST_GROWTH) };
         let next = length * factor;
         self.next = Some(next);

@@ -1,10 +1,10 @@
-//! Where events are too many to be located one by one: stretches of ticks under velocity Verlet.
+//! Event overload: if events are too many to be located one by one, stretches of ticks run under velocity Verlet.
 //!
-//! Each located event ends the step of all bodies, so hundreds of events in a tick cost thousands of evaluations and gain
-//! nothing: among as many jumps no method shows its order. Contacts that are held by the dozen depend on each other, too, and
-//! rigid statics alone does not say which of them bears what. So a tick that turns out too crowded goes on, from where it is,
-//! as if it were under velocity Verlet with contacts that follow from state to state, and so do ticks behind it; then events
-//! are tried again. Each try that ends in a crowd doubles the stretch until the next, so that trying costs little.
+//! Each located event ends the step of all bodies. So hundreds of events in a tick cost thousands of evaluations and
+//! gain nothing. Among so many jumps no method shows its order. Dozens of held contacts depend on each other too, and
+//! rigid statics alone does not determine their loads. So an overloaded tick continues from its current state under
+//! velocity Verlet, with contacts that follow from state to state. The ticks behind it do the same, and then events are
+//! tried again. Each failed try doubles the stretch until the next, so that trying costs little.
 
 use super::VelocityVerlet;
 use crate::tick::Integrator;
@@ -13,15 +13,15 @@ use serde::{Deserialize, Serialize};
 
 /// Events that may be located in one tick after quiet ones.
 const MOST_EVENTS: u32 = 64;
-/// Events that may be located in each tick for ever; whatever a tick leaves of them, up to `MOST_EVENTS`, is for those behind.
+/// Events that may be located in each tick forever. Unused ones are saved for later ticks, up to `MOST_EVENTS`.
 const LASTING_EVENTS: u32 = 4;
 /// Indicators that change their sign in one trial step; with more the tick is crowded.
 const MOST_AT_ONCE: usize = 64;
 /// Ticks in a stretch, at first and at most.
 const SHORTEST: u32 = 16;
 const LONGEST: u32 = 1024;
-/// Product of angular frequency and step above which a tick is divided: a quarter of what the method bears, where the energy
-/// of a spring swings by `(1/4)^2`, six per cent.
+/// A tick is divided if the product of angular frequency and step exceeds this. It is a quarter of the method's limit.
+/// The energy of a spring then swings by `(1/4)^2`.
 const FINE: f64 = 0.5;
 
 /// Whether a run is in such a stretch, and how long it lasts.
@@ -36,12 +36,12 @@ pub(super) struct Crowd {
     calm: u32,
     /// Events that may still be located.
     credit: u32,
-    /// How many times as many events a tick may have.
+    /// The factor on the number of events that a tick may have.
     patience: u32,
 }
 
 impl Crowd {
-    /// One that lets `times` as many events be located in a tick.
+    /// An overload control that admits `times` as many events in a tick.
     pub fn patient(times: u32) -> Self {
         Self { following: false, left: 0, next: SHORTEST, calm: 0, credit: times * MOST_EVENTS, patience: times }
     }
@@ -56,7 +56,7 @@ impl Crowd {
         self.following
     }
 
-    /// Whether a model says that what it holds is too much, or this many events of the tick are.
+    /// Whether a model reports too many held contacts, or this number of events in the tick is too large.
     pub fn comes(&self, tick: &mut Tick, events: u32) -> bool {
         events >= self.credit || tick.is_crowded()
     }
@@ -66,7 +66,7 @@ impl Crowd {
         vanishing <= MOST_AT_ONCE
     }
 
-    /// A tick went by without a crowd.
+    /// A tick ended without an overload.
     pub fn stays_away(&mut self, events: u32) {
         self.credit =
             (self.credit.saturating_sub(events) + self.patience * LASTING_EVENTS).min(self.patience * MOST_EVENTS);
@@ -76,14 +76,14 @@ impl Crowd {
         }
     }
 
-    /// A stretch begins at `now` seconds, inside a tick.
+    /// Begins a stretch at `now` seconds, inside a tick.
     pub fn begin(&mut self, tick: &mut Tick, now: f64) {
         (self.following, self.left, self.calm) = (true, self.next, 0);
         self.next = (2 * self.next).min(LONGEST);
         tick.begin_following(now);
     }
 
-    /// Whether events may be tried again in the tick to come. A stretch whose contacts are too many as they are goes on.
+    /// Whether events may be tried again in the next tick. A stretch continues while there are too many contacts.
     pub fn ends(&mut self, tick: &mut Tick) -> bool {
         if tick.is_crowded() {
             self.left = self.next;

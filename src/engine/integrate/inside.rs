@@ -1,15 +1,16 @@
-//! Events inside a step of which its ends show nothing: two bodies that meet and have passed each other at the end, a spring
-//! force that dips below zero.
+//! Events inside a step whose ends show no change of sign. Examples are two bodies that meet and pass each other, and a
+//! spring force that dips below zero.
 //!
-//! Between two moments at which an indicator is positive it may have a minimum. As long as it bends downwards by no more than
-//! `c` it lies above the two parabolas `g + g' t - c t^2/2` that begin at both moments, so where these meet above zero nothing
-//! happens. Where they meet below, the step is looked at there. The gap of two discs bends downwards only by their relative
-//! acceleration: on straight ways it bends upwards everywhere. What `c` is between two moments is guessed from both: the
-//! greater, and as much again as they differ by.
+//! Between two moments at which an indicator is positive it may have a minimum. If it bends downwards by at most `c`,
+//! it lies above two parabolas, `g + g' t - c t^2/2` from both moments. If these meet above zero, there is no event. If
+//! they meet below, the step is evaluated at that time. The gap of two discs bends downwards only by their relative
+//! acceleration: on straight ways it bends upwards everywhere. The value of `c` between two moments is estimated from
+//! both. It is the greater one plus the difference between them.
 //!
-//! An indicator whose rate is not known, such as the force of a row, lies above the parabola `chord - c t (T - t)/2` through both moments
-//! (the error of linear interpolation). Where it is below zero at the later moment, it may have passed zero three times, unless the
-//! chord falls faster than such a parabola turns.
+//! The rate of an indicator may be unknown, such as that of the force of a row. Such an indicator lies above the
+//! parabola `chord - c t (T - t)/2` through both moments (the error of linear interpolation). If it is below zero at
+//! the later moment, it may have passed zero three times. It passed only once if the chord falls faster than such a
+//! parabola turns.
 
 use super::locate::{Moment, vanished};
 use crate::tick::Indicator;
@@ -47,7 +48,7 @@ impl Inside {
         pairs.filter_map(|(place, pair)| Some((place, suspect(&pair[0], &pair[1], self.length)?))).next()
     }
 
-    /// Takes what was seen there. What comes after an indicator below zero is not looked at any more.
+    /// Takes the indicators of a moment. If one of them is below zero, all later moments are discarded.
     pub fn see(&mut self, moment: Moment) {
         let place = self.moments.partition_point(|known| known.share < moment.share);
         if moment
@@ -61,8 +62,8 @@ impl Inside {
         self.moments.insert(place, moment);
     }
 
-    /// The last two moments: in between is the first event, if there is one. After too many looks the step ends where it is
-    /// still open whether something happens.
+    /// The last two moments, which enclose the first event if there is one. After too many evaluations the step ends at
+    /// the first interval in which an event remains possible.
     pub fn last_two(mut self) -> (Moment, Moment) {
         if self.looks >= MOST_LOOKS
             && let Some((place, _)) = self.suspected()
@@ -82,7 +83,7 @@ fn suspect(from: &Moment, to: &Moment, length: f64) -> Option<f64> {
         let bend = (a.bend.max(b.bend) + (a.bend - b.bend).abs()) * length * length;
         let known = !(a.slope.is_nan() || b.slope.is_nan());
         if !known && a.value > 0.0 && b.value < 0.0 {
-            // Where the rate may change its sign, there may be more than one passage.
+            // If the rate may change its sign, there may be more than one passage.
             let turns = a.value - b.value < 0.5 * bend * way * way;
             return turns.then_some(from.share + 0.5 * way);
         }
@@ -99,7 +100,8 @@ fn suspect(from: &Moment, to: &Moment, length: f64) -> Option<f64> {
     from.indicators.iter().zip(&to.indicators).filter_map(meet).reduce(f64::min)
 }
 
-/// Where the two parabolas that begin at both ends of a piece meet, as a share of the step after its beginning, and how high.
+/// The meeting point of the two parabolas that begin at both ends of a piece. It is given as a share of the step after
+/// its beginning, and as a height.
 fn between_rates([a, b]: [&Indicator; 2], bend: f64, (way, length): (f64, f64)) -> (f64, f64) {
     let (first, second) = (a.slope * length, b.slope * length);
     let after = (b.value - a.value - second * way - 0.5 * bend * way * way) / (first - second - bend * way);
@@ -139,8 +141,8 @@ mod tests {
         Indicator { value: distance - 2.0 * r, slope: x * speed / distance, ..Indicator::default() }
     }
 
-    /// The gap to a peg on a circle of radius 1, at an angle of 2 rad, of a disc that goes round it once in 6.3 seconds from
-    /// the angle `begin` on: it bends downwards everywhere but at the peg.
+    /// The gap between a peg at an angle of 2 rad on a circle of radius 1 and a disc on the circle. The disc circles
+    /// once in 6.3 seconds. The disc starts at the angle `begin`. The gap bends downwards everywhere except at the peg.
     fn gap_on_a_circle(t: f64, begin: f64) -> Indicator {
         let half = 0.5 * (t + begin - 2.0);
         Indicator {
@@ -173,7 +175,7 @@ mod tests {
         assert!(high.share == 1.0 && looks == 0, "{looks}");
     }
 
-    /// A way along a surface, nearer than can be told from touching it in two dozen looks.
+    /// A way along a surface, so near that two dozen evaluations cannot distinguish it from touching.
     #[test]
     fn a_step_ends_where_it_stays_open_whether_bodies_meet() {
         let (_, high, looks) = look(|_| vec![Indicator { value: 1e-6, slope: 0.0, bend: 1.0, ..Indicator::default() }]);
@@ -197,7 +199,8 @@ mod tests {
         }
     }
 
-    /// A force that swings beyond its bounds several times: the first passage counts, although the last one is open at the end.
+    /// A force that swings beyond its bounds several times. The first passage counts, although the step ends within the
+    /// last one.
     #[test]
     fn the_first_of_several_passages_of_unknown_rate_counts() {
         let room =

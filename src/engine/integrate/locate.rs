@@ -1,14 +1,15 @@
-//! Where in a step an indicator first vanishes.
+//! Event location: the root of an indicator within a step (cubic interpolation, Illinois method, bisection).
 //!
-//! Every guess costs a step, so guesses are good: the cubic through both ends of the bracket where slopes are known, the
-//! chord otherwise (Illinois variant: Dowell and Jarratt 1971), and halving where these fail to shrink it.
+//! Every guess costs a step, so guesses are good. If slopes are known, the guess is the root of the cubic through both
+//! ends of the bracket. Otherwise it is that of the chord (Illinois variant: Dowell and Jarratt 1971). If these fail to
+//! shrink the bracket, it is halved.
 
 use crate::tick::Indicator;
 
-/// An indicator counts as zero below this share of its greatest value in the step: about the share of the step within
-/// which events count as simultaneous.
+/// An indicator counts as zero below this share of its greatest value in the step. Events within about this share of
+/// the step count as simultaneous.
 const ZERO: f64 = 1e-12;
-/// Where the first event is located the indicator is brought down to this share.
+/// The first event is located until its indicator is below this share.
 const GOAL: f64 = 1e-15;
 /// Guesses; halving alone would need fifty.
 const MOST_GUESSES: u32 = 80;
@@ -49,8 +50,8 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// The bracket between two moments of a step of `length` seconds that began with the indicators `begin`; nothing, if
-    /// there is no event in it.
+    /// The bracket between two moments of a step of `length` seconds that began with the indicators `begin`. `None` if
+    /// it contains no event.
     pub fn between(begin: &[Indicator], low: Moment, high: Moment, length: f64) -> Option<Self> {
         let crossing: Vec<bool> = high.indicators.iter().map(vanished).collect();
         if !crossing.contains(&true) {
@@ -104,12 +105,12 @@ impl Bracket {
         }
     }
 
-    /// Where the step is to end.
+    /// The end of the step, as a share.
     pub fn share(&self) -> f64 {
         if self.met { self.tried } else { self.high.share }
     }
 
-    /// The indicators that vanish together at the end of the step, where they have these values.
+    /// The indicators that vanish together at the end of the step, whose values are given.
     pub fn fired(&self, indicators: &[Indicator]) -> Vec<usize> {
         let zero = |place: usize| indicators[place].rounding.max(ZERO * self.scale[place]);
         let vanishes = |place: &usize| indicators[*place].value <= zero(*place);
@@ -160,7 +161,7 @@ fn cubic(begin: &Indicator, end: &Indicator, length: f64, share: f64) -> f64 {
         - second * share * share * rest
 }
 
-/// Where the cubic through a value above and one below zero vanishes.
+/// The root of the cubic through a value above zero and one below.
 fn cubic_root(begin: &Indicator, end: &Indicator, length: f64) -> Option<f64> {
     if !(begin.slope.is_finite() && end.slope.is_finite()) {
         return None;
@@ -176,7 +177,7 @@ fn cubic_root(begin: &Indicator, end: &Indicator, length: f64) -> Option<f64> {
     Some(0.5 * (a + b))
 }
 
-/// Where the chord vanishes; an end that stayed twice counts half (Illinois).
+/// The root of the chord. An end that stayed twice counts half (Illinois).
 fn chord(low: &Indicator, high: &Indicator, replaced: i32) -> f64 {
     let (above, below) = match replaced {
         2.. => (low.value, 0.5 * high.value),

@@ -1,7 +1,7 @@
-//! Integrators: each file one, its order of accuracy stated.
+//! Integrators, one per file, each with its order of accuracy.
 //!
-//! An integrator advances the state by one tick. Forces of the state at the beginning are there when it is called;
-//! forces of the state at the end must be there when it returns.
+//! An integrator advances the state by one tick. Its caller provides the forces of the state at the beginning. It
+//! provides the forces of the state at the end.
 
 mod chosen;
 pub mod clock;
@@ -30,7 +30,7 @@ use crate::tick::set_method;
 pub use crate::tick::{Integrator, LocatedEvents, Method, StepCount};
 use steps::OneStep;
 
-/// What is known of a method, and how it is made.
+/// The properties of a method, and its constructors.
 #[derive(Clone, Copy)]
 pub struct Description {
     /// Its name in the scene and on the command line.
@@ -41,20 +41,20 @@ pub struct Description {
     pub symplectic: bool,
     /// Whether it is made of kicks and drifts, of which the drifts follow joints.
     pub drifts: bool,
-    /// Largest stable product of tick and angular frequency; zero: none is stable.
+    /// Largest stable product of tick and angular frequency; zero if no product is stable.
     pub stability_limit: f64,
     /// Largest stable product of tick and damping over mass, without a spring.
     pub damping_limit: f64,
-    /// Makes one that goes from tick to tick, if there is such: events then happen at the end of a tick.
+    /// Makes the form that goes from tick to tick, if there is one. Events then happen at the end of a tick.
     pub whole_ticks: Option<fn() -> Method>,
-    /// Makes one that steps from any state over any time, if there is such: events are then located.
+    /// Makes the form that steps from any state over any time, if there is one. Events are then located.
     pub one_step: Option<fn() -> Box<dyn OneStep>>,
 }
 
 impl Description {
-    /// The method with events where they are wanted, and whether they are located. `None`: it cannot.
+    /// The method with the requested timing of events, and whether it locates them. `None` if it cannot.
     ///
-    /// A pace other than one step per tick is for methods that make steps inside ticks, and so are steps divided into parts.
+    /// A pace other than one step per tick requires a method with steps inside ticks. Steps in parts require it too.
     pub fn make(&self, events: EventTiming, pace: Pace, detail: Detail) -> Option<(Method, bool)> {
         let limit = if self.stability_limit.is_normal() { self.stability_limit } else { USUAL_LIMIT };
         let fine = Detail { swing: limit * detail.swing, ..detail };
@@ -78,7 +78,7 @@ impl Description {
     }
 }
 
-/// What stands for the stability limit of methods that have none, or are never stable without losses.
+/// The replacement for the stability limit of methods that have none, or are never stable without losses.
 const USUAL_LIMIT: f64 = 2.0;
 
 /// The methods that may be named. Plugins add their own.

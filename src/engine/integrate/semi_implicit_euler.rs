@@ -1,7 +1,8 @@
 //! Semi-implicit (symplectic) Euler: `v' = v + a(x) dt`, `x' = x + v' dt`.
 //!
-//! Order 1, symplectic, one evaluation per tick, stable while `omega dt < 2` (Hairer, Lubich, Wanner, *Geometric
-//! Numerical Integration*, 2006, I.1), with damping `c` while `(omega dt)^2 + 2 c/m dt < 4`. The method of most games, and of the first recorded trajectories.
+//! Order 1, symplectic, one evaluation per tick, stable while `omega dt < 2`. The source is Hairer, Lubich, Wanner,
+//! *Geometric Numerical Integration*, 2006, I.1. With damping `c` it is stable while `(omega dt)^2 + 2 c/m dt < 4`. The
+//! method of most games, and of the first recorded trajectories.
 
 use super::Description;
 use crate::tick::Tick;

@@ -1,10 +1,10 @@
-//! Steps of a one-step method from event to event inside a tick.
+//! Event-driven stepping of a one-step method: steps from event to event inside a tick.
 //!
-//! Within a step the modes of all models are frozen, so forces are smooth and the method shows its full order. After a
-//! trial step the indicators of events are looked at; where one has changed its sign, the event is found with the same
-//! one-step map, so that its time has the order of the method (Hairer, Norsett, Wanner, *Solving Ordinary Differential
-//! Equations I*, 1993, II.6). The step is accepted up to there, the modes that ended change, all others stay, and the
-//! rest of the tick goes on from there.
+//! Within a step the modes of all models are frozen. So forces are smooth and the method shows its full order. After a
+//! trial step the indicators of events are checked. If one has changed its sign, the same one-step map finds the event.
+//! So its time has the order of the method. The source is Hairer, Norsett, Wanner, *Solving Ordinary Differential
+//! Equations I*, 1993, II.6. The step is accepted up to there, the modes that ended change, and all others stay. The
+//! rest of the tick continues from there.
 
 use glam::DVec2;
 
@@ -20,31 +20,31 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Indicator, Style, Tick, WorldFlow};
 use serde::{Deserialize, Serialize};
 
-/// Steps as long as their error allows make ticks of frames, in which so many times as much may happen as in others.
+/// If steps follow their error, a tick is a frame of the film. It may have this factor more events than other ticks.
 const EVENTS_PER_FRAME: u32 = 16;
 
-/// How often a step is made again with lists that reach farther, each time four times as far. What outgrows them all moves
-/// beyond all numbers, and the run ends with that.
+/// The number of times that a step is repeated with lists of a larger reach. Each time the reach is four times as
+/// large. If bodies outgrow them all, their motion is beyond all bounds, and the run ends with an error.
 const MOST_RENEWALS: u32 = 16;
 
-/// In scenes of more atoms than this steps take no body farther than so many of the smallest radii: each stage looks at all
-/// pairs that a step may bring together, and an event ends it soon.
+/// In scenes of more atoms than this a step moves no body farther than `MOST_RADII` smallest radii. Each stage visits
+/// all pairs that a step may bring together, and an event ends it soon.
 const MANY_ATOMS: usize = 64;
 const MOST_RADII: f64 = 8.0;
 
 /// Steps between two looks at how far they lead.
 const STEPS_BETWEEN_LOOKS: u64 = 4096;
 
-/// How often a step is made again because its error was too large; it is taken as it is then, and the error of the run shows
-/// it.
+/// The number of times that a step is repeated because its error was too large. After that it is accepted, and the
+/// error of the run shows it.
 const MOST_REJECTIONS: u64 = 60;
 
 /// How a tick is divided into steps, when nothing happens in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// So many equal steps.
+    /// This many equal steps.
     Even(u32),
-    /// Steps as long as their error allows, be it longer than a tick. For methods that estimate it.
+    /// Steps whose length follows from their error, even beyond a tick. They need a method that estimates its error.
     Allowed(Allowance),
 }
 
@@ -53,15 +53,16 @@ pub enum Pace {
 pub struct Detail {
     /// Equal parts of each step.
     pub parts: u32,
-    /// Ticks in one in which as many events may be located as in a frame.
+    /// Ticks per frame. They share the number of events that may be located in a frame.
     pub looks: u32,
-    /// The angle over which springs that hold a contact swing in a step, at most, over that at which the method becomes unstable. A
-    /// contact lasts half a turn.
+    /// The largest angle over which springs of a contact swing in a step, as a share. The whole is the angle at which
+    /// the method becomes unstable. A contact lasts half a turn.
     pub swing: f64,
 }
 
 impl Default for Detail {
-    /// Whole steps, over a third of what is stable: five or more in a contact under methods of low order, two under `Dop853`.
+    /// Whole steps of at most a third of the stable length. Methods of low order have five or more in a contact,
+    /// `Dop853` has two.
     fn default() -> Self {
         Self { parts: 1, looks: 1, swing: 1.0 / 3.0 }
     }
@@ -71,16 +72,15 @@ impl Default for Detail {
 pub struct Staged {
     method: Box<dyn OneStep>,
     located: bool,
-    /// Steps per tick, where no control says how long they are.
+    /// Steps per tick, if no control sets their length.
     parts: u32,
     control: Option<Control>,
     /// The angle in rad over which springs of contacts may swing in a step.
     swing: f64,
-    /// The state at the end of the last tick, or at the beginning of the step that goes beyond it, and what rounding left
-    /// over of it.
+    /// The state at the end of the last tick, or at the beginning of an unfinished step; and its rounding remainder.
     state: Vec<f64>,
     rest: Vec<f64>,
-    /// The step that goes beyond the last tick.
+    /// The step that extends beyond the last tick.
     under_way: Option<Made>,
     /// Steps made, and the time in s of the last look at how far they lead.
     steps: u64,
@@ -95,21 +95,21 @@ pub struct Staged {
 struct Made {
     from: f64,
     until: f64,
-    /// Length of the step whose states inside the method knows, in s; whether it was asked to get to know them.
+    /// Length in s of the step whose inner states the method has; whether the method was asked to prepare them.
     length: f64,
     dense: bool,
     /// The indicators that vanish at its end.
     fired: Vec<usize>,
     /// Whether it was cut short.
     cut: bool,
-    /// What was booked of it, and the state shown, at the end of the last tick.
+    /// The booked part of the step and the state shown, at the end of the last tick.
     shown: Option<Shown>,
 }
 
-/// What the method knows of the step that is being tried.
+/// The part of a trial step that the method can evaluate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Known {
-    /// Nothing: each part of it is a step of its own, so that an event has the order of the method.
+    /// No part: each part is a separate step, so that an event has the order of the method.
     Nothing,
     /// Its end.
     Whole,
@@ -134,8 +134,8 @@ struct Work {
 }
 
 impl Staged {
-    /// A method; `located`: events are located inside ticks. A method that knows no estimate of its error makes one step per
-    /// tick where the pace asks for one.
+    /// A method; `located`: events are located inside ticks. A method without an estimate of its error makes one step
+    /// per tick if the pace follows errors.
     pub fn new(method: Box<dyn OneStep>, located: bool, pace: Pace, detail: Detail) -> Self {
         let method = if detail.parts > 1 { Box::new(Divided::new(method, detail.parts)) } else { method };
         let estimates = method.order_of_error() > 0;
@@ -163,7 +163,7 @@ impl Staged {
         }
     }
 
-    /// The same with ticks in which nothing is watched made by another form of the method, which goes from tick to tick.
+    /// The same, but ticks without events are made by another form of the method, which goes from tick to tick.
     pub fn with_whole_ticks(mut self, method: Box<dyn Integrator>) -> Self {
         self.whole = (self.located && self.parts == 1 && self.control.is_none()).then(|| Whole::new(method));
         self
@@ -179,7 +179,7 @@ impl Staged {
         }
     }
 
-    /// Takes up the present state; what rounding left over is kept where it is the one that was left.
+    /// Takes the current state. The rounding remainder is kept if the state is the one that was left.
     fn take_up(&mut self, flow: &mut WorldFlow) {
         let before = std::mem::take(&mut self.state);
         flow.read(&mut self.state);
@@ -270,7 +270,7 @@ impl Staged {
                 }
                 rejected += 1;
                 until = from + next;
-                // However far the stages of a step too long went astray, lists need not reach there.
+                // Bodies may go far astray in the stages of a step that is too long. Lists need not reach there.
                 flow.tick.recall_bounds();
             }
         }
@@ -354,12 +354,12 @@ impl Staged {
         }
     }
 
-    /// How far the next step may go from `now` towards the end of the tick, in a whole part of which it is `part`; whether an
-    /// edge ends it before.
+    /// The end of the next step from `now`, and whether an edge of a force ends it. The `part` is the index of a whole
+    /// part of the tick.
     fn target(&self, tick: &Tick, now: f64, part: u32) -> (f64, bool) {
         let edge = tick.next_edge(now);
         let end = match &self.control {
-            // A prescribed motion is told from tick to tick.
+            // A prescribed motion is given from tick to tick.
             Some(control) if tick.state().bodies.prescribed.motions.is_empty() => now + control.longest(),
             Some(control) => tick.end.min(now + control.longest()),
             None if part + 1 >= self.parts => tick.end,
@@ -389,7 +389,7 @@ impl Staged {
         tick.end_step(&made.fired);
     }
 
-    /// Shows the state at the end of the tick, inside a step that goes beyond it.
+    /// Shows the state at the end of the tick, inside a step that extends beyond it.
     fn show(&mut self, tick: &mut Tick, mut made: Made) {
         let end = tick.end;
         let mut flow = WorldFlow::new(tick);
@@ -409,7 +409,7 @@ impl Staged {
         self.under_way = Some(made);
     }
 
-    /// The step under way, if the state is still the one it was left in.
+    /// The unfinished step, if the state is still the one in which it was left.
     fn resume(&mut self, tick: &mut Tick) -> Option<Made> {
         let made = self.under_way.take()?;
         let fresh = tick.is_fresh();
@@ -442,7 +442,7 @@ impl Staged {
     }
 }
 
-/// The longest step in s that is worth trying where there are many to be hit.
+/// The longest sensible step in s in a scene of many bodies that may collide.
 fn longest_among_many(flow: &WorldFlow) -> f64 {
     let bodies = &flow.tick.state().bodies;
     if bodies.atom_count() <= MANY_ATOMS || flow.tick.bounds().is_none() {
@@ -453,8 +453,8 @@ fn longest_among_many(flow: &WorldFlow) -> f64 {
     2.0 * way / (reach.speed + (reach.speed * reach.speed + 2.0 * reach.acceleration * way).sqrt())
 }
 
-/// What rounding of times makes of each number of the state in a step of `length` seconds: a force that changes as fast as that
-/// of a short pulse differs between two neighbouring times.
+/// The effect of the rounding of times on each number of the state in a step of `length` seconds. The force of a short
+/// pulse differs between two neighbouring times.
 fn rounding_of_time(flow: &mut WorldFlow, start: Start, length: f64) -> Vec<f64> {
     let until = start.time + length;
     let (mut rounding, mut before) = (vec![0.0; flow.dimension()], vec![0.0; flow.dimension()]);
@@ -474,7 +474,7 @@ fn add(state: &[f64], rest: &[f64], change: &[f64], sum: &mut Vec<f64>) {
     sum.extend(state.iter().zip(rest).zip(change).map(|((state, rest), change)| state + (change + rest)));
 }
 
-/// What a method with steps remembers from tick to tick.
+/// The memory of a method with steps from tick to tick.
 #[derive(Serialize, Deserialize)]
 struct Remembered {
     state: Vec<f64>,

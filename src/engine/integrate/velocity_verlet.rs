@@ -1,11 +1,12 @@
 //! Velocity Verlet, kick - drift - kick: `v½ = v + a dt/2`, `x' = x + v½ dt`, `v' = v½ + a' dt/2`.
 //!
-//! Order 2, symplectic, one evaluation per tick (the second kick's forces are the next tick's first), stable while
-//! `omega dt < 2` (Swope, Andersen, Berens, Wilson 1982; Hairer, Lubich, Wanner 2003).
+//! Order 2, symplectic, one evaluation per tick (the second kick's forces are the next tick's first). It is stable
+//! while `omega dt < 2`. Sources: Swope, Andersen, Berens, Wilson 1982; Hairer, Lubich, Wanner 2003.
 //!
-//! Forces that depend on velocities see `v½ + a dt/2` at the end of the tick, an estimate of `v'` with an error of
-//! order dt²: that keeps order 2 for drag and anything a plugin adds, where `v½` alone would fall to order 1. With damping
-//! `c` it is stable while `(omega dt)^2 + 4 c/m dt < 4` but for a part in 400 (the roots of its recurrence).
+//! At the end of the tick, forces that depend on velocities use `v½ + a dt/2`. It is an estimate of `v'` with an error
+//! of order dt². That keeps order 2 for drag and for forces of plugins, while `v½` alone would reduce it to order 1.
+//! With damping `c` it is stable while `(omega dt)^2 + 4 c/m dt < 4`, up to a part in 400 (the roots of its
+//! recurrence).
 
 use super::Description;
 use crate::tick::Tick;

@@ -1,13 +1,14 @@
-//! Ticks in which nothing is watched, made as whole ones.
+//! Whole ticks: a tick without watched events is one step.
 //!
-//! As long as no pair of bodies is near, no thrust begins or ends and nothing else is watched, a tick of a method that goes from
-//! tick to tick is the same step as one that looks for events, but costs no looking. Bodies that come near in such a tick are
-//! seen when candidate lists are renewed; then it is taken back, and made again as a step that may end at an event.
+//! A tick is quiet if no pair of bodies is near, no thrust begins or ends, and no other event is watched. In a quiet
+//! tick the form that goes from tick to tick makes the same step, but saves the checks. If bodies come near in such a
+//! tick, the renewal of the candidate lists shows it. Then the tick is undone, and made again as a step that may end at
+//! an event.
 
 use crate::tick::Integrator;
 use crate::tick::{Indicator, Tick, Undo};
 
-/// A method that goes from tick to tick, beside one that locates events.
+/// The tick-to-tick form of a method, beside the form that locates events.
 pub(super) struct Whole {
     method: Box<dyn Integrator>,
     undo: Undo,
@@ -15,7 +16,7 @@ pub(super) struct Whole {
     lasts: bool,
     /// When forces jump next, in s.
     edge: f64,
-    /// Which candidate lists saw nothing, if there are any.
+    /// The candidate lists in which no pair was near, if there are any.
     lists: Option<u64>,
     told: Vec<Indicator>,
 }
@@ -25,7 +26,8 @@ impl Whole {
         Self { method, undo: Undo::default(), lasts: false, edge: 0.0, lists: None, told: Vec::new() }
     }
 
-    /// Makes the tick, if nothing in it is watched. Says whether it did; if not, the state is that of its beginning.
+    /// Makes the tick, if no event in it is watched. Returns whether it did; if not, the state is that of its
+    /// beginning.
     pub fn advance(&mut self, tick: &mut Tick) -> bool {
         if tick.is_fresh() {
             self.end(tick);
@@ -54,7 +56,7 @@ impl Whole {
         true
     }
 
-    /// What goes on from tick to tick.
+    /// The memory from tick to tick.
     pub fn memory(&self) -> (bool, f64, Option<u64>) {
         (self.lasts, self.edge, self.lists)
     }
@@ -70,7 +72,7 @@ impl Whole {
         !self.told.is_empty()
     }
 
-    /// Begins a stretch of such ticks, if nothing is watched.
+    /// Begins a stretch of such ticks, if no event is watched.
     fn begin(&mut self, tick: &mut Tick) -> bool {
         // Steps that look for events find velocities that forces depend on to rounding; whole ones estimate them.
         let unlike = tick.has_velocity_forces() || !tick.state().bodies.prescribed.motions.is_empty();
@@ -114,7 +116,8 @@ fn version_of_lists(tick: &Tick) -> Option<u64> {
     tick.bounds().map(|bounds| bounds.version)
 }
 
-/// Whether a body went so far in the tick that it may have passed another: lists made at its end do not show whom.
+/// Whether a body went so far in the tick that it may have passed another. The lists at the end of the tick do not show
+/// that.
 fn may_have_passed(tick: &Tick) -> bool {
     tick.bounds().is_some_and(|bounds| tick.farthest() > bounds.margin / 2.0)
 }

@@ -1,7 +1,8 @@
-//! Steps made of equal parts of another method: the same steps from event to event, with a smaller error.
+//! Substepping: a step of equal parts of another method. The steps from event to event stay the same, with a smaller
+//! error.
 //!
-//! A run estimates its own error by such steps. Where two events lie in one tick the step between them is the same with any
-//! tick, and so would be its error.
+//! A run estimates its own error by such steps. If two events lie in one tick, the step between them is the same with
+//! any tick. Its error would be the same too.
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
@@ -47,7 +48,7 @@ mod tests {
     use super::super::{RungeKutta4, trials};
     use super::*;
 
-    /// Promise: a step in two parts is two steps of half the length, but for the rounding of one sum.
+    /// Promise: a step in two parts equals two steps of half the length, up to the rounding of one sum.
     #[test]
     fn parts_are_steps() {
         let (mut whole, mut parts) = (Run::of(KEPLER), Run::of(KEPLER));

@@ -1,7 +1,8 @@
-//! Gaussian elimination with row exchanges, in place and in a fixed order: `a x = b` for small full matrices.
+//! Gaussian elimination with partial pivoting, in place and in a fixed order: `a x = b` for small full matrices.
 //!
-//! `n^3/3` multiplications, nothing allocated once the largest matrix has been seen (Golub, Van Loan, Matrix Computations,
-//! section 3.4). A singular matrix gives infinities, not a guess: whoever asked sees that there is no answer.
+//! It takes `n^3/3` multiplications, and allocates nothing after the largest matrix (Golub, Van Loan, Matrix
+//! Computations, section 3.4). A singular matrix gives infinities and not a guess, which shows the caller that there is
+//! no answer.
 
 /// A square matrix, and after [`Elimination::eliminate`] its triangular factors.
 #[derive(Default)]
@@ -95,8 +96,8 @@ mod tests {
         matrix
     }
 
-    /// Law: elimination with row exchanges leaves a residual of rounding (section 3.4 of the source: growth at most 8 for
-    /// four rows), also where the first pivot is zero and the next is tiny.
+    /// Law: elimination with row exchanges leaves a residual of rounding. The first pivot may be zero and the next
+    /// tiny. The growth is at most 8 for four rows (section 3.4 of the source).
     #[test]
     fn solves() {
         let answer = [1.0, -2.0, 3.0, 0.5];

@@ -1,8 +1,8 @@
 //! Explicit Euler: `y' = y + h r(t, y)` for every number of the state (Euler 1768).
 //!
-//! Order 1, one evaluation per step, which is that of the beginning. Not symplectic: an oscillation without damping grows
-//! by `1 + (omega h)^2` in energy with each step, so there is no stable step for it; pure damping is stable for
-//! `h c/m < 2`. For teaching (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section I.7).
+//! Order 1, one evaluation per step, which is that of the beginning. Not symplectic: the energy of an undamped
+//! oscillator grows by `1 + (omega h)^2` in each step. So no step is stable for it. Pure damping is stable for `h c/m <
+//! 2`. The method is for teaching (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section I.7).
 
 use super::{OneStep, Start};
 use crate::tick::Flow;

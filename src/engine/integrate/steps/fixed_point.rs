@@ -1,11 +1,11 @@
-//! Solves `x = m(r(x))`, where `r` are rates of some numbers of a state and `m` says where those numbers are in the middle of
-//! what the rates make of them: the equation of an implicit midpoint rule.
+//! Fixed-point iteration with Anderson acceleration for `x = m(r(x))`, the equation of an implicit midpoint rule. Here
+//! `r` are the rates of some numbers of a state. The function `m` maps rates to the numbers in the middle of the step.
 //!
-//! Fixed-point iteration with Anderson's acceleration of depth one, which is the secant rule for a single number (Anderson
-//! 1965; Walker, Ni 2011): the next try is that mixture of the last two for which the residual would be least if it were
-//! linear. It goes on to rounding (`settling.rs`). Where the rates depend on the numbers by `rho` over half the step, plain
-//! iteration gains a factor `rho` with each evaluation and diverges from `rho = 1` on. Acceleration needs a third to a
-//! half of the evaluations, for single numbers also where `rho` is larger than 1.
+//! The acceleration has depth one, which is the secant rule for a single number (Anderson 1965; Walker, Ni 2011). The
+//! next try is a mixture of the last two. It would have the least residual if the residual were linear. The iteration
+//! ends at rounding (`settling.rs`). Let the rates depend on the numbers by `rho` over half the step. Plain iteration
+//! then gains a factor `rho` with each evaluation, and diverges if `rho` is 1 or more. Acceleration needs a third to a
+//! half of the evaluations. For single numbers it converges even if `rho` is larger than 1.
 
 use std::ops::Range;
 
@@ -13,14 +13,14 @@ use super::settling::{LIMIT, Settling};
 /// Working memory of the iteration.
 #[derive(Default)]
 pub(super) struct FixedPoint {
-    /// What the try before gave, and how far that was from the try.
+    /// The result of the last try, and its distance from the try.
     images: Vec<f64>,
     residuals: Vec<f64>,
 }
 
 impl FixedPoint {
-    /// Finds the numbers at `places` of `state`, with their `rates`, which are the first guess and come from `evaluate`. `middle` says where a number is
-    /// for its rate.
+    /// Finds the numbers at `places` of `state`, with their `rates`. The given rates are the first guess, and
+    /// `evaluate` computes them. `middle` gives the value of a number in the middle of the step from its rate.
     pub(super) fn find(
         &mut self,
         mut evaluate: impl FnMut(&[f64], &mut [f64]),
@@ -82,9 +82,9 @@ mod tests {
         ..OSCILLATOR
     };
 
-    /// Law: a contraction by `rho` gains its factor with each evaluation, so plain iteration would arrive at rounding after
-    /// `log(eps)/log(rho)` of them; `rho` is at most 0.45 + 0.1. Acceleration must not be slower. Tolerance: two roundings of
-    /// what the residual is made of.
+    /// Law: plain iteration of a contraction gains the factor `rho` with each evaluation. So it reaches rounding after
+    /// `log(eps)/log(rho)` of them; `rho` is at most 0.45 + 0.1. Acceleration must not be slower. Tolerance: two
+    /// roundings of the terms of the residual.
     #[test]
     fn arrives_at_rounding_no_later_than_plain_iteration() {
         let base: Vec<f64> = (0..10).map(|number| 1.0 - 0.3 * f64::from(number)).collect();

@@ -1,17 +1,17 @@
 //! Implicit midpoint rule: `y' = y + h r(t + h/2, (y + y')/2)` for every number of the state.
 //!
-//! Order 2, symmetric in time, symplectic, keeps quadratic invariants (the energy of linear springs) to rounding, stable for
-//! every step with linear springs and damping (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006,
-//! sections II.1, IV.2 and VI.4). What it does not resolve it keeps going: a spring with `omega h` large
-//! changes sign with each step instead of standing still.
+//! Order 2, symmetric in time, symplectic. It keeps quadratic invariants (the energy of linear springs) to rounding. It
+//! is stable for every step with linear springs and damping. The source is Hairer, Lubich, Wanner, Geometric Numerical
+//! Integration, 2nd ed. 2006, sections II.1, IV.2 and VI.4. Unresolved motion continues: a spring with large `omega h`
+//! changes sign with each step instead of coming to rest.
 //!
-//! The unknown is half the change of velocities, `w = h/2 a(t + h/2, q + h/2 (v + w), v + w, z)`. Positions follow from it;
-//! `z`, the midpoint of states of models, is found for each `w` by iteration (`fixed_point.rs`), so it must not depend
-//! stiffly on itself: `h/2` times that rate less than 1. What couples it to velocities may be as stiff as it likes.
+//! The unknown is half the change of velocities, `w = h/2 a(t + h/2, q + h/2 (v + w), v + w, z)`. Positions follow from
+//! it. For each `w` an iteration finds `z`, the midpoint of states of models (`fixed_point.rs`). So `z` must not depend
+//! stiffly on itself: `h/2` times that rate has to be less than 1. Its coupling to velocities may be arbitrarily stiff.
 //!
-//! Newton's method to rounding, with differences for derivatives. Evaluations: one at first, as many as coordinates for the
-//! matrix, one for each iteration, of which there are 2 to 4; with states of models twice as many or more. The matrix is made
-//! in each step, and again where an iteration gains less than a digit. A step of length 0 changes nothing.
+//! Newton's method to rounding, with differences for derivatives. It takes one evaluation first, then one per
+//! coordinate for the matrix, and one for each of 2 to 4 iterations. States of models at least double that. The matrix
+//! is made in each step, and again if an iteration gains less than a digit. A step of length 0 changes nothing.
 
 use super::elimination::Elimination;
 use super::fixed_point::FixedPoint;
@@ -135,8 +135,8 @@ impl ImplicitMidpoint {
     }
 }
 
-/// By how much a velocity is changed to see what that does: half of the digits of the velocity itself, and what moves the
-/// coordinate by a quarter of its digits, so that rounding leaves three or more in the difference.
+/// The disturbance of a velocity for a difference quotient. It changes half of the digits of the velocity, or a quarter
+/// of those of the coordinate if that is more. So rounding leaves three digits or more in the difference.
 fn disturbance(middle: &[f64], coordinate: usize, coordinates: usize, length: f64, half_change: f64) -> f64 {
     let digits = f64::EPSILON.sqrt();
     let by_velocity = digits * (middle[coordinate + coordinates].abs() + half_change.abs());
@@ -163,21 +163,21 @@ mod tests {
         demand_bounded_energy(&mut ImplicitMidpoint::default(), KEPLER, 200.3);
     }
 
-    /// Law: the same on sharp ellipses, with steps that resolve the passage: the rate there times the step is a third.
+    /// Law: the same on sharp ellipses with steps that resolve the passage. There the rate times the step is a third.
     #[test]
     fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
         demand_no_trend(&mut ImplicitMidpoint::default(), 600);
     }
 
-    /// Law: a symmetric method runs back to where it began (section V.1 of the source). Tolerance: rounding.
+    /// Law: a symmetric method runs back to its start (section V.1 of the source). Tolerance: rounding.
     #[test]
     fn runs_backwards() {
         demand_reversible(&mut ImplicitMidpoint::default(), 1.0);
     }
 
-    /// Law: quadratic invariants are kept (theorem IV.2.1 of the source), at any step: here `omega h` is 0.3 and 1000, for a
-    /// spring, one that is a state of its own, and a chain of five masses whose slowest mode has it. Tolerance: four roundings
-    /// for each step (both numbers of the state, squared).
+    /// Law: quadratic invariants are kept at any step (theorem IV.2.1 of the source). Here `omega h` is 0.3 and 1000.
+    /// The motions are a spring, a spring as a state of a model, and a chain of five masses. The slowest mode of the
+    /// chain has that `omega h`. Tolerance: four roundings for each step (both numbers of the state, squared).
     #[test]
     fn quadratic_energy_is_kept_by_stiff_springs() {
         for (motion, slowest) in [(OSCILLATOR, 1.0), (ELONGATION, 1.0), (CHAIN, 0.517)] {

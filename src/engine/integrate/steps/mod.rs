@@ -1,7 +1,7 @@
-//! One-step maps of ordinary differential equations: each file one method, its order of accuracy stated.
+//! One-step maps of ordinary differential equations, one method per file, each with its order of accuracy.
 //!
-//! They know nothing of bodies: a [`Flow`] gives the rates of a state, a [`OneStep`] turns a state at one time into the
-//! change until another. The same map that makes a step makes any part of it, which is how events are located.
+//! They are independent of bodies. A [`Flow`] gives the rates of a state. A [`OneStep`] gives the change of a state
+//! from one time to another. The same map makes a step and any part of it, which serves to locate events.
 
 mod divided;
 mod dop853;
@@ -35,7 +35,7 @@ pub use semi_implicit_euler::SemiImplicitEuler;
 pub use symplectic4::Symplectic4;
 pub use velocity_verlet::VelocityVerlet;
 
-/// Where a step begins.
+/// The beginning of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<'a> {
     /// Time in seconds.
@@ -51,8 +51,9 @@ pub trait OneStep: Send + Sync {
     /// The change of the state over `length` seconds, to be added to it.
     fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]);
 
-    /// After a step: its estimated error over what is allowed, with `scale` the allowed error of each number of the state
-    /// (an infinite one is not looked at). At most 1: good. `None`: the method does not know.
+    /// After a step: its estimated error divided by the allowed one. The allowed error of each number of the state is
+    /// `scale`; numbers with an infinite scale are ignored. A result of at most 1 is good. `None`: the method has no
+    /// estimate.
     fn error(&self, scale: &[f64]) -> Option<f64> {
         let _ = scale;
         None
@@ -63,7 +64,8 @@ pub trait OneStep: Send + Sync {
         0
     }
 
-    /// After a step: makes ready to tell states inside it. A method that estimates its error does; it may take further rates.
+    /// After a step: prepares the evaluation of states inside it. A method that estimates its error can do it, perhaps
+    /// with further rates.
     fn make_dense(&mut self, flow: &mut dyn Flow, start: Start, length: f64) {
         let _ = (flow, start, length);
     }
@@ -73,7 +75,7 @@ pub trait OneStep: Send + Sync {
         let _ = (share, change);
     }
 
-    /// What it keeps of the step just made, for [`OneStep::dense`]. Default: nothing.
+    /// The memory of the last step for [`OneStep::dense`]. Default: nothing.
     fn save(&self) -> Memory {
         Memory::Nothing
     }

@@ -17,7 +17,7 @@ pub(super) struct Motion {
     pub(super) steps: f64,
     pub(super) rates: fn(f64, &[f64], &mut [f64]),
     pub(super) exact: fn(f64) -> Vec<f64>,
-    /// Energy of a state, where it is kept.
+    /// Energy of a state, if the motion keeps it.
     pub(super) energy: fn(&[f64]) -> f64,
 }
 
@@ -43,8 +43,8 @@ pub(super) const OSCILLATOR: Motion = Motion {
 /// Eccentricity of [`KEPLER`].
 const ECCENTRICITY: f64 = 0.6;
 
-/// A planet on an ellipse about a fixed sun from its nearest point, `G M = 1`, `a = 1` (Kepler's equation by Newton). It
-/// ends well behind the second passage: over whole orbits the leading errors of one side cancel those of the other.
+/// A planet on an ellipse about a fixed sun from its nearest point, `G M = 1`, `a = 1` (Kepler's equation by Newton).
+/// It ends well behind the second passage, because over whole orbits the leading errors of both sides cancel.
 pub(super) const KEPLER: Motion = Motion {
     name: "kepler",
     coordinates: 2,
@@ -95,7 +95,7 @@ pub(super) const DRAG: Motion = Motion {
     energy: |_| f64::NAN,
 };
 
-/// A driven oscillator, `q'' = -4 q + cos(3 t)`: the difference of its own motion and the forced one, `-cos(3 t)/5`.
+/// A driven oscillator, `q'' = -4 q + cos(3 t)`: the difference of its free motion and the forced one, `-cos(3 t)/5`.
 pub(super) const DRIVEN: Motion = Motion {
     name: "driven oscillator",
     coordinates: 1,
@@ -114,8 +114,8 @@ pub(super) const DRIVEN: Motion = Motion {
     energy: |_| f64::NAN,
 };
 
-/// A spring that hardens with a state of its own, `z' = 2 q v`, so `z = q^2`: `q'' = q - z q` is Duffing's equation, and
-/// `q = sqrt(2) sech(t - 1)` its motion from one side of the saddle to the other.
+/// A spring that hardens with a state of a model, `z' = 2 q v`, so `z = q^2`. Then `q'' = q - z q` is Duffing's
+/// equation. Its motion from one side of the saddle to the other is `q = sqrt(2) sech(t - 1)`.
 pub(super) const HARDENING: Motion = Motion {
     name: "hardening spring",
     coordinates: 1,
@@ -135,8 +135,8 @@ pub(super) const HARDENING: Motion = Motion {
     energy: |state| 0.5 * (state[1] * state[1] - state[0] * state[0]) + 0.25 * state[2] * state[2],
 };
 
-/// Everything at once: damping, a force in time, and a state that lags, `z' = v - z`, and pulls: `q'' = -q - v/2 - z + f(t)`
-/// with `f` such that `q = sin t`, and so `z = (cos t + sin t)/2 - e^-t/2`.
+/// A combination of damping, a force in time, and a state that lags, `z' = v - z`, and pulls. The equation is `q'' = -q
+/// - v/2 - z + f(t)` with `f` such that `q = sin t`. So `z = (cos t + sin t)/2 - e^-t/2`.
 pub(super) const LAGGING: Motion = Motion {
     name: "damped and lagging",
     coordinates: 1,
@@ -157,7 +157,7 @@ pub(super) const LAGGING: Motion = Motion {
     energy: |_| f64::NAN,
 };
 
-/// An oscillator whose spring is a state of its own, as a tangential spring of a contact: `q'' = -z`, `z' = v`.
+/// An oscillator whose spring is a state of a model, as a tangential spring of a contact: `q'' = -z`, `z' = v`.
 pub(super) const ELONGATION: Motion = Motion {
     name: "spring with a state",
     coordinates: 1,

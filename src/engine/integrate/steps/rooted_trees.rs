@@ -1,6 +1,7 @@
-//! Conditions of order of Runge-Kutta methods: a sum of rates of stages is right to order `p` if, for each rooted tree of up to
-//! `p` nodes, its weights applied to what the stages make of the tree give `1/density` (Butcher 1963; Hairer, Norsett,
-//! Wanner, Solving Ordinary Differential Equations I, section II.2).
+//! Order conditions of Runge-Kutta methods on rooted trees. A sum of rates is right to order `p` if it satisfies one
+//! condition for each tree of up to `p` nodes. Its weights times the stages' elementary weights of the tree must sum to
+//! `1/density`. The source is Butcher 1963; Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section
+//! II.2.
 
 /// A rooted tree.
 struct Tree {
@@ -8,7 +9,7 @@ struct Tree {
     order: usize,
     /// The product of the orders of all its subtrees.
     density: f64,
-    /// What each stage makes of it: the product over the branches of the weighted sums of what stages make of those.
+    /// The elementary weight of each stage: the product over the branches of the weighted sums of their stages.
     stages: Vec<f64>,
     /// The same with the sizes of all weights: to this rounding is relative.
     sizes: Vec<f64>,

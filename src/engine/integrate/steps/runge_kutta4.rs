@@ -1,9 +1,9 @@
-//! The classical Runge-Kutta method (Kutta 1901): rates at the beginning, twice in the middle, at the end, with weights
-//! 1, 2, 2, 1 over 6.
+//! The classical Runge-Kutta method (Kutta 1901). Rates at the beginning, twice in the middle and at the end have
+//! weights 1, 2, 2, 1 over 6.
 //!
-//! Order 4, four evaluations per step, of which the first is that of the beginning. Not symplectic: it loses
-//! `(omega h)^6/72` of an oscillation's energy with each step, and is stable for `omega h < 2.83`; damping alone for
-//! `h c/m < 2.78` (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.1).
+//! Order 4, four evaluations per step, of which the first is that of the beginning. Not symplectic: an oscillation
+//! loses `(omega h)^6/72` of its energy with each step. It is stable for `omega h < 2.83`, and damping alone for `h c/m
+//! < 2.78`. The source is Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.1.
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
@@ -26,7 +26,7 @@ impl OneStep for RungeKutta4 {
                 *state = start + share * length * rate;
             }
             flow.rates(start.time + share * length, &self.state, &mut self.rates);
-            // Counted from the rate at the beginning: one that does not change comes out as it is.
+            // Weights multiply differences from the rate at the beginning, so that a constant rate is exact.
             for ((change, rate), beginning) in change.iter_mut().zip(&self.rates).zip(start.rates) {
                 *change += weight * (rate - beginning);
             }

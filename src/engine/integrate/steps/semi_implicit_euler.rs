@@ -1,14 +1,14 @@
 //! Semi-implicit (symplectic) Euler: `v' = v + h a(t, q, v, z)`, then `q' = q + h v'`.
 //!
-//! Order 1, symplectic for accelerations without velocities, stable for `omega h < 2` and, with damping alone, `h c/m < 2`
-//! (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section I.1.2; de Vogelaere 1956). One
-//! evaluation per step, which is that of the beginning; one more if there are states of models.
+//! Order 1, symplectic for accelerations without velocities, stable for `omega h < 2`. With damping alone it is stable
+//! for `h c/m < 2`. Sources: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section I.1.2; de
+//! Vogelaere 1956. It takes one evaluation per step, at the beginning, and one more if there are states of models.
 //!
-//! Where joints hold coordinates the second half is a drift along them ([`Flow::drift`]), as in RATTLE.
+//! If joints hold coordinates, the second half is a drift along them ([`Flow::drift`]), as in RATTLE.
 //!
-//! States of models, `z' = z + h r(t, q, v', z)`, see the new velocities: the elongation of a spring is a coordinate in other words, and
-//! has to be advanced as coordinates are. With the rates of the beginning its oscillation would be that of explicit Euler,
-//! which gains energy with each step.
+//! States of models, `z' = z + h r(t, q, v', z)`, use the new velocities. The elongation of a spring is a coordinate in
+//! disguise, and has to be advanced like one. With the rates of the beginning its oscillation would be that of explicit
+//! Euler, which gains energy with each step.
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
@@ -76,8 +76,9 @@ mod tests {
         }
     }
 
-    /// Law: `q^2 + v^2 - h q v` of an oscillator is kept, so energy swings between bounds for a step of 1.9 and grows for one
-    /// of 2.1; the same where the spring is a state of its own. Tolerance: the bounds follow from the invariant.
+    /// Law: an oscillator keeps `q^2 + v^2 - h q v`. So its energy swings between bounds for a step of 1.9 and grows
+    /// for one of 2.1. The same holds if the spring is a state of a model. Tolerance: the bounds follow from the
+    /// invariant.
     #[test]
     fn stable_below_2() {
         for motion in [OSCILLATOR, ELONGATION] {

@@ -1,15 +1,15 @@
-//! The three parts of which the splitting methods are made: kick, drift, and the advance of what models keep of their own.
+//! The three parts of splitting methods: kick, drift, and the advance of the states of models.
 //!
 //! - kick: `v' = v + h a(t, q, (v + v')/2, z)`;
 //! - drift: `q' = q + h v`, `t' = t + h`;
 //! - own: `z' = z + h r(t, q, v, (z + z')/2)`.
 //!
-//! Each is undone by itself with `-h`, so whatever is a palindrome of them is symmetric in time. Kick and own are implicit
-//! midpoint rules, iterated to rounding (`fixed_point.rs`). Kicks of accelerations without velocities take one evaluation,
-//! and none where neither time nor place has changed.
+//! Each is the inverse of itself with `-h`, so any palindrome of them is symmetric in time. Kick and own are implicit
+//! midpoint rules, iterated to rounding (`fixed_point.rs`). Kicks of accelerations without velocities take one
+//! evaluation. They take none if neither time nor position has changed.
 //!
-//! Where joints hold coordinates, drifts follow them ([`Flow::drift`]), so that a palindrome is symmetric and symplectic on what joints
-//! hold, as RATTLE is. Kicks go along joints.
+//! If joints hold coordinates, drifts follow them ([`Flow::drift`]). So a palindrome is symmetric and symplectic on the
+//! constraints, as RATTLE is. Kicks go along joints.
 //!
 //! Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, sections II.3 to II.5.
 

@@ -1,17 +1,20 @@
-//! Fourth-order symplectic composition of the halves of velocity Verlet (Blanes and Moan, Practical symplectic partitioned
-//! Runge-Kutta and Runge-Kutta-Nystrom methods, J. Comput. Appl. Math. 142, 2002, 313-330, scheme S6).
+//! Fourth-order symplectic composition of the halves of velocity Verlet, scheme S6 of Blanes and Moan. Source:
+//! Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom methods, J. Comput. Appl. Math. 142, 2002,
+//! 313-330.
 //!
-//! Verlet is two halves: kick, drift, and the mirror image drift, kick. Twelve such halves of the lengths below, alternating,
-//! have order 4, whatever the parts do, as long as the second half undoes the first with `-h`: so accelerations that depend
-//! on velocities keep the order, and so do states of models, advanced where two halves meet.
+//! Verlet consists of two halves: kick, drift, and the mirror image drift, kick. Twelve such halves of the lengths
+//! below, alternating, have order 4. The parts are arbitrary, as long as the second half is the inverse of the first
+//! with `-h`. So accelerations that depend on velocities keep the order. States of models keep it too; they are
+//! advanced between two halves.
 //!
-//! Order 4, symmetric in time, symplectic for accelerations without velocities, stable for `omega h < 3.13`. Six evaluations
-//! per step. At the same number of evaluations its error on a Kepler ellipse is 2.7 times smaller than that of Suzuki's or
-//! McLachlan's five Verlet steps.
+//! Order 4, symmetric in time, symplectic for accelerations without velocities, stable for `omega h < 3.13`. Six
+//! evaluations per step. At equal cost its error on a Kepler ellipse is 2.7 times smaller than that of Suzuki's five
+//! Verlet steps. The same factor holds against McLachlan's.
 //!
-//! Accelerations that depend on velocities are iterated to rounding in each of twelve kicks, and states of models in twelve
-//! parts: 40 to 70 evaluations per step. There Runge-Kutta methods reach the same error for less; what they do not give is
-//! symmetry in time. Two halves go backwards, where damping drives; damping alone is stable for `h c/m < 5.4` all the same.
+//! Accelerations that depend on velocities are iterated to rounding in each of twelve kicks. States of models are
+//! iterated in twelve parts. That takes 40 to 70 evaluations per step. There Runge-Kutta methods reach the same error
+//! for less, but without symmetry in time. Two halves go backwards, and in them damping drives. Damping alone is stable
+//! for `h c/m < 5.4` all the same.
 
 use super::splitting::Splitting;
 use super::{OneStep, Start};
@@ -59,9 +62,9 @@ mod tests {
     use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
-    /// Law: conditions of order 4 of a palindrome of kicks and drifts (Hairer, Lubich, Wanner, III.3): with `a` the kicks, `b`
-    /// the drifts and `c`, `d` how far the others have come, the sums of `a`, `b`, `a c^2`, `b d^2` are 1, 1, 1/3, 1/3.
-    /// Tolerance: the 15 digits of the published coefficients.
+    /// Law: conditions of order 4 of a palindrome of kicks and drifts (Hairer, Lubich, Wanner, III.3). Let `a` be the
+    /// kicks and `b` the drifts; `c` and `d` are the progress of the other kind. The sums of `a`, `b`, `a c^2`, `b d^2`
+    /// are 1, 1, 1/3, 1/3. Tolerance: the 15 digits of the published coefficients.
     #[test]
     fn coefficients_have_order_4() {
         let (mut kicked, mut drifted, mut kick_moment, mut drift_moment) = (0.0, 0.0, 0.0, 0.0);
@@ -79,8 +82,8 @@ mod tests {
         }
     }
 
-    /// Law: order 4 on smooth motion, with velocities in the accelerations and states of models too (a composition of a
-    /// first-order map and its adjoint asks for nothing else; McLachlan 1995). Tolerance: a quarter of an order.
+    /// Law: order 4 on smooth motion, with velocities in the accelerations and states of models too. A composition of a
+    /// first-order map and its adjoint needs no more for it (McLachlan 1995). Tolerance: a quarter of an order.
     #[test]
     fn the_order_is_4() {
         demand_order(&mut Symplectic4::default(), 4, 1.0, 1.37);
@@ -94,19 +97,19 @@ mod tests {
         }
     }
 
-    /// Law: the same on sharp ellipses, with steps that resolve the passage: the rate there times the step is a third.
+    /// Law: the same on sharp ellipses with steps that resolve the passage. There the rate times the step is a third.
     #[test]
     fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
         demand_no_trend(&mut Symplectic4::default(), 600);
     }
 
-    /// Law: a symmetric method runs back to where it began (Hairer, Lubich, Wanner, V.1). Tolerance: rounding.
+    /// Law: a symmetric method runs back to its start (Hairer, Lubich, Wanner, V.1). Tolerance: rounding.
     #[test]
     fn runs_backwards() {
         demand_reversible(&mut Symplectic4::default(), 1.0);
     }
 
-    /// The stated limit, 3.13: there the trace of the matrix of a step, which is 2 or less for bounded motion, exceeds it.
+    /// The stated limit, 3.13: beyond it the trace of the matrix of a step exceeds 2, so motion is unbounded.
     #[test]
     fn stable_below_3_13() {
         for (length, stable) in [(3.125, true), (3.145, false)] {

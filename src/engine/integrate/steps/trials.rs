@@ -1,4 +1,4 @@
-//! Runs of methods on the motions of `problems.rs`, and what is demanded of them.
+//! Runs of methods on the motions of `problems.rs`, and the requirements on them.
 
 use std::f64::consts::TAU;
 
@@ -77,9 +77,9 @@ pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
     above / below
 }
 
-/// Measured order of a method on a motion: slope of the logarithm of the error, its root of the mean square over all steps,
-/// over that of the length, from six lengths. `fineness` is how many times the steps of a method of order 4 are taken at
-/// first, `ratio` that of steps from then on.
+/// Measured order of a method on a motion, from six step lengths. It is the slope of the error's logarithm over that of
+/// the length; the error is the root mean square over all steps. The first run takes `fineness` times the steps of a
+/// method of order 4. The `ratio` is the factor of steps from then on.
 fn measured_order(method: &mut dyn OneStep, motion: Motion, fineness: f64, ratio: f64) -> f64 {
     let points: Vec<_> = (0..6)
         .map(|number| {
@@ -106,9 +106,9 @@ pub(super) fn demand_order(method: &mut dyn OneStep, order: u32, fineness: f64, 
     }
 }
 
-/// Demands that energy swings in the last hundred of 10 000 periods of 2 pi as far as in the first hundred, to a tenth: the
-/// phases at which a hundred periods are sampled differ by less. A drift, even one that is not seen in the first hundred,
-/// would make it a hundred times as far.
+/// Demands that energy swings equally far in the first and last hundred of 10 000 periods of 2 pi. The tolerance is a
+/// tenth, because the phases at which a hundred periods are sampled differ by less. Even a drift that is invisible in
+/// the first hundred would make the last swing a hundred times as far.
 pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: Motion, steps_per_period: f64) {
     let length = TAU / steps_per_period;
     let mut run = Run::of(motion);
@@ -127,9 +127,9 @@ pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: Motion, st
     assert!(first > 0.0 && last <= 1.1 * first, "{}: energy is off by {first:e}, later {last:e}", motion.name);
 }
 
-/// Demands that energy on an ellipse of eccentricity 0.9 (truth file P07) has no trend in 10 000 orbits: averaged over a hundred of
-/// them at a time, the gain of its regression line over the whole is within four times the statistical error that the scatter
-/// about the line gives it, or below a thousandth of the swing in an orbit.
+/// Demands that energy on an ellipse of eccentricity 0.9 (truth file P07) has no trend in 10 000 orbits. Energies are
+/// averaged over a hundred orbits at a time. The gain of their regression line over the whole must be within four times
+/// its statistical error. A gain below a thousandth of the swing in an orbit is accepted too.
 pub(super) fn demand_no_trend(method: &mut dyn OneStep, steps_per_orbit: u32) {
     let length = TAU / f64::from(steps_per_orbit);
     let mut run = Run::from(KEPLER, 0.0, vec![0.1, 0.0, 0.0, 19.0_f64.sqrt()]);
@@ -157,8 +157,8 @@ pub(super) fn demand_no_trend(method: &mut dyn OneStep, steps_per_orbit: u32) {
     );
 }
 
-/// Demands that as many steps backwards return to the start, to eight roundings for each step times the condition number
-/// of the way back (measured: how much larger a small displacement becomes on it).
+/// Demands that the same number of steps backwards returns to the start. Tolerance: eight roundings for each step,
+/// times the measured condition number of the way back. That number is the growth of a small displacement.
 pub(super) fn demand_reversible(method: &mut dyn OneStep, fineness: f64) {
     for motion in MOTIONS {
         let steps = (motion.steps * fineness).round();

@@ -1,12 +1,13 @@
-//! Velocity Verlet: kick by `h/2`, drift by `h`, kick by `h/2`; states of models are advanced in the middle of the drift.
+//! Velocity Verlet: kick by `h/2`, drift by `h`, kick by `h/2`. States of models are advanced in the middle of the
+//! drift.
 //!
-//! Order 2, symmetric in time, symplectic for accelerations without velocities, stable for `omega h < 2`, and with damping
-//! as long as the kicks converge, `h c/m < 4` (Swope, Andersen, Berens, Wilson 1982; Hairer, Lubich, Wanner, Geometric
-//! Numerical Integration, 2nd ed. 2006, sections I.1.4 and II.5).
+//! Order 2, symmetric in time, symplectic for accelerations without velocities, stable for `omega h < 2`. With damping
+//! it is stable as long as the kicks converge, `h c/m < 4`. Sources: Swope, Andersen, Berens, Wilson 1982; Hairer,
+//! Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, sections I.1.4 and II.5.
 //!
 //! One evaluation per step: the first kick has the rates of the beginning. Accelerations that depend on velocities are
-//! iterated to rounding in both kicks, 3 to 5 evaluations each for `h c/m` up to 0.2; states of models cost two evaluations,
-//! more if their rates depend on themselves.
+//! iterated to rounding in both kicks. That takes 3 to 5 evaluations each for `h c/m` up to 0.2. States of models cost
+//! two evaluations, or more if their rates depend on themselves.
 
 use super::splitting::Splitting;
 use super::{OneStep, Start};
@@ -35,8 +36,8 @@ mod tests {
     use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
-    /// Law: order 2 on smooth motion, with velocities in the accelerations and states of models too (theorem II.3.2 of the
-    /// source: symmetric methods have even order). Tolerance: a quarter of an order.
+    /// Law: order 2 on smooth motion, with velocities in the accelerations and states of models too. Symmetric methods
+    /// have even order (theorem II.3.2 of the source). Tolerance: a quarter of an order.
     #[test]
     fn the_order_is_2() {
         demand_order(&mut VelocityVerlet::default(), 2, 6.0, 1.37);
@@ -50,20 +51,20 @@ mod tests {
         }
     }
 
-    /// Law: the same on sharp ellipses, with steps that resolve the passage: the rate there times the step is a third.
+    /// Law: the same on sharp ellipses with steps that resolve the passage. There the rate times the step is a third.
     #[test]
     fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
         demand_no_trend(&mut VelocityVerlet::default(), 600);
     }
 
-    /// Law: a symmetric method runs back to where it began (section V.1 of the source). Tolerance: rounding.
+    /// Law: a symmetric method runs back to its start (section V.1 of the source). Tolerance: rounding.
     #[test]
     fn runs_backwards() {
         demand_reversible(&mut VelocityVerlet::default(), 1.0);
     }
 
-    /// Law: `v^2 + (1 - h^2/4) q^2` of an oscillator is kept, so from rest its energy never rises, and it does for steps above
-    /// 2; the same where the spring is a state of its own. Tolerance: rounding of the steps.
+    /// Law: an oscillator keeps `v^2 + (1 - h^2/4) q^2`. So from rest its energy never rises, except for steps above 2.
+    /// The same holds if the spring is a state of a model. Tolerance: rounding of the steps.
     #[test]
     fn stable_below_2() {
         for motion in [OSCILLATOR, ELONGATION] {

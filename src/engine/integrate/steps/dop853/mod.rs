@@ -1,14 +1,15 @@
-//! DOP853: the explicit Runge-Kutta method of order 8 of Dormand and Prince, with an estimate of its error and dense output.
+//! DOP853: the explicit Runge-Kutta method of order 8 of Dormand and Prince, with an error estimate and dense output.
 //!
-//! Order 8, twelve evaluations per step, of which the first is that of the beginning. Not symplectic: it loses
-//! `2.4e-8 (omega h)^10` of an oscillation's amplitude in each step. Stable for `omega h < 5.97`, damping alone for
-//! `h c/m < 6.39`; but its error is what bounds the step (Prince and Dormand 1981; Hairer, Norsett, Wanner, Solving Ordinary
-//! Differential Equations I, 2nd ed. 1993, sections II.5, II.6 and II.10).
+//! Order 8, twelve evaluations per step, of which the first is that of the beginning. Not symplectic: an oscillation
+//! loses `2.4e-8 (omega h)^10` of its amplitude in each step. It is stable for `omega h < 5.97`, and damping alone for
+//! `h c/m < 6.39`; but its error bounds the step earlier. Sources: Prince and Dormand 1981; Hairer, Norsett, Wanner,
+//! Solving Ordinary Differential Equations I, 2nd ed. 1993, sections II.5, II.6 and II.10.
 //!
-//! The estimate joins those of two embedded methods of orders 5 and 3, `e5^2/sqrt(e5^2 + 0.01 e3^2)`, and falls with `h^8`, the
-//! error with `h^9`: on the motions of `problems.rs` it is 2 to 20 times the error in the mean, the more the smaller the
-//! step. Where the estimate of order 5 passes through zero, a single step may err by 25 times what it says (measured on a
-//! fall with quadratic drag). Dense output is of order 7 and takes four evaluations more: at the end, and three inside.
+//! The estimate joins those of two embedded methods of orders 5 and 3, `e5^2/sqrt(e5^2 + 0.01 e3^2)`. It falls with
+//! `h^8`, and the error with `h^9`. On the motions of `problems.rs` it is 2 to 20 times the error in the mean. The
+//! factor grows as the step shrinks. If the estimate of order 5 passes through zero, the error of a step may be 25
+//! times the estimate. That was measured on a fall with quadratic drag. Dense output is of order 7 and takes four more
+//! evaluations: one at the end, and three inside.
 
 mod table;
 #[cfg(test)]
@@ -27,7 +28,7 @@ pub struct Dop853 {
     /// Rates of each stage, one stage after the other.
     rates: Vec<f64>,
     length: f64,
-    /// Seven numbers for each number of the state: coefficients of 1, s, s(1-s), s^2(1-s) and so on over s.
+    /// Seven coefficients for each number of the state: those of 1, s, s(1-s), s^2(1-s) and so on, over s.
     dense: Vec<[f64; 7]>,
 }
 
@@ -65,8 +66,8 @@ fn sum(rates: &[f64], dimension: usize, weights: Sum, place: usize) -> f64 {
     weights.iter().fold(0.0, |sum, (stage, weight)| sum + weight * rates[stage * dimension + place])
 }
 
-/// The mean rate of the step, for one number of the state. A rate that does not change comes out as it is: weights that are
-/// rounded do not add up to one, which a body that spins fast would show.
+/// The mean rate of the step, for one number of the state. A constant rate is exact. The rounded weights do not add up
+/// to one, and a body with a fast spin would show it.
 fn result(rates: &[f64], dimension: usize, place: usize) -> f64 {
     let beginning = rates[place];
     let constant = RESULT.iter().all(|(stage, _)| rates[stage * dimension + place] == beginning);

@@ -1,9 +1,9 @@
-//! Coefficients of DOP853 (Dormand and Prince; Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed.
-//! 1993, section II.10, and the program published with it), rounded to `f64`.
+//! Coefficients of DOP853 by Dormand and Prince, rounded to `f64`. Source: Hairer, Norsett, Wanner, Solving Ordinary
+//! Differential Equations I, 2nd ed. 1993, section II.10, and the program published with it.
 //!
-//! A sum of rates is a list of (stage, weight); what is not in a list has no weight. Stage 0 is the rates at the beginning,
-//! stage 12 those at the end. The tests verify each sum by the order conditions of all rooted trees (200 to order 8), so
-//! a wrong digit does not go unnoticed.
+//! A sum of rates is a list of (stage, weight); stages that are not in the list have no weight. Stage 0 is the rates at
+//! the beginning, stage 12 those at the end. The tests verify each sum by the order conditions of all rooted trees (200
+//! to order 8). So they find any wrong digit.
 
 /// A weighted sum of the rates of stages.
 pub(super) type Sum = &'static [(usize, f64)];
@@ -157,7 +157,7 @@ pub(super) const RESULT: Sum = &[
     (11, 0.04471061572777259),
 ];
 
-/// What the change differs from one of order 5.
+/// The difference of the change from one of order 5.
 pub(super) const ERROR_5: Sum = &[
     (0, 0.01312004499419488),
     (5, -1.2251564463762044),

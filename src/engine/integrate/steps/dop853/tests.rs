@@ -1,4 +1,4 @@
-//! That the coefficients are right, that the motion is, and that the estimate can be trusted.
+//! Tests of the coefficients, of the motion, and of the error estimate.
 
 use super::super::problems::{MOTIONS, Motion};
 use super::super::rooted_trees::Trees;
@@ -47,8 +47,8 @@ fn estimates_have_orders_5_and_3() {
     assert_eq!(trees.order(&row(RESULT_3), |_| 1.0), 3);
 }
 
-/// Law: conditions of order 7 of the dense output (section II.6 of the source), on the weights that it gives to the rates of
-/// the stages; at the ends it is the beginning and the result. Tolerance: rounding.
+/// Law: the dense output satisfies the conditions of order 7 with its weights for the rates of the stages. They stand
+/// in section II.6 of the source. At the ends it equals the beginning and the result. Tolerance: rounding.
 #[test]
 fn the_dense_output_has_order_7() {
     let trees = trees(8);
@@ -76,7 +76,7 @@ fn the_order_is_8() {
     demand_order(&mut Dop853::default(), 8, 0.6, 1.15);
 }
 
-/// Law: with dense output of order 7 the error inside a step falls with the eighth power of its length, and so does the
+/// Law: with dense output of order 7 the error inside a step falls with the eighth power of its length. So does the
 /// estimate. Tolerance: a quarter of an order.
 #[test]
 fn errors_inside_and_estimates_fall_with_the_eighth_power() {
@@ -93,9 +93,9 @@ fn errors_inside_and_estimates_fall_with_the_eighth_power() {
     }
 }
 
-/// The estimate is that of the error, from 1e-6 to 1e-10 and in the mean over 16 starts, to a factor of 30 both ways: a method
-/// that chooses its steps by it then errs by less than a factor of 1.53 in their length. What is not tested: single steps at
-/// which the estimate happens to pass through zero.
+/// The mean estimate over 16 starts equals the error to a factor of 30 both ways, from 1e-6 to 1e-10. A method that
+/// chooses its steps by it errs by less than a factor of 1.53 in their length. Not tested: single steps at which the
+/// estimate happens to pass through zero.
 #[test]
 fn the_estimate_is_realistic() {
     for motion in MOTIONS {
@@ -103,7 +103,7 @@ fn the_estimate_is_realistic() {
             let error = mean_error(motion, |run| {
                 let (time, state) = (run.time, run.state.clone());
                 let mut length = motion.duration / motion.steps;
-                // The length at which the estimate is what is allowed: it is a power of the length.
+                // The length at which the estimate reaches the allowance: it is a power of the length.
                 for _ in 0..40 {
                     *run = Run::from(motion, time, state.clone());
                     length *= libm::pow(allowed / estimate(run, length).max(1e-8 * allowed), 1.0 / 8.0);
@@ -117,7 +117,7 @@ fn the_estimate_is_realistic() {
     }
 }
 
-/// The estimate is in units of what is allowed, and numbers without a bound do not count.
+/// The estimate is in units of the allowance, and numbers without a bound do not count.
 #[test]
 fn the_estimate_looks_at_bounded_numbers_only() {
     let mut run = Run::of(MOTIONS[0]);
