@@ -1,4 +1,4 @@
-//! A torque or force in a joint that follows a course in time, whatever the joint does.
+//! An actuator: a torque or force in a joint that follows a course in time and ignores the joint's motion.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -17,13 +17,13 @@ use crate::world::Bodies;
 /// A rate that is driven: a spin of a hinge, a speed of a slide.
 pub(super) type DrivenSpeed = Either<OfSpin, OfSpeed>;
 
-/// What drives: a torque in a hinge, a force in a slide.
+/// The driving action: a torque in a hinge, a force in a slide.
 pub(super) type DrivenForce = Either<OfTorque, OfForce>;
 
-/// The joint of a controller: what it leaves free is driven.
+/// The joint of a controller, whose free motion is driven.
 pub(super) struct Driven {
     name: String,
-    /// Fields of the controller whose units say that it is a hinge (first) or a slide (second).
+    /// Fields of the controller whose units require a hinge (first) or a slide (second).
     given: Vec<(&'static str, Said)>,
     found: Option<(Ends, Arc<dyn Law>)>,
 }
@@ -48,13 +48,13 @@ impl Driven {
         Self { name, given: Vec::new(), found: None }
     }
 
-    /// The unit of a field says whether the joint is a hinge or a slide.
+    /// The unit of a field shows whether the joint is a hinge or a slide.
     pub fn given(mut self, field: &'static str, said: Option<Said>) -> Self {
         self.given.extend(said.map(|said| (field, said)));
         self
     }
 
-    /// Finds the joint, when all joints of the scene have begun. `path` is where the controller stands in the scene.
+    /// Finds the joint, when all joints of the scene have begun. `path` is that of the controller in the scene.
     pub fn start(&mut self, path: &str, world: &mut World) {
         let known = world.get_resource::<KnownJoints>().and_then(|known| known.named(&self.name));
         self.found = known.map(|known| (known.ends.clone(), known.law.clone()));
@@ -106,14 +106,14 @@ impl Driven {
         Some(Motion { rate: pair.rate(&freedom.along), value: freedom.value, along: freedom.along, pair })
     }
 
-    /// Bodies that came or went are looked up again.
+    /// Looks up the bodies again after some came or went.
     pub fn refresh(&mut self, bodies: &Bodies) {
         if let Some((ends, _)) = &mut self.found {
             ends.refresh(bodies);
         }
     }
 
-    /// For sensors: what `amount` N m or N along the motion is as a force on a body.
+    /// For sensors: the force on a body that `amount` N m or N along the motion gives.
     pub fn force_on(&self, state: &State, body: usize, amount: f64) -> Option<ForceOn> {
         let Motion { pair, along, .. } = self.motion(state.bodies())?;
         let end = |end: &End, side: (DVec2, f64)| (end.body, end.position, side.0 * amount);

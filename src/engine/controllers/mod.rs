@@ -1,4 +1,4 @@
-//! Motors and controllers of joints: each file one.
+//! Motors and controllers of joints, one per file.
 
 mod actuator;
 mod driven;

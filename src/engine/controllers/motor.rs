@@ -1,5 +1,5 @@
-//! A motor: it holds the rate of a joint exactly, as a row of the equations, with as much torque as that takes. Bounded, it gives its
-//! greatest torque until the rate is reached.
+//! A motor: it holds the rate of a joint exactly, as a row of the equations, with the necessary torque. Bounded, it
+//! gives its greatest torque until the rate is reached.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -15,7 +15,7 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Blow, Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
-/// Turns a hinge at a constant rate, or moves a slide at a constant speed, with as much torque or force as that takes.
+/// Turns a hinge or moves a slide at a constant rate, with the necessary torque or force.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Motor {
@@ -23,10 +23,10 @@ struct Motor {
     name: Option<String>,
     /// The joint.
     of: String,
-    /// In rad/s or with a unit such as "30 rpm"; of a slide in m/s or with a unit such as "20 cm/s". Without `limit` the scene begins at
-    /// this rate.
+    /// The rate in rad/s or with a unit such as "30 rpm". For a slide it is the speed in m/s or with a unit such as "20
+    /// cm/s". Without `limit` the scene begins at this rate.
     speed: DrivenSpeed,
-    /// The greatest torque in N m, of a slide force in N. Above zero. Default: none.
+    /// The greatest torque in N m, or force in N for a slide. Above zero. Default: none.
     limit: Option<DrivenForce>,
 }
 

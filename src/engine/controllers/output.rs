@@ -1,4 +1,4 @@
-//! What a controller gave in the last evaluation, for its channels.
+//! The action of a controller in the last evaluation, for its channels.
 
 use crate::scene::{Kind, Outline};
 
@@ -8,9 +8,9 @@ pub const CONTROLLER: Kind = Kind::new("controller");
 /// The output of a controller.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// Its name; if it has none where it stands in the scene, such as `controllers[0]`.
+    /// Its name, or its path in the scene, such as `controllers[0]`.
     pub name: String,
-    /// Where it stands in the scene.
+    /// Its path in the scene.
     pub path: String,
     /// Torque in N m or force in N, and power in W.
     pub values: (f64, f64),

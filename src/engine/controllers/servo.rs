@@ -1,10 +1,12 @@
-//! A controller: torque `kp (target - angle) + ki I + kd (rate of the target - rate)` with `I' = target - angle` (PD and PID control,
-//! Astrom and Murray, Feedback Systems, section 10.1), bounded, computed all the time or at a rate of its own. Sampled outputs are held
-//! until the next one, and may take effect after a delay (Astrom, Wittenmark, Computer-Controlled Systems, section 3.2).
+//! A PID controller: torque `kp (target - angle) + ki I + kd (rate of the target - rate)` with `I' = target - angle`.
+//! The source is Astrom and Murray, Feedback Systems, section 10.1. Its output is bounded, and computed continuously or
+//! at a sampling rate. Sampled outputs are held until the next one, and may be delayed (Astrom, Wittenmark,
+//! Computer-Controlled Systems, section 3.2).
 //!
-//! Computed all the time, its output reaches its bounds and leaves them at located events, if the method locates any.
+//! A continuous output reaches and leaves its bounds at located events, if the method locates any.
 //!
-//! The integral is state that methods with stages advance as they do positions; velocity Verlet advances it from tick to tick.
+//! The integral is a state, which methods with stages advance like positions. Velocity Verlet advances it from tick to
+//! tick.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -23,8 +25,8 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
 
-/// Drives a hinge to an angle, or a slide to a place: its torque (force) is `kp (target - angle) + ki` times the integral of that
-/// `+ kd (rate of the target - rate)`, bounded by `limit`.
+/// Drives a hinge to an angle, or a slide to a position. Its torque (force) is `kp (target - angle) + ki` times the
+/// integral of that `+ kd (rate of the target - rate)`. The field `limit` bounds it.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Servo {
@@ -34,15 +36,15 @@ struct Servo {
     of: String,
     /// The angle in rad or with a unit; of a slide the travel in metres, likewise.
     target: Target<OfAngle, OfLength>,
-    /// In N m/rad; of a slide in N/m. Not negative.
+    /// In N m/rad, or N/m for a slide. Not negative.
     kp: Scalar,
-    /// In N m/(rad s); of a slide in N/(m s). Not negative. Default: 0.
+    /// In N m/(rad s), or N/(m s) for a slide. Not negative. Default: 0.
     #[serde(default)]
     ki: Scalar,
-    /// In N m s/rad; of a slide in N s/m. Not negative. Default: 0.
+    /// In N m s/rad, or N s/m for a slide. Not negative. Default: 0.
     #[serde(default)]
     kd: Scalar,
-    /// The greatest torque in N m, of a slide force in N. Above zero. Default: none.
+    /// The greatest torque in N m, or force in N for a slide. Above zero. Default: none.
     limit: Option<DrivenForce>,
     /// How often it computes its output, which it holds in between, in Hz. Above zero. Default: all the time.
     rate: Option<Rate>,
@@ -115,25 +117,25 @@ struct ServoForce {
     target: Target<OfAngle, OfLength>,
     gains: [f64; 3],
     limit: f64,
-    /// Its output, if it computes it at a rate of its own.
+    /// Its sampled output, if it has a sampling rate.
     sampling: Option<Sampling>,
     integral: f64,
     mode: Mode,
-    /// A time within the step under way, in s: it says on which piece of a table the target is.
+    /// A time within the step under way, in s. It selects the piece of a table for the target.
     inside: f64,
 }
 
-/// What its output is in a step, where the ends of modes are located.
+/// Its output in a step, if the ends of modes are located.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 enum Mode {
-    /// What it wants to give.
+    /// The output that it wants.
     #[default]
     Follows,
     /// Its bound: the sign of it.
     Bounded(f64),
 }
 
-/// A share of the numbers from which an output is found that is rounding, and one within which a mode lasts.
+/// The rounding of an output, as a share of the numbers behind it; and the share within which a mode lasts.
 const ROUNDING: f64 = 1e-14;
 const LASTS: f64 = 1e-12;
 
@@ -150,7 +152,7 @@ struct Wanted {
 /// Times that differ by less than this share of a period are one.
 const SAME: f64 = 1e-9;
 
-/// An output that is computed now and then, and held in between.
+/// An output that is sampled, and held in between.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Sampling {
     /// Seconds between two samples, and from a sample until it takes effect.
@@ -177,8 +179,8 @@ impl Sampling {
         self.sample_after(time).min(effect)
     }
 
-    /// Takes a sample, if one is due, and holds the last output that takes effect. Returns the output that was held before, if another
-    /// one takes its place.
+    /// Takes a sample, if one is due, and holds the last output that takes effect. Returns the held output before it,
+    /// if that has changed.
     fn advance(&mut self, time: f64, output: impl FnOnce() -> f64) -> Option<f64> {
         let now = time + SAME * self.period;
         if self.next <= now {
@@ -208,7 +210,7 @@ impl ServoForce {
         self.free(motion, aim).clamp(-self.limit, self.limit)
     }
 
-    /// Whether the output may jump where the target bends.
+    /// Whether the output may jump at a kink of the target.
     fn jumps(&self) -> bool {
         self.gains[2] != 0.0 && self.target.next_point(f64::NEG_INFINITY).is_finite()
     }
@@ -218,7 +220,7 @@ impl ServoForce {
         self.limit.is_finite() && self.sampling.is_none()
     }
 
-    /// What it wants in the state just evaluated.
+    /// The output that it wants in the state just evaluated.
     fn look(&self, state: &State) -> Option<Wanted> {
         let motion = self.driven.motion(&state.bodies).filter(|_| self.has_events())?;
         let [kp, ki, kd] = self.gains;
@@ -278,7 +280,7 @@ impl Model for ServoForce {
     }
 
     fn next_edge(&self, time: f64) -> f64 {
-        // A step is planned before its sample is taken: that of this moment counts as taken.
+        // A step is planned before its sample is taken, so the sample of this moment counts as taken.
         let sample = self.sampling.as_ref().map_or(f64::INFINITY, |sampling| sampling.edge_after(time));
         self.target.next_point(time).min(sample)
     }

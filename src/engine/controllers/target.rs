@@ -1,4 +1,4 @@
-//! What a controller follows: a number, or a course in time.
+//! The target of a controller: a number, or a course in time.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
@@ -9,7 +9,7 @@ use crate::forces::drive::Course;
 use crate::scene::read_value;
 use crate::scene::units::{Dimension, Either, Said, plain_name};
 
-/// A number with the unit of one of two dimensions or without one, or a course in time in SI units.
+/// A number with or without a unit of one of two dimensions, or a course in time in SI units.
 pub struct Target<A, B> {
     value: Value,
     said: Option<Said>,
@@ -102,7 +102,7 @@ impl<A, B> Target<A, B> {
         }
     }
 
-    /// The angular frequency in rad/s of a sine; zero if it is none.
+    /// The angular frequency in rad/s of a sine; zero for other targets.
     pub fn rhythm(&self) -> f64 {
         match &self.value {
             Value::Constant(_) => 0.0,
@@ -110,7 +110,7 @@ impl<A, B> Target<A, B> {
         }
     }
 
-    /// The first time after `time` seconds at which it has a kink; infinity if there is none.
+    /// The time in seconds of the first kink after `time`; infinity if there is none.
     pub fn next_point(&self, time: f64) -> f64 {
         match &self.value {
             Value::Constant(_) => f64::INFINITY,

@@ -1,7 +1,7 @@
-//! Aiming: a body gets the velocity of a given size with which its centre of mass flies through a place.
+//! Aiming: a body gets the velocity of a given size with which its centre of mass flies through a point.
 //!
-//! Gravity, drag and wind of the scene are reckoned with (see [`super::ballistics`]); contacts and other forces are not, and
-//! the card says so. It acts once, before the first tick, and is no force.
+//! The solution includes gravity, drag and wind of the scene (see [`super::ballistics`]). It ignores contacts and other
+//! forces, and the card says so. It acts once, before the first tick, and is no force.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -18,12 +18,12 @@ use crate::tick::{AfterLoad, LoadErrors, State};
 use crate::world::Velocity;
 use jostle_language::numbers::number;
 
-/// Gives a body the velocity at the start with which its centre of mass flies through a place. Gravity, drag and wind of the
-/// scene count; what else acts on it makes it miss. What cannot be reached is an error that says which speed would do.
+/// Gives a body the velocity at the start with which its centre of mass flies through a point. Gravity, drag and wind
+/// of the scene count; other forces make it miss. An unreachable point is an error that names a sufficient speed.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Aim {
-    /// The body that is thrown. It has no `velocity` of its own.
+    /// The body that is thrown. It must have no `velocity` in the scene.
     of: String,
     /// The place it is to fly through, in metres.
     at: Position,
@@ -44,7 +44,7 @@ enum AimArc {
     High,
 }
 
-/// What the solution reckons with.
+/// The forces that the solution includes.
 const RECKONED: [&str; 3] = ["Drag", "Wind", "Aim"];
 
 impl Entry for Aim {

@@ -1,5 +1,6 @@
-//! Attraction between all bodies: `F = G m1 m2 / (r^2 + s^2)` along the line of centres for `s = 0`, softened as a
-//! Plummer sphere (Plummer 1911): `F = G m1 m2 r / (r^2 + s^2)^(3/2)`, potential energy `-G m1 m2 / sqrt(r^2 + s^2)`.
+//! Attraction between all bodies (Newton): `F = G m1 m2 / (r^2 + s^2)` along the line of centres for `s = 0`. With
+//! softening it is that of a Plummer sphere (Plummer 1911): `F = G m1 m2 r / (r^2 + s^2)^(3/2)`. The potential energy
+//! is `-G m1 m2 / sqrt(r^2 + s^2)`.
 //!
 //! A negative constant repels. Every pair is visited: the cost grows with the square of the number of bodies.
 
@@ -15,9 +16,9 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Name};
 
-/// Attraction between all bodies, as between the masses of heaven: `F = G m1 m2 / (r^2 + s^2)` for two that are `r` apart
-/// with a softening of `s = 0`, and `F = G m1 m2 r / (r^2 + s^2)^(3/2)` with one. The cost grows with the square of the
-/// number of bodies.
+/// Attraction between all bodies, like that between planets. Two bodies `r` apart with a softening of `s = 0` have `F =
+/// G m1 m2 / (r^2 + s^2)`. With softening it is `F = G m1 m2 r / (r^2 + s^2)^(3/2)`. The cost grows with the square of
+/// the number of bodies.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Attraction {
@@ -88,20 +89,20 @@ pub struct AttractionForce {
     pub constant: f64,
     /// Length `s` in metres below which the force stops growing.
     pub softening: f64,
-    /// Where it was steepest so far, without softening.
+    /// Its steepest encounter so far, without softening.
     pub nearest: Nearest,
 }
 
-/// Where two bodies fell most steeply towards each other under an attraction without softening.
+/// The encounter of two bodies with the steepest attraction, without softening.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Nearest {
-    /// Square of the angular frequency of a circular orbit at that distance, in 1/s2; zero where there was none.
+    /// Square of the angular frequency of a circular orbit at that distance, in 1/s2; zero without an encounter.
     pub squared_rate: f64,
     /// Places of both in [`Bodies`].
     pub between: (usize, usize),
 }
 
-/// Where an attraction without softening was steepest in all evaluations of a run.
+/// The steepest encounter under an attraction without softening, over all evaluations of a run.
 pub fn nearest(state: &State) -> Option<Nearest> {
     let all = state.models_of::<AttractionForce>().map(|attraction| attraction.nearest);
     all.filter(|nearest| nearest.squared_rate > 0.0).max_by(|a, b| a.squared_rate.total_cmp(&b.squared_rate))

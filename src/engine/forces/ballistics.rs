@@ -1,18 +1,20 @@
-//! Firing solutions: with which velocity of a given size a point under gravity and drag reaches a place.
+//! Firing solutions by shooting: the velocity of a given size with which a point under gravity and drag reaches a
+//! target.
 //!
-//! Without drag `d = v t + g t^2/2` gives, for the speed `s`, a quadratic in `t^2`: `g^2 t^4/4 - (d.g + s^2) t^2 + d^2 = 0`;
-//! its roots are the low and the high arc, and they meet at the least speed, `s^2 = |g| |d| - d.g` (any textbook).
+//! Without drag `d = v t + g t^2/2` gives, for the speed `s`, a quadratic in `t^2`: `g^2 t^4/4 - (d.g + s^2) t^2 + d^2
+//! = 0`. Its roots are the low and the high arc. They meet at the least speed, `s^2 = |g| |d| - d.g` (any textbook).
 //!
-//! With drag, `m v' = m g - sum (c1 + c2 |v - u|) (v - u)`, there is one velocity `v0(T)` that leads to the place in the time
-//! `T`: a boundary value problem, solved by Newton's method with the derivative of the way with respect to `v0`, which is
-//! integrated beside the motion. From `r(T; v0(T)) = d` follows `dv0/dT = -(dr/dv0)^-1 v(T)`, so the time of the least speed is
-//! where `v0 . dv0/dT` changes its sign, and the arcs are the times before and after it at which `|v0(T)|` is the speed.
-//! The motion is integrated by extrapolation of the modified midpoint rule to order 16 (Gragg 1965; Bulirsch and Stoer 1966)
-//! with steps as long as the last two columns agree to `TOLERANCE`.
+//! With drag, `m v' = m g - sum (c1 + c2 |v - u|) (v - u)`, one velocity `v0(T)` leads to the target in the time `T`.
+//! That is a boundary value problem. Newton's method solves it with the derivative of the way with respect to `v0`,
+//! which is integrated beside the motion. From `r(T; v0(T)) = d` follows `dv0/dT = -(dr/dv0)^-1 v(T)`. So `v0 . dv0/dT`
+//! changes its sign at the time of the least speed. The arcs are the times before and after it at which `|v0(T)|` is
+//! the speed. The motion is integrated by extrapolation of the modified midpoint rule to order 16 (Gragg 1965; Bulirsch
+//! and Stoer 1966). Steps are so long that the last two columns agree to `TOLERANCE`.
 
 use glam::{DMat2, DVec2};
 
-/// Agreement of the last two columns that is asked of a step, relative to the size of the motion: what rounding allows.
+/// Required agreement of the last two columns in a step, relative to the size of the motion. It is the limit that
+/// rounding sets.
 const TOLERANCE: f64 = 3e-14;
 /// Columns of the extrapolation.
 const COLUMNS: usize = 8;
@@ -24,7 +26,7 @@ const MOST_STEPS: usize = 500;
 const NEWTON_STEPS: usize = 60;
 /// From one time of flight to the next in the search for arcs.
 const STRIDE: f64 = 1.3;
-/// So many strides reach from a thousand millionth of a time to its thousand millionth multiple.
+/// This many strides lead from 1e-9 of a time to its 1e9-fold.
 const STRIDES: usize = 80;
 /// Halvings after which a time has all its digits.
 const HALVINGS: usize = 60;
@@ -40,7 +42,7 @@ pub struct Air {
     pub velocity: DVec2,
 }
 
-/// What acts on a flying point.
+/// The forces on a flying point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
     /// Acceleration of free fall in m/s2.
@@ -83,7 +85,7 @@ pub enum Miss {
     },
     /// No speed was found that reaches the place.
     Never,
-    /// Nothing brings the point back, so there is no second arc.
+    /// No force brings the point back, so there is no second arc.
     OneWay,
 }
 
@@ -103,7 +105,7 @@ impl Launch {
         self.velocity.length()
     }
 
-    /// What the velocity for another time will be about: `v0 T` is nearly linear in `T`.
+    /// The expected velocity for another time, because `v0 T` is nearly linear in `T`.
     fn guess(&self, time: f64) -> DVec2 {
         (self.velocity * self.time + (self.velocity + self.change * self.time) * (time - self.time)) / time
     }
@@ -137,7 +139,7 @@ impl Flight {
     /// The velocity of size `speed`, in m/s, with which the point reaches a place `target` metres from its start.
     ///
     /// # Errors
-    /// When there is none, with what would help.
+    /// The reason if there is none, with a remedy.
     pub fn aim(&self, target: DVec2, speed: f64, arc: Arc) -> Result<Shot, Miss> {
         if target == DVec2::ZERO {
             return Err(Miss::Here);
@@ -211,7 +213,8 @@ impl Flight {
         low * target.length()
     }
 
-    /// The slowest launch that was found, and the one of the least speed of all, if the speed has a minimum over the times.
+    /// The slowest launch that was found. Also the launch of the least speed of all, if the speed has a minimum over
+    /// the times.
     fn slowest(&self, target: DVec2, speed: f64) -> (Option<Launch>, Option<Launch>) {
         let (gravity, distance) = (self.gravity.length(), target.length());
         let time = if gravity > 0.0 { (2.0 * distance / gravity).sqrt() } else { distance / speed };
@@ -239,7 +242,7 @@ impl Flight {
         (Some(before), Some(if before.speed() < after.speed() { before } else { after }))
     }
 
-    /// The launch for a time of flight, from what is known of another.
+    /// The launch for a time of flight, from that for another time.
     fn launch(&self, target: DVec2, time: f64, near: &Launch) -> Option<Launch> {
         self.solve(target, time, near.guess(time))
     }
@@ -257,7 +260,7 @@ impl Flight {
             if step.length() <= f64::EPSILON * velocity.length() {
                 break;
             }
-            // Shorter steps where the whole one overshoots; at the end rounding lets none come nearer.
+            // Shorter steps if the whole one overshoots. At the end rounding prevents any further approach.
             let nearer = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.01].into_iter().find_map(|share| {
                 let tried = velocity + step * share;
                 let end = self.fly(tried, time)?;
@@ -274,7 +277,8 @@ impl Flight {
         Some(Launch { time, velocity, slope: velocity.dot(change), change })
     }
 
-    /// The motion at `time` seconds after a start with a velocity; `None` if steps became too small or numbers too large.
+    /// The motion at `time` seconds after a start with a velocity. `None` if steps become too small or numbers too
+    /// large.
     fn fly(&self, velocity: DVec2, time: f64) -> Option<Motion> {
         let start =
             Motion { place: DVec2::ZERO, velocity, place_by_start: DMat2::ZERO, velocity_by_start: DMat2::IDENTITY };
@@ -302,7 +306,7 @@ impl Flight {
         Some(state)
     }
 
-    /// One step by extrapolation; `None` where it is too long.
+    /// One step by extrapolation; `None` if it is too long.
     fn extrapolate(&self, from: &Motion, length: f64, scale: (f64, f64)) -> Option<Motion> {
         let rate = self.rate(from);
         let mut row: Vec<Motion> = Vec::new();

@@ -1,13 +1,13 @@
-//! What forces that begin, end or bend between two ticks come to where a run goes from tick to tick: for the card.
+//! The effect of forces that begin, end or bend between two ticks of a run from tick to tick, for the card.
 
 use crate::scene::Outline;
 use crate::tick::{Clock, State, Style};
 use jostle_language::numbers::number;
 
-/// What would help.
+/// The remedy.
 pub(super) const REMEDY: &str = "`events: Located` or `method: RungeKutta4`, whose steps end there";
 
-/// The clock of a run that went from tick to tick so far; nothing, where steps end between ticks.
+/// The clock of a run that has only made whole ticks; `None` if steps end between ticks.
 pub(super) fn clock_of_whole_ticks(state: &State, style: Style) -> Option<Clock> {
     (style == Style::Following).then(|| state.clock()).filter(|clock| clock.ticks > 0)
 }

@@ -71,7 +71,7 @@ pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Drag>();
 }
 
-/// What resists the body of a key.
+/// The resistances that act on the body of a key.
 pub(super) fn resistance(state: &State, key: u64) -> Vec<Air> {
     let air = |drag: &DragForce| Air { linear: drag.linear, quadratic: drag.quadratic, velocity: DVec2::ZERO };
     state.models_of::<DragForce>().filter(|drag| drag.of.include(key)).map(air).collect()

@@ -1,9 +1,9 @@
-//! A force or torque that follows a course in time: `F(t) = F0 s(t)`, with `s` a sine, or a table between whose points it is
-//! linear.
+//! A force or torque that follows a course in time: `F(t) = F0 s(t)`. The course `s` is a sine, or a table with linear
+//! interpolation.
 //!
-//! It is sampled at the time of each evaluation, so an integrator with stages sees it where its stages are, and keeps its
-//! order. A table has kinks at its points: a method with steps inside ticks ends a step at each, one that goes from tick to
-//! tick sees none that lies between two ticks.
+//! It is sampled at the time of each evaluation. So an integrator with stages sees it at its stages, and keeps its
+//! order. A table has kinks at its points. A method with steps inside ticks ends a step at each point. One that goes
+//! from tick to tick ignores points between two ticks.
 
 use std::f64::consts::TAU;
 
@@ -23,15 +23,15 @@ use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Clock, Departure, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
 
-/// A force or torque that follows a course in time: what is given here times the number that the course has at each moment.
+/// A force or torque that follows a course in time. The course is a factor on the values that are given here.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Drive {
     /// The bodies it acts on, `*` matches.
     of: Names,
-    /// Force in newtons where the course is 1. Default: none; a drive has a force, a torque or both.
+    /// Force in newtons if the course is 1. Default: none; a drive has a force, a torque or both.
     force: Option<ForcePair>,
-    /// Torque in N m, counter-clockwise, where the course is 1. Default: none.
+    /// Torque in N m, counter-clockwise, if the course is 1. Default: none.
     torque: Option<units::Torque>,
     /// Where the force acts, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres. Default: the
     /// centre of mass.
@@ -52,26 +52,27 @@ pub enum Course {
         /// The largest value. Default: 1.
         #[serde(default = "one")]
         amplitude: Scalar,
-        /// Periods per second, in Hz. Not negative. Either this or `angular_frequency`. Default: `angular_frequency` says
-        /// it.
+        /// Periods per second, in Hz. Not negative. Either this or `angular_frequency`. Default: from
+        /// `angular_frequency`.
         frequency: Option<Rate>,
-        /// `2 pi` times that, in rad/s. Not negative. Default: `frequency` says it.
+        /// `2 pi` times that, in rad/s. Not negative. Default: from `frequency`.
         angular_frequency: Option<Spin>,
         /// At the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
         #[serde(default)]
         phase: Angle,
     },
     /// Times in seconds, ascending, and values: linear between them. Before the first and after the last point it keeps
-    /// their values. Steps inside ticks end at the points; `VelocityVerlet` and `SemiImplicitEuler` without located events see
-    /// the course at ticks only, and the card warns where that changes the impulse.
+    /// their values. Steps inside ticks end at the points. `VelocityVerlet` and `SemiImplicitEuler` without located
+    /// events see the course at ticks only. The card warns if that changes the impulse.
     Piecewise(Vec<(Time, Scalar)>),
-    /// The same from a file of two columns, time in seconds and value, with or without a line of names: a path from the
-    /// folder of the file in which this stands. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its columns by name;
-    /// without `time` the first column holds it. Units in the line of names, as in `angle [rad]`, may be left out.
+    /// The same from a file of two columns, time in seconds and value, with or without a line of names. The path begins
+    /// in the folder of the file with this entry. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its
+    /// columns by name; without `time` the first column holds it. The line of names may hold units, as in `angle
+    /// [rad]`.
     Csv(#[schemars(with = "CsvFile")] String),
 }
 
-/// What stands in `Csv(..)`, for the schema: scenes are read with the points of the file in its place.
+/// The content of `Csv(..)`, for the schema: scenes are read with the points of the file in its place.
 struct CsvFile;
 
 impl JsonSchema for CsvFile {
@@ -200,7 +201,7 @@ impl Course {
         }
     }
 
-    /// Its rate per second at `time` seconds, on the piece of a table on which `inside` lies: at a point two pieces meet.
+    /// Its rate per second at `time` seconds. At a point of a table two pieces meet, and the one with `inside` counts.
     pub fn rate(&self, time: f64, inside: f64) -> f64 {
         match self {
             Self::Sine { amplitude, phase, .. } => {
@@ -216,19 +217,20 @@ impl Course {
         }
     }
 
-    /// Its second derivative at `time` seconds, per second squared. A table has none between its points.
+    /// Its second derivative at `time` seconds, per second squared. It is zero between the points of a table.
     pub fn acceleration(&self, time: f64) -> f64 {
         -self.rhythm() * self.rhythm() * self.at(time)
     }
 
-    /// The angular frequency of a sine in rad/s; zero, if it is none.
+    /// The angular frequency of a sine in rad/s; zero for other courses.
     pub fn rhythm(&self) -> f64 {
         let Self::Sine { frequency, angular_frequency, .. } = self else { return 0.0 };
         frequency.map_or(0.0, |rate| TAU * rate.si()) + angular_frequency.map_or(0.0, Spin::si)
     }
 
-    /// What a table loses and gains of its area where it is seen at ticks only and has points between them, as shares of its
-    /// whole area so far: that below the line from tick to tick against that below the table. `None`: no point is between.
+    /// The area that a table loses and gains if only its values at ticks count. The result is the difference between
+    /// the area below the line from tick to tick and that below the table. Both are shares of its whole area so far.
+    /// `None`: no point lies between ticks.
     fn lost_and_gained(&self, clock: &Clock) -> Option<(f64, f64)> {
         let Self::Piecewise(points) = self else { return None };
         let end = clock.time();
@@ -267,7 +269,7 @@ impl Course {
 /// One entry, ready to be applied.
 #[derive(Clone, Debug)]
 pub struct DriveForce {
-    /// Where it stands in the scene, such as `forces[0]`.
+    /// Its path in the scene, such as `forces[0]`.
     pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
@@ -275,7 +277,7 @@ pub struct DriveForce {
     pub at: AppliedAt,
     /// Force in newtons where the course is 1.
     pub force: DVec2,
-    /// Torque in N m where the course is 1.
+    /// Torque in N m if the course is 1.
     pub torque: f64,
     /// Whether the force turns with the body.
     pub turns: bool,
@@ -315,7 +317,8 @@ impl Model for DriveForce {
         Some(Rhythm { path: self.path.clone(), angular_frequency: self.course.rhythm() })
     }
 
-    /// What came of points between two ticks. Less than a thousandth is not told: the card calls energies right to that.
+    /// The effects of points between two ticks. Effects below a thousandth are not reported, because the card claims no
+    /// better accuracy of energies.
     fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
         let shares = clock_of_whole_ticks(state, style).and_then(|clock| self.course.lost_and_gained(&clock));
         let Some((lost, gained)) = shares else { return Vec::new() };

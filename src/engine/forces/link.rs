@@ -20,7 +20,7 @@ pub fn plugin(app: &mut App) {
     app.register_word(CHANNELS, "energy.damping");
 }
 
-/// What holds an end: the body of a name, or the word `World`.
+/// The holder of an end: the body of a name, or the word `World`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Partner {
     /// The body of this name.
@@ -33,7 +33,7 @@ const EXPECTED: &str = "expected the name of a body such as \"ball\", or the wor
 
 impl<'de> Deserialize<'de> for Partner {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-        // A word and a text in quotes at one place: only the text as it was written tells them apart.
+        // A word and a text in quotes at one place: only the written text distinguishes them.
         let written = Box::<ron::value::RawValue>::deserialize(reader)?;
         let written = written.trim().get_ron();
         if written == "World" {
@@ -67,7 +67,7 @@ pub(super) fn check_holds(stiffness: impl Into<f64>, damping: impl Into<f64>, re
     }
 }
 
-/// Reports ends that are nobody's, or both of one body.
+/// Reports ends without a body, and two ends on one body.
 pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut Report) {
     outline.require(Kind::BODY, a, "a", report);
     if let Partner::Body(b) = b {
@@ -95,7 +95,7 @@ pub struct End {
     pub body: Option<usize>,
     /// From the body's centre of mass, in metres.
     pub arm: DVec2,
-    /// Where it is, in metres.
+    /// Its position, in metres.
     pub position: DVec2,
     /// How it moves, in m/s.
     pub velocity: DVec2,
@@ -125,8 +125,8 @@ impl End {
 }
 
 impl Link {
-    /// Between bodies of these keys, `None` for the world, at anchors in the frames of the bodies, from their centres of
-    /// mass, or at a place in the world, in metres.
+    /// A spring between bodies of these keys, `None` for the world. Anchors are in the frames of the bodies, from their
+    /// centres of mass, or in the world, in metres.
     pub fn new(a: u64, b: Option<u64>, anchors: (DVec2, DVec2)) -> Self {
         Self { keys: (a, b), anchors, generation: 0, places: None }
     }
@@ -178,8 +178,8 @@ impl Link {
     }
 }
 
-/// The sides of a spring for the measure of how fast it responds: a body and an arm each, the first absent where it is held by the
-/// world. `None`: no body is there.
+/// The sides of a spring for the measure of its response: a body and an arm each. The first is absent if the world
+/// holds it. `None`: neither end has a body.
 pub(super) fn sides(a: &End, b: &End) -> Option<(Option<Side>, Side)> {
     let side = |end: &End| end.body.map(|body| (body, end.arm));
     match (side(a), side(b)) {
@@ -192,8 +192,8 @@ pub(super) fn sides(a: &End, b: &End) -> Option<(Option<Side>, Side)> {
 /// A body and an arm from its centre of mass in metres.
 type Side = (usize, DVec2);
 
-/// Adds `force` newtons to end A and its opposite to end B. What comes from an end that forces do not move comes from
-/// outside; its motion does work.
+/// Adds `force` newtons to end A and its opposite to end B. An end that forces do not move takes its force from
+/// outside, and its motion does work.
 pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, balance: &mut Balance) {
     for (end, other, force) in [(a, b, force), (b, a, -force)] {
         if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {

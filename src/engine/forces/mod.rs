@@ -1,4 +1,4 @@
-//! Forces: each file one. A force adds to the sums of the bodies and keeps its account in
+//! Forces, one per file. A force adds to the sums of the bodies and keeps its account in
 //! [`Balance`](crate::tick::Balance).
 
 pub mod aim;

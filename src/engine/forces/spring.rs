@@ -1,10 +1,10 @@
-//! A spring and a damper between two points (Hooke 1678; Kelvin and Voigt): with the distance `l` of its ends, both are
-//! pulled towards each other by `F = k (l - l0) + c dl/dt`, in newtons. Elastic energy `k (l - l0)^2/2`; the damper takes
-//! `c (dl/dt)^2` watts, booked as `damping`.
+//! A spring and a damper between two points (Hooke 1678; Kelvin and Voigt). With the distance `l` of its ends, both are
+//! pulled towards each other by `F = k (l - l0) + c dl/dt`, in newtons. Elastic energy `k (l - l0)^2/2`; the damper
+//! takes `c (dl/dt)^2` watts, booked as `damping`.
 //!
-//! In a place without distance the force of the spring has no direction: a spring that has a length of its own pushes
-//! nowhere then, and one of no length does not push at all; the damper acts along the motion of one end against the other,
-//! the limit of ends that run through each other.
+//! If the ends coincide, the force of the spring has no direction. A spring with a length then gives no force, and a
+//! spring of zero length never pushes. The damper acts along the relative velocity of the ends, which is the limit of
+//! ends that pass each other.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -95,7 +95,7 @@ pub struct SpringForce {
     force: DVec2,
     /// Length without force in metres; `None`: the distance of the ends at the start, which takes its place then.
     pub length: Option<f64>,
-    /// Where it stands in the scene, such as `forces[0]`.
+    /// Its path in the scene, such as `forces[0]`.
     pub path: String,
 }
 
@@ -156,7 +156,8 @@ impl Model for SpringForce {
         Energies { potential: 0.0, elastic: 0.5 * self.stiffness * stretched.unwrap_or(0.0).powi(2) }
     }
 
-    /// Along the spring it has its stiffness, across it that of its tension, `F/l`, where it pulls.
+    /// Along the spring the stiffness is its constant. Across it, a pulling spring has the stiffness `F/l` of its
+    /// tension.
     fn stiffness(&self, state: &State, list: &mut Vec<SteadySpring>) {
         let Some((a, b)) = self.link.ends(&state.bodies) else { return };
         let (direction, distance, _) = stretch(&a, &b);

@@ -1,4 +1,4 @@
-//! Which bodies a force acts on.
+//! The bodies on which a force acts.
 
 use crate::scene::values::Names;
 use crate::scene::{Kind, Outline, Report};
@@ -11,7 +11,7 @@ pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Report)
     }
 }
 
-/// All dynamic bodies, or those with given keys; places are looked up anew when bodies come or go.
+/// All dynamic bodies, or those with given keys. Indices are looked up again when bodies come or go.
 #[derive(Clone, Debug, Default)]
 pub struct Targets {
     keys: Option<Vec<u64>>,

@@ -1,8 +1,8 @@
-//! Thrust: a force at a point of a body, constant in the body's frame or in the world's, between two times.
+//! Thrust: a force at a point of a body between two times. It is constant in the body's frame or in the world's.
 //!
-//! Where a run goes from tick to tick it acts in a whole tick or not at all: in those whose middle lies between the two
-//! times. So a schedule on the grid of ticks gives force times time to the last digit, and rounding of the times decides
-//! nothing; one beside the grid is warned of. Methods with steps inside ticks end one at each of the two times.
+//! A run from tick to tick applies it in the ticks whose middle lies between the two times. So a schedule on the grid
+//! of ticks gives the exact impulse, and the rounding of times has no effect. The card warns of a schedule off the
+//! grid. Methods with steps inside ticks end a step at each of the two times.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -19,9 +19,9 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Balance, Clock, Departure, Energies, Model, State, SteadySpring, Style, TickAppExt};
 use crate::world::Bodies;
 
-/// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located events
-/// it acts in whole ticks, in those whose middle lies between the two times; the card warns where that is not what was asked
-/// for.
+/// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located
+/// events it acts in whole ticks. These are the ticks whose middle lies between the two times. The card warns if that
+/// differs from the given times.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Thrust {
@@ -38,7 +38,7 @@ struct Thrust {
     /// It acts from this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
-    /// It no longer acts at this time, in seconds. Default: it never ends.
+    /// The time at which it ends, in seconds. Default: it never ends.
     to: Option<Time>,
 }
 
@@ -87,7 +87,7 @@ impl Entry for Thrust {
 /// One entry, ready to be applied.
 #[derive(Clone, Debug)]
 pub struct ThrustForce {
-    /// Where it stands in the scene, such as `forces[0]`.
+    /// Its path in the scene, such as `forces[0]`.
     pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
@@ -99,7 +99,7 @@ pub struct ThrustForce {
     pub turns: bool,
     /// It acts from this time on, in seconds.
     pub from: f64,
-    /// It no longer acts at this time, in seconds.
+    /// The time at which it ends, in seconds.
     pub to: f64,
     /// Whether it acts in the present tick; false at the beginning.
     pub acts: bool,
@@ -141,7 +141,7 @@ impl Model for ThrustForce {
         true
     }
 
-    /// What begins or ends with a tick is added to or taken from the sums of its beginning.
+    /// A force that begins or ends with a tick changes the sums of the tick's beginning.
     fn begin_step(&mut self, state: &mut State) {
         let acts = (self.from..self.to).contains(&state.span().middle());
         if acts != self.acts {
@@ -160,14 +160,14 @@ impl Model for ThrustForce {
         [self.from, self.to].into_iter().filter(|edge| *edge > time).fold(f64::INFINITY, f64::min)
     }
 
-    /// What came of times between two ticks.
+    /// The effects of times between two ticks.
     fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
         clock_of_whole_ticks(state, style).and_then(|clock| self.departure(&clock)).into_iter().collect()
     }
 }
 
 impl ThrustForce {
-    /// What came of it so far, if it begins or ends between two ticks.
+    /// Its effect so far, if it begins or ends between two ticks.
     fn departure(&self, clock: &Clock) -> Option<Departure> {
         let between = |time: f64| time > 0.0 && time < clock.time() && is_between(clock, time);
         if !between(self.from) && !between(self.to) {

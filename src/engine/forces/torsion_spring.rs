@@ -1,5 +1,5 @@
-//! A torsion spring and a damper between two bodies: with the angle `phi` of B relative to A, continuous over full turns,
-//! B is turned by `M = -kappa (phi - phi0) - c dphi/dt` and A by its opposite, in N m. Elastic energy
+//! A torsion spring and a damper between two bodies. Let `phi` be the angle of B relative to A, continuous over full
+//! turns. Then B is turned by `M = -kappa (phi - phi0) - c dphi/dt` and A by its opposite, in N m. Elastic energy
 //! `kappa (phi - phi0)^2/2`; the damper takes `c (dphi/dt)^2` watts, booked as `damping`.
 
 use bevy_app::App;
@@ -16,7 +16,7 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
-/// A spring, and a damper beside it, against turning one body over another or over the world: torque
+/// A spring with a parallel damper against the rotation of a body relative to another or to the world. Its torque is
 /// `stiffness (phi - angle) + damping dphi/dt` against the angle `phi` of `b` relative to `a`. Angles count full turns.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -95,7 +95,7 @@ pub struct TorsionSpringForce {
     pub damping: f64,
     /// Power that the damper took in the last evaluation, in watts.
     power: f64,
-    /// Relative angle without torque in rad; `None`: that of the start, which takes its place then.
+    /// Relative angle without torque in rad. `None`: the angle at the start, which then replaces it.
     pub angle: Option<f64>,
 }
 

@@ -1,6 +1,7 @@
-//! Wind: drag against air that moves evenly, `F = -(c1 + c2 |w|) w` with `w = v - u` and `u` the wind's velocity.
+//! Wind: drag against uniformly moving air, `F = -(c1 + c2 |w|) w` with `w = v - u` and `u` the wind's velocity.
 //!
-//! The air's own motion drives the body: of the power `F . v`, `F . w` is lost as heat and `F . u` is work of the wind.
+//! The motion of the air drives the body. Of the power `F . v`, `F . w` is lost as heat and `F . u` is work of the
+//! wind.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -72,7 +73,7 @@ pub(super) fn plugin(app: &mut App) {
     app.register_entry::<Wind>();
 }
 
-/// What moves with the air at the body of a key.
+/// The resistances that move with the air at the body of a key.
 pub(super) fn resistance(state: &State, key: u64) -> Vec<Air> {
     let air = |gust: &Gust| Air { linear: gust.linear, quadratic: gust.quadratic, velocity: gust.velocity };
     state.models_of::<Gust>().filter(|gust| gust.of.include(key)).map(air).collect()

@@ -1,4 +1,4 @@
-//! The start of a scene with joints: places and velocities that the joints allow.
+//! Initial assembly of a scene with joints: positions and velocities that satisfy the joints.
 
 use bevy_ecs::prelude::*;
 
@@ -8,13 +8,13 @@ use crate::tick::{LoadErrors, Notes, State, Wrong};
 use crate::world::{Name, Position, Rotation, Spin, Velocity};
 use jostle_language::numbers::number;
 
-/// Changes of less than this share of what is there are not told.
+/// Changes of less than this share of the initial value are not reported.
 const TOLD: f64 = 1e-6;
 
 /// A joint that is open by less, in metres, is closed.
 const CLOSED: f64 = 1e-9;
 
-/// Brings the bodies of the scene onto its joints, and tells of each that was moved or got another velocity.
+/// Brings the bodies of the scene onto its joints. Reports each body whose position or velocity changed.
 pub(super) fn assemble(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     let before = state.bodies().position.clone();

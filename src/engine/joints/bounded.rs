@@ -1,5 +1,5 @@
-//! A rate that is held by a bounded torque: friction in a joint, and motors with a greatest torque. While the torque suffices the rate is
-//! held exactly, by a row; else the torque is the greatest there is (Coulomb: stick and slip).
+//! Bounded holding of a rate by a torque (Coulomb: stick and slip): friction in a joint, and motors with a greatest
+//! torque. While the torque suffices, a row holds the rate exactly. Otherwise the torque is the greatest one.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,16 +7,16 @@ use super::ends::{Along, Pair};
 use crate::constraints::{Kind, Row, Share};
 use crate::tick::{Indicator, State};
 
-/// A rate that differs by less than this share of the spins and speeds that it is found from is held.
+/// A rate counts as held if its deviation is below this share of the spins and speeds behind it.
 const SAME: f64 = 1e-9;
 /// A share of torques and rates that is rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// Where others hold the same rate, a bounded row bears about the square of this share of the load: gears and limits have no bound, and two
-/// bounded rows do not push against each other through a gear.
+/// If others hold the same rate, a bounded row bears about the square of this share of the load. Gears and limits have
+/// no bound. Two bounded rows do not push against each other through a gear.
 const LESS: f64 = 0.1;
 
-/// What it does in a step.
+/// Its action in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 enum Mode {
     /// It holds the rate.
@@ -29,7 +29,7 @@ enum Mode {
 /// A rate that is held as long as a torque suffices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounded {
-    /// In rad/s, of a slide in m/s.
+    /// In rad/s, or m/s for a slide.
     speed: f64,
     /// The greatest torque in N m, of a slide force in N.
     limit: f64,
@@ -45,7 +45,7 @@ pub struct Bounded {
 }
 
 impl Bounded {
-    /// Holds a speed in rad/s or m/s with at most a torque in N m or a force in N.
+    /// Holds a speed in rad/s or m/s. The torque is at most `limit` in N m, or the force in N.
     pub fn new(speed: f64, limit: f64) -> Self {
         Self { speed, limit, mode: Mode::Holds, torque: 0.0, farthest: 0.0, stands: false, tries: false }
     }
@@ -75,7 +75,7 @@ impl Bounded {
         self.torque = torque;
     }
 
-    /// Its row has given its bound, with this sign: it does so from now on.
+    /// Its row has given its bound, with this sign. From then on it gives the bound.
     pub fn give(&mut self, torque: f64) {
         self.set(Mode::Gives(torque.signum()));
     }
@@ -97,7 +97,8 @@ impl Bounded {
         tries
     }
 
-    /// The greatest torque with which it holds. In a try the bound itself is too much: it is reached now, or others bear more.
+    /// The greatest torque with which it holds. In a try the bound itself is too much: it has been reached, or others
+    /// bear more.
     fn most(&self) -> f64 {
         self.limit * if self.tries { 1.0 - SAME } else { 1.0 + SAME }
     }
@@ -116,7 +117,8 @@ impl Bounded {
         self.set(mode)
     }
 
-    /// Velocities have jumped. A rate that is the one to be held is held for a try: its torque may have to turn round.
+    /// Chooses the mode after a jump of velocities. If the rate is the required one, it is held for a try, because its
+    /// torque may have to reverse.
     pub fn after_blow(&mut self, pair: &Pair, along: &Along) {
         if self.is_bounded() && self.missing(pair, along) == 0.0 {
             self.hold();
@@ -125,7 +127,7 @@ impl Bounded {
         }
     }
 
-    /// Between ticks: a rate that has passed the one to be held is held from now on.
+    /// Between ticks: begins to hold a rate that has passed the required one.
     pub fn follow(&mut self, pair: &Pair, along: &Along) -> bool {
         match self.mode {
             Mode::Holds if self.torque.abs() > self.limit => self.set(Mode::Gives(self.torque.signum())),
@@ -134,7 +136,7 @@ impl Bounded {
         }
     }
 
-    /// Between ticks: a rate that comes to the one to be held within the tick is held from now on. Says whether it is so.
+    /// Between ticks: begins to hold a rate that will reach the required one within the tick. Returns whether it does.
     pub fn reaches(&mut self, pair: &Pair, along: &Along, (acceleration, tick): (f64, f64)) -> bool {
         match self.mode {
             Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) <= sign * acceleration * tick => {
@@ -144,7 +146,7 @@ impl Bounded {
         }
     }
 
-    /// It holds the rate from now on, for a first try.
+    /// Begins to hold the rate, for a try.
     pub fn hold(&mut self) {
         self.set(Mode::Holds);
         self.tries = true;
@@ -158,7 +160,8 @@ impl Bounded {
         other
     }
 
-    /// Adds the indicators of the mode: how far the torque is from its bounds, or the rate from the one to be held.
+    /// Adds the indicator of the mode: the distance of the torque from its bounds, or of the rate from the required
+    /// one.
     pub fn tell(&mut self, pair: &Pair, along: &Along, state: &State, told: &mut Vec<Indicator>) {
         (self.stands, self.tries) = (false, false);
         let rounding = ROUNDING * self.limit;

@@ -1,11 +1,12 @@
-//! Two joints whose motions are coupled: `second = ratio first + constant`. One row between the bodies that both joints move.
+//! A coupling of two joints, `second = ratio first + constant`, as one row between the bodies that both joints move.
 //!
-//! The constant is that of the start. Bodies that do not move by forces drop out, so a row has two sides as long as no more than two
-//! others are involved.
+//! The constant is that of the start. Bodies that do not move by forces drop out. So a row has two sides if at most two
+//! other bodies are involved.
 //!
-//! Gears give torques and no force: a ratio names no place for teeth. Teeth of a rack push at the pitch point, which lies `radius` from the
-//! pin, along the slide (spur gears without pressure angle: Shigley, Mechanical Engineering Design, chapter 13). Its row is that of both
-//! motions plus what the pin and the slide hold, times factors that leave nothing on their frame.
+//! Gears give torques and no force, because a ratio does not determine the position of teeth. Teeth of a rack push
+//! along the slide at the pitch point, which lies `radius` from the pin. They are spur gears without pressure angle
+//! (Shigley, Mechanical Engineering Design, chapter 13). The row of a rack combines both motions. It adds the rows of
+//! pin and slide, with factors that leave no force on their frame.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -31,7 +32,7 @@ pub(super) fn check(of: &(String, String), outline: &Outline, report: &mut Repor
     }
 }
 
-/// What a coupling couples.
+/// A member of a coupling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Member {
     Hinge,
@@ -50,7 +51,7 @@ impl Member {
     }
 }
 
-/// What a scene couples.
+/// A coupling as the scene asks for it.
 pub(super) struct Asked {
     pub name: Option<String>,
     pub of: (String, String),
@@ -94,9 +95,10 @@ fn axis(travel: &Along) -> DVec2 {
 
 /// A coupling of two joints.
 pub struct Coupling {
-    /// Its name; if it has none where it stands in the scene, such as `joints[2]`.
+    /// Its name, or its path in the scene, such as `joints[2]`.
     pub name: String,
-    /// What it gave in the last evaluation to `b` of the second joint: of gears the torque in N m, of a rack the force in N along the slide.
+    /// Its action on `b` of the second joint in the last evaluation. For gears it is the torque in N m, for a rack the
+    /// force in N along the slide.
     pub force: f64,
     of: (String, String),
     ratio: f64,
@@ -104,7 +106,7 @@ pub struct Coupling {
     kind: &'static str,
     members: [Member; 2],
     sides: Option<[Coupled; 2]>,
-    /// Where the teeth of a rack are; gears have no place for them.
+    /// The meeting point of the teeth of a rack; `None` for gears.
     mesh: Option<Mesh>,
     offset: f64,
     /// The index of its row in the present evaluation.
@@ -122,7 +124,8 @@ struct Mesh {
 }
 
 impl Mesh {
-    /// That of a hinge and a slide with a body in common, which is their frame. What does not move by forces counts as one body.
+    /// The mesh of a hinge and a slide with a body in common, which is their frame. All bodies that do not move by
+    /// forces count as one body.
     fn of(hinge: &Pair, slide: &Pair, bodies: &Bodies) -> Option<Self> {
         let moving = |pair: &Pair| [pair.a, pair.b].map(|end| end.body.filter(|&body| bodies.moves[body]));
         let (hinge, slide) = (moving(hinge), moving(slide));
@@ -131,7 +134,7 @@ impl Mesh {
         Some(Self { pinion: 1 - one, rack: 1 - two, lever: 0.0 })
     }
 
-    /// The signs with which pinion and rack stand in the angle and in the travel.
+    /// The signs of the pinion in the angle and of the rack in the travel.
     fn signs(self) -> [f64; 2] {
         [self.pinion, self.rack].map(|end| if end == 1 { 1.0 } else { -1.0 })
     }
@@ -143,7 +146,7 @@ impl Mesh {
         pin.position - pinion * rack * radius * axis.perp()
     }
 
-    /// Takes the part of both motions that moves the frame out of a row, by what the hinge and the slide hold.
+    /// Removes the motion of the frame from a row, by means of the rows of the hinge and the slide.
     fn hold(self, sum: &mut Sum, axis: DVec2, [(hinge, pin), (slide, rail)]: [(&Pair, &dyn Law); 2]) {
         let [pinion, rack] = self.signs();
         pin.hold(hinge, &mut |held| sum.add(hinge, &held, -pinion * rack * held.along.sides[1].0.dot(axis)));
@@ -178,11 +181,11 @@ impl Sum {
     }
 }
 
-/// Both joints in the present state, each with what it leaves free.
+/// Both joints in the current state, each with its freedom.
 type Now<'a> = [(Pair, &'a dyn Law, Freedom); 2];
 
 impl Coupling {
-    /// How the channel of what it gives is called, and its unit.
+    /// The name and unit of the channel of its action.
     pub fn gives(&self) -> (&'static str, &'static str) {
         if self.members[1] == Member::Slide { ("force", "N") } else { ("torque", "N m") }
     }

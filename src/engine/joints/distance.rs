@@ -1,4 +1,4 @@
-//! A rod without mass: both anchors stay at their distance. One row, along the line through both.
+//! A massless rod: both anchors keep their distance. One row, along the line through both.
 
 use std::sync::Arc;
 
@@ -25,22 +25,23 @@ struct Distance {
     a: Partner,
     /// The other body, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
-    /// place in the world. Default: the centre of mass, and with `World` where the other anchor is at the start.
+    /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
+    /// With `World` it is a point in the world. Default: the centre of mass, and with `World` the place of the other
+    /// anchor at the start.
     anchor_a: Option<Position>,
-    /// Where it holds `b`, likewise. Default: as that of `anchor_a`.
+    /// The anchor on `b`, likewise. Default: as that of `anchor_a`.
     anchor_b: Option<Position>,
     /// The distance in metres. Above zero. Default: that at the start.
     length: Option<Length>,
-    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
-    /// error.
+    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
+    /// false, an open joint is an error.
     #[serde(default)]
     assemble: bool,
 }

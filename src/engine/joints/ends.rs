@@ -1,7 +1,7 @@
 //! The two ends of a joint, and the directions along which it holds them.
 //!
-//! Velocities and accelerations of points of bodies: `v = V + w x r`, `a = A + w' x r - w^2 r` (Goldstein, Classical Mechanics,
-//! section 4.9). What of the accelerations no force makes is the inertial term of a row.
+//! Velocities and accelerations of points of bodies: `v = V + w x r`, `a = A + w' x r - w^2 r` (Goldstein, Classical
+//! Mechanics, section 4.9). The part of the accelerations that does not depend on forces is the inertial term of a row.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,7 +21,7 @@ pub struct Ends {
     pub anchors: [DVec2; 2],
     generation: u64,
     places: Option<[Option<usize>; 2]>,
-    /// Shared by everything that goes by these ends: a joint that has broken has none.
+    /// A flag that all copies of these ends share: a broken joint has no ends.
     severed: Arc<AtomicBool>,
 }
 
@@ -91,7 +91,7 @@ impl Ends {
         Some([place(self.keys[0])?, place(self.keys[1])?])
     }
 
-    /// From now on nothing goes by these ends, or by copies of them, if `severed`.
+    /// If `severed`, these ends and all copies of them lose their effect.
     pub fn sever(&self, severed: bool) {
         self.severed.store(severed, Ordering::Relaxed);
     }
@@ -205,14 +205,15 @@ impl Pair {
         of(&self.a, along.sides[0]) + of(&self.b, along.sides[1])
     }
 
-    /// How strongly what holds the pair may bend: the second derivative of a force that swings with `amplitude`, per second squared.
-    /// Forces swing as fast as the clock drives one, or as either body turns.
+    /// The bound of the second derivative of a holding force that swings with `amplitude`, per second squared. Forces
+    /// swing as fast as the clock drives a force, or as either body turns.
     pub fn bend(&self, amplitude: f64, state: &State) -> f64 {
         let fastest = state.fastest_rhythm().max(self.a.spin.abs()).max(self.b.spin.abs());
         amplitude * fastest * fastest
     }
 
-    /// The same of the force of a row: where others give way, it also bears what they do not. So all that rows pull on it counts.
+    /// The same bound for the force of a row. If other rows yield, this row also bears their excess. So the sum of all
+    /// pulls of rows on it counts.
     pub fn bend_of_row(&self, row: &Row, amplitude: f64, state: &State) -> f64 {
         if state.fastest_rhythm() == 0.0 {
             return self.bend(amplitude, state);

@@ -1,4 +1,4 @@
-//! Gears: the rate of the second hinge is `ratio` times that of the first.
+//! A gear pair: the rate of the second hinge is `ratio` times that of the first.
 
 use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};

@@ -1,10 +1,10 @@
-//! What a joint holds: one law per file.
+//! The laws of joints, one per file: the directions that a joint holds.
 
 use std::sync::Arc;
 
 use super::ends::{Along, Pair};
 
-/// A direction that is held, and how far it is from where it should be.
+/// A direction that is held, and its deviation from the required value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Held {
     /// The direction.
@@ -15,21 +15,21 @@ pub struct Held {
     pub size: f64,
 }
 
-/// What is free in a joint: the angle of a hinge, the travel of a slide.
+/// The free motion of a joint: the angle of a hinge, the travel of a slide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freedom {
     /// Along which it moves.
     pub along: Along,
-    /// Where it is, in rad or m.
+    /// Its value, in rad or m.
     pub value: f64,
 }
 
-/// What a joint holds of its two ends, and what it leaves free.
+/// The held directions and the freedom of a joint with two ends.
 pub trait Law: Send + Sync + 'static {
-    /// The same law, with what it does not say taken from the ends at the start.
+    /// The same law, with its absent parameters taken from the ends at the start.
     fn begun(&self, pair: &Pair) -> Arc<dyn Law>;
 
-    /// Adds what it holds: always as many, in the same order.
+    /// Adds the held directions. Their number and order never change.
     fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held));
 
     /// Whether it cannot hold anchors that are in one place. Default: it can.
@@ -37,17 +37,17 @@ pub trait Law: Send + Sync + 'static {
         false
     }
 
-    /// Limits of what it leaves free, of the law itself, in rad or m. Default: none.
+    /// Limits of the free motion that belong to the law itself, in rad or m. Default: none.
     fn limits(&self) -> Option<[f64; 2]> {
         None
     }
 
-    /// What it leaves free, if that is one motion. Default: it is not.
+    /// The free motion, if there is exactly one. Default: there is not.
     fn freedom(&self, _: &Pair) -> Option<Freedom> {
         None
     }
 
-    /// How the channel of what it leaves free is called, and its unit. Default: `angle`, in rad.
+    /// The name and unit of the channel of the free motion. Default: `angle`, in rad.
     fn freedom_name(&self) -> (&'static str, &'static str) {
         ("angle", "rad")
     }

@@ -1,5 +1,6 @@
-//! The limits of a joint: what is free in it stays between two values. A joint that reaches a limit loses its speed there at once, or
-//! rebounds with a share of it (Newton's law of impact); at the limit a row holds it until that would have to pull.
+//! The limits of a joint: its free motion stays between two values. A joint that reaches a limit stops at once, or
+//! rebounds with a share of its speed (Newton's law of impact). At the limit a row holds it until the row would have to
+//! pull.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -51,27 +52,27 @@ pub struct Limit {
     fastest: f64,
 }
 
-/// What a joint does that reaches its limit.
+/// The behaviour of a joint that reaches its limit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arrival {
     /// It stays there.
     Stays,
-    /// It goes back, with the velocity of this row.
+    /// It rebounds, with the velocity of this row.
     Rebounds(Box<Row>),
 }
 
-/// What pushes a joint from tick to tick.
+/// The push on a joint from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Press {
-    /// The acceleration along what is free, in rad/s2 or m/s2.
+    /// The acceleration along the free motion, in rad/s2 or m/s2.
     pub acceleration: f64,
     /// The length of the tick in s.
     pub tick: f64,
 }
 
 impl Press {
-    /// Whether a rebound with a speed, from a place so far beyond a limit, ends before it is seen: it is pushed back `outwards` within the
-    /// tick, or before it comes to the limit.
+    /// Whether a rebound ends before it becomes visible. It ends if the joint is pushed back `outwards` within the
+    /// tick, or before it returns to the limit. `beyond` is the distance beyond the limit.
     fn ends(self, outwards: f64, speed: f64, beyond: f64) -> bool {
         let press = outwards * self.acceleration;
         2.0 * speed <= press * self.tick || speed * speed <= 2.0 * press * beyond
@@ -79,7 +80,7 @@ impl Press {
 }
 
 impl Limit {
-    /// Limits in rad or m, either of them infinite where there is none.
+    /// Limits in rad or m; an absent limit is infinite.
     pub fn new(bounds: [f64; 2], restitution: f64) -> Self {
         Self {
             bounds: (bounds[0], bounds[1]),
@@ -149,8 +150,8 @@ impl Limit {
         (self.at, self.force, self.greatest) = (None, 0.0, 0.0);
     }
 
-    /// Before a step: whether the joint has come to a limit, and leaves it. From tick to tick `press` says what pushes the joint along its
-    /// freedom.
+    /// Before a step: takes or leaves a limit that the joint has reached. From tick to tick `press` is the push along
+    /// the freedom.
     pub fn begin_step(&mut self, pair: &Pair, freedom: &Freedom, press: Option<Press>) -> Option<Arrival> {
         let reached = self.reached.take();
         let left = self.left.take();
@@ -176,7 +177,7 @@ impl Limit {
         Some(Arrival::Stays)
     }
 
-    /// Velocities have jumped: leaves the limit that the joint goes away from.
+    /// After a jump of velocities: leaves a limit from which the joint departs.
     pub fn after_blow(&mut self, pair: &Pair, freedom: &Freedom) {
         let away = self.at.map_or(0.0, |side| side.sign() * pair.rate(&freedom.along));
         if away > PULL * pair.speeds(&freedom.along) {
@@ -234,7 +235,7 @@ impl Limit {
         let rate = pair.rate(&freedom.along);
         let row = pair.row(&freedom.along, Kind::Position);
         let acceleration = row.acceleration(state.bodies());
-        // What was left just now pushes away by no more than rounding.
+        // A limit that was left in this tick pushes away only by rounding.
         let rests = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
             let still = rate.abs() <= PULL * pair.speeds(&freedom.along);

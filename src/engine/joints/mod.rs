@@ -1,5 +1,5 @@
-//! Joints: each file one. A joint emits rows and solves nothing: [`crate::constraints`] solves those of all joints and held contacts
-//! together.
+//! Joints, one per file. A joint emits rows and solves none: [`crate::constraints`] solves those of all joints and held
+//! contacts together.
 
 mod assembly;
 pub mod bounded;
@@ -38,7 +38,7 @@ use crate::scene::{Arity, SceneAppExt};
 use crate::tick::AfterLoad;
 use crate::world::Apart;
 
-/// Joints are closed when the whole scene stands.
+/// Closes joints after the whole scene is built.
 fn close_at_start(app: &mut App) {
     if !app.world().contains_resource::<Closing>() {
         app.insert_resource(Closing);
@@ -61,7 +61,7 @@ pub struct Known {
     pub name: String,
     /// Its ends.
     pub ends: Ends,
-    /// What it holds.
+    /// Its law.
     pub law: Arc<dyn Law>,
     /// Whether it has limits.
     pub limited: bool,

@@ -1,4 +1,4 @@
-//! A joint of a scene as a model: its rows in each evaluation, its reaction, what is wrong with it at the start.
+//! A joint of a scene as a model: its rows in each evaluation, its reaction, and mistakes at the start.
 
 use std::sync::Arc;
 
@@ -22,12 +22,12 @@ use jostle_language::numbers::number;
 /// Anchors that are no farther apart than this share of the numbers they are found from meet.
 const MEET: f64 = 1e-9;
 
-/// What an anchor that is left out means.
+/// The meaning of an absent anchor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Absent {
     /// The centre of mass.
     Center,
-    /// Where the bodies stand.
+    /// The position of the bodies.
     Stands,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn declare(name: Option<&str>, outline: &mut Outline) {
     }
 }
 
-/// Reports ends that are nobody's, or both of one body.
+/// Reports ends without a body, and two ends on one body.
 pub(super) fn check_ends(a: &Partner, b: &Partner, outline: &Outline, report: &mut Report) {
     for (partner, field) in [(a, "a"), (b, "b")] {
         if let Partner::Body(name) = partner {
@@ -98,11 +98,11 @@ pub(super) fn install<E: Entry>(app: &mut App, outline: &Outline, setups: impl I
 
 /// A joint.
 pub struct Joint {
-    /// Its name; if it has none where it stands in the scene, such as `joints[0]`.
+    /// Its name, or its path in the scene, such as `joints[0]`.
     pub name: String,
     /// Its ends.
     pub ends: Ends,
-    /// What it holds.
+    /// Its law.
     pub law: Arc<dyn Law>,
     /// Force in N and torque about the anchor in N m on body B in the last evaluation.
     pub reaction: (DVec2, f64),
@@ -125,19 +125,19 @@ impl Joint {
         self.ends.pair(bodies)
     }
 
-    /// What it leaves free: its value in rad or m, and its rate.
+    /// Its free motion: the value in rad or m, and the rate.
     pub fn freedom(&self, bodies: &Bodies) -> Option<(f64, f64)> {
         let pair = self.pair(bodies)?;
         let freedom = self.law.freedom(&pair)?;
         Some((freedom.value, pair.rate(&freedom.along)))
     }
 
-    /// Where it stands in the scene, such as `joints[0]`.
+    /// Its path in the scene, such as `joints[0]`.
     pub fn path(&self) -> &str {
         &self.path
     }
 
-    /// How far it is from what it holds: the greatest gap in m, angles at the farthest point of a body.
+    /// Its drift: the greatest gap in m. Angles count at the farthest point of a body.
     pub fn drift(&self, bodies: &Bodies) -> f64 {
         let Some(pair) = self.pair(bodies) else { return f64::NAN };
         let extent = |end: &super::ends::End| end.body.map_or(0.0, |body| bodies.extent(body));
@@ -150,7 +150,7 @@ impl Joint {
         worst
     }
 
-    /// Where anchors are that the scene leaves out, and from where those are counted that it gives.
+    /// Sets the anchors that the scene leaves out, and the origin of those that it gives.
     fn place_anchors(&mut self, world: &mut World) {
         for side in 0..2 {
             let (Some(key), Some(anchor)) = (self.ends.keys[side], self.setup.anchors[side]) else { continue };
@@ -191,7 +191,7 @@ impl Joint {
         world.get_resource_or_init::<LoadErrors>().0.push(error);
     }
 
-    /// Reports what the ends at the start do not allow.
+    /// Reports conditions that the ends violate at the start.
     fn look_at_start(&self, world: &mut World, pair: &Pair) {
         let bodies = &world.resource::<State>().bodies;
         let moves = [pair.a.body, pair.b.body].into_iter().flatten().any(|body| bodies.dynamic[body]);
@@ -302,7 +302,7 @@ impl Model for Joint {
         }
         for index in indices {
             let (row, amount) = (state.rows().row(index), state.rows().force(index));
-            // Where B is the world, A gives what it receives.
+            // If B is the world, A gives the force that A receives.
             let (side, sign, arm) = match (row.sides[1], row.sides[0]) {
                 (Some(side), _) => (side, 1.0, pair.b.arm),
                 (None, Some(side)) => (side, -1.0, pair.a.arm),
@@ -351,7 +351,7 @@ impl Model for Joint {
         (!self.parts.is_empty()).then_some(self)
     }
 
-    /// The first joint tells it of all.
+    /// The first joint reports the remarks of all joints.
     fn remarks(&self, state: &State) -> Vec<String> {
         let first = state.models_of::<Self>().next().is_some_and(|joint| std::ptr::eq(joint, self));
         let mut remarks: Vec<String> = Vec::new();

@@ -1,4 +1,4 @@
-//! The modes of joints as events: limits that are reached and left, friction that sticks and slips, joints that break.
+//! The modes of joints as events: limits reached and left, friction that sticks and slips, joints that break.
 
 use super::model::Joint;
 use crate::tick::{Events, Indicator, State};

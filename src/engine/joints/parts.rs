@@ -1,4 +1,4 @@
-//! What a scene may ask of a joint beside that which it holds: limits, friction, a force at which it breaks.
+//! The optional parts of a joint: limits, friction, and a force at which it breaks.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +11,12 @@ use crate::scene::Report;
 use crate::scene::units::{Dimension, Quantity, Scalar};
 use crate::tick::{Blow, Indicator, State, Style};
 
-/// What the scene asks for, in SI units.
+/// The request of the scene, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Asked {
-    /// Least and greatest value of what is free, in rad or m.
+    /// Least and greatest value of the free motion, in rad or m.
     pub limits: Option<[f64; 2]>,
-    /// What a limit gives back of the speed of arrival.
+    /// The share of the speed of arrival that a limit returns.
     pub restitution: f64,
     /// The greatest friction in N m or N.
     pub friction: Option<f64>,
@@ -74,13 +74,13 @@ impl Parts {
         }
     }
 
-    /// Whether there are none.
+    /// Whether all parts are absent.
     pub fn is_empty(&self) -> bool {
         self.limit.is_none() && self.friction.is_none() && self.break_force.is_none()
     }
 
-    /// The friction that acts. What a limit holds needs none: how both would share a load, statics does not say, and a share beyond the
-    /// bound would push the joint away from its limit.
+    /// The active friction. At a limit there is none: statics does not determine how limit and friction share a load. A
+    /// share beyond the bound would push the joint away from its limit.
     fn acting(&mut self) -> Option<&mut Bounded> {
         let held = self.limit.as_ref().is_some_and(Limit::holds);
         self.friction.as_mut().filter(|_| !held)
@@ -141,7 +141,7 @@ impl Parts {
         Some((along, amount))
     }
 
-    /// Before a step. Says whether a mode is another one; the joint has broken if [`Parts::broken`] says so.
+    /// Before a step. Returns whether a mode has changed; [`Parts::broken`] shows whether the joint has broken.
     pub fn begin_step(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &mut State) -> bool {
         let now = state.span().begin;
         let located = state.evaluation().style == Style::Frozen;
@@ -194,7 +194,7 @@ impl Parts {
         breaks
     }
 
-    /// Adds the indicators of all modes, where the joint bears this force in N.
+    /// Adds the indicators of all modes, if the joint bears this force in N.
     pub fn tell(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &State, told: &mut Vec<Indicator>) {
         if let Some(most) = self.break_force {
             let bend = pair.bend(2.0 * most, state);

@@ -1,5 +1,5 @@
-//! A slide: anchor B stays on a line through anchor A that turns with body A, and B does not turn against A. Two rows: across the line,
-//! and the angle.
+//! A slide: anchor B stays on a line through anchor A that turns with body A, and B does not turn against A. It has two
+//! rows: across the line, and the angle.
 
 use std::sync::Arc;
 
@@ -18,8 +18,8 @@ use crate::forces::link::Partner;
 use crate::scene::units::{Force, Length, Position, Scalar};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
-/// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`, and `b` does not turn against `a`. Its travel is
-/// measured from `anchor_a` along the line.
+/// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`. Body `b` does not turn against
+/// `a`. Its travel is measured from `anchor_a` along the line.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Prismatic {
@@ -29,10 +29,11 @@ struct Prismatic {
     a: Partner,
     /// The other body, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
-    /// place in the world. Default: where the other anchor is at the start.
+    /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
+    /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
     anchor_a: Option<Position>,
-    /// Where it holds `b`, likewise. Default: where the other anchor is at the start; the centre of mass of `b` if both are left out.
+    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` if
+    /// both are left out.
     anchor_b: Option<Position>,
     /// Direction of the line in the frame of `a`; of any length but zero.
     axis: Position,
@@ -43,15 +44,15 @@ struct Prismatic {
     restitution: Scalar,
     /// The greatest friction, in N: below it the joint sticks. Not negative; 0 is none. Default: none.
     friction: Option<Force>,
-    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
-    /// error.
+    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
+    /// false, an open joint is an error.
     #[serde(default)]
     assemble: bool,
 }

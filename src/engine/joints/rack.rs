@@ -9,8 +9,9 @@ use super::model;
 use crate::scene::units::Length;
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
-/// A pinion and a rack: the travel of the second joint, a slide, is `radius` times the angle of the first, a hinge, without play.
-/// The teeth push along the slide at the pitch point, which lies `radius` from the pin. The bearings bear that.
+/// A pinion and a rack. The travel of the second joint, a slide, is `radius` times the angle of the first, a hinge,
+/// without play. The teeth push along the slide at the pitch point, which lies `radius` from the pin. The bearings bear
+/// that force.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rack {

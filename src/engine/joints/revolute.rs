@@ -1,4 +1,4 @@
-//! A hinge: both anchors stay in one place, the bodies turn. Two rows: the anchors along both axes of the world.
+//! A hinge: both anchors coincide, and the bodies turn. Two rows: the anchors along both axes of the world.
 
 use std::sync::Arc;
 
@@ -16,8 +16,8 @@ use crate::forces::link::Partner;
 use crate::scene::units::{Angle, Force, Position, Scalar, Torque};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
-/// A hinge: `anchor_a` of `a` and `anchor_b` of `b` stay in one place, and the bodies turn about it. Its angle is that of `b` minus that
-/// of `a`, counter-clockwise, over full turns.
+/// A hinge: `anchor_a` of `a` and `anchor_b` of `b` coincide, and the bodies turn about them. Its angle is that of `b`
+/// minus that of `a`, counter-clockwise, over full turns.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Revolute {
@@ -27,10 +27,11 @@ struct Revolute {
     a: Partner,
     /// The other body, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
-    /// place in the world. Default: the centre of mass, and with `World` where the other anchor is at the start.
+    /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
+    /// With `World` it is a point in the world. Default: the centre of mass, and with `World` the place of the other
+    /// anchor at the start.
     anchor_a: Option<Position>,
-    /// Where it holds `b`, likewise. Default: as that of `anchor_a`.
+    /// The anchor on `b`, likewise. Default: as that of `anchor_a`.
     anchor_b: Option<Position>,
     /// Least and greatest angle of `b` relative to `a`, in radians or with a unit such as "90 deg". Default: none.
     limits: Option<(Angle, Angle)>,
@@ -39,15 +40,16 @@ struct Revolute {
     restitution: Scalar,
     /// The greatest friction, in N m: below it the joint sticks. Not negative; 0 is none. Default: none.
     friction: Option<Torque>,
-    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring: the frequency in Hz with which it swings, by the mean of both directions, and its damping ratio. Default: it is not soft.
+    /// Makes it a spring, by a frequency in Hz and a damping ratio. The joint swings at that frequency by the mean of
+    /// both directions. Default: it is not soft.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
-    /// error.
+    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
+    /// false, an open joint is an error.
     #[serde(default)]
     assemble: bool,
 }

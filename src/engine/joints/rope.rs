@@ -1,4 +1,5 @@
-//! A rope without mass: both anchors are at most its length apart. It pulls while it is taut and does nothing while it is slack.
+//! A massless rope: both anchors are at most its length apart. It pulls while it is taut and does nothing while it is
+//! slack.
 
 use std::sync::Arc;
 
@@ -25,17 +26,18 @@ struct Rope {
     a: Partner,
     /// The other body, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
-    /// place in the world. Default: the centre of mass, and with `World` where the other anchor is at the start.
+    /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
+    /// With `World` it is a point in the world. Default: the centre of mass, and with `World` the place of the other
+    /// anchor at the start.
     anchor_a: Option<Position>,
-    /// Where it holds `b`, likewise. Default: as that of `anchor_a`.
+    /// The anchor on `b`, likewise. Default: as that of `anchor_a`.
     anchor_b: Option<Position>,
     /// Its length in metres. Above zero. Default: the distance at the start.
     length: Option<Length>,
     /// The share of the speed with which its ends come back when it becomes taut, 0 to 1. Default: 0, it stays taut.
     #[serde(default)]
     restitution: Scalar,
-    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]

@@ -1,8 +1,9 @@
-//! A joint that the scene asks to be soft: each direction that it holds becomes a damped spring. Stiffness and damping follow from a
-//! frequency `f` and a damping ratio `D`, with the effective mass `m` at the start: `k = m (2 pi f)^2` and `c = 2 D m 2 pi f`.
+//! A soft joint: each direction that it holds becomes a damped spring. Stiffness and damping follow from a frequency
+//! `f`, a damping ratio `D`, and the effective mass `m` at the start. They are `k = m (2 pi f)^2` and `c = 2 D m 2 pi
+//! f`.
 //!
-//! Where two directions hold a point, both have one stiffness, by the mean of both responses, and both forces act at the anchor on B. So no
-//! direction of the world counts more than another, and a joint that is open makes no angular momentum.
+//! If two directions hold a point, both have one stiffness, by the mean of both responses. Both forces act at the
+//! anchor on B. So no direction of the world is preferred, and an open joint makes no angular momentum.
 
 use glam::DVec2;
 use schemars::JsonSchema;
@@ -16,7 +17,7 @@ use crate::scene::units::{Rate, Scalar};
 use crate::tick::{State, SteadySpring, response};
 use crate::world::Bodies;
 
-/// A frequency and a damping ratio, as a scene gives them.
+/// A frequency and a damping ratio, as a scene writes them.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 pub(super) struct Softness(Rate, Scalar);
 
@@ -39,12 +40,12 @@ impl Softness {
 pub struct Soft {
     /// Stiffness and damping of each direction that is held.
     springs: Vec<(f64, f64)>,
-    /// What the dashpots took in the last evaluation, in W.
+    /// The power of the dashpots in the last evaluation, in W.
     pub power: f64,
 }
 
 impl Soft {
-    /// Springs that swing at a frequency in Hz with a damping ratio, for the bodies as they stand.
+    /// Springs that swing at a frequency in Hz with a damping ratio, for the current poses of the bodies.
     pub fn new([frequency, ratio]: [f64; 2], law: &dyn Law, pair: &Pair, bodies: &Bodies) -> Self {
         let angular = std::f64::consts::TAU * frequency;
         let mut responses = Vec::new();
@@ -117,7 +118,7 @@ impl Soft {
             let rate = pair.rate(&held.along);
             let amount = -stiffness * held.gap - damping * rate;
             power += damping * rate * rate;
-            // What bodies get beyond the power of the spring comes from those that move as prescribed.
+            // Bodies with prescribed motion give the power that exceeds that of the spring.
             let got = pair.push(&held.along, amount, state);
             state.bodies_and_rates().1.work += got - amount * rate;
             let (direction, lever) = held.along.sides[1];

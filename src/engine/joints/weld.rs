@@ -1,4 +1,5 @@
-//! Two bodies that stay as they stand to each other: the anchors in one place, the angle between the bodies as at the start. Three rows.
+//! A weld of two bodies: the anchors coincide, and the angle between the bodies keeps its initial value. It has three
+//! rows.
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ use crate::forces::link::Partner;
 use crate::scene::units::{Force, Position};
 use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
 
-/// Holds two bodies as they stand to each other at the start.
+/// Holds two bodies in their relative pose at the start.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Weld {
@@ -26,20 +27,22 @@ struct Weld {
     a: Partner,
     /// The other body, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
-    /// place in the world. Default: where the other anchor is at the start.
+    /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
+    /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
     anchor_a: Option<Position>,
-    /// Where it holds `b`, likewise. Default: where the other anchor is at the start; the centre of mass of `b` if both are left out.
+    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` if
+    /// both are left out.
     anchor_b: Option<Position>,
-    /// The force in N at which it breaks, for good. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring: the frequency in Hz with which it swings, by the mean of both directions, and its damping ratio. Default: it is not soft.
+    /// Makes it a spring, by a frequency in Hz and a damping ratio. The joint swings at that frequency by the mean of
+    /// both directions. Default: it is not soft.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether a joint that is open at the start is closed by moving bodies; the card says how far. Default: false, an open joint is an
-    /// error.
+    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
+    /// false, an open joint is an error.
     #[serde(default)]
     assemble: bool,
 }
