@@ -1,4 +1,5 @@
-//! Where a body is that flies, and how fast: velocity Verlet over many ticks in closed form, for several bodies side by side.
+//! Ballistic flight in closed form: position and velocity after many ticks of velocity Verlet, for several bodies side
+//! by side.
 
 use glam::DVec2;
 
@@ -7,7 +8,7 @@ use super::packed::Bodies;
 use jostle_simd::{BLOCK, Kernel, Lanes, Record};
 use serde::{Deserialize, Serialize};
 
-/// Where a flight begins: place, what rounding left of it, velocity, angle, what rounding left of that.
+/// The beginning of a flight: position and its rounding remainder, velocity, angle and its rounding remainder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
     pub position: DVec2,
@@ -25,7 +26,7 @@ impl Start {
     }
 }
 
-/// What all flights have in common.
+/// The common parameters of all flights.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Air {
     /// Acceleration in m/s2.
@@ -41,7 +42,7 @@ pub(super) struct Aloft<V> {
     pub position_rest: (V, V),
     pub angle: V,
     pub angle_rest: V,
-    /// Velocity half a tick before: that of the last drift.
+    /// Velocity half a tick earlier: that of the last drift.
     pub drifted: (V, V),
     pub velocity: (V, V),
 }
@@ -103,8 +104,8 @@ fn put_pairs<V: Lanes>(flies: V::Mask, new: (V, V), list: &mut [DVec2]) {
 }
 
 impl Land<'_> {
-    /// Bodies from place `first` on, as many as there are lanes. Returns the longest way that a point of these made in the tick,
-    /// in metres.
+    /// Lands bodies from index `first` on, one for each lane. Returns the longest way in metres that a point of these
+    /// made in the tick.
     #[inline(always)]
     pub fn some<V: Lanes>(&mut self, first: usize) -> f64 {
         let (mut time, mut places) = ([0.0; BLOCK], [0_u32; BLOCK]);
@@ -170,7 +171,7 @@ impl Land<'_> {
 mod tests {
     use super::*;
 
-    /// Where the tick is a power of two and all numbers are short, neither way rounds.
+    /// If the tick is a power of two and all numbers are short, neither way rounds.
     #[test]
     fn many_ticks_at_once_are_as_many_one_by_one() {
         let air = Air { field: DVec2::new(0.5, -2.0), dt: 0.125 };

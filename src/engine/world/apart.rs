@@ -29,7 +29,7 @@ impl Apart {
     }
 }
 
-/// Where the point is from which a body's anchors are counted, in the frame of the body from its centre of mass, in metres. Bodies
-/// without it count from the centre of mass.
+/// The origin of a body's anchors, in the frame of the body from its centre of mass, in metres. Bodies without it count
+/// from the centre of mass.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Origin(pub DVec2);

@@ -1,4 +1,4 @@
-//! An atom: a disc of a body, that touches other atoms and walls.
+//! An atom: a disc of a body that touches other atoms and walls.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -6,8 +6,8 @@ use glam::DVec2;
 use super::body::mark_changed;
 use super::material::MaterialIndex;
 
-/// A disc of a body. Changed by inserting it anew. The atom of a body that has one stands on the body's own entity; where there are
-/// more, each is an entity that points to the body. [`atoms_of`] finds all of them.
+/// A disc of a body. It is changed by inserting it again. The atom of a body with one atom is a component of the body's
+/// entity. Several atoms are entities that point to the body. [`atoms_of`] finds all of them.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Atom {
@@ -15,11 +15,11 @@ pub struct Atom {
     pub offset: DVec2,
     /// Radius in metres.
     pub radius: f64,
-    /// Mass in kg: its share of the body's, for whoever wants to act on atoms.
+    /// Mass in kg: its share of the body's mass, for systems that act on atoms.
     pub mass: f64,
     /// Contact stiffness in N/m.
     pub stiffness: f64,
-    /// What it is made of.
+    /// The index of its material.
     pub material: MaterialIndex,
 }
 
@@ -33,7 +33,7 @@ pub struct AtomOf(pub Entity);
 #[relationship_target(relationship = AtomOf, linked_spawn)]
 pub struct Atoms(Vec<Entity>);
 
-/// The atoms of a body in the order in which they were given; none if there is no such body.
+/// The atoms of a body in the order in which they were given; empty if there is no such body.
 pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = Atom> {
     let body = world.get_entity(body).ok();
     let own = body.and_then(|body| body.get::<Atom>().copied());
@@ -55,7 +55,7 @@ pub(crate) fn stiffen(world: &mut World, factor: f64) {
 }
 
 impl Atoms {
-    /// None yet, with room for so many.
+    /// An empty list with room for `count` atoms.
     pub(super) fn with_room(count: usize) -> Self {
         Self(Vec::with_capacity(count))
     }
@@ -110,7 +110,7 @@ mod tests {
         assert_eq!(packed::rebuild(&mut world, Bodies::default()).atom_radius[0], 0.75);
     }
 
-    /// Promise: where all are lone discs, what is not listed is told as where it is.
+    /// Promise: if all bodies are lone discs, values without a list equal those of a list.
     #[test]
     fn lone_discs_are_packed_like_others() {
         let mut world = World::new();

@@ -1,7 +1,7 @@
-//! A body: position, velocity, mass, and the forces of the present evaluation, as components.
+//! The components of a body: position, velocity, mass, and the forces of the current evaluation.
 //!
-//! The components are the truth between ticks. Inside a tick the packed [`Bodies`](super::Bodies) hold the state; the
-//! components are brought up to date for whoever reads them (see [`crate::tick`]).
+//! The components are the truth between ticks. Inside a tick the packed [`Bodies`](super::Bodies) hold the state. The
+//! components are updated for their readers (see [`crate::tick`]).
 
 use bevy_ecs::lifecycle::HookContext;
 use bevy_ecs::prelude::*;
@@ -18,7 +18,7 @@ pub enum Motion {
     Dynamic,
     /// Never.
     Fixed,
-    /// As its [`Kinematic`](super::Kinematic) says; without one it stands still.
+    /// It moves as its [`Kinematic`](super::Kinematic) prescribes, and without one it is at rest.
     Kinematic,
 }
 

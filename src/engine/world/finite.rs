@@ -1,8 +1,8 @@
-//! The guard against numbers that are not finite: it names the first body that went wrong.
+//! The guard against NaN and infinity: it names the first body with such a number.
 
 use super::packed::Bodies;
 
-/// The first body whose state is not finite, and which quantity it is.
+/// The first body whose state is NaN or infinite, and the name of the quantity.
 pub fn first_not_finite(bodies: &Bodies) -> Option<(usize, &'static str)> {
     (0..bodies.len()).find_map(|body| {
         let quantity = if !bodies.position[body].is_finite() {

@@ -1,4 +1,4 @@
-//! Whether the packed lists fit each other: systems of users may write to them, and may leave one shorter than the others.
+//! Consistency of the lengths of the packed lists. Systems of users write to them, and may shorten one.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -17,12 +17,13 @@ pub(crate) struct Counts {
 }
 
 impl Bodies {
-    /// The lists were filled just now.
+    /// Counts the lists after they were filled.
     pub(super) fn count_all(&mut self) {
         self.counts = Some(Counts { bodies: self.len(), atoms: self.atom_count(), walls: self.walls.len() });
     }
 
-    /// Makes all lists as long as they were when they were filled. Returns the name of the first that was not, if any.
+    /// Restores the lengths that the lists had when they were filled. Returns the name of the first list whose length
+    /// differed.
     pub(crate) fn make_fit(&mut self) -> Option<&'static str> {
         let Some(Counts { bodies, atoms, walls }) = self.counts else {
             return Some("all of them");
@@ -61,7 +62,7 @@ impl Bodies {
         found
     }
 
-    /// Likewise what is no list with an item for each.
+    /// The same for data that is not one item for each body.
     fn make_rest_fit(&mut self, bodies: usize, found: &mut Option<&'static str>) {
         if self.key.count() != bodies {
             *found = found.or(Some("key"));

@@ -1,14 +1,14 @@
-//! Bodies in free flight: nothing touches them, so their motion is known until something does.
+//! Bodies in free flight: no body touches them, so their motion is known until a contact begins.
 //!
-//! Velocity Verlet moves a body on which nothing but its weight acts along the parabola itself: `k` ticks of `dt` seconds after
-//! `(x, v)` its place is `x + v k dt + g (k dt)²/2` and its velocity `v + g k dt`, with no error but rounding (the method is exact
-//! where the acceleration does not change). So such a body is not moved tick by tick: it is where that says, and who needs
-//! to know works it out. Candidate pairs tell when somebody may have come near; a body that touches something is *bound*, moved
-//! tick by tick, until it flies again.
+//! Velocity Verlet moves a body under its weight alone along the exact parabola. Its position `k` ticks of `dt` seconds
+//! after `(x, v)` is `x + v k dt + g (k dt)²/2`, and its velocity is `v + g k dt`. The only error is rounding, because
+//! the method is exact for constant accelerations. So such a body is not moved tick by tick. Its state is computed from
+//! these formulas on demand. Candidate pairs show which bodies may have come near. A body that touches another is
+//! *bound*: it is moved tick by tick until it flies again.
 //!
-//! Where somebody looks at all bodies ([`Bodies::land`]) their places are filled in, and flights go on from where they began:
-//! what is looked at does not change by that. Bodies are lone discs, all of them dynamic; the models of a scene say whether they
-//! can do with that (`Census::of_flights`).
+//! [`Bodies::land`] fills in all positions for a reader, and the flights continue from their beginnings. So reading
+//! changes nothing. Bodies are lone discs, all of them dynamic. The models of a scene declare whether they support
+//! flights (`Census::of_flights`).
 
 use glam::DVec2;
 
@@ -19,23 +19,23 @@ use super::part::PerBody;
 use jostle_simd::Record;
 use serde::{Deserialize, Serialize};
 
-/// For bodies that are bound, in place of the tick in which they took off.
+/// The value for bound bodies, in place of the tick in which they took off.
 pub(super) const BOUND: u32 = u32::MAX;
 
-/// Who flies, and since when.
+/// The flying bodies, and the beginnings of their flights.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Flights {
-    /// Whether the method and the models of the run know that bodies may fly.
+    /// Whether the method and the models of the run support flights.
     allowed: bool,
     /// Bodies have landed since it was last tried whether many can fly.
     worth_trying: bool,
-    /// For each body its flight; empty while none flies.
+    /// For each body its flight; empty if no body flies.
     starts: Vec<Record>,
     /// For each body the tick in which it took off, or [`BOUND`].
     since: Vec<u32>,
     /// The bodies that do not fly, in order.
     bound: Vec<u32>,
-    /// Those that were bound since somebody asked.
+    /// The bodies that were bound since the last call of `take_bound`.
     newly_bound: Vec<u32>,
     /// Ticks since the list was made.
     ticks: u32,
@@ -44,11 +44,11 @@ pub(crate) struct Flights {
     kicked: bool,
     /// Ticks of the run in which some flew.
     flown: u64,
-    /// No point of a body that flies goes farther in a tick, in metres.
+    /// The upper bound of the way of any point of a flying body in a tick, in metres.
     fastest: f64,
-    /// The longest way in a tick that was seen where flights begin and end: none in between is longer. In metres.
+    /// The longest way in a tick at the beginnings and ends of flights, in metres. No way in between is longer.
     longest: f64,
-    /// Mass of all that fly in kg, and mass times place as a polynomial of the time since the list was made.
+    /// Mass of all flying bodies in kg. Their mass times position, as a polynomial of the time since the list was made.
     weighed: (f64, [DVec2; 3]),
 }
 
@@ -71,7 +71,7 @@ impl Flights {
         f64::from(self.ticks - self.since[body]) * self.air.dt
     }
 
-    /// What is left when all have landed.
+    /// The settings that remain after all bodies have landed.
     pub fn ended(&self) -> Self {
         let Self { allowed, longest, kicked, flown, .. } = *self;
         Self { allowed, longest, kicked, flown, worth_trying: true, ..Self::default() }
@@ -88,7 +88,7 @@ impl Flights {
         self.flown
     }
 
-    /// The bodies that were bound since somebody asked.
+    /// The bodies that were bound since the last call.
     pub fn take_bound(&mut self) -> Vec<u32> {
         std::mem::take(&mut self.newly_bound)
     }
@@ -97,7 +97,7 @@ impl Flights {
         self.air.after(self.starts[body].0, self.elapsed(body), spin)
     }
 
-    /// What a body adds to mass times place, as a polynomial of time.
+    /// The contribution of a body to mass times position, as a polynomial of time.
     fn moment(&self, body: usize, mass: f64) -> [DVec2; 3] {
         let [x, y, _, _, u, v, ..] = self.starts[body].0;
         let (place, velocity) = (DVec2::new(x, y), DVec2::new(u, v));
@@ -107,7 +107,7 @@ impl Flights {
     }
 }
 
-/// What a contact needs to know of a body that flies; see [`Bodies::displacement`].
+/// The data of a flying body that a contact needs; see [`Bodies::displacement`].
 pub(crate) struct Passing {
     pub position: DVec2,
     /// Displacement in the last tick.
@@ -124,7 +124,7 @@ impl Bodies {
         self.flights.starts.len() - self.flights.bound.len()
     }
 
-    /// Says whether bodies may fly from now on. Where they may not, all land.
+    /// Sets whether bodies may fly from here on. If they may not, all land.
     pub(crate) fn allow_flights(&mut self, allowed: bool) {
         if !allowed {
             self.end_flights();
@@ -134,7 +134,7 @@ impl Bodies {
         self.flights.allowed = allowed;
     }
 
-    /// A body that flies, as contacts of an evaluation see it. `None`: it is bound.
+    /// A flying body, as contacts of an evaluation see it. `None` if it is bound.
     #[inline]
     pub(crate) fn passing(&self, body: usize) -> Option<Passing> {
         if !self.flights.has(body) {
@@ -163,8 +163,8 @@ impl Bodies {
         longest
     }
 
-    /// Fills in where all bodies are, for somebody who looks at them. Those that fly go on as if nobody had looked. Returns the
-    /// longest way of one of these in a tick, in metres.
+    /// Fills in the positions of all bodies for a reader. Flights continue independently of it. Returns the longest way
+    /// of a flying body in a tick, in metres.
     pub(crate) fn land(&mut self) -> f64 {
         if self.flights.some() {
             self.fill_in(None);
@@ -172,14 +172,14 @@ impl Bodies {
         self.flights.longest
     }
 
-    /// All bodies are bound from now on, where others have put them after they had landed.
+    /// Binds all bodies, after others have moved the landed bodies.
     pub(crate) fn forget_flights(&mut self) {
         if self.flights.some() {
             self.flights = self.flights.ended();
         }
     }
 
-    /// All bodies are bound from now on.
+    /// Lands and binds all bodies.
     pub(crate) fn end_flights(&mut self) {
         if self.flights.some() {
             self.land();
@@ -187,13 +187,14 @@ impl Bodies {
         }
     }
 
-    /// Nobody flies for the present; afterwards it is tried at once.
+    /// Ends all flights for the moment; afterwards new ones are tried at once.
     pub(crate) fn put_off_flights(&mut self) {
         self.end_flights();
         self.flights.worth_trying = self.flights.allowed;
     }
 
-    /// A body is moved tick by tick from this evaluation on. Its forces are its weight so far, as those of all bodies that fly.
+    /// From this evaluation on a body is moved tick by tick. Its forces so far are its weight, like those of all flying
+    /// bodies.
     pub(crate) fn bind(&mut self, body: usize) {
         if !self.flights.has(body) {
             return;
@@ -209,8 +210,8 @@ impl Bodies {
         flights.newly_bound.push(body as u32);
     }
 
-    /// With new lists it is tried again whether many can fly, unless so many pairs touch that they cannot: a disc touches six others
-    /// of its size at most.
+    /// After new lists, flights are tried again if enough bodies can fly. The number of touching pairs decides, because
+    /// a disc touches at most six others of its size.
     pub(crate) fn try_flights(&mut self, touching: usize) {
         self.flights.worth_trying = self.flights.allowed && MOST_BOUND * touching / 3 < self.len();
     }
@@ -222,8 +223,8 @@ impl Bodies {
         self.flights.some() || allowed && worth_trying && self.lone_discs && self.all_dynamic && self.len() > FEWEST
     }
 
-    /// After all forces of an evaluation at the end of a tick of `dt` seconds: bodies on which nothing but their weight acts take
-    /// off, but for those that touch something, which are given in order.
+    /// At the end of a tick of `dt` seconds, after all forces: bodies under their weight alone take off. Those in
+    /// `touching`, which is in order, stay bound.
     pub(crate) fn take_off(&mut self, touching: &[u32], dt: f64) {
         let flights = &self.flights;
         let field = self.field.unwrap_or(DVec2::ZERO);
@@ -278,7 +279,7 @@ impl Bodies {
         flights.starts[body] = Start {
             position: self.position[body],
             position_rest: self.position_rest[body],
-            // With the kick that ends the tick.
+            // Includes the kick that ends the tick.
             velocity: drifted + field * (0.5 * dt),
             angle: self.angle[body],
             angle_rest: self.angle_rest[body],
@@ -292,7 +293,7 @@ impl Bodies {
         flights.fastest = flights.fastest.max(next * dt);
     }
 
-    /// Before a drift of `dt` seconds: one more tick for all that fly, as long as it is one of those that they know.
+    /// Before a drift of `dt` seconds: one more tick for all flying bodies, if `dt` is the tick that they assume.
     pub(super) fn fly(&mut self, dt: f64) {
         if !self.flights.some() {
             return;
@@ -308,7 +309,7 @@ impl Bodies {
         flights.fastest += flights.air.field.length() * dt * dt;
     }
 
-    /// Adds how far those went that fly, and what they weigh.
+    /// Adds the ways of flying bodies, and their mass and moment.
     pub(super) fn add_flights(&mut self, travel: &mut Travel, weighed: &mut (f64, DVec2)) {
         travel.greatest = travel.greatest.max(std::mem::take(&mut self.flights.longest));
         if self.flights.some() {
@@ -319,12 +320,12 @@ impl Bodies {
         }
     }
 
-    /// How far bodies can have gone in a tick in which those that are bound went so far at most.
+    /// The upper bound of the ways in a tick, if `bound` is that of bound bodies.
     pub(super) fn farthest_way(&self, bound: f64) -> f64 {
         bound.max(self.flights.fastest)
     }
 
-    /// Does `work` for the bodies that are bound, if some are not. Says whether it did.
+    /// Does `work` for the bound bodies alone, if some bodies fly. Returns whether it did.
     pub(super) fn each_bound<W: PerBody>(&mut self, work: &mut W) -> bool {
         let some = self.flights.some();
         if some {
@@ -343,7 +344,7 @@ impl Bodies {
 
 /// Ticks of a flight at the most: they are counted in so many bits.
 const MOST_TICKS: u32 = 1 << 30;
-/// A part of the bodies that may be bound, as its inverse: with more it costs less to move all, many side by side.
+/// The inverse of the share of bodies that may be bound. With more it is faster to move all bodies, many side by side.
 const MOST_BOUND: usize = 4;
 /// Bodies with fewer of which nothing is gained.
 const FEWEST: usize = 64;

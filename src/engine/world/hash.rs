@@ -1,9 +1,9 @@
-//! One number for the whole state: two runs are the same if and only if (as good as) their hashes are.
+//! A hash of the whole state: two runs are the same if and (almost certainly) only if their hashes are.
 
 use super::packed::Bodies;
 use jostle_language::digest::of_bytes;
 
-/// Hash of positions, angles, velocities and spins of all bodies in canonical order, to the last bit: FNV-1a over
+/// Hash of positions, angles, velocities and spins of all bodies in canonical order, to the last bit. It is FNV-1a over
 /// the little-endian bytes. It is the same on every machine.
 pub fn state_hash(bodies: &Bodies) -> u64 {
     let values = (0..bodies.len()).flat_map(|body| {

@@ -1,6 +1,6 @@
 //! A hull of a body: a rounded convex polygon or a capsule, with its sides. Its corners are atoms of the body.
 //!
-//! Corners touch hulls of others and walls; sides are touched by corners of others and by discs. A disc is an atom alone.
+//! Corners touch hulls of others and walls. Corners of others and discs touch sides. A disc is an atom without a hull.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -23,11 +23,11 @@ pub struct Hulls(pub Vec<Hull>);
 pub struct Intangible {
     /// Hulls and discs about its centre of mass, in metres.
     pub hulls: Vec<Hull>,
-    /// What they are made of.
+    /// The index of their material.
     pub material: MaterialIndex,
 }
 
-/// What was mended in the numbers of shapes, for the notes of the card.
+/// The corrections of the numbers of shapes, for the notes of the card.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Mended(pub Vec<String>);
 
@@ -40,7 +40,7 @@ pub struct PackedHull {
     pub first_atom: u32,
     /// Its shape about the centre of mass.
     pub hull: Hull,
-    /// Its shape where it meets another sharp hull, if it is sharp: see [`ROUNDING`].
+    /// Its rounded shape for contacts with other sharp hulls, if it is sharp: see [`ROUNDING`].
     pub(crate) rounded: Option<Rounded>,
     /// Half of its least width in metres.
     pub half_width: f64,
@@ -50,14 +50,14 @@ pub struct PackedHull {
     pub(crate) circle: (DVec2, f64),
 }
 
-/// By this share of half their width corners are rounded off where two sharp hulls meet. A sharp corner just above the end of a sharp side
-/// is as near to the other side, so that aligned boxes would fall through each other.
+/// If two sharp hulls meet, their corners are rounded off by this share of half their width. A sharp corner just above
+/// the end of a sharp side is equally near to the other side. So aligned boxes would fall through each other.
 pub(crate) const ROUNDING: f64 = 0.02;
 
 /// Marks an atom that is no corner.
 pub(super) const NO_HULL: u32 = u32::MAX;
 
-/// The nearest place of the core of a hull, as seen from a point.
+/// The nearest point on the core of a hull, as seen from a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestOnHull {
     /// Distance from the core in metres, negative inside.
@@ -73,12 +73,13 @@ pub struct NearestOnHull {
 }
 
 impl NearestOnHull {
-    /// A place found in the frame of a hull, as the world sees it. `at` is the point to which it is the nearest.
+    /// Transforms a point found in the frame of a hull to the world. `at` is the point to which it is the nearest.
     #[inline]
     fn of(found: &Nearest, pose: &Pose, hull: &Hull, at: DVec2) -> Self {
         let (distance, normal, foot) = match found.feature {
-            // Two corners are near to each other, and far from the centres of their bodies. Both find the same normal to the last bit
-            // only if neither place is seen from the other body: else two equal contacts seem to differ.
+            // Two corners are near to each other, and far from the centres of their bodies. Both compute the same
+            // normal to the last bit only if neither point is relative to the other body. Otherwise two equal contacts
+            // would seem to differ.
             Feature::Corner(corner) if found.distance > 0.0 => {
                 let corner = pose.point_to_world(hull.corners()[corner]);
                 let away = at - corner;
@@ -158,20 +159,21 @@ impl Bodies {
         self.hulls[self.places_of_hulls(body)].iter()
     }
 
-    /// Half the width in metres of what an atom belongs to: its radius, or for a corner half the least width of its hull.
+    /// Half the width in metres of the owner of an atom. For a disc it is the radius, for a corner half the least width
+    /// of its hull.
     #[inline]
     pub fn size_of_atom(&self, atom: usize) -> f64 {
         self.hull_of(atom).map_or(self.atom_radius[atom], |hull| self.hulls[hull].half_width)
     }
 
-    /// How a body stands that has hulls.
+    /// The pose of a body with hulls.
     #[inline]
     pub fn pose_with_hulls(&self, body: usize) -> Pose {
         Pose { position: self.position[body], rotation: self.turned[body] }
     }
 
-    /// A hull and an atom as they meet: where both are sharp, both are round. Returns the hull, the centre of the atom and its radius, in
-    /// metres.
+    /// A hull and an atom in the shapes in which they meet: if both are sharp, both are rounded. Returns the hull, the
+    /// centre of the atom and its radius, in metres.
     #[inline]
     pub(crate) fn meeting(&self, hull: usize, atom: usize) -> (&Hull, DVec2, f64) {
         let packed = &self.hulls[hull];
@@ -182,15 +184,15 @@ impl Bodies {
         }
     }
 
-    /// Where an atom stands in metres as a wall sees it, and its radius in metres: a sharp corner is round where it meets a strip without
-    /// thickness.
+    /// The position of an atom in metres for a wall, and its radius in metres. A sharp corner is rounded if it meets a
+    /// strip without thickness.
     #[inline]
     pub(crate) fn meeting_wall(&self, wall: &PackedWall, atom: usize) -> (DVec2, f64) {
         let sharp = (self.atom_place(atom), self.atom_radius[atom]);
         if self.hulls.is_empty() || !wall.is_thin() { sharp } else { self.round_corner(atom).unwrap_or(sharp) }
     }
 
-    /// The centre in metres and the radius in metres of a sharp corner that is rounded off, if an atom is one.
+    /// The centre and the radius, both in metres, of the rounding of a sharp corner. `None` for other atoms.
     pub(crate) fn round_corner(&self, atom: usize) -> Option<(DVec2, f64)> {
         let own = &self.hulls[self.hull_of(atom)?];
         let round = &own.rounded.as_ref()?.hull;
@@ -206,8 +208,8 @@ impl Bodies {
         NearestOnHull { owned: hull.owns(&found), ..NearestOnHull::of(&found, &pose, hull, at) }
     }
 
-    /// The same for a contact, with the distance: where the nearest place belongs to another part of the body, there is none, and the hull is
-    /// far. A feature that the contact keeps counts instead of the nearest.
+    /// The same for a contact, with the distance. If the nearest point belongs to another part of the body, the hull
+    /// counts as far. A feature that the contact keeps replaces the nearest one.
     #[inline]
     pub(crate) fn touched_on(
         &self,

@@ -1,4 +1,4 @@
-//! Keys of the bodies, ascending.
+//! The keys of the bodies, in ascending order.
 
 use serde::{Deserialize, Serialize};
 /// Keys in ascending order. Most follow the one before, so only those that do not are listed.
@@ -34,7 +34,7 @@ impl Keys {
         self.len
     }
 
-    /// The place of a key, if it is there.
+    /// The index of a key, or `None`.
     pub fn find(&self, key: u64) -> Option<usize> {
         let run = self.runs.partition_point(|&(_, begin)| begin <= key).checked_sub(1)?;
         let (first, begin) = self.runs[run];

@@ -1,9 +1,9 @@
-//! Bodies that move as prescribed: uniformly, or along a path. They push others and are pushed by nobody.
+//! Bodies with prescribed motion: uniform, or along a path. They push others, and no body pushes them.
 //!
-//! The state is a function of time, evaluated anew for each state and never added up, so a million ticks are as exact as
-//! one. A path leads from point to point as a cubic (Hermite): place and velocity are those of the points, the velocity
-//! is the derivative of the place everywhere, and where nothing is said of it a point is a stop. After its last point a
-//! path goes on uniformly with the velocity it has there, or begins again where it stands.
+//! The state is a function of time. It is evaluated for each state and never summed up, so a million ticks are as exact
+//! as one. A path is a cubic Hermite spline through its points, whose positions and velocities it has. The velocity is
+//! the derivative of the position everywhere. A point without a velocity is a stop. After its last point a path
+//! continues uniformly with its velocity there, or begins again from its position there.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::body::mark_changed;
 use serde::{Deserialize, Serialize};
 
-/// A point of a path, or the motion at any time: counted from where the path begins.
+/// A point of a path, or the motion at any time, relative to the beginning of the path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PathPoint {
     /// Seconds since the path began.
@@ -34,9 +34,9 @@ pub struct Path {
 }
 
 impl Path {
-    /// A motion that begins with `velocity` in m/s and `spin` in rad/s and leads through `points`, at ascending times
-    /// above zero. Without points it is uniform. With `repeat` it begins again at the last point, from where it stands
-    /// then.
+    /// A motion that begins with `velocity` in m/s and `spin` in rad/s. It leads through `points`, at ascending times
+    /// above zero. Without points it is uniform. With `repeat` it begins again at the last point, from its position
+    /// there.
     pub fn new(velocity: DVec2, spin: f64, points: &[PathPoint], repeat: bool) -> Self {
         let start = PathPoint { velocity, spin, ..PathPoint::default() };
         Self { points: std::iter::once(start).chain(points.iter().copied()).collect(), repeat }
@@ -57,7 +57,7 @@ impl Path {
     }
 
     fn within(&self, time: f64) -> PathPoint {
-        // A time that is no number is before all points.
+        // A NaN time counts as before all points.
         let next = self.points.partition_point(|point| point.time <= time).max(1);
         match self.points.get(next) {
             Some(to) => between(&self.points[next - 1], to, time),
@@ -67,8 +67,8 @@ impl Path {
 }
 
 impl Path {
-    /// Acceleration in m/s2 and rate of the spin in rad/s2, `time` seconds after the beginning, of the piece on which it is
-    /// `middle` seconds after the beginning: at a point of the path, that of the piece before or behind.
+    /// Acceleration in m/s2 and rate of the spin in rad/s2, `time` seconds after the beginning. The piece is the one at
+    /// `middle` seconds, because two pieces meet at a point of the path.
     pub fn acceleration(&self, time: f64, middle: f64) -> (DVec2, f64) {
         let last = self.points[self.points.len() - 1];
         if middle >= last.time && (!self.repeat || last.time == 0.0) {
@@ -82,7 +82,7 @@ impl Path {
         }
     }
 
-    /// The first point after `time` seconds, at which acceleration may jump; infinity if there is none.
+    /// The time in seconds of the first point after `time`, at which acceleration may jump; infinity if there is none.
     pub fn next_point(&self, time: f64) -> f64 {
         let last = self.points[self.points.len() - 1].time;
         let rounds = if self.repeat && last > 0.0 && time > 0.0 { (time / last).floor() } else { 0.0 };
@@ -131,14 +131,14 @@ fn between(from: &PathPoint, to: &PathPoint, time: f64) -> PathPoint {
     }
 }
 
-/// Makes a body move as prescribed. Its position, angle, velocity and spin follow from time alone: whoever wants it to
-/// move otherwise inserts another one, changing those components does nothing.
+/// Prescribes the motion of a body. Its position, angle, velocity and spin follow from time alone. To change the
+/// motion, insert another `Kinematic`; changes of those components have no effect.
 #[derive(Component, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Kinematic {
     /// When the path begins, in seconds.
     pub since: f64,
-    /// The point that is led along the path, where the path begins, in metres.
+    /// The beginning of the path, in metres: the initial position of the guided point.
     pub position: DVec2,
     /// The angle there in radians.
     pub angle: f64,
@@ -178,8 +178,8 @@ impl Kinematic {
 }
 
 impl Kinematic {
-    /// Acceleration of the centre of mass in m/s2 and rate of the spin in rad/s2 at `time` seconds, on the piece of the path
-    /// on which it is at `middle` seconds.
+    /// Acceleration of the centre of mass in m/s2 and rate of the spin in rad/s2 at `time` seconds. The piece of the
+    /// path is that at `middle` seconds.
     pub fn acceleration(&self, time: f64, middle: f64) -> (DVec2, f64) {
         let (led, turning) = self.path.acceleration(time - self.since, middle - self.since);
         if self.center == DVec2::ZERO {
@@ -199,12 +199,12 @@ pub struct Prescribed {
     pub motions: Vec<(usize, Kinematic)>,
     /// Time in seconds of the state they were last put in.
     pub time: f64,
-    /// A time in seconds inside the step under way: accelerations are those of the piece of a path that holds it.
+    /// A time in seconds inside the step under way. Accelerations belong to the piece of a path that contains it.
     pub middle: f64,
 }
 
 impl Prescribed {
-    /// Acceleration in m/s2 and rate of the spin in rad/s2 of body `body`; none if it does not move as prescribed.
+    /// Acceleration in m/s2 and rate of the spin in rad/s2 of body `body`. Zero if its motion is not prescribed.
     pub fn acceleration(&self, body: usize) -> (DVec2, f64) {
         match self.motions.binary_search_by_key(&body, |motion| motion.0) {
             Ok(place) => self.motions[place].1.acceleration(self.time, self.middle),
@@ -212,13 +212,14 @@ impl Prescribed {
         }
     }
 
-    /// The first point of a path after `time` seconds, at which acceleration may jump; infinity if there is none.
+    /// The time in seconds of the first point of a path after `time`; infinity if there is none. Acceleration may jump
+    /// there.
     pub fn next_point(&self, time: f64) -> f64 {
         let next = |(_, motion): &(usize, Kinematic)| motion.path.next_point(time - motion.since) + motion.since;
         self.motions.iter().map(next).filter(|&point| point > time).fold(f64::INFINITY, f64::min)
     }
 
-    /// The state of body `body` in `ahead` seconds, if it moves as prescribed.
+    /// The state of body `body` in `ahead` seconds, if its motion is prescribed.
     pub fn ahead(&self, body: usize, ahead: f64) -> Option<PrescribedState> {
         let place = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;
         Some(self.motions[place].1.state(self.time + ahead))

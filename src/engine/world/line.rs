@@ -1,12 +1,13 @@
-//! Lines: surfaces of many pieces, open on one side, on which nothing trips over a joint.
+//! Polyline walls: surfaces of many pieces, open on one side, on which no body trips over a joint.
 //!
-//! An atom of radius `r` is kept out of the room that its centre must not enter: the line moved by `r` to its open side. Where the line
-//! bends away from the open side, the joint is the centre of an arc of that room. Where it bends towards it, both pieces end before the
-//! joint, by `r tan(turn / 2)`, in one corner. The overlap is the distance from the room, which is once differentiable everywhere.
-//! So one contact goes from piece to piece, with its springs, and no event is needed at a joint.
+//! An atom of radius `r` stays out of a region: the line moved by `r` to its open side. Its centre must not enter that
+//! region. If the line bends away from the open side, the joint is the centre of an arc of that region. If it bends
+//! towards the open side, both pieces end in one corner, `r tan(turn / 2)` before the joint. The overlap is the
+//! distance from the region, which is once differentiable everywhere. So one contact moves from piece to piece with its
+//! springs, and a joint needs no event.
 //!
-//! In a corner as sharp as [`SHARP`], or narrow beside the atom, one contact would have too little friction. There both pieces go on
-//! behind the joint and push.
+//! In a corner as sharp as [`SHARP`], or narrow beside the atom, one contact would have too little friction. There both
+//! pieces continue behind the joint and push.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -16,25 +17,26 @@ use super::Bodies;
 use super::body::mark_changed;
 use super::wall::{Ends, NearestPoint, PackedWall, Wall};
 
-/// The points of a [`Wall`] that is a line, in metres: open to the left of the way from the first to the last. A line is closed if both are
-/// the same.
+/// The points of a [`Wall`] that is a line, in metres. It is open to the left of the way from the first to the last
+/// point. A line is closed if both are the same.
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable, on_insert = mark_changed, on_remove = mark_changed)]
 pub struct Line(pub Vec<DVec2>);
 
-/// From this turn on in rad both pieces of a corner push: friction of one contact would be less by its square over 8.
+/// From this turn on, in rad, both pieces of a corner push. The friction of one contact would be less by the square of
+/// the turn over 8.
 pub const SHARP: f64 = 0.1;
-/// By so many rad a line turns away from its open side from one joint that pushes sides of hulls to the next. Of a line with short pieces, few
-/// joints do, so that a hill is not stiffer where it has more pieces. A side lies in a hill of radius `R` by up to `R` times its square
-/// over 8.
+/// The turn in rad, away from the open side, between two joints that push sides of hulls. In a line with short pieces
+/// only a few joints push. So a hill is not stiffer if it has more pieces. A side overlaps a hill of radius `R` by up
+/// to `R` times the square of this turn over 8.
 const APART: f64 = 0.01;
-/// How far behind the line the centre of a disc or corner may lie where bodies begin, as a share of half the width of what it belongs to. Later
-/// on a centre that is found there has come from behind.
+/// The allowed depth of the centre of a disc or corner behind the line at the start. It is a share of half the width of
+/// its owner. A deeper centre at a later time has come from behind.
 pub(crate) const BEHIND: f64 = 0.1;
 /// Pieces, or boxes, in a box of the tree.
 const IN_BOX: usize = 8;
 
-/// Where two pieces meet.
+/// A joint of two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Joint {
     /// Sine and cosine of the turn towards the open side.
@@ -56,7 +58,7 @@ pub struct PackedLine {
     pub first: u32,
     /// How many pieces it has.
     pub count: u32,
-    /// Before each piece, and behind the last; none where the line ends.
+    /// The joint before each piece, and the one behind the last; `None` at an end of the line.
     joints: Vec<Option<Joint>>,
     /// Whether it is closed and open to the outside.
     is_block: bool,
@@ -66,7 +68,7 @@ pub struct PackedLine {
     boxes: Vec<Vec<(DVec2, DVec2)>>,
 }
 
-/// Where an atom stands beside a piece.
+/// The position of an atom beside a piece.
 enum Seat {
     /// Nearer to the piece before, or to the one behind.
     Before,
@@ -79,7 +81,7 @@ enum Seat {
 struct Probe {
     at: DVec2,
     radius: f64,
-    /// Half the width of what it belongs to.
+    /// Half the width of its owner.
     size: f64,
 }
 
@@ -147,13 +149,13 @@ impl PackedLine {
         }
     }
 
-    /// Whether it goes clockwise around a block of ground.
+    /// Whether it runs clockwise around a block of ground.
     pub(crate) fn is_block(&self) -> bool {
         self.is_block
     }
 
-    /// Whether the round ends of a piece are parts of the surface: of the wall's left point, and of its right one. They are not where the
-    /// line bends towards its open side.
+    /// Whether the round ends of a piece are parts of the surface: first of the left point, then of the right one. They
+    /// are not if the line bends towards its open side.
     pub(crate) fn round_ends(&self, wall: usize) -> [bool; 2] {
         let piece = wall - self.first as usize;
         [piece + 1, piece].map(|place| self.joints[place].is_none_or(|joint| joint.tangent < 0.0))
@@ -183,13 +185,14 @@ impl PackedLine {
         }
     }
 
-    /// The number of the piece before or behind another one; beyond the ends of a line nobody asks.
+    /// The number of the piece before or behind another one. The caller never asks beyond the ends of a line.
     fn next(&self, piece: usize, behind: bool) -> usize {
         let count = self.count as usize;
         if behind { (piece + 1) % count } else { (piece + count - 1) % count }
     }
 
-    /// Where a piece ends at a joint for an atom: how far before it in metres, or how far behind; then it goes no further.
+    /// The end of a piece at a joint for an atom, in metres before the joint. If both pieces push, it is negative,
+    /// which is behind the joint, and the second value is true.
     fn end(&self, joint: &Joint, other: &PackedWall, probe: Probe) -> (f64, bool) {
         let radius = probe.radius + half(other);
         let short = radius * joint.tangent;
@@ -202,14 +205,14 @@ impl PackedLine {
         }
     }
 
-    /// Where an atom stands beside a piece.
+    /// The position of an atom beside a piece.
     fn seat(&self, walls: &[PackedWall], piece: usize, probe: Probe) -> Seat {
         let wall = &walls[self.first as usize + piece];
         let Ends { length, half } = wall.ends.unwrap_or(Ends { length: 0.0, half: 0.0 });
         let from = probe.at - wall.point;
         let back = from.dot(wall.normal.perp());
         let height = from.dot(wall.normal);
-        // The wall goes back from its left point, where the next piece begins.
+        // The wall runs backwards from its left point, at which the next piece begins.
         for (behind, beyond, joint) in
             [(true, -back, self.joints[piece + 1]), (false, back - length, self.joints[piece])]
         {
@@ -246,7 +249,8 @@ impl PackedLine {
         }
     }
 
-    /// Follows a line from a piece to where an atom is nearest: the number of the piece, or of the one before the joint, and the place.
+    /// Follows a line from a piece to the point nearest to an atom. Returns the number of the piece, or of the one
+    /// before the joint, and the point.
     fn walk(&self, walls: &[PackedWall], mut piece: usize, probe: Probe) -> (usize, NearestPoint) {
         let mut came = None;
         for _ in 0..=self.count {
@@ -265,7 +269,7 @@ impl PackedLine {
         (piece, self.at_joint(walls, piece, probe))
     }
 
-    /// The nearest place if no other piece is nearer to an atom: on a piece, or at the joint behind it.
+    /// The nearest point to an atom on a piece, or at the joint behind it. `None` if another piece is nearer.
     fn home(&self, walls: &[PackedWall], piece: usize, probe: Probe) -> Option<NearestPoint> {
         match self.seat(walls, piece, probe) {
             Seat::Here(found) => Some(found),
@@ -295,7 +299,7 @@ fn both_ends(wall: &PackedWall) -> [(DVec2, f64); 2] {
     [false, true].map(|right| wall.end(right))
 }
 
-/// Packs walls that stand in canonical order, each with its points if it is a line.
+/// Packs walls in canonical order, each with its points if it is a line.
 pub(super) fn pack(walls: &[(Entity, Wall, Option<Line>)]) -> (Vec<PackedWall>, Vec<PackedLine>) {
     let (mut packed, mut lines) = (Vec::new(), Vec::new());
     for (entity, wall, line) in walls {
@@ -315,7 +319,8 @@ pub(super) fn pack(walls: &[(Entity, Wall, Option<Line>)]) -> (Vec<PackedWall>, 
 }
 
 impl Bodies {
-    /// The nearest place of a wall, or of the line of which it is a piece, to an atom that stands at a place in metres.
+    /// The nearest point of a wall to an atom at a position in metres. If the wall is a piece of a line, the whole line
+    /// counts.
     #[inline(always)]
     pub fn nearest_on_wall(&self, wall: usize, atom: usize, at: DVec2) -> NearestPoint {
         let packed = &self.walls[wall];
@@ -325,13 +330,13 @@ impl Bodies {
         }
     }
 
-    /// The piece of a line to which an atom is nearest now, if it was near to this one: another contact does not begin there. Of another
-    /// wall: itself.
+    /// The piece of a line that is nearest to an atom, if the atom was near to this piece. Another contact does not
+    /// begin there. For other walls it is the wall itself.
     pub fn piece_now(&self, wall: usize, atom: usize) -> usize {
         if self.walls[wall].line.is_none() { wall } else { self.walk(wall, atom, self.atom_place(atom)).0 }
     }
 
-    /// The wall that stands for all pieces of a line; of another wall: itself.
+    /// The wall that represents all pieces of a line. For other walls it is the wall itself.
     #[inline]
     pub fn whole_wall(&self, wall: usize) -> usize {
         if self.lines.is_empty() {
@@ -371,9 +376,9 @@ impl Bodies {
         (first + piece, found)
     }
 
-    /// Shows the places on a line that are nearer to an atom than `margin` metres, and nearer than their neighbourhoods: by the walls in which
-    /// they lie, with the height of the atom. What is behind a line counts only where it was `known` to be near, or is so by less than the share
-    /// `behind` of half its width.
+    /// Gives the local minima of the distance from a line to an atom that are nearer than `margin` metres. It gives the
+    /// walls in which they lie, with the height of the atom. A point behind a line counts if it was `known`. It also
+    /// counts if its depth is below the share `behind` of half the width of the atom's owner.
     pub(crate) fn each_place_on_line(
         &self,
         line: &PackedLine,
@@ -383,7 +388,7 @@ impl Bodies {
     ) {
         let probe = self.probe(atom, self.atom_place(atom));
         let first = line.first as usize;
-        // What lies behind the line does so by its own size at the most.
+        // The depth behind the line is at most the size of the atom's owner.
         line.each_near(probe.at, probe.radius.max(probe.size) + margin, &mut |piece| {
             let Some(found) = line.home(&self.walls, piece, probe) else { return };
             let half = half(&self.walls[first + piece]);
@@ -394,7 +399,8 @@ impl Bodies {
         });
     }
 
-    /// The distance in m of a place from the middle of a line, below zero if it lies behind the piece that is nearest.
+    /// The distance in m of a point from the middle of a line. It is negative if the point lies behind the nearest
+    /// piece.
     pub(crate) fn height_over_line(&self, line: &PackedLine, at: DVec2) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0_f64);
         for wall in &self.walls[line.pieces()] {
@@ -415,7 +421,8 @@ impl Bodies {
         self.height_over_line(line, at) < 0.0
     }
 
-    /// Shows the ends and joints of a line that may touch sides of hulls, nearer to a place than `reach` metres: as numbers of ends of walls.
+    /// Gives the ends and joints of a line within `reach` metres of a point that may touch sides of hulls. They are
+    /// numbers of ends of walls.
     pub(crate) fn each_edge_of_line(&self, line: &PackedLine, at: DVec2, reach: f64, mut see: impl FnMut(u32)) {
         line.each_near(at, reach, &mut |piece| {
             let wall = line.first + piece as u32;

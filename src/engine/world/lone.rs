@@ -1,5 +1,5 @@
-//! Atoms of packed bodies. What follows from the rest where each body is one disc about its centre of mass is not listed then:
-//! atoms have the numbers of their bodies, stand where those stand, and reach as far.
+//! Atoms of packed bodies. If each body is one disc about its centre of mass, derived data of atoms is not listed. Then
+//! atoms have the indices, positions and extents of their bodies.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -11,7 +11,7 @@ use super::material::MaterialIndex;
 use super::packed::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// What contacts need to know of an atom beside its radius. Few atoms differ in it.
+/// The data of an atom that contacts need beside its radius. Few atoms differ in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Surface {
     /// Stiffness in N/m.
@@ -36,7 +36,7 @@ impl Surfaces {
         })
     }
 
-    /// The list, and the places of the atoms in it: none if all have the same.
+    /// The list, and the index of each atom in it. The indices are empty if all atoms have the same surface.
     pub fn listed(self, places: Vec<u32>) -> (Vec<Surface>, Vec<u32>) {
         let places = if self.list.len() == 1 { Vec::new() } else { places };
         (self.list, places)
@@ -64,7 +64,7 @@ impl Bodies {
         if self.lone_discs { atom } else { self.atom_body[atom] as usize }
     }
 
-    /// Where the centre of an atom is, in metres.
+    /// The centre of an atom, in metres.
     #[inline(always)]
     pub fn atom_place(&self, atom: usize) -> DVec2 {
         if self.lone_discs { self.position[atom] } else { self.atom_position[atom] }

@@ -1,7 +1,7 @@
-//! What bodies and walls are made of, and what two materials do to each other.
+//! Materials of bodies and walls, and the coefficients of two materials in contact.
 //!
-//! The pair takes the mean of the two materials' friction unless `pairs` says otherwise. How it rebounds is kept as the scene says
-//! it of both: the contact law makes one number of the two.
+//! The pair takes the mean of the two materials' friction unless `pairs` says otherwise. The rebound stays in the form
+//! of the scene for each of the two. The contact law makes one number of both.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,7 +16,7 @@ use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
 use crate::scene::{Kind, Outline, Report, Section};
 
-/// The name of the material of everything that names none. It is always there; a scene may redefine it.
+/// The name of the default material. It always exists, and a scene may redefine it.
 pub const DEFAULT: &str = "default";
 
 /// The open list of words for colours: what draws the scene registers them.
@@ -40,7 +40,7 @@ pub struct Material {
 }
 
 impl Default for Material {
-    /// What a scene does not name is not modelled: no friction, nothing lost.
+    /// Properties that a scene does not name are not modelled: no friction, no losses.
     fn default() -> Self {
         Self {
             stiffness: 1000.0,
@@ -53,13 +53,13 @@ impl Default for Material {
     }
 }
 
-/// How a material rebounds, as the scene says it.
+/// The rebound of a material, in the form of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rebound {
     /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (nothing is lost).
     Restitution(f64),
-    /// What the normal force is greater by while loading, and less while unloading, as a share: from 0 (nothing is lost) to 1 (no
-    /// rebound).
+    /// The share by which the normal force is greater while loading, and less while unloading. It runs from 0 (no loss)
+    /// to 1 (no rebound).
     Inelasticity(f64),
 }
 
@@ -86,14 +86,14 @@ impl MaterialIndex {
     }
 }
 
-/// What two touching materials do to each other.
+/// The coefficients of two touching materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairCoefficients {
     /// Coefficient of static friction.
     pub friction_static: f64,
     /// Coefficient of dynamic friction.
     pub friction_dynamic: f64,
-    /// How the first and the second rebound; the same twice where `pairs` says it of both.
+    /// The rebound of the first and of the second. Both are equal if `pairs` gives one for the pair.
     pub rebounds: [Rebound; 2],
 }
 
@@ -151,13 +151,13 @@ impl Materials {
         self.names.iter().position(|other| other == name)
     }
 
-    /// The place of a material in `by_index`; that of the default for `None` and for names that are not there.
+    /// The index of a material in `by_index`; that of the default for `None` and for unknown names.
     pub fn index(&self, name: Option<&str>) -> usize {
         name.and_then(|name| self.find(name)).unwrap_or(0)
     }
 
-    /// What two materials, given by their places, do to each other: the means of their frictions, unless `pairs` says
-    /// otherwise. A place that is not there counts as the default.
+    /// The coefficients of two materials, given by their indices: the means of their frictions, unless `pairs` gives
+    /// others. An unknown index counts as the default.
     pub fn pair(&self, a: usize, b: usize) -> PairCoefficients {
         let default = &self.by_index[0];
         let (first, second) = (self.by_index.get(a).unwrap_or(default), self.by_index.get(b).unwrap_or(default));
@@ -173,7 +173,7 @@ impl Materials {
 }
 
 impl Materials {
-    /// How all materials rebound, and all pairs that say it of themselves.
+    /// The rebounds of all materials, and of all pairs that have one.
     pub fn rebounds(&self) -> impl Iterator<Item = Rebound> + '_ {
         let own = self.by_index.iter().map(|material| material.rebound);
         own.chain(self.overrides.values().filter_map(|pair| pair.rebound))
@@ -190,7 +190,7 @@ fn ordered(a: usize, b: usize) -> (usize, usize) {
     (a.min(b), a.max(b))
 }
 
-/// Friction as it stands in a scene: one number, or `(static: 0.5, dynamic: 0.4)`.
+/// Friction in a scene: one number, or `(static: 0.5, dynamic: 0.4)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Friction {
     /// Coefficient while sticking.
@@ -292,7 +292,7 @@ fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, repo
     }
 }
 
-/// One material as it stands in a scene.
+/// One material in a scene.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default, rename = "")]
 #[schemars(rename = "Material")]
@@ -346,8 +346,8 @@ impl MaterialEntry {
     }
 }
 
-/// What bodies and walls are made of, by name. The material `"default"` is always there: it belongs to everything that
-/// names none.
+/// The materials of bodies and walls, by name. The material `"default"` always exists. It belongs to all bodies and
+/// walls without a material.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct MaterialsSection(pub OrderedMap<MaterialEntry>);
 
@@ -385,7 +385,7 @@ impl Section for MaterialsSection {
 pub struct PairEntry {
     /// The two materials, in either order; they may be the same.
     pub between: (String, String),
-    /// Coefficient of friction, as that of a material. Default: the means.
+    /// Coefficient of friction, in the form of a material. Default: the means.
     #[serde(default)]
     pub friction: Option<Friction>,
     /// Ratio of the speeds after and before an impact, from 0 to 1. Default: see `inelasticity`.
@@ -396,7 +396,7 @@ pub struct PairEntry {
     pub inelasticity: Option<Scalar>,
 }
 
-/// What two materials do to each other, where it is not the mean of both.
+/// The coefficients of two materials that differ from the mean of both.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct PairsSection(pub Vec<PairEntry>);
 
@@ -408,7 +408,7 @@ impl Section for PairsSection {
         Some(generator.subschema_for::<Self>())
     }
 
-    /// Reports unknown materials, pairs that stand twice or say nothing, and numbers out of their range.
+    /// Reports unknown materials, duplicate or empty pairs, and numbers out of range.
     fn check(&self, outline: &Outline, report: &mut Report) {
         let mut seen: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for (index, pair) in self.0.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a scene consists of: bodies, atoms, walls, materials; as entities, and packed for speed.
+//! The contents of a scene: bodies, atoms, walls, materials; as entities, and packed for speed.
 
 mod aloft;
 pub mod anchor;

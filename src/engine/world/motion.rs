@@ -1,4 +1,4 @@
-//! What happens to each body in a step, several bodies at once: kicks, drifts, estimates.
+//! Kicks, drifts and estimates of each body in a step, several bodies at once.
 
 use std::ops::{Add, Range, Sub};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,7 +10,7 @@ use super::part::{Part, PerBody, parts_of};
 use super::pose::Pose;
 use jostle_simd::{BLOCK, Kernel, Lanes, Vectors};
 
-/// How far bodies went.
+/// The ways of bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Travel {
     /// The greatest way of any point of a body, in metres.
@@ -38,8 +38,8 @@ impl Bodies {
         }
     }
 
-    /// The same, but where all bodies are moved by the next step they are kicked on its way, in numbers that are loaded once. Until then
-    /// velocities are those of before: whoever reads them, or changes forces, calls [`Bodies::catch_up`] first.
+    /// The same, but the next step applies the kick if it moves all bodies, with numbers that are loaded once. Until
+    /// then velocities lack the kick. Code that reads them, or changes forces, calls [`Bodies::catch_up`] first.
     pub(crate) fn kick_later(&mut self, dt: f64) {
         if self.records.is_empty() || self.flights.some() {
             return self.kick(dt);
@@ -48,7 +48,7 @@ impl Bodies {
         self.owed = Some(dt);
     }
 
-    /// Gives the kick that is owed, if one is.
+    /// Applies the pending kick, if there is one.
     #[inline]
     pub(crate) fn catch_up(&mut self) {
         if let Some(dt) = self.owed.take() {
@@ -56,10 +56,10 @@ impl Bodies {
         }
     }
 
-    /// Velocities change by the present forces over `kick` seconds, then positions and angles of dynamic bodies by those
-    /// velocities over `drift` seconds (compensated summation: what rounding drops is added the next time). With `ahead` the
-    /// velocities so many seconds later are estimated from the same forces. Forces are those of a past state then: they are
-    /// to be evaluated next.
+    /// Velocities change by the current forces over `kick` seconds. Then positions and angles of dynamic bodies change
+    /// by those velocities over `drift` seconds. Compensated summation adds the rounding remainder the next time. With
+    /// `ahead` the velocities so many seconds later are estimated from the same forces. The forces then belong to a
+    /// past state and must be evaluated next.
     pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) -> Travel {
         if ahead.is_some() {
             self.estimated_velocity.resize(self.len(), DVec2::ZERO);
@@ -94,8 +94,8 @@ impl Bodies {
         travel
     }
 
-    /// Clears forces, to the weight of each body where there is a field, and puts the atoms where their bodies are. (cos, sin) come from the angle each time, so that a
-    /// body cannot grow or shrink however long it spins.
+    /// Resets forces to the weight of each body (zero without a field), and moves the atoms to their bodies. Cosine and
+    /// sine are computed from the angle each time. So a body cannot grow or shrink however long it spins.
     pub fn pose(&mut self) {
         if !std::mem::take(&mut self.posed) {
             self.end_flights();
@@ -216,8 +216,8 @@ impl PerBody for Advance {
 }
 
 impl Bodies {
-    /// Whether each body that moves is nearer than `allowed` metres, its turn included, to where it stood: places and angles
-    /// are given; without angles turning does not count. What is no number is not.
+    /// Whether each moving body is nearer than `allowed` metres to its given position and angle, its turn included.
+    /// Without angles turning does not count. NaN gives false.
     pub fn stayed_near(&self, allowed: f64, position: &[DVec2], angle: &[f64]) -> bool {
         let near = |blocks: Range<usize>| {
             jostle_simd::run(self.level, Near { bodies: self, allowed, position, angle, blocks })
@@ -231,7 +231,7 @@ impl Bodies {
         let parts = (0..count).map(|part| blocks.min(part * each)..blocks.min((part + 1) * each)).collect();
         let all = AtomicBool::new(true);
         self.threads.each(parts, |blocks| {
-            // Relaxed: a part that does not know yet that another is not near looks in vain.
+            // Relaxed: a part that has not seen another's result only does useless work.
             if all.load(Ordering::Relaxed) && !near(blocks) {
                 all.store(false, Ordering::Relaxed);
             }
@@ -263,7 +263,7 @@ impl Near<'_> {
             left = left - turned * V::load(&bodies.extents()[first..]);
         }
         let (x, y, zero) = (x - from_x, y - from_y, V::splat(0.0));
-        // Bodies that stand still are where they were, whatever the sign of zero.
+        // Bodies at rest keep their position, whatever the sign of zero.
         let near =
             !(left * left).lt(x * x + y * y) & !left.lt(zero) & (x * x + y * y + left).lt(V::splat(f64::INFINITY));
         let all = ((1_u16 << V::COUNT) - 1) as u8;

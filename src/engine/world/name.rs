@@ -7,11 +7,12 @@ use bevy_ecs::prelude::*;
 
 use crate::scene::names;
 
-/// Name of a body or wall in the scene: `to_string()` tells it, and it can be compared with a text as it is. Names of a series,
-/// such as `gas_0` and `gas_1`, share what they begin with.
+/// Name of a body or wall in the scene. `to_string()` gives it, and it can be compared with a text. Names of a series,
+/// such as `gas_0` and `gas_1`, share their prefix.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Name {
-    /// The name, or what the names of its series begin with; none: it is empty. Behind one pointer, not a pointer and a length.
+    /// The name, or the prefix of its series; `None` for an empty name. It is behind one pointer, and not a pointer and
+    /// a length.
     text: Option<Arc<String>>,
     /// The number in its series.
     number: Option<u32>,

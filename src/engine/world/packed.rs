@@ -1,8 +1,8 @@
 //! The packed state: bodies, atoms and walls in canonical order, one array per quantity.
 //!
-//! The canonical order is the order of keys. It does not depend on the order of spawning, on archetypes or on
-//! threads, and every sum over bodies or contacts runs along it: that is what makes runs repeatable to the last bit.
-//! Atoms stand body by body: those of body `b` are `first_atom[b] .. first_atom[b + 1]`.
+//! The canonical order is the order of keys. It does not depend on the order of spawning, on archetypes or on threads.
+//! Every sum over bodies or contacts follows it. That makes runs repeatable to the last bit. Atoms are listed body by
+//! body: those of body `b` are `first_atom[b] .. first_atom[b + 1]`.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -29,19 +29,19 @@ pub(crate) enum Moved {
     /// As is listed for each of them.
     #[default]
     Listed,
-    /// As their velocities say over so many seconds: lone discs, none of which moves as prescribed.
+    /// Velocity times this many seconds: for lone discs without prescribed motion.
     For(f64),
 }
 
 /// All bodies, atoms and walls, packed.
 ///
 /// Lists of bodies have [`Bodies::len`] items, lists of atoms [`Bodies::atom_count`]. A system that writes to the lists
-/// leaves them as long as they are: bodies come and go as entities. A run in which a system has changed a length ends with
-/// [`Wrong::Torn`](crate::tick::Wrong::Torn); a model that does so while it acts may panic.
+/// keeps their lengths, because bodies come and go as entities. A run in which a system has changed a length ends with
+/// [`Wrong::Torn`](crate::tick::Wrong::Torn). A model that does so while it acts may panic.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bodies {
-    /// Set by a plugin that changed something forces depend on other than the components of bodies (a setting of its
-    /// own force, say): forces are then evaluated anew before the next tick instead of at its end.
+    /// Set by a plugin that changes an input of forces other than components of bodies, such as a setting of its force.
+    /// Forces are then evaluated again before the next tick.
     pub touched: bool,
     /// Instructions for work on many bodies at once. Default: the best there are.
     #[serde(skip)]
@@ -49,12 +49,12 @@ pub struct Bodies {
     /// Threads for work on many bodies or contacts. Default: one.
     #[serde(skip)]
     pub threads: Threads,
-    /// Counts the rebuilds: whoever keeps indices compares it.
+    /// Counts the rebuilds, for code that keeps indices.
     pub generation: u64,
 
     /// Entity of each body.
     pub entity: Vec<Entity>,
-    /// Place of the body of each entity, by the number of the entity. What others have here means nothing.
+    /// Index of the body of each entity, by the number of the entity. The values of other entities are meaningless.
     pub(crate) places: Vec<u32>,
     /// Key of each body, ascending.
     pub key: Keys,
@@ -70,7 +70,7 @@ pub struct Bodies {
     pub mass: Vec<f64>,
     /// Moment of inertia about the centre of mass in kg m2.
     pub inertia: Vec<f64>,
-    /// See [`Bodies::inverse_mass`]; empty where all bodies move by forces.
+    /// See [`Bodies::inverse_mass`]; empty if all bodies move by forces.
     pub(crate) inverse_mass: Vec<f64>,
     /// See [`Bodies::inverse_inertia`]; likewise.
     pub(crate) inverse_inertia: Vec<f64>,
@@ -81,11 +81,11 @@ pub struct Bodies {
 
     /// Centre of mass in metres.
     pub position: Vec<DVec2>,
-    /// What rounding left over of the position (compensated summation, Kahan 1965).
+    /// Rounding remainder of the position (compensated summation, Kahan 1965).
     pub position_rest: Vec<DVec2>,
     /// Angle in radians, continuous.
     pub angle: Vec<f64>,
-    /// What rounding left over of the angle.
+    /// Rounding remainder of the angle.
     pub angle_rest: Vec<f64>,
     /// Velocity in m/s.
     pub velocity: Vec<DVec2>,
@@ -96,14 +96,14 @@ pub struct Bodies {
     pub estimated_velocity: Vec<DVec2>,
     /// Likewise angular velocities in rad/s.
     pub estimated_spin: Vec<f64>,
-    /// Displacement since the last accepted state, in metres, where it is listed: see [`Bodies::displacement`].
+    /// Displacement since the last accepted state, in metres, if it is listed: see [`Bodies::displacement`].
     pub(crate) drift: Vec<DVec2>,
     /// Likewise turn since the last accepted state, in radians.
     pub(crate) turn: Vec<f64>,
     pub(crate) moved: Moved,
     /// The estimate of velocities has taken the place of them.
     pub(crate) estimating: bool,
-    /// Which bodies joints hold in the present state; empty if there are none.
+    /// Bodies that joints hold in the current state; empty if there are none.
     pub(crate) jointed: Vec<bool>,
     /// Keys of bodies that do not touch each other, the lower one first, in order.
     pub(crate) apart: Vec<(u64, u64)>,
@@ -118,8 +118,8 @@ pub struct Bodies {
     pub(crate) atom_position: Vec<DVec2>,
     /// Radius of each atom in metres.
     pub atom_radius: Vec<f64>,
-    /// Place of the surface of each atom among [`Bodies::surfaces`]; empty where all have the same. See [`Bodies::atom_stiffness`] and
-    /// [`Bodies::atom_material`].
+    /// Index of the surface of each atom in [`Bodies::surfaces`]; empty if all have the same. See
+    /// [`Bodies::atom_stiffness`] and [`Bodies::atom_material`].
     pub(crate) atom_surface: Vec<u32>,
     /// The surfaces that atoms have, each once.
     pub(crate) surfaces: Vec<Surface>,
@@ -134,43 +134,45 @@ pub struct Bodies {
     /// Radius of the smallest atom in metres; infinite without atoms.
     pub smallest_radius: f64,
 
-    /// Which bodies need no work because they are at rest and nothing can change that: a bit each, a byte for eight bodies;
-    /// empty if there are none.
+    /// Bodies that need no work because they are at rest, until a disturbance. Each has a bit, and eight bodies a byte.
+    /// Empty if there are none.
     pub asleep: Vec<u8>,
-    /// Blocks of eight bodies that need work, in order; only where some need none.
+    /// Blocks of eight bodies that need work, in order. They are listed only if some need none.
     pub awake: Vec<u32>,
-    /// How often bodies that were asleep have woken: as long as that is the same whoever was asleep stands where it stood.
+    /// The number of times that sleeping bodies have woken. While it is constant, every sleeping body has kept its
+    /// position.
     pub(crate) rousings: u64,
 
     /// Seconds for which velocities have yet to change by the present forces: see [`Bodies::kick_later`].
     pub(crate) owed: Option<f64>,
 
-    /// Lent by contacts that need all of them: what they have to know of each disc. Whoever moves all bodies fills them in on the way.
+    /// Lent by contacts that need all of them: the data of each disc. Code that moves all bodies also fills them in.
     pub(crate) records: Vec<Record>,
     /// They were filled in, with the present state.
     pub(crate) recorded: bool,
 
-    /// Forces are cleared and atoms stand where their bodies are: that was done when bodies were moved.
+    /// Whether the move of the bodies has already cleared the forces and moved the atoms.
     pub(crate) posed: bool,
     /// Acceleration in m/s2 of a uniform field: forces are not cleared to nothing but to the weight in it.
     pub(crate) field: Option<DVec2>,
-    /// Mass of all bodies that have a weight, in kg, and mass times place, in kg m: of where they stand.
+    /// Mass of all bodies with a weight, in kg, and mass times position, in kg m, at the current positions.
     pub(crate) weighed: (f64, DVec2),
 
-    /// Who needs no work because its motion is known.
+    /// Bodies that need no work because their motion is known.
     pub(crate) flights: Flights,
 
-    /// Something pushed a body that was asleep: forces are evaluated anew, with all bodies awake.
+    /// Whether a sleeping body was pushed. Then forces are evaluated again, with all bodies awake.
     pub disturbed: bool,
-    /// How far any point of a body can have gone since the beginning, in metres: the sum of the greatest ways of all ticks. Not a
-    /// number to go by where others than [`Bodies::advance`] and [`Bodies::prescribe`] moved bodies.
+    /// The greatest possible way of any point of a body since the beginning, in metres. It is the sum of the greatest
+    /// ways of all ticks. It is unreliable if code other than [`Bodies::advance`] and [`Bodies::prescribe`] moved
+    /// bodies.
     pub path: f64,
     /// By how much of that bodies moved by forces since others moved as prescribed.
     pub(crate) advanced: f64,
 
     /// The hulls of bodies, in the order of the bodies.
     pub hulls: Vec<PackedHull>,
-    /// Cosine and sine of the angle of each body, as its atoms stand; empty without hulls.
+    /// Cosine and sine of the angle of each body, for its atoms; empty without hulls.
     pub(crate) turned: Vec<DVec2>,
     /// Place of the hull of which each atom is a corner; empty without hulls.
     pub(crate) atom_hull: Vec<u32>,
@@ -178,7 +180,7 @@ pub struct Bodies {
     pub walls: Vec<PackedWall>,
     /// The lines among them.
     pub lines: Vec<PackedLine>,
-    /// Velocity of the surface of each wall in m/s; empty if all stand.
+    /// Velocity of the surface of each wall in m/s; empty if all are at rest.
     pub belts: Vec<DVec2>,
 
     /// How long the lists were when they were filled.
@@ -197,7 +199,8 @@ impl Bodies {
         self.entity.is_empty()
     }
 
-    /// Place of the body of an entity; none if it has none, or has one since the arrays were filled.
+    /// Index of the body of an entity. `None` for entities without a body, and for bodies that came after the arrays
+    /// were filled.
     #[inline]
     pub fn place(&self, entity: Entity) -> Option<usize> {
         let place = *self.places.get(entity.index_u32() as usize)? as usize;
@@ -220,13 +223,13 @@ impl Bodies {
         self.awake.is_empty() && !self.asleep.is_empty()
     }
 
-    /// All bodies need work from now on.
+    /// Wakes all bodies.
     pub fn wake_all(&mut self) {
         self.lay_asleep(Vec::new());
         self.awake.clear();
     }
 
-    /// From now on those are asleep to which these bits belong, and no others; `awake` is for the caller to fill.
+    /// Puts the bodies of these bits to sleep, and no others. The caller fills `awake`.
     pub(crate) fn lay_asleep(&mut self, asleep: Vec<u8>) {
         let sleeps_on = |block: usize, bits: u8| bits & !asleep.get(block).copied().unwrap_or(0) == 0;
         let all_sleep_on = self.asleep.iter().enumerate().all(|(block, &bits)| sleeps_on(block, bits));
@@ -248,7 +251,7 @@ impl Bodies {
         BLOCK * block..self.len().min(BLOCK * block + BLOCK)
     }
 
-    /// Those of the blocks that need work whose bodies stand in a range that begins and ends with blocks.
+    /// The awake blocks whose bodies lie in a range that begins and ends with blocks.
     pub fn awake_blocks_within(&self, bodies: std::ops::Range<usize>) -> std::ops::Range<usize> {
         let (first, last) = (bodies.start / BLOCK, bodies.end.div_ceil(BLOCK));
         if self.asleep.is_empty() {
@@ -264,13 +267,13 @@ impl Bodies {
         self.velocity[body] + arm.perp() * self.spin[body]
     }
 
-    /// 1/mass of a body in 1/kg, zero where it does not move by forces.
+    /// 1/mass of a body in 1/kg, zero if it does not move by forces.
     #[inline(always)]
     pub fn inverse_mass(&self, body: usize) -> f64 {
         self.inverse_mass.get(body).copied().unwrap_or_else(|| 1.0 / self.mass[body])
     }
 
-    /// 1/inertia of a body in 1/(kg m2), zero where it does not move by forces.
+    /// 1/inertia of a body in 1/(kg m2), zero if it does not move by forces.
     #[inline(always)]
     pub fn inverse_inertia(&self, body: usize) -> f64 {
         self.inverse_inertia.get(body).copied().unwrap_or_else(|| 1.0 / self.inertia[body])
@@ -286,8 +289,8 @@ impl Bodies {
         (velocity[0] * time, spin[0] * time)
     }
 
-    /// The velocities and spins with which bodies in a row moved since the last accepted state, and for how many seconds;
-    /// `None` where displacements are listed. Those that do not move by forces did not move.
+    /// The velocities and spins of consecutive bodies since the last accepted state, and the seconds that they lasted.
+    /// `None` if displacements are listed. Bodies that do not move by forces did not move.
     #[inline]
     pub(crate) fn drift_of(&self, bodies: std::ops::Range<usize>) -> Option<(&[DVec2], &[f64], f64)> {
         let Moved::For(time) = self.moved else { return None };
@@ -337,7 +340,7 @@ impl Bodies {
         self.turn.resize(self.len(), 0.0);
     }
 
-    /// Before an evaluation the estimate, if there is one, takes the place of the velocities; afterwards it goes back.
+    /// Exchanges the velocities with the estimate, if there is one. It is called before an evaluation and after it.
     pub fn swap_estimate(&mut self) {
         if !self.estimated_velocity.is_empty() {
             std::mem::swap(&mut self.velocity, &mut self.estimated_velocity);
@@ -346,8 +349,8 @@ impl Bodies {
         }
     }
 
-    /// Puts the bodies that move as prescribed where they are at `time` seconds, in a tick that began at `begin`.
-    /// Returns how far they went in the tick.
+    /// Moves the bodies with prescribed motion to their state at `time` seconds, in a tick that began at `begin`.
+    /// Returns their ways in the tick.
     pub fn prescribe(&mut self, begin: f64, time: f64) -> Travel {
         let prescribed = std::mem::take(&mut self.prescribed);
         (self.posed, self.recorded) = (false, false);
@@ -371,7 +374,7 @@ impl Bodies {
     }
 }
 
-/// Puts atoms where their body is: at a place, turned by an angle. Returns cosine and sine of the angle, if it was needed.
+/// Moves atoms with their body to a position and an angle. Returns cosine and sine of the angle, if it was needed.
 #[inline(always)]
 pub(super) fn place_atoms<V: Lanes>(
     (position, angle): (DVec2, f64),
@@ -442,15 +445,15 @@ fn is_lone_disc(world: &World, body: Entity) -> bool {
     atoms.next().is_some_and(|atom| atom.offset == DVec2::ZERO) && atoms.next().is_none()
 }
 
-/// How far a body reaches that has no atoms, in metres: as far as its parts that touch nothing, or its radius of gyration if it has none. Turning
-/// is weighed by that against moving.
+/// The reach of a body without atoms, in metres. It is that of its parts that touch nothing, or its radius of gyration
+/// without such parts. Turning counts by that length against moving.
 fn extent_without_atoms(intangible: Option<&Intangible>, mass: f64, inertia: f64) -> f64 {
     let parts = intangible.map_or(&[][..], |intangible| &intangible.hulls);
     let reach = parts.iter().map(|hull| hull.reach_of_core(DVec2::ZERO) + hull.radius()).fold(0.0, f64::max);
     if reach > 0.0 { reach } else { (inertia / mass).sqrt() }
 }
 
-/// Fills the arrays anew from the entities, in the order of keys. What rounding left over in the `previous` ones is kept.
+/// Fills the arrays again from the entities, in the order of keys. The rounding remainders in `previous` are kept.
 pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
     let mut found: Vec<(u64, Entity)> = world.query::<(Entity, &Body)>().iter(world).map(|(e, b)| (b.key, e)).collect();
     found.sort_unstable();

@@ -1,4 +1,4 @@
-//! Bodies in parts that do not share anything: work on many bodies, several side by side and several threads at once.
+//! Data parallelism over independent parts: work on many bodies, several side by side and in several threads at once.
 
 use std::ops::Range;
 
@@ -12,21 +12,20 @@ const FEWEST: usize = 16384;
 /// Parts at most.
 const MOST: usize = 16;
 
-/// How many bodies before they are worked on their numbers are fetched. The processor does that of itself only where lists are
-/// few.
+/// The distance in bodies of the prefetch ahead of the work. The processor prefetches by itself only if lists are few.
 const FETCHED: usize = 6 * BLOCK;
 
-/// Some bodies in a row, with what they have: lists begin at the first of them and are as long as there are bodies.
+/// Some consecutive bodies with their data. Lists begin at the first of them and have one item for each body.
 pub(crate) struct Part<'a> {
     /// Place of the first body.
     pub first: usize,
-    /// Blocks that need work among all bodies; none: all of them.
+    /// Blocks that need work among all bodies; `None`: all of them.
     awake: Option<&'a [u32]>,
-    /// A bit for each body that is asleep, a byte for each block from the first on; empty: none is.
+    /// A bit for each sleeping body, a byte for each block from the first on. Empty if no body sleeps.
     pub asleep: &'a [u8],
     pub mass: &'a [f64],
     pub inertia: &'a [f64],
-    /// Empty where all bodies move by forces.
+    /// Empty if all bodies move by forces.
     inverse_mass: &'a [f64],
     inverse_inertia: &'a [f64],
     pub extent: &'a [f64],
@@ -36,13 +35,13 @@ pub(crate) struct Part<'a> {
     pub angle_rest: &'a mut [f64],
     pub velocity: &'a mut [DVec2],
     pub spin: &'a mut [f64],
-    /// Empty where nobody estimates.
+    /// Empty without an estimate.
     pub estimated_velocity: &'a mut [DVec2],
     pub estimated_spin: &'a mut [f64],
     /// Empty where displacements are not listed.
     pub drift: &'a mut [DVec2],
     pub turn: &'a mut [f64],
-    /// Empty where nobody asks for them.
+    /// Empty if no contact law needs them.
     pub records: &'a mut [Record],
     pub force: &'a mut [DVec2],
     pub torque: &'a mut [f64],
@@ -97,7 +96,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// The first `count` bodies, whole blocks; what is left begins behind them.
+    /// Splits off the first `count` bodies, in whole blocks.
     fn take(&mut self, count: usize) -> Self {
         let blocks = |list: &[u32]| list.partition_point(|&block| (block as usize) < (self.first + count) / BLOCK);
         let (awake, rest) = self.awake.map(|list| list.split_at(blocks(list))).unzip();
@@ -145,7 +144,7 @@ impl<'a> Part<'a> {
         front
     }
 
-    /// Cuts all lists to the number of bodies, which none is shorter than: then places are looked at once for all of them.
+    /// Cuts all lists to the number of bodies, and none is shorter. So one check of an index holds for all lists.
     #[inline(always)]
     fn cut_alike(&mut self) {
         let count = self.mass.len();
@@ -208,7 +207,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Puts the atoms of a body where it is, unless it stands.
+    /// Moves the atoms of a body with it, unless it is at rest.
     #[inline(always)]
     pub fn place_atoms<V: Lanes>(&mut self, body: usize) {
         if self.moves[body] {
@@ -224,23 +223,23 @@ impl<'a> Part<'a> {
     }
 }
 
-/// Work on bodies, as many side by side as there are lanes.
+/// Work on bodies, one for each lane side by side.
 pub(crate) trait PerBody: Clone + Send {
     /// Does it for the bodies from place `first` of a part on.
     fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize);
 
-    /// Does what is to be done for the atoms of a body, several side by side, after [`PerBody::bodies`].
+    /// Processes the atoms of a body, several side by side, after [`PerBody::bodies`].
     #[inline(always)]
     fn atoms<V: Lanes>(&mut self, _: &mut Part, _: usize) {}
 
-    /// Has what a block of bodies needs brought near, from place `first` of a part on; there need not be such bodies.
+    /// Prefetches the data of a block of bodies, from index `first` of a part on. The index may be out of range.
     #[inline(always)]
     fn fetch(_: &Part, _: usize) {}
 }
 
 struct All<'a, W> {
     part: Part<'a>,
-    /// Lent: partial sums are too long to be handed on.
+    /// Lent, because partial sums are too long to be moved.
     work: &'a mut W,
 }
 
@@ -296,7 +295,7 @@ impl Bodies {
         }
     }
 
-    /// Does `work` for all bodies that are not asleep; `found` is told what it is afterwards, part by part in order.
+    /// Does `work` for all awake bodies. `found` receives the result, part by part in order.
     pub(crate) fn each<W: PerBody>(&mut self, mut work: W, mut found: impl FnMut(&W)) {
         let level = self.level;
         let count = parts_of(self.atom_count().max(self.len()), FEWEST);

@@ -1,11 +1,11 @@
-//! What happens to each body before forces are summed: their sums begin anew, and atoms stand where their bodies are.
+//! Preparation of each body before forces are summed: sums are reset, and atoms follow their bodies.
 
 use glam::DVec2;
 
 use super::part::{Part, PerBody};
 use jostle_simd::{BLOCK, Lanes, Vectors};
 
-/// Clears forces, to the weight of each body that is not asleep where there is a field, and puts atoms where their bodies are.
+/// Resets forces to the weight of each awake body (zero without a field), and moves atoms to their bodies.
 #[derive(Clone)]
 pub(super) struct Pose {
     field: Option<DVec2>,
@@ -25,13 +25,13 @@ impl Pose {
         Self { field, sums: Sums::default() }
     }
 
-    /// Adds what was weighed: the mass, and mass times place.
+    /// Adds the mass, and mass times position.
     pub fn add_to(&self, (mass, moment): &mut (f64, DVec2)) {
         *mass += self.sums.mass.into_iter().fold(0.0, |sum, part| sum + part);
         *moment += self.sums.moment.into_iter().fold(DVec2::ZERO, |sum, part| sum + part);
     }
 
-    /// The forces alone, of bodies that stand at these places; those that move by forces may have a weight.
+    /// The forces alone, of bodies at these positions. Bodies that move by forces may have a weight.
     #[inline(always)]
     pub fn forces<V: Lanes>(&mut self, part: &mut Part, first: usize, place: Vectors<V>, mut moves: V::Mask) {
         let zero = V::splat(0.0);

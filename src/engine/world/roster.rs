@@ -1,4 +1,4 @@
-//! What spawning tells the tick, and the tick tells spawning.
+//! Messages between spawning and the tick.
 
 use bevy_ecs::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Spawning bodies and walls, at the beginning or in mid-run.
+//! Spawning of bodies and walls, at the beginning or in mid-run.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::body::{Body, Force, Mass, Motion, Position, Rotation, Spin, Torque, V
 use super::{Hulls, Intangible, Kinematic, Name, Roster};
 use jostle_shapes::Hull;
 
-/// The key that the next spawned body gets: later spawns stand behind all earlier ones in the canonical order.
+/// The key of the next spawned body. Later spawns follow all earlier ones in the canonical order.
 #[derive(Resource, Debug, Default)]
 pub struct NextKey {
     /// Of bodies.
@@ -40,8 +40,8 @@ pub struct NewBody {
     pub name: String,
     /// How it moves.
     pub motion: Motion,
-    /// How it moves if that is prescribed: then it is [`Motion::Kinematic`] from the beginning, and starts where this
-    /// says.
+    /// Its prescribed motion, if it has one. Then it is [`Motion::Kinematic`] from the beginning, and this sets its
+    /// initial state.
     pub kinematic: Option<Kinematic>,
     /// Whether its atoms touch anything.
     pub collides: bool,
@@ -61,7 +61,7 @@ pub struct NewBody {
     pub atoms: Vec<Atom>,
     /// Its hulls about the centre of mass.
     pub hulls: Vec<Hull>,
-    /// Its parts that touch nothing, if it has some.
+    /// Its parts that touch nothing, if there are any.
     pub intangible: Option<Intangible>,
 }
 
@@ -89,8 +89,8 @@ impl Default for NewBody {
 /// Numbers of entities that are kept from the bodies of a scene.
 const KEPT: usize = 256;
 
-/// Spawns so many bodies, and keeps smaller numbers than theirs for entities to come: what the ECS keeps for a resource begins with a
-/// list as long as the resource's own entity has a number, and most resources come after the bodies.
+/// Spawns `count` bodies, and reserves smaller entity numbers for later entities. For each resource the ECS allocates a
+/// list as long as the number of the resource's entity. Most resources come after the bodies.
 pub(super) fn after_others(world: &mut World, count: usize, spawn: impl FnOnce(&mut World)) {
     if count <= KEPT {
         return spawn(world);
@@ -111,18 +111,18 @@ fn spawn_one(world: &mut World, pushed: bool, components: impl Bundle) -> Entity
 
 /// Bodies that are named by their numbers.
 pub(super) struct Series {
-    /// What their names begin with.
+    /// The prefix of their names.
     pub prefix: String,
     /// How many there are.
     pub count: usize,
-    /// The key of the first, those of the others follow it; none: the next one.
+    /// The key of the first; the others follow it. `None`: the next key.
     pub key: Option<u64>,
     /// Whether each is one disc about its centre of mass.
     pub lone_discs: bool,
 }
 
-/// Spawns the bodies of a series; their own names do not count. Where each is a lone disc, the ECS makes room for all of them at
-/// once.
+/// Spawns the bodies of a series, whose individual names are ignored. If each is a lone disc, the ECS makes room for
+/// all of them at once.
 pub(super) fn spawn_series(world: &mut World, series: Series, body: impl Fn(usize) -> NewBody) {
     let Series { prefix, count, key, lone_discs } = series;
     let prefix = Arc::new(prefix);
@@ -150,7 +150,7 @@ pub(super) fn spawn_series(world: &mut World, series: Series, body: impl Fn(usiz
 }
 
 impl NewBody {
-    /// What it is but for its atoms.
+    /// Its components without atoms.
     fn components(&self, key: u64, name: Name) -> impl Bundle<Effect: NoBundleEffect> + use<> {
         (
             Body { key, motion: self.motion, collides: self.collides },
@@ -194,8 +194,8 @@ impl NewBody {
             self.motion = Motion::Kinematic;
         }
         let components = self.components(key, name);
-        // With all it ever has from the beginning: a component that comes later moves the body to another table, and the one it
-        // leaves keeps its memory.
+        // All components from the beginning. A later component moves the body to another table, and the old table keeps
+        // its memory.
         let pushed = Roster::pushes(world);
         let body = match atoms[..] {
             [atom] => spawn_one(world, pushed, (components, atom)),

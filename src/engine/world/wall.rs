@@ -1,4 +1,5 @@
-//! A wall, infinitely stiff: the half-plane behind a line, one-sided; or a strip with two ends, hit from both sides.
+//! A wall, infinitely stiff. It is the half-plane behind a line, one-sided, or a strip with two ends that is hit from
+//! both sides.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -20,9 +21,9 @@ pub struct Wall {
     pub right: DVec2,
     /// Thickness of a strip in metres, zero or more; `None`: a half-plane.
     pub thickness: Option<f64>,
-    /// What it is made of.
+    /// The index of its material.
     pub material: MaterialIndex,
-    /// Velocity of its surface in m/s, along the wall: a belt. Zero: it stands.
+    /// Velocity of its surface in m/s, along the wall: a belt. Zero: it is at rest.
     pub surface_velocity: DVec2,
 }
 
@@ -35,19 +36,19 @@ impl Wall {
         DVec2::new(along.y, -along.x).normalize()
     }
 
-    /// The wall as contacts see it: a piece of a line, if that has a number.
+    /// The wall as contacts see it: a piece of a line, if it has a line number.
     pub(super) fn packed(&self, entity: Entity, line: Option<u32>) -> PackedWall {
         PackedWall { entity, point: self.left, normal: self.normal(), ends: self.ends(), line, material: self.material }
     }
 
-    /// Its two ends, if it has them.
+    /// Its two ends, if it has ends.
     pub(super) fn ends(&self) -> Option<Ends> {
         let half = 0.5 * self.thickness?;
         Some(Ends { length: (self.right - self.left).length(), half })
     }
 }
 
-/// Where a wall has ends.
+/// The ends of a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ends {
     /// Length of its middle line in metres, from its point along the normal turned counter-clockwise.
@@ -65,23 +66,23 @@ pub struct PackedWall {
     pub point: DVec2,
     /// Unit normal towards the open side.
     pub normal: DVec2,
-    /// Its ends, if it has them: it is open on both sides then.
+    /// Its ends, if it has ends: it is then open on both sides.
     pub ends: Option<Ends>,
-    /// The number of the line of which it is a piece, if it is one.
+    /// The number of its line, if it is a piece of one.
     pub line: Option<u32>,
-    /// What it is made of.
+    /// The index of its material.
     pub material: MaterialIndex,
 }
 
-/// The nearest point of the surface of a wall, as seen from a place.
+/// The nearest point of the surface of a wall, as seen from a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestPoint {
     /// Distance from the surface in metres, negative inside.
     pub height: f64,
     /// Unit normal of the surface at its nearest point, towards the viewer.
     pub normal: DVec2,
-    /// Distance in metres from the centre of the round end that is nearest; infinite where the surface is flat. In the corner of a line it
-    /// is that from the place where the viewer would touch both sides, below zero.
+    /// Distance in metres from the centre of the nearest round end; infinite if the surface is flat. In the corner of a
+    /// line it is negative. It counts from the point at which the viewer would touch both sides.
     pub distance: f64,
 }
 
@@ -111,7 +112,8 @@ impl PackedWall {
         NearestPoint { height: distance - half, normal: apart / distance, distance }
     }
 
-    /// Whether it is a strip without thickness that is hit from both sides: a corner without a radius has no place in it.
+    /// Whether it is a strip without thickness that is hit from both sides. A corner without a radius would have no
+    /// position in it.
     #[inline]
     pub fn is_thin(&self) -> bool {
         self.line.is_none() && self.ends.is_some_and(|ends| ends.half == 0.0)
@@ -123,7 +125,7 @@ impl PackedWall {
         (self.point + self.normal.perp() * if right { length } else { 0.0 }, half)
     }
 
-    /// Whether a point that went straight from one place to another has crossed the middle line of a wall with ends.
+    /// Whether a point on a straight way between two positions has crossed the middle line of a wall with ends.
     pub fn is_crossed(&self, before: DVec2, now: DVec2) -> bool {
         let Some(Ends { length, .. }) = self.ends else { return false };
         let heights = [before, now].map(|at| (at - self.point).dot(self.normal));
@@ -150,8 +152,8 @@ mod tests {
         assert_eq!(normal((6.0, 1.0), (6.0, 0.0)), DVec2::NEG_X);
     }
 
-    /// Law: the nearest point of a strip is on its face, or on the circle about an end; heights agree where both meet. Tolerance: roundings
-    /// of numbers near 1.
+    /// Law: the nearest point of a strip is on its face, or on the circle about an end. Heights agree at the border
+    /// between face and circle. Tolerance: roundings of numbers near 1.
     #[test]
     fn a_strip_has_two_faces_and_two_round_ends() {
         let wall = Wall {

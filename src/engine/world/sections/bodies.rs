@@ -1,4 +1,4 @@
-//! `bodies`: everything that moves, or stands fixed.
+//! `bodies`: all bodies that move or are fixed.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -23,14 +23,14 @@ pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 pub struct BodyEntry {
     /// The name; no other body, wall, joint or sensor has it.
     pub name: String,
-    /// The discs it is made of. Default: none, for a body with a `shape`.
+    /// Its discs. Default: none, for a body with a `shape`.
     #[serde(default)]
     pub atoms: Option<Atoms>,
     /// Its shape with sides, beside the discs if it has both. Default: none.
     #[serde(default)]
     pub shape: Option<Shape>,
-    /// Where its centre of mass is at the start, in m; with `datum: Origin`, where the origin of its atoms is.
-    /// Default: (0, 0), which only bodies with `datum: Origin` may leave out.
+    /// Its centre of mass at the start, in m; with `datum: Origin`, the origin of its atoms. Default: (0, 0), which
+    /// only bodies with `datum: Origin` may leave out.
     #[serde(default)]
     pub at: Option<Position>,
     /// How far its atoms are turned about that point, in rad, counter-clockwise. Default: 0.
@@ -48,7 +48,7 @@ pub struct BodyEntry {
     /// Whether it never moves. Default: `false`.
     #[serde(default)]
     pub fixed: bool,
-    /// How it moves, if nothing is to push it. Default: it moves by forces.
+    /// Its motion, if no force is to move it. Default: it moves by forces.
     #[serde(default)]
     pub kinematic: Option<KinematicEntry>,
     /// Whether it touches others; without, it still feels forces. Default: `true`.
@@ -60,7 +60,7 @@ pub struct BodyEntry {
     /// The groups whose bodies it does not touch. Default: none.
     #[serde(default)]
     pub ignores: Vec<String>,
-    /// What the atoms' places are counted from. Default: `CenterOfMass`.
+    /// The origin of the atoms' coordinates. Default: `CenterOfMass`.
     #[serde(default)]
     pub datum: Datum,
     /// The mass in kg, in place of that of the atoms. Above zero. Default: that of the atoms.
@@ -76,7 +76,7 @@ fn yes() -> bool {
     true
 }
 
-/// Everything that moves, or stands fixed.
+/// All bodies that move or are fixed.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct BodiesSection(pub Vec<BodyEntry>);
 
@@ -98,7 +98,7 @@ impl Section for BodiesSection {
         }
     }
 
-    /// Reports wrong atoms, masses, places and unknown materials.
+    /// Reports wrong atoms, masses and positions, and unknown materials.
     fn check(&self, outline: &Outline, report: &mut Report) {
         for (index, body) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| body.check(outline, report));
@@ -208,12 +208,12 @@ impl BodyEntry {
         self.atoms.as_ref().map_or_else(Vec::new, Atoms::specs)
     }
 
-    /// Where mass and inertia of its discs come from.
+    /// The rule for mass and inertia of its discs.
     fn rule(&self) -> InertiaRule {
         self.inertia.unwrap_or_else(|| self.atoms.as_ref().map_or_else(InertiaRule::default, Atoms::own_rule))
     }
 
-    /// Where its centre of mass is at the start, in m.
+    /// Its centre of mass at the start, in m.
     pub fn start(&self, properties: &MassProperties) -> DVec2 {
         let at = self.at.unwrap_or_default().si();
         match self.datum {
@@ -225,7 +225,7 @@ impl BodyEntry {
         }
     }
 
-    /// How it moves, if that is prescribed. What is led along a path is the point that `at` names.
+    /// Its prescribed motion, if it has one. The guided point is the one that `at` names.
     pub fn prescribed(&self, properties: &MassProperties) -> Option<Kinematic> {
         let entry = self.kinematic.as_ref()?;
         let center = if self.datum == Datum::Origin { properties.center } else { DVec2::ZERO };

@@ -17,18 +17,18 @@ use crate::world::sections::Region;
 use crate::world::sections::sizes::Radii;
 use crate::world::{material, sections};
 
-/// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read, and a film reads its
-/// scene twice.
+/// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read. A
+/// film reads its scene twice.
 pub const LARGEST_COUNT: u64 = 1_000_000;
 /// How often a place is tried for one body before the region counts as full.
 const TRIES: usize = 20_000;
 /// Bodies that would take a smaller share of their region do not fill it.
 const SPARSE: f64 = 0.3;
-/// How much work the tries of one entry may be: about as many looks at a place among four corners. That takes seconds.
+/// The limit of work for the tries of one entry, in checks of a position against four corners. That takes seconds.
 const MOST_WORK: usize = 100_000_000;
 /// After so many entries without room the others are not tried: each costs all its tries.
 const MOST_FULL: usize = 10;
-/// So many corners take about as long as the other work of a try.
+/// The number of corners that take as long as the other work of a try.
 const CORNERS: usize = 16;
 /// Cells of the search grid along one side, at most.
 const CELLS: usize = 512;
@@ -38,7 +38,7 @@ const CELLS: usize = 512;
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Fill")]
 pub struct FillEntry {
-    /// What their names begin with.
+    /// The prefix of their names.
     pub name: String,
     /// The atoms of each. Default: none; then it has a `shape`.
     #[serde(default)]
@@ -91,9 +91,9 @@ pub struct Placed {
 pub struct FillSection(pub Vec<FillEntry>);
 
 impl FillSection {
-    /// The places of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the region
-    /// is full or too narrow to be met by chance, which `check` reports. Lists end after ten that are too short. The
-    /// outline tells which places are taken.
+    /// The positions of all bodies, one list for each entry. A list is shorter than the entry's `count` only if the
+    /// region is full, or too narrow for random tries. `check` reports that. Lists end after ten that are too short.
+    /// The outline knows the occupied places.
     pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
         let mut taken = outline.obstacles().to_vec();
         let (mut all, mut full) = (Vec::new(), 0);
@@ -130,7 +130,7 @@ impl Section for FillSection {
         }
     }
 
-    /// Reports wrong atoms, counts and boxes, unknown materials, and boxes in which not all bodies find room.
+    /// Reports wrong atoms, counts and boxes, unknown materials, and boxes that lack room for all bodies.
     fn check(&self, outline: &Outline, report: &mut Report) {
         let mut good = true;
         for (index, entry) in self.0.iter().enumerate() {
@@ -237,7 +237,8 @@ impl FillEntry {
         self.atoms.as_ref().map_or_else(Vec::new, Atoms::specs)
     }
 
-    /// The radius of a circle about the centre of mass that holds the atoms and shapes of one body, in m, whatever the density of its material.
+    /// The radius in m of a circle about the centre of mass that holds the whole body. It does not depend on the
+    /// density.
     fn radius(&self) -> f64 {
         match (&self.atoms, &self.shape) {
             (_, Some(shape)) => mass_properties::reach_of_parts(&self.specs(), &shape.parts().parts),
@@ -327,18 +328,18 @@ struct Grid {
     gap: f64,
     /// Discs of cells, those of each cell in bunches.
     near: Vec<Bunch>,
-    /// For each cell the place of its last bunch.
+    /// For each cell the index of its last bunch.
     last: Vec<u32>,
-    /// What concerns every cell: two points each.
+    /// Walls, which affect every cell: two points each.
     walls: Vec<(DVec2, DVec2)>,
-    /// And strips: both ends and half the thickness each.
+    /// Strips: both ends and half the thickness each.
     strips: Vec<(DVec2, DVec2, f64)>,
 }
 
 /// No bunch.
 const NONE: u32 = u32::MAX;
 
-/// A few discs of one cell side by side, so that they are found in one place of memory: centre and radius of each.
+/// A few discs of one cell side by side in memory: centre and radius of each.
 #[derive(Default)]
 struct Bunch {
     discs: [(DVec2, f64); 4],
@@ -374,7 +375,7 @@ impl Grid {
         };
         let reach = radius + self.radius + self.gap;
         let (low, high) = (center - reach, center + reach);
-        // A body far outside the box concerns none of its cells.
+        // A body far outside the box affects none of its cells.
         if low.x > self.high.x || low.y > self.high.y || high.x < self.low.x || high.y < self.low.y {
             return;
         }
@@ -398,7 +399,7 @@ impl Grid {
     fn is_free(&self, at: DVec2, own: f64) -> bool {
         let (column, row) = self.column_and_row(at);
         let clear_of_wall = |&(left, right): &(DVec2, DVec2)| {
-            // The open side is to the left of one who goes from the right point to the left point.
+            // The open side is on the left of the way from the right point to the left point.
             let along = left - right;
             // A wall without length is reported by its own check; here it stops nobody.
             along.perp().dot(at - right) >= own * along.length()
@@ -474,11 +475,11 @@ mod tests {
             assert!(body.position.distance(DVec2::new(1.0, 0.5)) >= 0.37);
             assert!(placed[..index].iter().all(|other| other.position.distance(body.position) >= 0.09));
         }
-        // With 7 cm less to stand in on each side, some would be missing from the border.
+        // If the room were 7 cm less on each side, the border would lack some bodies.
         assert!(placed.iter().any(|body| body.position.y < 0.07));
     }
 
-    /// Neither many walls nor many entries may take memory and time for cells in which nothing stands.
+    /// Neither many walls nor many entries may take memory and time for empty cells.
     #[test]
     fn a_grid_is_not_much_larger_than_what_stands_in_it() {
         let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 0.0, 10);

@@ -1,4 +1,4 @@
-//! `groups` and `ignores` of bodies: who does not touch whom.
+//! `groups` and `ignores` of bodies: pairs of bodies that do not touch each other.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! `kinematic`: how a body moves that nothing pushes.
+//! `kinematic`: the motion of a body that no force moves.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -17,9 +17,9 @@ pub struct KinematicEntry {
     pub velocity: Velocity,
     /// The spin at the start, in rad/s; without a path, for ever. Default: 0.
     pub spin: Spin,
-    /// The points it passes. Default: none.
+    /// The points of its path. Default: none.
     pub path: Vec<PathEntry>,
-    /// Whether the path begins again at its last point, from where it stands there. Default: `false`.
+    /// Whether the path begins again at its last point, from its position there. Default: `false`.
     pub repeat: bool,
 }
 
@@ -28,9 +28,9 @@ pub struct KinematicEntry {
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "PathPoint")]
 pub struct PathEntry {
-    /// When it is there, in s. Above that of the point before.
+    /// The time of the point, in s. Above that of the point before.
     pub time: Time,
-    /// How far it is from where it started, in m. Default: (0, 0).
+    /// The displacement from the start, in m. Default: (0, 0).
     #[serde(default)]
     pub by: Position,
     /// How far it is turned from its angle at the start, in rad. Default: 0.

@@ -1,4 +1,4 @@
-//! From the scene's `materials`, `pairs`, `walls`, `bodies`, `packings` and `fill` to entities.
+//! The conversion of the scene's `materials`, `pairs`, `walls`, `bodies`, `packings` and `fill` to entities.
 
 pub mod bodies;
 pub mod fill;
@@ -148,7 +148,7 @@ fn material(world: &World, name: Option<&str>) -> MaterialIndex {
     MaterialIndex::new(world.resource::<Materials>().index(name))
 }
 
-/// The key of a body, its place in the outline: names are looked up there, and keys are the canonical order.
+/// The key of a body is its index in the outline. Names are looked up there, and keys are the canonical order.
 fn keyed(body: NewBody, outline: &Outline) -> (Option<u64>, NewBody) {
     (outline.position(Kind::BODY, &body.name).map(|place| place as u64), body)
 }
@@ -159,7 +159,7 @@ fn series(prefix: String, count: usize, lone_discs: bool, outline: &Outline) -> 
     Series { prefix, count, key, lone_discs }
 }
 
-/// What bodies of one material share.
+/// The common data of bodies of one material.
 struct MadeOf {
     material: MaterialIndex,
     density: f64,

@@ -15,7 +15,8 @@ pub const MOST_CORNERS: usize = 1000;
 
 /// Two points are opposite corners of a box; three or more are the corners of a polygon, in order.
 ///
-/// A point is inside where a ray from it crosses the outline an odd number of times: outlines may cross themselves.
+/// A point is inside if a ray from it crosses the outline an odd number of times (even-odd rule). So outlines may cross
+/// themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// As they are written.
@@ -84,7 +85,7 @@ impl Region {
         self.given.len() == 2
     }
 
-    /// The word for it in messages.
+    /// Its word in messages.
     pub fn noun(&self) -> &'static str {
         if self.is_box() { "box" } else { "polygon" }
     }
@@ -130,7 +131,7 @@ impl Region {
         self.corners.len()
     }
 
-    /// The area that its outline goes round, in m2.
+    /// The area inside its outline, in m2.
     pub(super) fn area(&self) -> f64 {
         // Counted from a corner, so that a polygon far from the origin keeps its digits.
         let origin = self.corners[0];
@@ -189,7 +190,7 @@ mod tests {
         assert_eq!(funnel.area(), 5.0);
         assert!(funnel.holds(DVec2::new(0.0, 0.5), 0.5));
         assert!(!funnel.holds(DVec2::new(0.0, 0.5), 0.51));
-        // The slanted edge through (0.5, 0) and (2, 2) is 0.8 x - 0.6 y = 0.4; (1, 1) is 0.2 from it.
+        // The slanted edge through (0.5, 0) and (2, 2) is 0.8 x - 0.6 y = 0.4. The point (1, 1) is 0.2 from it.
         assert!(funnel.holds(DVec2::new(1.0, 1.0), 0.19));
         assert!(!funnel.holds(DVec2::new(1.0, 1.0), 0.21));
         assert!(!funnel.holds(DVec2::new(1.9, 0.2), 0.0));

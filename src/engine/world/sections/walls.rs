@@ -1,4 +1,4 @@
-//! `walls`: half-planes, strips and lines that nothing enters.
+//! `walls`: impenetrable half-planes, strips and lines.
 
 use std::borrow::Cow;
 
@@ -11,8 +11,8 @@ use crate::scene::units::{Length, Position, Velocity};
 use crate::scene::{Kind, Obstacle, Outline, Report, Section};
 use crate::world::{material, sections};
 
-/// One wall: the half-plane behind the line through two points; or, with `from` and `to`, a strip with two round ends; or, with `line` or
-/// `heights`, a surface of many pieces.
+/// One wall: the half-plane behind the line through two points. With `from` and `to` it is a strip with two round ends.
+/// With `line` or `heights` it is a surface of many pieces.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Wall")]
@@ -25,24 +25,27 @@ pub struct WallEntry {
     /// Of a half-plane: seen from the open side, the point to the right, in m. Default: none, for a strip.
     #[serde(default)]
     pub right: Option<Position>,
-    /// Of a strip: where its middle line begins, in m. A strip is hit from both sides. Default: none, for a half-plane.
+    /// Of a strip: the beginning of its middle line, in m. A strip is hit from both sides. Default: none, for a
+    /// half-plane.
     #[serde(default)]
     pub from: Option<Position>,
-    /// Of a strip: where its middle line ends, in m. Default: none, for a half-plane.
+    /// Of a strip: the end of its middle line, in m. Default: none, for a half-plane.
     #[serde(default)]
     pub to: Option<Position>,
     /// Of a strip: its thickness, in m; ends are round. Default: 0.
     #[serde(default)]
     pub thickness: Option<Length>,
-    /// Of a strip: from where it is hit, seen on the way from `from` to `to`: `Left`, `Right` or `Both`. Default: `Both`.
+    /// Of a strip: the sides from which it is hit, seen on the way from `from` to `to`. They are `Left`, `Right` or
+    /// `Both`. Default: `Both`.
     #[serde(default)]
     pub sides: Option<Sides>,
-    /// The points of a line, in m: one surface, open to the left of the way from the first point to the last. It is closed if both are the
-    /// same. Default: none.
+    /// The points of a line, in m. It is one surface, open to the left of the way from the first point to the last. It
+    /// is closed if both are the same. Default: none.
     #[serde(default)]
     pub line: Option<Vec<Position>>,
-    /// The points of a line that is open upwards, in m, from left to right: a list, or a file, `(file: "ground.csv")`, or a function of `x`,
-    /// `(of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`. Default: none.
+    /// The points of a line that is open upwards, in m, from left to right. They are a list, or a file, `(file:
+    /// "ground.csv")`. They may also be a function of `x`, `(of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`.
+    /// Default: none.
     #[serde(default)]
     #[schemars(with = "Option<Heights>")]
     pub heights: Option<Vec<Position>>,
@@ -54,7 +57,7 @@ pub struct WallEntry {
     pub surface_velocity: Velocity,
 }
 
-/// What stands in `heights`, for the schema: scenes are read with the points of the file or function in its place.
+/// The content of `heights`, for the schema. Scenes are read with the points of the file or function in its place.
 struct Heights;
 
 impl JsonSchema for Heights {
@@ -95,7 +98,7 @@ impl JsonSchema for Heights {
     }
 }
 
-/// From where a strip is hit.
+/// The sides from which a strip is hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum Sides {
     /// From the left of the way from its first point to the last.
@@ -106,11 +109,12 @@ pub enum Sides {
     Both,
 }
 
-/// How far a surface velocity may point out of its wall, as a share of itself: digits that people leave out.
+/// The allowed component of a surface velocity out of its wall, as a share of the velocity. It allows for omitted
+/// digits.
 const ALONG: f64 = 1e-6;
 
-/// Half-planes that nothing enters, such as floors, slopes and belts; strips with two ends, such as shelves and funnels; and lines of many
-/// pieces, such as the ground of a landscape.
+/// Impenetrable walls. Half-planes are floors, slopes and belts. Strips with two ends are shelves and funnels. Lines of
+/// many pieces are the ground of a landscape.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct WallsSection(pub Vec<WallEntry>);
 
@@ -157,15 +161,15 @@ impl Section for WallsSection {
 const HALF_PLANE: [&str; 2] = ["left", "right"];
 const STRIP: [&str; 2] = ["from", "to"];
 
-/// Whether the way through three points goes back the same way at the second: the turn is half a turn but for rounding.
+/// Whether the way through three points turns back at the second: the turn is half a turn, up to rounding.
 fn turns_back(first: DVec2, second: DVec2, third: DVec2) -> bool {
     let (before, behind) = ((second - first).normalize_or_zero(), (third - second).normalize_or_zero());
     1.0 + before.dot(behind) < 1e-12
 }
 
 impl WallEntry {
-    /// Left and right point in m, seen from the open side, or from the left of the way from one end to the other. Points that are missing
-    /// are reported by the check.
+    /// Left and right point in m, seen from the open side. For a strip the view is from the left of its way. The check
+    /// reports absent points.
     pub fn ends(&self) -> [DVec2; 2] {
         let points = if self.is_strip() { [self.to, self.from] } else { [self.left, self.right] };
         points.map(|point| point.map(|point| point.si()).unwrap_or_default())
@@ -176,8 +180,8 @@ impl WallEntry {
         self.is_strip().then(|| self.thickness.map_or(0.0, |thickness| thickness.si()))
     }
 
-    /// The points in m of a surface that is open to the left of the way from the first to the last: of a line, and of a strip that is hit
-    /// from one side.
+    /// The points in m of a surface that is open to the left of the way along them. They belong to a line, or to a
+    /// strip that is hit from one side.
     pub fn points(&self) -> Option<Vec<DVec2>> {
         if let Some((_, points)) = self.surface() {
             return Some(points.iter().map(|point| point.si()).collect());
@@ -190,7 +194,7 @@ impl WallEntry {
         }
     }
 
-    /// The field in which the points of a line stand, and those.
+    /// The field that holds the points of a line, and its points.
     fn surface(&self) -> Option<(&'static str, &[Position])> {
         let line = self.line.as_deref().map(|points| ("line", points));
         line.or_else(|| self.heights.as_deref().map(|points| ("heights", points)))

@@ -1,4 +1,4 @@
-//! `packings: [(file: "grains.csv", ..)]`: the table is read, and the entry is told which it is.
+//! Reads the table of `packings: [(file: "grains.csv", ..)]`, and notes its key in the entry.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,12 +19,12 @@ pub(in crate::world) const EMBEDDING: Embedding = Embedding {
 };
 const TABLE: Wanted = Wanted { most: 256 << 20, noun: "a table of comma-separated values", smaller: "keep fewer rows" };
 
-/// The tables that were read before, with the hashes of their bytes, by which entries name them: what is made of a scene changes
-/// with its tables.
+/// The tables that were read, with the hashes of their bytes. Entries name tables by these hashes, so that the made
+/// scene changes with its tables.
 #[derive(Default)]
 struct Tables(Vec<(PathBuf, u64)>);
 
-/// What is wrong, and what to do.
+/// The mistake, and the remedy.
 type Wrong = (String, String);
 
 impl Embed for Tables {
@@ -43,7 +43,7 @@ impl Embed for Tables {
 }
 
 impl Tables {
-    /// The key of the table in a file; the table with a note, if it was not read before.
+    /// The key of the table in a file. It comes with a note if the table is read for the first time.
     fn key(
         &mut self,
         name: &str,

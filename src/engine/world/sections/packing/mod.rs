@@ -1,4 +1,4 @@
-//! `packings`: many bodies whose places stand in a table beside the scene.
+//! `packings`: many bodies whose positions come from a table beside the scene.
 
 mod embed;
 mod table;
@@ -24,29 +24,30 @@ pub const MOST_ATOMS: u64 = 1_000_000;
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Packing")]
 pub struct PackingEntry {
-    /// What their names begin with.
+    /// The prefix of their names.
     pub name: String,
-    /// The table: a path from the folder of the file in which this stands, of comma-separated values; a name that ends in
+    /// The table: a path from the folder of the file with this entry, of comma-separated values. A name that ends in
     /// `.gz` is decompressed.
     pub file: String,
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
-    /// Which table was read for it. Not written by hand.
+    /// The key of its table. Not written by hand.
     #[serde(default)]
     #[schemars(skip)]
     pub table: Option<u64>,
 }
 
-/// Many bodies whose places stand in a table beside the scene. The bodies of `grain` are called `grain_0`, `grain_1` and so
-/// on, in the order of the rows; at most 1 000 000 atoms in all.
+/// Many bodies whose positions come from a table beside the scene. The bodies of `grain` are called `grain_0`,
+/// `grain_1` and so on, in the order of the rows. All entries together have at most 1 000 000 atoms.
 ///
-/// The first line names the columns, in any order; the others hold a row of numbers for each atom, in SI units, without
-/// them. `x`, `y` and `radius` are needed; `vx` with `vy` (the velocity of the atom's centre), `spin`, `angle` and `body` may
-/// be there. Rows of the same `body`, a whole number, form one rigid body; without that column each row is a disc of its own.
-/// Masses follow from the material's density, the velocity of a rigid body from those of its atoms, its spin too if there is
-/// no such column. Names and numbers may stand in double quotes, with semicolons or tabs between them in place of commas.
-/// Empty lines, lines that begin with `#`, and separators behind the last column are left out.
+/// The first line names the columns, in any order. Each other line holds the numbers of one atom, in SI units, without
+/// their symbols. `x`, `y` and `radius` are needed. Optional are `vx` with `vy` (the velocity of the atom's centre),
+/// `spin`, `angle` and `body`. Rows of the same `body`, a whole number, form one rigid body. Without that column each
+/// row is a separate disc. Masses follow from the material's density, and the velocity of a rigid body from those of
+/// its atoms. Its spin follows from them too if there is no such column. Names and numbers may stand in double quotes,
+/// with semicolons or tabs between them in place of commas. Empty lines, lines that begin with `#`, and separators
+/// behind the last column are ignored.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct PackingsSection(pub Vec<PackingEntry>);
 
@@ -76,7 +77,7 @@ impl Section for PackingsSection {
         }
     }
 
-    /// Reports unknown materials, tables that nobody has read, too many atoms, and atoms too large for numbers.
+    /// Reports unknown materials, tables that were not read, too many atoms, and atoms that are too large for numbers.
     fn check(&self, outline: &Outline, report: &mut Report) {
         let mut atoms = 0;
         for (index, entry) in self.0.iter().enumerate() {
@@ -118,7 +119,7 @@ impl PackingEntry {
         names::of_series(&self.name, number)
     }
 
-    /// Its table, as it was read.
+    /// Its table after reading.
     pub fn read(&self, outline: &Outline) -> Option<Arc<PackingTable>> {
         self.table.and_then(|table| outline.embedded(table))
     }

@@ -12,8 +12,8 @@ use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 /// The columns that there are. The first three are needed.
 pub const COLUMNS: [&str; 8] = ["x", "y", "radius", "vx", "vy", "spin", "angle", "body"];
 const NEEDED: usize = 3;
-/// Atoms of one body may miss rigid motion by this share of the greatest speed in the table: what numbers of three
-/// digits leave over, with some to spare.
+/// Atoms of one body may deviate from rigid motion by this share of the greatest speed in the table. Numbers of three
+/// digits deviate less.
 const RIGID: f64 = 0.01;
 
 /// One line of a table: one atom.
@@ -33,7 +33,7 @@ pub struct PackingTable {
     rows: Vec<Row>,
     /// The first row of each body, and the number of rows at the end.
     first: Vec<usize>,
-    /// Whether the table says how fast bodies turn; if not, the velocities of their atoms do.
+    /// Whether the table gives the spin of bodies. Otherwise the velocities of their atoms give it.
     has_spin: bool,
 }
 
@@ -44,9 +44,9 @@ pub struct Wrong {
     pub line: usize,
     /// The name of the column, unless it is the line as a whole.
     pub column: Option<String>,
-    /// What is wrong.
+    /// The mistake.
     pub why: String,
-    /// What to do.
+    /// The remedy.
     pub help: String,
 }
 
@@ -173,7 +173,7 @@ impl PackingTable {
         let (origin, angle) = (rows[0].position, rows[0].angle);
         let (sine, cosine) = libm::sincos(angle);
         let direction = DVec2::new(cosine, sine);
-        // In the frame of the body; differences first, so that a disc alone stands exactly in its middle.
+        // In the frame of the body. Differences come first, so that a lone disc lies exactly in its middle.
         let spec = |row: &Row| AtomSpec {
             offset: DVec2::new(cosine, -sine).rotate(row.position - origin),
             radius: row.radius,
@@ -239,7 +239,7 @@ fn cells_of(line: usize, text: &str, separator: char, wanted: usize) -> Result<V
     Ok(cells)
 }
 
-/// Which column of [`COLUMNS`] stands where.
+/// The index of each column in [`COLUMNS`].
 fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<Vec<usize>, Wrong> {
     let mut columns = Vec::new();
     for (place, name) in cells_of(line, header, separator, 1)?.iter().map(AsRef::as_ref).enumerate() {
@@ -265,7 +265,7 @@ fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<V
     }
 }
 
-/// The numbers of a line, in the order of [`COLUMNS`]; zero where the table has no such column.
+/// The numbers of a line, in the order of [`COLUMNS`]; zero if the table has no such column.
 fn numbers(line: usize, text: &str, separator: char, columns: &[usize]) -> Result<[f64; COLUMNS.len()], Wrong> {
     let mut values = [0.0; COLUMNS.len()];
     let cells = cells_of(line, text, separator, columns.len())?;
@@ -311,7 +311,7 @@ mod tests {
         assert_eq!(table.body(1, 1.0).position, DVec2::new(3.0, 4.0));
     }
 
-    /// What spreadsheets and programs write: names and numbers in quotes, separators at the ends of lines and in empty lines,
+    /// Output of spreadsheets: names and numbers in quotes, separators at the ends of lines and in empty lines,
     /// semicolons and tabs.
     #[test]
     fn tables_of_other_programs_are_read() {
@@ -327,7 +327,7 @@ mod tests {
         }
     }
 
-    /// Two equal atoms that turn about their middle with 2 rad/s while it moves with (1, 0); atoms of one body need not
+    /// Two equal atoms turn about their middle with 2 rad/s while it moves with (1, 0). Atoms of one body need not
     /// follow each other. All numbers are exact.
     #[test]
     fn rows_of_one_number_form_a_rigid_body() {
@@ -340,7 +340,7 @@ mod tests {
         assert_eq!(table.body(1, 1.0).position, DVec2::splat(9.0));
     }
 
-    /// What the column says wins, and is looked at: the velocities have to go with it.
+    /// The column takes precedence, and it is checked against the velocities.
     #[test]
     fn a_spin_has_to_go_with_the_velocities() {
         let table =
@@ -349,7 +349,7 @@ mod tests {
         assert_eq!(table("2.1").map_err(|wrong| wrong.line), Err(2));
     }
 
-    /// A body that was turned keeps its atoms where the table has them.
+    /// A turned body keeps its atoms at the positions of the table.
     #[test]
     fn an_angle_turns_the_frame_and_not_the_atoms() {
         let table = read("x,y,radius,angle,body\n1,1,0.5,1.2,0\n1,4,0.5,1.2,0\n").unwrap();
