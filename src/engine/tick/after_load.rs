@@ -1,14 +1,14 @@
-//! What is done, and what is found wrong, when the whole scene stands.
+//! Work and checks after the whole scene is built.
 
 use bevy_ecs::prelude::*;
 
 use crate::scene::SceneError;
 
-/// Work to be done once when the whole scene stands: plugins add functions that need bodies and contacts.
+/// Functions to be called once after the whole scene is built. Plugins add functions that need bodies and contacts.
 #[derive(Resource, Default)]
 pub struct AfterLoad(pub Vec<fn(&mut World)>);
 
-/// Mistakes of the scene that show only when the whole scene stands: [`AfterLoad`] write them down, with their paths, and
-/// the scene is refused.
+/// Mistakes of the scene that show only after the whole scene is built. The functions of [`AfterLoad`] report them with
+/// their paths, and the scene is refused.
 #[derive(Resource, Default)]
 pub struct LoadErrors(pub Vec<SceneError>);

@@ -1,8 +1,8 @@
-//! The accounts: what goes in and out of the bodies, of energy, momentum and angular momentum.
+//! The accounts of energy, momentum and angular momentum: the amounts that enter and leave the bodies.
 //!
-//! Forces write the rates of the present evaluation into [`Balance`]; the integrator books them in the [`Ledger`] with
-//! the same weights with which it applies the forces. A momentum residual is then rounding, but for joints that
-//! are put back onto their limits; an energy residual is the error of the integration.
+//! Forces write the rates of the current evaluation into [`Balance`]. The integrator books them in the [`Ledger`] with
+//! the weights with which it applies the forces. A momentum residual is then rounding, except for joints that are put
+//! back onto their limits. An energy residual is the error of the integration.
 
 use glam::DVec2;
 
@@ -21,12 +21,12 @@ pub struct Balance {
     pub drag: f64,
     /// Power that drives (thrust, torque, forces of plugins) bring, in watts.
     pub work: f64,
-    /// Power that friction takes, in watts; that of contacts only where they are evaluated as stages of a step, else their losses
-    /// are booked at once.
+    /// Power that friction takes, in watts. It includes that of contacts only if they are evaluated in stages of a
+    /// step. Otherwise their losses are booked at once.
     pub friction: f64,
     /// Power that the inelasticity of contacts takes, in watts, likewise.
     pub inelasticity: f64,
-    /// Set by a model that responds nearly as fast as the tick can bear: energy is looked at after each tick from then on.
+    /// Set by a model that responds nearly as fast as the tick allows. From then on energy is checked after each tick.
     pub alert: bool,
 }
 
@@ -42,7 +42,7 @@ impl Balance {
         self.alert |= other.alert;
     }
 
-    /// Books a force from outside on a body that stands at `position`, with its torque about the centre of mass.
+    /// Books an external force on a body at `position`, with its torque about the centre of mass.
     #[inline]
     pub fn outside(&mut self, position: DVec2, force: DVec2, torque: f64) {
         self.force += force;
@@ -73,7 +73,7 @@ impl Sum {
     }
 }
 
-/// What has gone in and out since the beginning.
+/// The sums since the beginning.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Energy lost to friction in J.
@@ -87,8 +87,8 @@ pub struct Ledger {
     pub accounts: Vec<(&'static str, Sum)>,
     /// Work done by drives in J.
     pub work: Sum,
-    /// The same with what they took counted as what they put in: a drive that swings to and fro works, though the sum of it
-    /// may be nothing. Added up without compensation.
+    /// The same, but power that a drive takes counts positive too. So a drive that swings to and fro has work, even if
+    /// its net work is zero. Added up without compensation.
     pub gross_work: f64,
     /// Impulse from outside in N s, per axis.
     pub impulse: [Sum; 2],
@@ -98,7 +98,7 @@ pub struct Ledger {
     pub start: Option<Totals>,
 }
 
-/// Accounts of models in snapshots: sums in the order of the accounts, whose names the scene says.
+/// Accounts of models in snapshots: sums in the order of the accounts, whose names follow from the scene.
 mod sums {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -158,7 +158,7 @@ impl Ledger {
         self.gross_work += work.abs();
     }
 
-    /// What drives put in, without what they took, in J.
+    /// The positive work of drives, in J.
     pub fn put_in(&self) -> f64 {
         0.5 * (self.gross_work + self.work.value())
     }
@@ -248,7 +248,7 @@ mod tests {
             sum.add(0.1);
             plain += 0.1;
         }
-        // 0.1 is not representable: the exact sum of the terms is 1e7 x fl(0.1), within half a unit of 1e6.
+        // 0.1 is not representable. The exact sum of the terms is 1e7 x fl(0.1), within half a unit of 1e6.
         assert!((sum.value() - 1e6).abs() <= 1e6 * f64::EPSILON, "{}", sum.value());
         assert!((plain - 1e6).abs() > 1e-5, "the plain sum should be visibly off: {plain}");
     }

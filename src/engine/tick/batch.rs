@@ -18,10 +18,10 @@ use super::stopwatch::Part;
 use super::{Evaluate, EvaluateStage, Method, Modes, SimTick, Stage, State};
 use crate::world::{Bodies, Roster, incomplete, packed};
 
-/// What runs while a batch of ticks does.
+/// The schedules and the method that run during a batch.
 pub(super) struct Running {
     pub method: Method,
-    /// Evaluations and modes as schedules, where systems of users stand in them.
+    /// Evaluations and modes as schedules, if they contain systems of users.
     pub schedules: Option<[Schedule; 2]>,
     /// No system beside the integrator changes anything of the state in the tick.
     pub alone: bool,
@@ -29,7 +29,7 @@ pub(super) struct Running {
     pub looked_at: bool,
 }
 
-/// What is known of the systems of users.
+/// Knowledge of the systems of users.
 #[derive(Resource, Default)]
 pub(super) struct Others {
     /// Some live in the tick: components are kept up to date around it.
@@ -44,7 +44,7 @@ pub(super) struct Others {
     alone: bool,
     /// Others look at it.
     looked_at: bool,
-    /// When the schedules had changed last, and which models there were, as this was found out.
+    /// The last change of the schedules, and the models, at the time of this knowledge.
     known_at: Option<(ChangeTick, u64)>,
 }
 
@@ -59,8 +59,8 @@ pub fn step(world: &mut World, ticks: u64) -> Result<(), Failure> {
     result
 }
 
-/// Runs `ticks` ticks. Between batches of a world that nobody else sees what runs them stays at hand: [`open`] comes before all
-/// that changes the world or reads components.
+/// Runs `ticks` ticks. If no other code sees the world between batches, the running parts are kept. [`open`] precedes
+/// all code that changes the world or reads components.
 pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let Some(State { progress, .. }) = world.get_resource() else { return Err(Failure::gone(STATE)) };
     // Others may have written to the lists if the world was open. Lists that were never filled will be.
@@ -146,8 +146,8 @@ fn demand_all(world: &World, progress: &Progress) -> Result<(), Failure> {
     there.into_iter().find(|(there, _)| !there).map_or(Ok(()), |(_, name)| Err(Failure::gone(name)))
 }
 
-/// What went wrong so far. Where the lists of bodies do not fit each other, they are filled anew from the components: the world
-/// can be looked at, and go on.
+/// The failure so far. If the lists of bodies do not fit each other, they are filled again from the components. So the
+/// world can be inspected, and the run can continue.
 fn mend(world: &mut World) -> Option<Trouble> {
     let progress = &mut world.resource_mut::<State>().into_inner().progress;
     let trouble = progress.trouble?;
@@ -181,7 +181,7 @@ fn take_up_last(world: &mut World) {
     world.resource_mut::<State>().progress.behind = true;
 }
 
-/// Takes up what was changed between batches, and takes what runs a batch out of the world.
+/// Takes up the changes between batches, and takes the running parts out of the world.
 fn begin(world: &mut World) -> Box<Schedule> {
     let sim = Box::new(prepare(world));
     let others = world.resource::<Others>();
@@ -196,7 +196,7 @@ fn begin(world: &mut World) -> Box<Schedule> {
     sim
 }
 
-/// Opens the world to others: components show the state, and schedules and method stand in their places.
+/// Opens the world to others: components show the state, and schedules and method are in their resources.
 pub(crate) fn open(world: &mut World) {
     if !world.contains_resource::<State>() {
         return;
@@ -214,11 +214,11 @@ pub(crate) fn open(world: &mut World) {
     }
     let changed = there.last_changed();
     world.resource_mut::<Others>().known_at = Some((changed, models));
-    // What others change from now on is changed later.
+    // Later changes get a later tick of change detection.
     world.increment_change_tick();
 }
 
-/// Brings the components up to date, if they are not.
+/// Updates the components, if they are out of date.
 fn show_components(world: &mut World) {
     if std::mem::take(&mut world.resource_mut::<State>().progress.behind) {
         run_once(world, publish_components);
@@ -233,7 +233,7 @@ impl Running {
 }
 
 impl State {
-    /// After a batch forces are those of where bodies stand, and all of them have landed.
+    /// After a batch forces belong to the current positions, and all bodies have landed.
     fn complete(&mut self) {
         self.bodies.catch_up();
         self.land();
@@ -251,8 +251,7 @@ impl State {
     }
 }
 
-/// The schedule of the tick, ready to run. What systems there are is found out anew where schedules, models or the method were
-/// changed.
+/// The schedule of the tick, ready to run. It looks for systems again if schedules, models or the method have changed.
 fn prepare(world: &mut World) -> Schedule {
     let now = (world.resource_ref::<Schedules>().last_changed(), world.resource::<State>().progress.version);
     if world.get_resource_or_init::<Others>().known_at == Some(now) {
@@ -282,8 +281,8 @@ fn prepare(world: &mut World) -> Schedule {
     sim
 }
 
-/// Before bodies are spawned: sees whether systems that work on components are there already, so that bodies are
-/// spawned with all that those need.
+/// Before bodies are spawned: checks for systems that work on components. Bodies are then spawned with all components
+/// that those need.
 pub(crate) fn foresee_components(world: &mut World) {
     let (registered, schedules) = (world.resource::<Registered>(), world.resource::<Schedules>());
     let ordinary = schedules.get(SimTick).is_some_and(|schedule| !registered.all_packed(SimTick, schedule))
@@ -306,9 +305,9 @@ fn run_once<M>(world: &mut World, system: impl IntoSystem<(), (), M> + 'static) 
     let _ = world.run_system_cached(system);
 }
 
-/// Where no system has anything to be applied later, nothing looks for it after each run.
+/// If no system has deferred work, the schedule omits the search for it after each run.
 fn apply_only_what_is_deferred(world: &mut World, schedule: &mut Schedule) {
-    // What is wrong with a schedule is told when it runs.
+    // A schedule with a mistake reports it when it runs.
     if schedule.initialize(world).is_ok() {
         let deferred = schedule.systems().is_ok_and(|mut systems| systems.any(|(_, system)| system.has_deferred()));
         schedule.set_apply_final_deferred(deferred);
@@ -335,8 +334,8 @@ fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut
     }
 }
 
-/// Sees whether systems of users are part of evaluations or of the tick: the integrator then runs the schedules, with the whole
-/// world at hand.
+/// Checks whether systems of users are part of evaluations or of the tick. If so, the integrator runs the schedules
+/// with the whole world.
 fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedule; 2]) {
     let registered = world.resource::<Registered>();
     let as_registered = registered.is_as_registered(Evaluate, evaluate) && registered.is_as_registered(Modes, modes);
@@ -347,7 +346,7 @@ fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedu
     let scheduled = !as_registered || others.conditional || others.in_tick;
     if scheduled && !others.scheduled {
         others.scheduled = true;
-        // Where a user took the integrator out it stays out.
+        // If a user has removed the integrator, it stays removed.
         let gone = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
         if gone.is_ok_and(|gone| gone > 0) {
             Registered::add(world, SimTick, sim, Kind::Flies, |sim| {
@@ -357,7 +356,7 @@ fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedu
     }
 }
 
-/// Takes up what others changed, and remembers the totals of before if anything did.
+/// Takes up changes by other code, and remembers the totals before them.
 pub(super) fn take_up(world: &mut World) {
     let before = take_up_changes(world);
     let mut state = world.resource_mut::<State>();
@@ -365,8 +364,8 @@ pub(super) fn take_up(world: &mut World) {
     state.progress.before = state.progress.before.or(before);
 }
 
-/// Takes up what others changed: new or lost bodies, or new values in components. Returns the totals of before if
-/// anything changed.
+/// Takes up changes by other code: new or lost bodies, or new values in components. Returns the totals before them, if
+/// there were any.
 fn take_up_changes(world: &mut World) -> Option<Totals> {
     let changed = world.resource::<Roster>().changed;
     let state = world.resource::<State>();
@@ -390,7 +389,7 @@ fn take_up_changes(world: &mut World) -> Option<Totals> {
     Some(before)
 }
 
-/// Fills the packed arrays anew, unless a body has lost one of its components. Says whether they were filled.
+/// Fills the packed arrays again, unless a body has lost one of its components. Returns whether they were filled.
 pub(crate) fn rebuild(world: &mut World) -> bool {
     if let Some((entity, component)) = incomplete(world) {
         let mut state = world.resource_mut::<State>();

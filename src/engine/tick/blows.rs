@@ -1,4 +1,5 @@
-//! Blows: velocities jump where joints come to limits, ropes become taut, friction sticks and motors reach their rates.
+//! Blows: jumps of velocities when joints reach limits, ropes become taut, friction sticks, or motors reach their
+//! rates.
 
 use super::State;
 use super::hold::{FromOutside, find_rows};
@@ -8,13 +9,13 @@ use crate::world::Bodies;
 /// A jump of velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Blow {
-    /// They become those that all joints allow, but for rows that give way. The energy counts as inelasticity.
+    /// They become velocities that all joints allow, except for rows that give way. The energy counts as inelasticity.
     Stops,
     /// The same with a row whose rate is part of that, without force from then on.
     Rebounds(Box<Row>),
     /// They become those that all rows allow. The energy counts as friction.
     Sticks,
-    /// The same where a motor has reached its rate: the energy counts as its work.
+    /// The same for a motor that has reached its rate: the energy counts as its work.
     Grips,
 }
 
@@ -27,11 +28,11 @@ pub(super) enum Jump<'a> {
     Sticks(&'a [usize]),
 }
 
-/// A bounded row sticks if that takes no more of an impulse than so many times what its bound gives in a tick: in the tick before it
-/// gave its bound, and what drove it as much again at most.
+/// The factor between the impulse that a bounded row may need to stick and the impulse of its bound in a tick. In the
+/// tick before, it gave its bound, and the driving force at most as much again.
 const MOST_TO_STICK: f64 = 2.0;
 
-/// A rate that differs by less than this share of the speeds from the one to be held is held already.
+/// A rate counts as held if its deviation is below this share of the speeds.
 const STUCK: f64 = 1e-12;
 
 /// A share of the greatest impulse, or of speeds, that is rounding.
@@ -43,7 +44,7 @@ impl State {
         self.blows.push(blow);
     }
 
-    /// Velocities jump where models ask for it.
+    /// Changes velocities by jumps, for models that request it.
     pub(super) fn take_blows(&mut self, time: f64) {
         if self.blows.is_empty() {
             return;
@@ -73,8 +74,9 @@ impl State {
         self.change_rows();
     }
 
-    /// The indices of the rows with a bound that do not stick: alone among the rows without one they would need more of an impulse to hold their rates than
-    /// their bounds give in a tick. Where the rate of a joint changes its sign while the others move on, friction turns round.
+    /// The indices of the rows with a bound that do not stick. Each is tried alone among the rows without a bound. It
+    /// slips if it would need more impulse to hold its rate than its bound gives in a tick. If the rate of a joint
+    /// changes its sign while the others move on, its friction reverses.
     fn rows_that_slip(&mut self, time: f64) -> Vec<usize> {
         let most = MOST_TO_STICK * self.clock.dt;
         let mut rows = Rows::default();
@@ -92,7 +94,7 @@ impl State {
         };
         let (mut slip, mut stick): (Vec<_>, Vec<_>) = bounded.into_iter().partition(|(_, row)| slips(row));
         if driven {
-            // Two rates that follow from each other are not held both, if they do not agree: that which was held before goes on.
+            // Two rates that follow from each other and disagree are not held both. The one that was held before stays.
             stick.iter().filter(|(_, row)| held(row)).for_each(|(_, row)| rows.add(*row));
             stick.retain(|(_, row)| !held(row));
             for (index, row) in stick {
@@ -117,8 +119,9 @@ impl State {
         before + outside.work - kinetic(&self.bodies)
     }
 
-    /// The same in a blow: what only pushes gives no impulse that pulls. The row that would pull most lets go, then the next; one that has let go
-    /// holds again where its bodies would go on beyond it (the active sets of Nocedal and Wright, *Numerical Optimization*, 2006, 16.5).
+    /// The same in a blow: rows that only push give no impulse that pulls. The row that would pull most is released,
+    /// then the next. A released row is held again if its bodies would move beyond it. These are the active sets of
+    /// Nocedal and Wright, *Numerical Optimization*, 2006, 16.5.
     pub(super) fn push_apart(&mut self, rows: &mut Rows, time: f64) -> FromOutside {
         let most = 4 * rows.all().iter().filter(|row| row.pushes != 0.0).count();
         let before = (most > 0).then(|| (self.bodies.velocity.clone(), self.bodies.spin.clone()));

@@ -1,8 +1,8 @@
-//! Bounding boxes with a margin: as long as no body has moved by half the margin, whoever is farther apart than the
-//! margin cannot touch, and the list of candidate pairs stays as it is (Verlet 1967).
+//! Verlet lists (Verlet 1967): bounding boxes with a margin, which keep the list of candidate pairs valid. While no
+//! body has moved by half the margin, two bodies farther apart than the margin cannot touch.
 //!
-//! The boxes are checked before each evaluation and not only at the end of a tick, because a stage of an integrator
-//! may stand anywhere.
+//! The boxes are checked before each evaluation and not only at the end of a tick. The reason is that a stage of an
+//! integrator may be at any state.
 
 use glam::DVec2;
 
@@ -16,33 +16,35 @@ const MARGIN_SHARE: f64 = 0.7;
 const FIRST_SHARE: f64 = 0.3;
 const LEAST_SHARE: f64 = 0.05;
 const MOST_SHARE: f64 = 6.0;
-/// What a search costs for each atom and for each pair that it finds, against what a pair costs in each evaluation: rough
-/// figures, which decide how often lists are made and nothing else.
+/// The cost of a search for each atom and for each found pair, relative to a pair in each evaluation. These rough
+/// figures only decide how often lists are made.
 const SEARCH_PER_ATOM: f64 = 12.0;
 const SEARCH_PER_PAIR: f64 = 3.0;
-/// Searches may cost this share of what pairs do; the margin shrinks where they cost less than a sixteenth of that.
+/// Searches may cost this share of the work on pairs. The margin shrinks if they cost less than a sixteenth of that.
 const SEARCH_SHARE: f64 = 1.0;
-/// The same where bodies have hulls: pairs that do not touch are looked at now and then, and each look costs as much as a pair of discs.
+/// The same for bodies with hulls. Pairs that do not touch are checked now and then, and each check costs as much as a
+/// pair of discs.
 const SEARCH_SHARE_OF_HULLS: f64 = 7.0;
 const FEW_SEARCHES: f64 = 16.0;
-/// Where most bodies fly: what a search costs for each atom, with landing and taking off, against what a pair costs in the time
-/// that its list lasts.
+/// The same if most bodies fly: the cost of a search for each atom, with landing and taking off. It is relative to a
+/// pair during the life of its list.
 const FLIGHT_SEARCH: f64 = 0.5;
 /// By how much the margin changes at once where most bodies fly.
 const MOST_AT_ONCE: f64 = 4.0;
 /// By how much the margin changes at once.
 const CHANGE: f64 = 1.5;
 
-/// A margin so many times as wide as is needed is given up: a long step needed it, and lists are long ever since.
+/// A margin that is wider than needed by this factor is replaced. A long step needed it, and the lists have been long
+/// since then.
 const WASTEFUL: f64 = 16.0;
 
-/// With more atoms no boxes are made: pairs are then searched without them.
+/// Scenes with more atoms have no boxes, and pairs are searched without them.
 pub(crate) const MOST_ATOMS: usize = 191;
 
 /// Axis-aligned bounding boxes of all bodies, each grown by half the margin.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bounds {
-    /// Counts how often the boxes were made anew: whoever made a list from them compares it.
+    /// The number of renewals of the boxes, for the owners of lists that were made from them.
     pub version: u64,
     /// Distance in metres below which two atoms are candidates.
     pub margin: f64,
@@ -50,17 +52,17 @@ pub struct Bounds {
     pub low: Vec<DVec2>,
     /// Upper right corner of each body's box in metres; likewise.
     pub high: Vec<DVec2>,
-    /// Somebody moved farther than the boxes allow in a stage of a step.
+    /// A body moved farther than the boxes allow in a stage of a step.
     pub outgrown: bool,
     /// Stages of steps renew them as states that follow one another do.
     pub renewed_in_steps: bool,
-    /// The boxes are to be made anew at the next evaluation.
+    /// The boxes are to be renewed at the next evaluation.
     stale: bool,
     generation: u64,
     position: Vec<DVec2>,
     /// Empty where bodies are lone discs, which reach as far however they are turned.
     angle: Vec<f64>,
-    /// [`Bodies::path`] up to which nobody can have left half the margin; not a number: not known.
+    /// The value of [`Bodies::path`] below which no body can have left half the margin. NaN: unknown.
     path: f64,
     /// How many candidate pairs were found with the boxes.
     pub candidates: usize,
@@ -69,16 +71,17 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Makes the boxes anew when a body has moved by half the margin since they were made.
+    /// Renews the boxes if a body has moved by half the margin since the last renewal.
     pub(crate) fn update(&mut self, bodies: &mut Bodies, evaluation: &Evaluation) {
-        // Whoever sleeps changes nothing: nor does it count that he was woken, or when lists are made would follow from it.
+        // Sleepers change nothing. Their waking does not count either, or else it would affect the times at which lists
+        // are made.
         if evaluation.again {
             return;
         }
         let known = self.generation == bodies.generation && !self.stale;
         let follows = !evaluation.style.is_staged();
         self.age += 1;
-        // Between two looks nobody can have gone farther than all ways together.
+        // Between two checks no body can have moved farther than the sum of all ways.
         let moved_by_step = follows && evaluation.elapsed > 0.0;
         let flying = bodies.flights.some();
         if known && moved_by_step && bodies.path < self.path && (flying || !self.age.is_power_of_two()) {
@@ -88,7 +91,7 @@ impl Bounds {
         self.path = f64::NAN;
         let holds = known && !flying && !self.left_behind(bodies);
         if holds && !(follows && self.could_shrink(bodies)) {
-            // Whoever is nearer than a quarter has as much left.
+            // A body nearer than a quarter of the margin has another quarter left.
             if follows && bodies.stayed_near(self.margin / 4.0, &self.position, &self.angle) {
                 self.path = bodies.path + self.margin / 4.0;
             }
@@ -142,8 +145,8 @@ fn least_margin(bodies: &Bodies) -> f64 {
 }
 
 impl Bounds {
-    /// Makes sure that the boxes hold while no point of a body moves farther than `travel` metres from where it stands now.
-    /// Says whether they have to be made anew for that.
+    /// Ensures that the boxes hold while no point of a body moves farther than `travel` metres from its current
+    /// position. Returns whether they have to be renewed for that.
     pub fn reserve(&mut self, bodies: &Bodies, travel: f64) -> bool {
         let left = |body: usize| {
             let turned =
@@ -178,9 +181,9 @@ impl Bounds {
         }
     }
 
-    /// The margin that suits where most bodies fly: the time that lists last grows with it, and so do the pairs, as the square of
-    /// diameter and margin together. What costs least is where those that would be there for the square of the margin alone cost
-    /// as much as the search.
+    /// The best margin if most bodies fly. The life of lists grows with it, and the number of pairs grows with the
+    /// square of diameter plus margin. The cost is least if the pairs of the square of the margin alone cost as much as
+    /// the search.
     fn adapt_to_flights(&mut self, bodies: &Bodies) {
         let margin = self.margin / (2.0 * bodies.smallest_radius);
         let own = self.candidates as f64 * margin / (2.0 + margin);
@@ -191,14 +194,14 @@ impl Bounds {
         }
     }
 
-    /// Whether boxes that have held for long would still hold with a smaller margin: looked at now and then.
+    /// Whether boxes that have held for long would still hold with a smaller margin. It is checked now and then.
     fn could_shrink(&self, bodies: &Bodies) -> bool {
         let (least, small) = (least_margin(bodies) * LEAST_SHARE / MARGIN_SHARE, self.margin / 8.0);
         let due = self.age.is_power_of_two() && self.age as f64 > FEW_SEARCHES * self.should_last(bodies);
         due && self.margin > least && bodies.stayed_near(small, &self.position, &self.angle)
     }
 
-    /// The boxes are to be made anew at the next evaluation.
+    /// Demands that the boxes are renewed at the next evaluation.
     pub fn outdate(&mut self) {
         self.stale = true;
     }

@@ -46,7 +46,8 @@ pub struct Evaluation {
     pub stale: bool,
     /// Whether joints hold something else than in this evaluation: the state is evaluated again before the next step.
     pub other_rows: bool,
-    /// Only joints' part of a kick is asked for: without the accelerations by which they turn velocities as bodies move on.
+    /// Whether only the joints' part of a kick is wanted. It omits the accelerations by which joints turn velocities as
+    /// bodies move on.
     #[serde(skip)]
     pub(crate) kick: bool,
     /// The state that was evaluated last is evaluated once more, with those awake that were left out.
@@ -56,12 +57,13 @@ pub struct Evaluation {
 /// How models with a history are evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Style {
-    /// The state follows the one before: history goes on, candidate lists are renewed where they have to be.
+    /// The state follows the one before: history continues, and candidate lists are renewed when necessary.
     #[default]
     Following,
-    /// The state is any state of a step: forces are a smooth function of it, modes and candidate lists stay as they are.
+    /// The state is an arbitrary state of a step. Forces are a smooth function of it, and modes and candidate lists
+    /// stay fixed.
     Frozen,
-    /// As `Frozen`, but modes follow from the state itself, so that forces jump where they do.
+    /// As `Frozen`, but modes follow from the state itself, so that forces jump with the modes.
     Instant,
 }
 
@@ -79,7 +81,7 @@ pub struct Span {
     pub begin: f64,
     /// Its end in seconds.
     pub end: f64,
-    /// Its length in seconds: that of a tick to the last bit where it is one.
+    /// Its length in seconds. For a whole tick it equals that of the tick to the last bit.
     pub length: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Components and the packed state: what systems of users see, and what they changed.
+//! The exchange between components, which systems of users see and change, and the packed state.
 
 use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut, Tick};
 use bevy_ecs::prelude::*;
@@ -41,7 +41,7 @@ pub(super) fn components_differ(state: Res<State>, poses: Query<Pose, With<Body>
     })
 }
 
-/// Components -> packed state. What rounding left over is kept where a component was not touched.
+/// From components to the packed state. The rounding remainder is kept if a component was not touched.
 pub(super) fn load_state(mut state: ResMut<State>, poses: Query<Pose, With<Body>>, ticks: SystemChangeTick) {
     let written = Written::since(&state, &ticks);
     let bodies = &mut state.bodies;
@@ -93,7 +93,7 @@ pub(super) fn publish_components(
     }
 }
 
-/// Gives a [`Force`] and a [`Torque`] to bodies that have none, now and when bodies come later.
+/// Gives a [`Force`] and a [`Torque`] to bodies without them, also to later ones.
 pub(super) fn make_pushable(world: &mut World) {
     world.get_resource_or_init::<Roster>().pushed = true;
     let mut without = world.query_filtered::<Entity, (With<Body>, Without<Force>)>();
@@ -133,7 +133,7 @@ pub(super) fn collect_forces(
     }
 }
 
-/// Place of the body of an entity, if it is still there.
+/// Index of the body of an entity, if it still exists.
 pub fn place_of(world: &World, entity: Entity) -> Option<usize> {
     world.get::<Body>(entity).and_then(|_| world.get_resource::<State>()?.bodies.place(entity))
 }

@@ -1,4 +1,4 @@
-//! What an integrator may do inside a tick.
+//! The operations of an integrator inside a tick.
 
 use bevy_ecs::prelude::*;
 
@@ -15,10 +15,10 @@ use crate::world::motion::Travel;
 /// where choices contradict each other.
 const MOST_CORRECTIONS: usize = 32;
 
-/// What an integrator may do inside a tick.
+/// The operations of an integrator inside a tick.
 pub struct Tick<'a> {
     pub(super) state: &'a mut State,
-    /// The schedules, if systems of users stand in them.
+    /// The schedules, if they contain systems of users.
     pub(super) users: Option<Users<'a>>,
     pub(super) velocity_dependent: bool,
     pub(super) style: Style,
@@ -79,7 +79,7 @@ impl Tick<'_> {
         self.state.has_velocity_forces()
     }
 
-    /// The first time after `now` at which forces or their rates are known to jump, in seconds; infinite if there is none.
+    /// The time in seconds of the first known jump of forces or their rates after `now`; infinite if there is none.
     pub fn next_edge(&self, now: f64) -> f64 {
         self.state.next_edge(now).min(self.state.bodies.prescribed.next_point(now))
     }
@@ -89,7 +89,7 @@ impl Tick<'_> {
         self.state.has_edges() || !self.state.bodies.prescribed.motions.is_empty()
     }
 
-    /// The packed state, to be changed by a method: what it holds is up to date, and what was noted of it is found anew.
+    /// The packed state, for changes by a method. Its contents are up to date, and derived data is computed again.
     pub fn bodies(&mut self) -> &mut Bodies {
         let bodies = self.packed();
         bodies.catch_up();
@@ -103,9 +103,9 @@ impl Tick<'_> {
         &mut self.state.bodies
     }
 
-    /// Evaluates the forces of the state as it stands, `elapsed` seconds after the beginning of the tick.
+    /// Evaluates the forces of the current state, `elapsed` seconds after the beginning of the tick.
     pub fn evaluate(&mut self, elapsed: f64) {
-        // The end of a tick is the beginning of the next to the last bit, so that schedules see one edge once.
+        // The end of a tick equals the beginning of the next to the last bit, so that schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
         let begin = self.begin;
         let bodies = self.packed();
@@ -181,7 +181,7 @@ impl Tick<'_> {
                 None => self.state.begin_step(),
             }
             self.state.take_blows(begin);
-            // What is held by contacts depends on all other forces.
+            // Forces of held contacts depend on all other forces.
             if self.state.evaluation.stale && self.style.is_staged() {
                 self.evaluate_stage(begin);
                 self.settle();
@@ -193,8 +193,7 @@ impl Tick<'_> {
         }
     }
 
-    /// Evaluates the forces of the state as it stands, at `time` seconds, as one of many of a step: nothing goes on by
-    /// it but the rates.
+    /// Evaluates the forces of the current state at `time` seconds, as a stage of a step. Only the rates change.
     pub fn evaluate_stage(&mut self, time: f64) {
         self.evaluate_as(Evaluation { time, ..Evaluation::default() });
     }
@@ -235,8 +234,8 @@ impl Tick<'_> {
         self.state.progress.told = counts;
     }
 
-    /// After a step was accepted and its last state evaluated: modes whose indicators vanished change, and the state is
-    /// ready for the next step.
+    /// Called after a step was accepted and its last state evaluated. Modes whose indicators vanished change, and the
+    /// state is ready for the next step.
     pub fn end_step(&mut self, fired: &[usize]) {
         let time = self.state.evaluation.time;
         if !fired.is_empty() {
@@ -270,8 +269,8 @@ impl Tick<'_> {
         }
     }
 
-    /// Before a step of `length` seconds from the state just evaluated: candidate lists reach as far as bodies may travel in
-    /// it, `times` as far as their present velocities and accelerations say. Says whether the state was evaluated for that.
+    /// Called before a step of `length` seconds from the state just evaluated. Candidate lists get a reach of `times`
+    /// the way that the current velocities and accelerations predict. Returns whether the state was evaluated for that.
     pub fn reserve(&mut self, length: f64, times: f64) -> bool {
         let reserve =
             |bounds: &mut Bounds, bodies: &Bodies| bounds.reserve(bodies, times * farthest_in(bodies, length));
@@ -284,8 +283,8 @@ impl Tick<'_> {
         renew
     }
 
-    /// Shows the state as it stands at `time` seconds, between states that the motion goes by: forces are evaluated only if
-    /// somebody looks at them.
+    /// Shows the current state at `time` seconds, between the states of the motion. Forces are evaluated only for a
+    /// reader.
     pub fn show(&mut self, time: f64) {
         if self.looked_at || self.state.has_events() {
             return self.evaluate_stage(time);
@@ -295,7 +294,7 @@ impl Tick<'_> {
         (evaluation.time, evaluation.stale) = (time, true);
     }
 
-    /// Candidate lists are made anew for the state as it stands.
+    /// Renews the candidate lists for the current state.
     pub fn renew_lists(&mut self, time: f64) {
         if let Some(bounds) = self.bounds_mut() {
             bounds.outdate();
@@ -303,19 +302,19 @@ impl Tick<'_> {
         }
     }
 
-    /// Whether somebody moved farther than candidate lists reach since they were made.
+    /// Whether a body moved farther than the reach of the candidate lists since they were made.
     pub fn outgrown(&self) -> bool {
         self.bounds().is_some_and(|bounds| bounds.outgrown)
     }
 
-    /// The step in which somebody moved farther than candidate lists reach is not taken.
+    /// Discards the step in which a body moved farther than the reach of the candidate lists.
     pub fn recall_bounds(&mut self) {
         if let Some(bounds) = self.bounds_mut() {
             bounds.outgrown = false;
         }
     }
 
-    /// Lets models correct the modes of a state just evaluated, until none wants to.
+    /// Lets models correct the modes of a state just evaluated, until no model changes any.
     fn settle(&mut self) {
         let time = self.state.evaluation.time;
         for _ in 0..MOST_CORRECTIONS {
@@ -328,7 +327,7 @@ impl Tick<'_> {
         }
     }
 
-    /// Ends the run at the end of this tick: steps of `step` seconds, as short as their error asks for, would take too many.
+    /// Ends the run at the end of this tick. Its error would require steps of `step` seconds, which are too many.
     pub fn give_up(&mut self, step: f64) {
         let bodies = &self.state.bodies;
         let acceleration = |body: &usize| bodies.force[*body].length() * bodies.inverse_mass(*body);
@@ -346,7 +345,7 @@ impl Tick<'_> {
         self.bodies().kick(dt);
     }
 
-    /// The same at the end of the tick: where nobody looks it is done with the next step.
+    /// The same at the end of the tick. Without a reader it is done with the next step.
     pub fn kick_at_end(&mut self, dt: f64) {
         self.book(dt);
         if self.has_joints() {
@@ -356,10 +355,10 @@ impl Tick<'_> {
         if self.may_wait && !self.style.is_staged() { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
     }
 
-    /// Velocities change by the present forces over `kick` seconds, which the ledger books, then positions by those velocities
-    /// over `drift` seconds. One drift per tick: it is remembered as the displacement since the last accepted state. With
-    /// `ahead` the velocities so many seconds later are estimated from the same forces: the following evaluations see them in
-    /// place of the velocities, which stay as they are.
+    /// Velocities change by the current forces over `kick` seconds, which the ledger books. Then positions change by
+    /// those velocities over `drift` seconds. A tick has one drift, which is stored as the displacement since the last
+    /// accepted state. With `ahead` the velocities so many seconds later are estimated from the same forces. The
+    /// following evaluations use the estimates in place of the velocities, which do not change.
     pub fn advance(&mut self, kick: f64, drift: f64, ahead: Option<f64>) {
         self.book(kick);
         let bodies = self.packed();
@@ -381,17 +380,17 @@ impl Tick<'_> {
         crowded
     }
 
-    /// What changes in models when states become stages of steps, or follow one another from now on.
+    /// The change of models when states become stages of steps, or begin to follow one another.
     pub(super) fn hand_over(&mut self, style: Style) {
         self.state.each_with_events(|model, state| model.hand_over(state, style));
     }
 
-    /// Bounding boxes, where there are any.
+    /// Bounding boxes, if there are any.
     pub(crate) fn bounds(&self) -> Option<&Bounds> {
         self.state.bounds.as_ref()
     }
 
-    /// Bounding boxes, where there are any, to be changed.
+    /// Mutable bounding boxes, if there are any.
     pub(crate) fn bounds_mut(&mut self) -> Option<&mut Bounds> {
         self.state.bounds.as_mut()
     }

@@ -1,4 +1,4 @@
-//! Where bodies are after a drift, before they are brought back onto joints.
+//! The positions of bodies after a drift, before they are brought back onto joints.
 
 use glam::DVec2;
 
@@ -24,7 +24,7 @@ impl Drifted {
         }
     }
 
-    /// Bodies are where they were.
+    /// Restores the positions of bodies.
     pub fn put_back(&self, bodies: &mut Bodies) {
         bodies.position.clone_from(&self.position);
         bodies.angle.clone_from(&self.angle);
@@ -47,7 +47,7 @@ impl Drifted {
                 *velocity += by;
                 bodies.estimated_spin[body] += turned;
             }
-            // Forces acted where the drift began.
+            // Forces acted at the beginning of the drift.
             let was = bodies.position[body] - bodies.velocity[body] * elapsed;
             let impulse = by * bodies.mass[body];
             outside.impulse += impulse;

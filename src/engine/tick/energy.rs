@@ -1,4 +1,4 @@
-//! The energy ledger of a run: what is there, what was lost, and what is missing.
+//! The energy ledger of a run: current energies, losses, and the residual.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,8 @@ use crate::tick::{Ledger, energy_seen};
 /// The open list of channels that belong to no body, such as `energy.total`.
 pub const CHANNELS: &str = "channel";
 
-/// Energies in J. `kinetic + potential + elastic - work` and all losses together were constant but for `residual`: the error of the
-/// integration.
+/// Energies in J. The sum `kinetic + potential + elastic - work` and all losses would be constant without `residual`,
+/// the error of the integration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyLedger {
     /// Energy of motion.
@@ -29,7 +29,7 @@ pub struct EnergyLedger {
     pub drag: f64,
     /// Brought by drives since the beginning.
     pub work: f64,
-    /// What the present energies and the losses exceed the energy at the beginning and the work by.
+    /// The present energies and losses, minus the energy at the beginning and the work.
     pub residual: f64,
     /// Lost to accounts of models since the beginning, by their names: `damping` of springs. Only those that the scene has.
     #[serde(flatten)]
@@ -73,8 +73,8 @@ impl EnergyLedger {
         (-self.friction).max(0.0) + (-self.inelasticity).max(0.0)
     }
 
-    /// The energy that went round in the run, in J: what the residual is to be compared with. The zero of potential
-    /// energy is a matter of taste, so only its change counts; work counts whichever way it went.
+    /// The turnover of energy in the run, in J, which is the scale of the residual. The zero of potential energy is
+    /// arbitrary, so only its change counts. Work counts in both directions.
     pub fn turned_over(&self, state: &State) -> f64 {
         let ledger = &state.ledger;
         let start = ledger.start.unwrap_or_default();

@@ -1,4 +1,4 @@
-//! A run that went wrong.
+//! Failures of runs.
 
 use bevy_ecs::prelude::Entity;
 
@@ -6,14 +6,14 @@ use super::Clock;
 use super::guard::Created;
 use crate::scene::number;
 
-/// A run that went wrong.
+/// A failed run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// Name of the first body that went wrong, or of the one that has most of the energy.
+    /// Name of the first body that failed, or of the one with most of the energy.
     pub body: String,
-    /// Name of the other thing that is part of it; empty if there is none.
+    /// Name of the other body or wall in it, or an empty text.
     pub other: String,
-    /// What is wrong.
+    /// The failure.
     pub wrong: Wrong,
     /// The tick that made it.
     pub tick: u64,
@@ -21,11 +21,11 @@ pub struct Failure {
     pub time: f64,
 }
 
-/// What went wrong, before it is told: of the body at a place in canonical order, if it is one's.
+/// A failure before it has names: of the body with an index in canonical order, if it concerns a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trouble {
     pub body: Option<usize>,
-    /// The body itself, where it has no place yet.
+    /// The body itself, if it has no index yet.
     pub entity: Option<Entity>,
     pub wrong: Wrong,
     pub tick: u64,
@@ -39,14 +39,14 @@ impl Trouble {
     }
 }
 
-/// What can go wrong.
+/// The kinds of failures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wrong {
-    /// This quantity is no longer a finite number.
+    /// This quantity has become NaN or infinite.
     NotFinite(&'static str),
     /// Energy came out of nowhere.
     Energy(Created),
-    /// Steps of so many seconds, as short as their error asks for, would not come to an end.
+    /// The error would require steps of this many seconds, which would never end.
     Steps(f64),
     /// A joint could not be closed: so many metres are left.
     Joint {
@@ -57,9 +57,9 @@ pub enum Wrong {
     },
     /// The centre of an atom has passed the middle line of the wall with this entity.
     Crossed(Entity),
-    /// The centre of an atom has come through the line with this entity from behind, where it is open.
+    /// The centre of an atom has come from behind through the line with this entity, at an open end.
     Behind(Entity),
-    /// A sharp corner lies so deep in the body with this entity that the side that it came through is not known.
+    /// A sharp corner is so deep in the body with this entity that its side of entry is unknown.
     Sunk(Entity),
     /// Motors and joints ask for different motions of a body.
     Contradiction,
@@ -75,7 +75,7 @@ pub enum Wrong {
 }
 
 impl Wrong {
-    /// Whether the run can go on after its author has mended the cause.
+    /// Whether the run can continue after its author has removed the cause.
     pub(super) fn can_be_mended(&self) -> bool {
         matches!(self, Self::Torn(_) | Self::Lost(_) | Self::Gone(_))
     }

@@ -1,4 +1,4 @@
-//! Whether bodies may fly ([`crate::world::Bodies::flying`]), and what looks at where they are.
+//! Permission of flights ([`crate::world::Bodies::flying`]), and the readers of positions.
 
 use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut, Tick};
 use bevy_ecs::prelude::*;
@@ -8,8 +8,8 @@ use bevy_ecs::system::ScheduleSystem;
 use super::registered::{Kind, Registered, register};
 use super::{Evaluate, Modes, SimTick, Stage, State};
 
-/// Before a batch of ticks: sees whether all that makes forces is right while bodies fly, and whether others look at the bodies at
-/// each tick. `flies`: the method is one under which they may.
+/// Called before a batch of ticks. It checks whether all forces are right while bodies fly, and whether others read the
+/// bodies at each tick. `flies`: the method allows flights.
 pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, [evaluate, modes]: [&Schedule; 2]) {
     let registered = world.resource::<Registered>();
     let as_registered = registered.is_as_registered(Evaluate, evaluate) && registered.is_as_registered(Modes, modes);
@@ -21,7 +21,7 @@ pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, [evaluate, m
     note_looks(world);
 }
 
-/// Systems in the tick look at the bodies from now on; see [`State::see_writers`].
+/// Notes that systems in the tick read the bodies; see [`State::see_writers`].
 pub(super) fn note_looks(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     // Noting it is a change too.
@@ -35,8 +35,8 @@ impl State {
         self.progress.shown_at = Some(changed);
     }
 
-    /// Before a tick and after the last: where one of the systems in the tick wrote into the state, that counts and not what flights
-    /// say.
+    /// Called before a tick and after the last. If a system in the tick wrote into the state, its values replace those
+    /// of flights.
     pub(super) fn see_writers(&mut self, changed: Tick) {
         if self.progress.looked_at && self.progress.shown_at.is_some_and(|shown| shown != changed) {
             self.bodies.forget_flights();
@@ -50,8 +50,8 @@ impl State {
     }
 }
 
-/// Adds a system to [`Stage::Observe`](super::Stage::Observe) that looks at the state at the ends of some ticks only, which
-/// [`look_at_ticks`] is told, and changes nothing of it.
+/// Adds a system to [`Stage::Observe`](super::Stage::Observe) that changes nothing, and reads the state at the ends of
+/// some ticks only. [`look_at_ticks`] receives these ticks.
 pub(crate) fn add_observer_of_ticks<M>(world: &mut World, system: impl IntoScheduleConfigs<ScheduleSystem, M>) {
     register(world, SimTick, Kind::Flies, |schedule| {
         schedule.add_systems(system.in_set(Stage::Observe));

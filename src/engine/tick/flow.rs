@@ -1,5 +1,5 @@
-//! The world as a system of ordinary differential equations: `q` are positions and angles of the dynamic bodies, `v` their
-//! velocities, `z` what models keep of their own and the accounts of energy and momentum.
+//! The world as a system of ordinary differential equations. `q` are positions and angles of the dynamic bodies, and
+//! `v` their velocities. `z` are the states of models, and the accounts of energy and momentum.
 
 use glam::DVec2;
 
@@ -38,7 +38,7 @@ pub struct WorldFlow<'t, 'w> {
 }
 
 impl<'t, 'w> WorldFlow<'t, 'w> {
-    /// The world in this tick. Made anew when modes have changed.
+    /// The world in this tick. It is made again after modes have changed.
     pub fn new(tick: &'t mut Tick<'w>) -> Self {
         let bodies = &tick.state.bodies;
         let dynamic: Vec<usize> = (0..bodies.len()).filter(|&body| bodies.dynamic[body]).collect();
@@ -134,8 +134,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         self.dynamic.iter().map(|&body| (bodies.position[body], bodies.angle[body])).collect()
     }
 
-    /// How far any point of a dynamic body is from where it was at these `places`, in m, and how fast, in m/s. A turn counts
-    /// as no more than one radian.
+    /// The greatest distance of any point of a dynamic body from its position in `places`, in m, and its speed in m/s.
+    /// A turn counts as at most one radian.
     pub fn sizes_since(&self, places: &[(DVec2, f64)]) -> (f64, f64) {
         let bodies = &self.tick.state.bodies;
         let far = |(&body, &(position, angle)): (&usize, &(DVec2, f64))| {
@@ -145,7 +145,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         (self.dynamic.iter().zip(places).map(far).fold(0.0, f64::max), self.reach().speed)
     }
 
-    /// How far a change of the state takes any point of a dynamic body, in m, and how much faster it makes it, in m/s.
+    /// The greatest displacement of any point of a dynamic body by a change of the state, in m, and its gain of speed
+    /// in m/s.
     pub fn sizes_of(&self, change: &[f64]) -> (f64, f64) {
         let bodies = &self.tick.state.bodies;
         let size = |changes: &[f64]| {
@@ -174,8 +175,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         })
     }
 
-    /// What errors of each number of a state are measured by, given a distance in m and a speed in m/s: angles are measured at
-    /// the farthest point of their body, numbers of models' own as positions, accounts not at all.
+    /// The unit of errors for each number of a state, from a distance in m and a speed in m/s. Angles are measured at
+    /// the farthest point of their body, and states of models as positions. Accounts have no unit.
     pub fn measures(&self, distance: f64, speed: f64, sizes: &mut Vec<f64>) {
         let bodies = &self.tick.state.bodies;
         let turns = |size: f64, body: usize| size / bodies.extent(body).max(f64::MIN_POSITIVE);
@@ -186,7 +187,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         sizes.resize(self.dimension, f64::INFINITY);
     }
 
-    /// The same for numbers of models' own that measure their errors by themselves: a share of that is allowed at least.
+    /// The same for states of models that have their own units of errors. At least this share of them is allowed.
     pub fn measure_own(&mut self, share: f64, sizes: &mut [f64]) {
         let places = self.places_of_own();
         if places.is_empty() {
@@ -226,7 +227,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         change[impulses..].iter_mut().zip([impulse.x, impulse.y, angular]).for_each(|(sum, more)| *sum += more);
     }
 
-    /// Books what a step has added to the accounts.
+    /// Books the change of the accounts by a step.
     pub fn book(&mut self, change: &[f64]) {
         let (others, accounts) = change[self.places_of_accounts()].split_at(self.others);
         let &[drag, work, friction, inelasticity, x, y, angular] = accounts else { return };
@@ -242,7 +243,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     }
 }
 
-/// There are as many blocks as when the flow was made.
+/// The number of blocks is that at the creation of the flow.
 fn next_length(lengths: &mut std::slice::Iter<usize>) -> usize {
     lengths.next().copied().unwrap_or_default()
 }

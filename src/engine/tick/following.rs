@@ -1,5 +1,5 @@
-//! From stages of steps to whole steps that follow one another, and back: what an integrator needs that changes between
-//! the two in a run.
+//! The transition from stages of steps to whole steps that follow one another, and back, for an integrator that uses
+//! both.
 
 use super::{Style, Tick};
 
@@ -8,7 +8,7 @@ impl Tick<'_> {
     pub fn begin_following(&mut self, time: f64) {
         self.change_style(Style::Following);
         let bodies = self.bodies();
-        // An estimate of velocities belongs to the tick in which it was made, what rounding left over to the method before.
+        // An estimate of velocities belongs to its tick, and rounding remainders to the method before.
         bodies.estimated_velocity.clear();
         bodies.estimated_spin.clear();
         bodies.position_rest.fill(glam::DVec2::ZERO);
@@ -20,7 +20,7 @@ impl Tick<'_> {
     pub fn begin_stages(&mut self, style: Style) {
         self.change_style(style);
         self.begin_anew();
-        // What the change has cost is booked.
+        // The cost of the change is booked.
         self.end_step(&[]);
     }
 

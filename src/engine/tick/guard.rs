@@ -1,16 +1,17 @@
-//! The guard against energy out of nowhere.
+//! The guard against created energy.
 //!
-//! What a run creates is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. What was
-//! put into it is its kinetic and elastic energy at the beginning, what its fields released since, and the work of
-//! drives wherever it was positive. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`, fifty times at 99 %
-//! of it, so a factor that no stable run reaches must be far above: a run is stopped when it has created [`BEYOND`]
-//! times what was put in and its tick is above the critical one, or [`ENORMOUS`] times whatever the tick is. Rounding of
-//! large energies counts as put in, and so does motion by a billionth of a size in a tick.
+//! What a run creates is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. The input
+//! is its kinetic and elastic energy at the beginning, the energy that its fields have released since, and all positive
+//! work of drives. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`, which is
+//! fifty times at 0.99 of it. So the limit must be far above any factor that a stable run reaches. A run is stopped if
+//! it has created [`BEYOND`] times the input and its tick is above the critical one. At [`ENORMOUS`] times the input it
+//! is stopped for any tick. Rounding of large energies counts as input, and so does motion by a billionth of a size in
+//! a tick.
 //!
-//! It looks every [`EVERY`] ticks, when something travels farther in a tick than the smallest radius and whenever that
-//! has doubled, and at each tick since contacts were seen to respond nearly as fast as a method can bear: from the first
-//! touch on, before which nothing can be created. The first tick is not judged: a drive that begins as a sine does has worked
-//! nothing in it, to the order of the method, but bodies move.
+//! It checks every [`EVERY`] ticks. It also checks when a body travels farther in a tick than the smallest radius, and
+//! whenever that way has doubled. After contacts were seen to respond nearly as fast as a method allows, it checks at
+//! each tick. That begins with the first touch, before which no energy can be created. The first tick is exempt. In it
+//! a drive that begins like a sine has no work, to the order of the method, but bodies move.
 
 use super::State;
 use serde::{Deserialize, Serialize};
@@ -18,12 +19,13 @@ use serde::{Deserialize, Serialize};
 const BEYOND: f64 = 1e3;
 const ENORMOUS: f64 = 1e9;
 const EVERY: u64 = 256;
-/// What rounding may leave of energies that cancel.
+/// The rounding error of energies that cancel, as a share.
 const ROUNDING: f64 = 1e-9;
-/// Motion by a billionth of the size of a body in a tick counts as put in, as a share of energy by its whole size: friction that stops creeps so.
+/// Motion by a billionth of the size of a body in a tick counts as input. This is its share of the energy of a motion
+/// by the whole size. Friction that stops a body creeps at that rate.
 const IDLE: f64 = 1e-18;
 
-/// When energy is looked at next, and what was put in.
+/// The time of the next check of energy, and the input.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct EnergyGuard {
     /// A model responds nearly as fast as the tick can bear: it looks at each tick.
@@ -56,7 +58,8 @@ impl EnergyGuard {
         ticks >= self.next || travel > self.travel || self.alert
     }
 
-    /// Looks at the energy of the present state; returns the place of the body that has most of it if there is too much.
+    /// Checks the energy of the current state. If there is too much, it returns the index of the body that has most of
+    /// it.
     pub fn look(&mut self, state: &State, travel: f64) -> Option<(usize, Created)> {
         let State { bodies, ledger, clock, .. } = state;
         let first = self.next == 0;
@@ -76,7 +79,7 @@ impl EnergyGuard {
         let unstable =
             state.responses().fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(&state.stability));
         let too_much = if unstable { BEYOND } else { ENORMOUS } * (put_in + IDLE * idle);
-        // Written so that energies that are no numbers are too much; without anything put in there is no measure.
+        // In this form NaN and infinite energies are too much. Without any input there is no scale.
         if first && energy.is_finite() || put_in == 0.0 || energy <= too_much && put_in.is_finite() {
             return None;
         }

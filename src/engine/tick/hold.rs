@@ -1,4 +1,5 @@
-//! Joints in a step: rows of the present state, and places and velocities that are brought back onto them.
+//! Constraint stabilisation of joints in a step: rows of the current state, and positions and velocities that are
+//! brought back onto them.
 
 use glam::DVec2;
 
@@ -12,10 +13,10 @@ use crate::constraints::{DeadPoints, Gap, Kind, Row, Rows, Side, Standing};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// The largest joint drift so far: how far a joint was from what it holds, after it was brought back.
+/// The largest joint drift so far: the distance of a joint from its constraint after the projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointDrift {
-    /// In metres; of an angle at the farthest point of its bodies.
+    /// In metres; for an angle at the farthest point of its bodies.
     pub meters: f64,
     /// The index of the model that holds it.
     pub model: usize,
@@ -35,7 +36,8 @@ pub struct FromOutside {
 }
 
 impl FromOutside {
-    /// Adds `amount` of a row's unit force on the bodies as they stand, if one of its sides is not moved by forces.
+    /// Adds `amount` of a row's unit force on the bodies at their current poses, if forces do not move one of its
+    /// sides.
     fn add(&mut self, row: &Row, amount: f64, bodies: &Bodies) {
         let driven = if row.kind == Kind::Velocity { row.rate } else { 0.0 };
         self.work += amount * (row.powers(bodies)[2] + driven);
@@ -102,7 +104,7 @@ impl State {
         Some((self.joint_drift, &**model))
     }
 
-    /// What is known of dead points of loops of joints.
+    /// The dead points of loops of joints so far.
     pub fn dead_points(&self) -> &DeadPoints {
         &self.dead_points
     }
@@ -138,9 +140,9 @@ impl State {
         }
     }
 
-    /// Moves bodies that have drifted for `elapsed` seconds back along the directions of the beginning, and velocities follow. Across a
-    /// dead point these directions lead away from what a loop holds: those of the end are taken in their place. Returns the impulse from
-    /// outside.
+    /// Moves bodies that have drifted for `elapsed` seconds back along the directions of the beginning, and adapts the
+    /// velocities. Across a dead point these directions lead away from the constraints of a loop. There the directions
+    /// of the end are used. Returns the external impulse.
     fn hold_drifted(&mut self, along: &mut Rows, (elapsed, time): (f64, f64), stay: Standing) -> FromOutside {
         let loops = along.prepared(&self.bodies).1.least_pivot().is_some();
         let drifted = loops.then(|| Drifted::of(&self.bodies));
@@ -199,14 +201,15 @@ impl State {
         }
     }
 
-    /// Changes velocities until those that `rows` hold are what they should be. Returns the impulse from outside.
+    /// Changes velocities until those that `rows` hold have their required values. Returns the external impulse.
     fn hold_velocities(&mut self, rows: &mut Rows, time: f64) -> FromOutside {
         let (outside, refused) = self.change_velocities(rows, |_, _| {});
         self.note_contradiction(refused, rows, time);
         outside
     }
 
-    /// The same, told the impulses of each row; with the index of a row whose rate the others do not allow.
+    /// The same with a function that receives the impulses of each row. Returns also the index of a row whose rate
+    /// contradicts the others.
     pub(super) fn change_velocities(
         &mut self,
         rows: &mut Rows,
@@ -269,7 +272,7 @@ impl State {
         outside
     }
 
-    /// From [`Model::begin_step`](super::Model::begin_step): a model holds something else from now on.
+    /// From [`Model::begin_step`](super::Model::begin_step): announces that the constraints of a model have changed.
     pub fn change_rows(&mut self) {
         (self.evaluation.stale, self.evaluation.other_rows) = (true, true);
     }
@@ -277,20 +280,20 @@ impl State {
     /// Before the first tick: brings the bodies of a scene onto its joints.
     ///
     /// # Errors
-    /// What makes that impossible, and the body where it shows.
+    /// The reason why that is impossible, and the body that shows it.
     pub(crate) fn assemble(&mut self) -> Result<(), (Wrong, Option<usize>)> {
         self.find_roles();
         let turned = self.bodies.angle.clone();
         self.project_with(0.0, Some(Jump::Stops(&[])));
         self.take_back_turns(&turned);
-        // The velocities of the scene may have been others: friction and motors look at those that there are now.
+        // The velocities of the scene may have been different. Friction and motors use the new ones.
         self.tell_of_blow();
         let trouble = self.progress.trouble.take();
         self.joint_drift = JointDrift::default();
         trouble.map_or(Ok(()), |trouble| Err((trouble.wrong, trouble.body)))
     }
 
-    /// Full turns by which the search for closed joints has turned bodies on the way are taken back, where joints allow.
+    /// Undoes full turns of bodies in the search for closed joints, if the joints allow it.
     fn take_back_turns(&mut self, before: &[f64]) {
         let mut rows = Rows::default();
         let mut worst = |state: &mut Self| {
@@ -312,23 +315,25 @@ impl State {
         (self.bodies.posed, self.bodies.recorded) = (false, false);
     }
 
-    /// In the midst of a tick of `elapsed` seconds so far: places are brought back along the directions of the beginning, and velocities
-    /// follow, which is the constrained step of RATTLE (Andersen 1983; Hairer, Lubich, Wanner, section VII.1.4).
+    /// Called inside a tick, after `elapsed` seconds of it. Positions are brought back along the directions of the
+    /// beginning, and velocities follow. This is the constrained step of RATTLE (Andersen 1983; Hairer, Lubich, Wanner,
+    /// section VII.1.4).
     pub(super) fn hold_after_drift(&mut self, elapsed: f64, time: f64) {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.rows);
         if !rows.all_in_place() {
             keep_places(&mut rows);
         }
-        // Where the directions were found: bodies have moved since.
+        // At the poses of the directions, because bodies have moved since.
         self.note_levers(&rows, elapsed);
         self.hold_drifted(&mut rows, (elapsed, time), Standing::Stays).book(&mut self.ledger);
         self.rows = rows;
         self.turn_to(Part::Integrate);
     }
 
-    /// Bodies move for `length` seconds from where they stand, and are brought back onto joints along the directions in which these
-    /// pushed; velocities follow. `settled`: velocities are brought onto joints as well. Returns the impulse from outside.
+    /// Bodies move for `length` seconds from their current state. They are brought back onto joints along the
+    /// directions in which these pushed, and velocities follow. `settled`: velocities are brought onto joints as well.
+    /// Returns the external impulse.
     pub(super) fn slide(&mut self, time: f64, length: f64, settled: bool) -> FromOutside {
         self.turn_to(Part::Constraints);
         let mut rows = std::mem::take(&mut self.projected);
@@ -391,7 +396,7 @@ impl State {
         self.look_for_dead_points(&mut rows, self.evaluation.time);
         let time = self.evaluation.time;
         let outside = if rows.some_give_their_bounds() {
-            // What gives its bound gives no impulse beside it.
+            // A row that gives its bound gives no additional impulse.
             let mut others = std::mem::take(&mut self.projected);
             others.clear();
             let held = rows.all().iter().enumerate().filter(|(index, _)| !rows.gives_its_bound(*index));
@@ -410,8 +415,8 @@ impl State {
     }
 }
 
-/// The torque about the origin of one unit of a row on the bodies that move by forces, where these were `elapsed` seconds before; zero for
-/// rows that hold such bodies to each other.
+/// The torque about the origin of one unit of a row on the bodies that move by forces, at their positions `elapsed`
+/// seconds earlier. Zero for rows between two such bodies.
 fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
     if row.is_inside(bodies) {
         return 0.0;
@@ -423,7 +428,7 @@ fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
     row.sides.iter().flatten().filter(|side| bodies.dynamic[side.body]).map(of).fold(0.0, |sum, term| sum + term)
 }
 
-/// What was noted of joints before a trial of a step.
+/// The notes on joints before a trial of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Noted {
     drift: JointDrift,
@@ -431,12 +436,12 @@ pub struct Noted {
 }
 
 impl Tick<'_> {
-    /// What is noted of joints so far: trials of a step may end where no joint can be closed, and are not taken.
+    /// The notes on joints so far. A trial of a step may end where no joint can be closed, and then it is discarded.
     pub fn noted(&self) -> Noted {
         Noted { drift: self.state.joint_drift, trouble: self.state.progress.trouble }
     }
 
-    /// The last trial is not taken: what it noted of joints is forgotten.
+    /// Discards the notes on joints of the last trial.
     pub fn forget_trial(&mut self, noted: Noted) {
         (self.state.joint_drift, self.state.progress.trouble) = (noted.drift, noted.trouble);
     }
@@ -446,8 +451,8 @@ impl Tick<'_> {
         self.state.has_joints()
     }
 
-    /// Velocities are brought back onto the joints. An integrator that goes from tick to tick calls it last, unless it ends with
-    /// [`Tick::kick_at_end`].
+    /// Brings velocities back onto the joints. An integrator that goes from tick to tick calls it last, unless it ends
+    /// with [`Tick::kick_at_end`].
     pub fn hold_velocities(&mut self) {
         if self.has_joints() {
             self.bodies();

@@ -1,6 +1,7 @@
-//! What snapshots keep of the world beside the state: resources and components that plugins register.
+//! The contents of snapshots beside the state: resources and components that plugins register.
 //!
-//! A type from outside the engine that is not registered makes a snapshot refuse, by name. The engine registers its own.
+//! A snapshot refuses a type from outside the engine that is not registered, and names it. The engine registers its
+//! types itself.
 
 use std::any::TypeId;
 
@@ -14,9 +15,9 @@ use serde::de::DeserializeOwned;
 use super::registered::is_own;
 use super::snapshot::{Memory, Unfit, Unsaved, recall};
 
-/// How plugins say what a snapshot keeps.
+/// Registration of the contents of snapshots by plugins.
 pub trait SnapshotAppExt {
-    /// Snapshots keep a resource: it is written to them, and takes the place of that of the world that goes on from them.
+    /// Snapshots keep a resource. It is written to them, and replaces that of the world that continues from them.
     fn keep_resource<R: Resource + Serialize + DeserializeOwned>(&mut self) -> &mut Self;
 
     /// Snapshots keep a component of bodies, walls and other entities.
@@ -31,7 +32,7 @@ pub trait SnapshotAppExt {
 type Save = fn(&mut World) -> Memory;
 type Load = fn(&mut World, &[u8]) -> Result<(), Unfit>;
 
-/// What was registered, in order.
+/// The registered types, in order.
 #[derive(Resource, Default)]
 pub(crate) struct Kept {
     types: Vec<TypeId>,
@@ -83,7 +84,7 @@ impl SnapshotAppExt for App {
     }
 }
 
-/// All that is registered, as bytes.
+/// All registered resources and components, as bytes.
 pub(crate) fn save(world: &mut World) -> Result<Vec<Option<Vec<u8>>>, Unsaved> {
     demand_all_known(world)?;
     let keepers = world.get_resource_or_init::<Kept>().keepers.clone();

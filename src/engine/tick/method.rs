@@ -1,4 +1,4 @@
-//! What a method of integration is to the tick.
+//! The interface of an integration method to the tick.
 
 use super::snapshot::{Memory, Unfit};
 use super::{Style, Tick};
@@ -13,13 +13,13 @@ pub trait Integrator: Send + Sync + 'static {
         Style::Following
     }
 
-    /// Whether each tick is one step of velocity Verlet, so that a body moves along a parabola as long as nothing but its weight
-    /// acts on it.
+    /// Whether each tick is one step of velocity Verlet. Then a body moves along a parabola while only its weight acts
+    /// on it.
     fn flies(&self) -> bool {
         false
     }
 
-    /// What it remembers from tick to tick. Default: it does not say, and snapshots refuse.
+    /// Its memory from tick to tick. Default: unknown, and snapshots refuse.
     fn save(&self) -> Memory {
         Memory::Untold
     }

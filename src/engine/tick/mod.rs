@@ -1,4 +1,4 @@
-//! One tick, read aloud.
+//! The stages of a tick, and how state, models and systems of users work together in them.
 //!
 //! | schedule | stage | what happens |
 //! |---|---|---|
@@ -12,18 +12,19 @@
 //! | | [`EvaluateStage::Constraints`] | what models hold exactly is solved for, all rows at once |
 //! | | [`EvaluateStage::Settle`] | what depends on all forces |
 //!
-//! **State and models.** [`State`] is the one resource that all of this works on. A [`Model`] is anything that acts: it is added with
-//! [`TickAppExt::add_model`], and a scene may have many of a kind. The stages of [`Evaluate`] and [`Modes`] are systems that take
-//! `ResMut<State>` (`stages.rs`); each is there only if some model needs it.
+//! **State and models.** [`State`] is the one resource that all stages work on. A [`Model`] is any active part of a
+//! scene. It is added with [`TickAppExt::add_model`], and a scene may have many of a kind. The stages of [`Evaluate`]
+//! and [`Modes`] are systems that take `ResMut<State>` (`stages.rs`). Each is present only if some model needs it.
 //!
-//! Under methods with several stages per step an evaluation is a pure function of the state: state in, forces out. Under methods that
-//! go from tick to tick contacts remember the state before. The forces of the last evaluation stay in place, so an integrator that
-//! ends where the next tick begins evaluates once per tick.
+//! Under methods with several stages per step an evaluation is a pure function of the state: state in, forces out.
+//! Under methods that go from tick to tick contacts remember the state before. The forces of the last evaluation are
+//! kept. So an integrator whose steps begin at the last evaluated state evaluates once per tick.
 //!
-//! **Systems of users.** One that works on [`State`] alone is registered with [`TickAppExt::add_packed_systems`]. Around any other the
-//! engine keeps the components (`Position`, `Velocity` ...) up to date. A scene without such systems pays nothing for that. A system
-//! in [`Stage::Begin`] that changes components, spawns or despawns is noticed, and the forces are evaluated anew before the tick; one
-//! that changes anything else that forces depend on says so with [`Bodies::touched`](crate::world::Bodies::touched).
+//! **Systems of users.** A system that works on [`State`] alone is registered with [`TickAppExt::add_packed_systems`].
+//! Around any other system the engine keeps the components (`Position`, `Velocity` ...) up to date. A scene without
+//! such systems pays nothing for that. The engine notices a system in [`Stage::Begin`] that changes components, spawns
+//! or despawns, and evaluates the forces again before the tick. A system that changes any other input of forces
+//! announces it with [`Bodies::touched`](crate::world::Bodies::touched).
 
 pub mod after_load;
 pub mod balance;
@@ -122,15 +123,15 @@ pub enum Stage {
 /// The stages of [`Evaluate`], in order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EvaluateStage {
-    /// Bounding boxes are checked against where the bodies stand now, and candidate pairs found.
+    /// Checks bounding boxes against the current positions of bodies, and finds candidate pairs.
     Bounds,
     /// Systems of users add to components.
     Systems,
     /// Models add their forces, contact laws last.
     Forces,
-    /// What models hold exactly is solved for, all rows at once.
+    /// Solves the constraints of models, all rows at once.
     Constraints,
-    /// What depends on all forces.
+    /// Work that depends on all forces.
     Settle,
 }
 
@@ -144,8 +145,8 @@ pub trait TickAppExt {
 
     /// Adds a force as a system: it reads `Position`, `Velocity` ... and adds to `Force` and `Torque`.
     ///
-    /// Systems of forces act one after the other, in the order in which they were added, before all models. They may depend on
-    /// velocities; the work that they do stands in the ledger as work.
+    /// Systems of forces act one after the other, in the order in which they were added, before all models. They may
+    /// depend on velocities, and the ledger books their work as work.
     fn add_force<M>(&mut self, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) -> &mut Self;
 
     /// Adds systems that work on [`State`] only. They may not spawn or despawn.
@@ -230,7 +231,7 @@ pub fn add_packed_observer<M>(
     add_packed_systems(world, SimTick, system.in_set(Stage::Observe));
 }
 
-/// Parallelism is inside a system, never between systems: with a dozen short systems a thread pool costs a hundred
+/// Parallelism is inside a system, never between systems. With a dozen short systems a thread pool costs a hundred
 /// times the work.
 fn single_threaded(label: impl ScheduleLabel) -> Schedule {
     let mut schedule = Schedule::new(label);

@@ -1,5 +1,5 @@
-//! What acts in a run: every force, spring, drive and contact law is a [`Model`], with its parameters captured, and a run has as
-//! many of them as its scene names.
+//! Models: every force, spring, drive and contact law is a [`Model`] with its parameters. A run has all models that its
+//! scene names.
 
 use std::any::Any;
 
@@ -13,12 +13,12 @@ use crate::constraints::Rows;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// What a force, or the power that it books, depends on. An integrator that keeps velocities at half steps provides whole-step velocities to
-/// those who need them.
+/// The inputs of a force, or of the power that it books. An integrator that keeps velocities at half steps provides
+/// whole-step velocities to forces that depend on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependence {
-    /// Nothing: the force is the same always. Bodies that are asleep ([`Bodies::asleep`](crate::world::Bodies::asleep)) are
-    /// to be left out, and so is what they would bring to the rates.
+    /// No input: the force is constant. The force must omit sleeping bodies
+    /// ([`Bodies::asleep`](crate::world::Bodies::asleep)), and so must its rates.
     Nothing,
     /// Time and positions only.
     Position,
@@ -35,7 +35,7 @@ pub struct Energies {
     pub elastic: f64,
 }
 
-/// A part of all forces on a body, as sensors tell them apart.
+/// A part of all forces on a body, for sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForcePart {
     /// Forces of springs and dampers.
@@ -44,20 +44,20 @@ pub enum ForcePart {
     Joint,
 }
 
-/// The force of a model on a body, as sensors and pictures tell it.
+/// The force of a model on a body, for sensors and pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceOn {
     /// The part of all forces to which it counts.
     pub part: ForcePart,
     /// In newtons.
     pub force: DVec2,
-    /// Where it acts on the body, in metres.
+    /// The point of the body at which it acts, in metres.
     pub point: DVec2,
 }
 
 impl ForceOn {
-    /// That on `body` of something with two ends, each with its body, the point at which it acts and the force there. `None`: neither
-    /// end is on the body. Where both are, the point is that of the first.
+    /// The force on `body` of a model with two ends. Each end has its body, the point of action, and the force there.
+    /// `None`: neither end is on the body. If both are, the point is that of the first.
     pub fn of_ends(part: ForcePart, body: usize, ends: [(Option<usize>, DVec2, DVec2); 2]) -> Option<Self> {
         let own = ends.into_iter().filter(|(of, ..)| *of == Some(body));
         let forces = own.map(|(_, point, force)| Self { part, force, point });
@@ -65,12 +65,12 @@ impl ForceOn {
     }
 }
 
-/// A physical model: what it does in each stage of a step, and what it owes the card.
+/// A physical model: its action in each stage of a step, and its contributions to the card.
 ///
-/// Models act in the order in which they were added. Required is what must not be left out in silence: energies and stiffness. A
-/// model that has none says so with a default value and an empty body.
+/// Models act in the order in which they were added. Energies and stiffness are required, because their omission would
+/// be silent. A model without them returns a default value or has an empty body.
 pub trait Model: Any + Send + Sync {
-    /// What it is called where the systems of a scene are listed. Default: the name of its type.
+    /// Its name in lists of the systems of a scene. Default: the name of its type.
     fn name(&self) -> &'static str {
         std::any::type_name::<Self>()
     }
@@ -78,49 +78,49 @@ pub trait Model: Any + Send + Sync {
     /// The energies in J that it holds in the present state.
     fn energies(&self, state: &State) -> Energies;
 
-    /// For sensors and pictures: its force on the body of this index in the present state. Default: they hear of no force.
+    /// For sensors and pictures: its force on the body of this index in the present state. Default: no force.
     fn force_on(&self, _: &State, _: usize) -> Option<ForceOn> {
         None
     }
 
-    /// The power that it took in the evaluation just made, if that goes to an account of its own; drag, friction and inelasticity
-    /// have theirs in [`Balance`](super::Balance). Default: it has no such account.
+    /// The power that it took in the last evaluation, if it has a separate account. Drag, friction and inelasticity
+    /// have theirs in [`Balance`](super::Balance). Default: no separate account.
     fn loss(&self) -> Option<Loss> {
         None
     }
 
-    /// Adds its springs in their present state: the critical tick follows from them. Contact laws tell
+    /// Adds its springs in their present state: the critical tick follows from them. Contact laws provide
     /// [`Model::responses`] instead.
     fn stiffness(&self, state: &State, springs: &mut Vec<SteadySpring>);
 
-    /// What its force depends on. Default: positions and velocities.
+    /// The inputs of its force. Default: positions and velocities.
     fn dependence(&self) -> Dependence {
         Dependence::Velocity
     }
 
-    /// Whether its force does not depend on the places of bodies that touch nothing, nor on their velocities: discs may then fly
-    /// along parabolas while nothing else acts on them. Default: no.
+    /// Whether its force is independent of the positions and velocities of bodies that touch nothing. If so, discs may
+    /// fly along parabolas while no other force acts on them. Default: no.
     fn flies(&self) -> bool {
         false
     }
 
-    /// The name of the contact law, as scenes write it, if it is one. Default: it is none.
+    /// The name of the contact law in scenes, if it is one. Default: it is not.
     fn contact_law(&self) -> Option<&'static str> {
         None
     }
 
-    /// Once, when the whole scene stands and before the first tick.
+    /// Called once, after the whole scene is built and before the first tick.
     fn start(&mut self, _: &mut World) {}
 
-    /// Stage Pairs of an evaluation: who may touch whom.
+    /// Stage Pairs of an evaluation: finds the pairs that may touch.
     fn find_pairs(&mut self, _: &mut State) {}
 
     /// Stage Forces of an evaluation: adds to the forces and torques of bodies, and to the rates of the ledger.
     fn apply_forces(&mut self, _: &mut State) {}
 
-    /// Adds the rows of what it holds in place or in velocity, for these bodies at a time in seconds: their gaps, rates and
-    /// directions. The engine asks in each evaluation, and where it brings states back onto joints: the rows are always as many, in
-    /// the same order. See [`Model::has_rows`].
+    /// Adds the rows of its constraints on positions or velocities, for these bodies at a time in seconds: their gaps,
+    /// rates and directions. The engine calls it in each evaluation, and when it brings states back onto joints. Number
+    /// and order of the rows never change. See [`Model::has_rows`].
     fn add_rows(&mut self, _: &Bodies, _: f64, _: &mut Rows) {}
 
     /// Stage Constraints of an evaluation: its rows, added to [`State::rows_mut`] in [`Model::apply_forces`], have been solved.
@@ -143,8 +143,8 @@ pub trait Model: Any + Send + Sync {
     /// Velocities have jumped before the step ([`State::strike`]): what holds only as long as a bounded force suffices may give way.
     fn after_blow(&mut self, _: &mut State) {}
 
-    /// Before a step over [`State::span`]: chooses the modes that stay as they are in it. In [`Style::Frozen`] events alone change the modes of
-    /// a model that has [`Model::events`]: it leaves them. See [`Model::has_modes`].
+    /// Before a step over [`State::span`]: chooses the modes that stay fixed in it. In [`Style::Frozen`] only events
+    /// change the modes of a model that has [`Model::events`]. Such a model does nothing. See [`Model::has_modes`].
     fn begin_step(&mut self, _: &mut State) {}
 
     /// Whether [`Model::begin_step`] does anything. Default: no.
@@ -157,7 +157,7 @@ pub trait Model: Any + Send + Sync {
         false
     }
 
-    /// At the end of a tick: looks at the state, and may note what the card has to know. See [`Model::looks_at_ticks`].
+    /// At the end of a tick: reads the state, and may leave notes for the card. See [`Model::looks_at_ticks`].
     fn end_tick(&mut self, _: &mut State) {}
 
     /// Whether [`Model::end_tick`] does anything. Default: no.
@@ -165,12 +165,12 @@ pub trait Model: Any + Send + Sync {
         false
     }
 
-    /// How fast it responds, as far as it measured that itself. Default: it measured nothing.
+    /// Its measured responses. Default: none.
     fn responses(&self) -> Responses {
         Responses::default()
     }
 
-    /// State of its own and events, for methods with several stages. Default: none.
+    /// States of the model and events, for methods with several stages. Default: none.
     fn events(&mut self) -> Option<&mut dyn Events> {
         None
     }
@@ -185,32 +185,32 @@ pub trait Model: Any + Send + Sync {
         f64::INFINITY
     }
 
-    /// Why it cannot be evaluated in a style, if so.
+    /// The reason why it cannot be evaluated in a style, if there is one.
     fn objection(&self, _: Style) -> Option<Objection> {
         None
     }
 
-    /// What it did otherwise in a style than the scene asks.
+    /// Its departures in a style from the request of the scene.
     fn departures(&self, _: &State, _: Style) -> Vec<Departure> {
         Vec::new()
     }
 
-    /// What swings by the clock: a tick that the scene does not name is short enough for it.
+    /// The oscillation of its force in time. If the scene names no tick, the tick is short enough for it.
     fn rhythm(&self) -> Option<Rhythm> {
         None
     }
 
-    /// What it has to say of a run at its end, a sentence each for the notes of the card.
+    /// Its remarks on a run at the end, a sentence each for the notes of the card.
     fn remarks(&self, _: &State) -> Vec<String> {
         Vec::new()
     }
 
-    /// All contacts of the present state in canonical order, if it is a contact law that tells them.
+    /// All contacts of the current state in canonical order, if it is a contact law that provides them.
     fn contact_points(&self, _: &State) -> Option<Vec<ContactPoint>> {
         None
     }
 
-    /// What it remembers beside its parameters. Default: it does not say, and snapshots refuse with its name.
+    /// Its memory beside its parameters. Default: unknown, and snapshots refuse with its name.
     fn save(&self) -> Memory {
         Memory::Untold
     }
@@ -223,7 +223,7 @@ pub trait Model: Any + Send + Sync {
         Ok(())
     }
 
-    /// A part of it that [`State::model`] finds too. Default: none.
+    /// A part of it that [`State::model`] also finds. Default: none.
     fn inner(&self) -> Option<&dyn Any> {
         None
     }
@@ -237,7 +237,8 @@ pub trait Model: Any + Send + Sync {
 /// Energy that a model takes out of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
-    /// The account of the ledger: `damping` stands on the card and is the channel `energy.damping`. Models may share one.
+    /// The account of the ledger: `damping` appears on the card and is the channel `energy.damping`. Models may share
+    /// one.
     pub account: &'static str,
     /// Power in watts.
     pub power: f64,
@@ -254,8 +255,8 @@ pub trait Events {
     /// Model -> state. Default: a model without numbers has nothing to copy.
     fn read(&self, _: &mut [f64]) {}
 
-    /// What errors of its numbers are measured by, where that is more than the way of bodies: an integral grows while nothing moves. All are
-    /// zero before. Default: nothing.
+    /// The units of errors of its states, if they exceed the way of bodies: an integral grows while bodies are at rest.
+    /// All are zero before. Default: no change.
     fn measures(&self, _: &mut [f64]) {}
 
     /// State -> model, before an evaluation. Default: likewise.
@@ -270,8 +271,8 @@ pub trait Events {
     /// Changes the modes whose indicators vanished, given by their places in the model's own list of the present modes.
     fn switch(&mut self, state: &mut State, fired: &[usize]);
 
-    /// At an event: tries another of its modes if that did not matter before, because others held what it holds. Says whether it does.
-    /// Default: it does not.
+    /// At an event: tries another of its modes if that had no effect before, because others held the same motion.
+    /// Returns whether it does. Default: it does not. Default: it does not.
     fn look_again(&mut self) -> bool {
         false
     }
@@ -285,8 +286,8 @@ pub trait Events {
     /// Chooses all modes of a state that did not follow from the one before. Default: they stay.
     fn take_stock(&mut self, _: &State) {}
 
-    /// The state is one that others have made, and the ledger takes its energy as it is: the model books nothing that it took to choose the
-    /// modes. Default: it has nothing to book.
+    /// Others have made the state, and the ledger takes its energy as it is. The model books no loss of its choice of
+    /// modes. Default: no action.
     fn begin_account(&mut self, _: &State) {}
 
     /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
@@ -304,16 +305,16 @@ pub trait Events {
     }
 }
 
-/// An indicator of an event: it is positive while a mode holds, and the event is where it vanishes.
+/// An indicator of an event: it is positive while a mode holds, and the event is its root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Indicator {
     /// Its value in the state just evaluated.
     pub value: f64,
-    /// Its rate per second there; NaN if the model does not know.
+    /// Its rate per second there; NaN if the rate is unknown.
     pub slope: f64,
     /// How strongly it may bend downwards there: its second derivative, per second squared, is not below minus this.
     pub bend: f64,
-    /// What rounding makes of its value: above minus this it has not vanished. Default: nothing.
+    /// The rounding error of its value: above minus this it has not vanished. Default: zero.
     pub rounding: f64,
     /// Angular frequency in rad/s with which springs swing in this mode: steps resolve it. Default: zero, no spring acts.
     pub swings: f64,
@@ -324,16 +325,16 @@ pub struct Indicator {
 pub struct Departure {
     /// A clause that names the entry.
     pub what: String,
-    /// What would help, without the word `use`.
+    /// The remedy, without the word `use`.
     pub remedy: &'static str,
-    /// How much of what was asked is missing or too much, as a share.
+    /// The missing or excess share of the request.
     pub share: f64,
 }
 
 /// A force that swings by the clock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rhythm {
-    /// Where it stands in the scene, such as `forces[0]`.
+    /// Its path in the scene, such as `forces[0]`.
     pub path: String,
     /// How fast it swings, in rad/s; zero if it does not.
     pub angular_frequency: f64,
@@ -342,10 +343,10 @@ pub struct Rhythm {
 /// Why a model cannot be evaluated in a style.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Objection {
-    /// The path of what is in the way in the scene.
+    /// The path of the obstacle in the scene.
     pub path: &'static str,
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What would help.
+    /// The remedy.
     pub help: &'static str,
 }

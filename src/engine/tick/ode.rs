@@ -1,11 +1,11 @@
-//! Equations of motion as methods see them.
+//! Equations of motion, as methods see them.
 
 use std::ops::Range;
 
 /// A system of ordinary differential equations of motion, `q' = v`, `v' = a(t, q, v, z)`, `z' = r(t, q, v, z)`.
 ///
-/// A state is one list of numbers: coordinates `q`, as many velocities `v`, and behind them whatever models keep of their
-/// own (`z`): elongations, states of controllers, accounts of energy.
+/// A state is one list of numbers: coordinates `q`, the same number of velocities `v`, and the states of models (`z`).
+/// These are elongations, states of controllers, and accounts of energy.
 pub trait Flow {
     /// Number of coordinates, and of velocities.
     fn coordinates(&self) -> usize;
@@ -19,7 +19,7 @@ pub trait Flow {
     /// The rates of `state` at `time` seconds; both have [`Flow::dimension`] numbers.
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]);
 
-    /// Whether joints hold coordinates, and nothing else: kicks and drifts then stay on what they hold.
+    /// Whether joints, and nothing else, hold coordinates: kicks and drifts then stay on the constraints.
     fn is_held(&self) -> bool {
         false
     }
@@ -30,10 +30,11 @@ pub trait Flow {
         self.rates(time, state, rates);
     }
 
-    /// A drift from `time` over `length` seconds, negative ones too: coordinates move by velocities and are brought back onto joints along
-    /// the directions in which these pushed, and velocities follow. It is the step of RATTLE without a force, which is symplectic and
-    /// symmetric in time (Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section VII.1.4). `state` is
-    /// the one of the beginning; the change since the step began grows with it.
+    /// A drift from `time` over `length` seconds, also negative ones. Coordinates move by velocities and are brought
+    /// back onto joints along the directions in which these pushed. Velocities follow. It is the step of RATTLE without
+    /// a force, which is symplectic and symmetric in time. Sources: Andersen 1983; Hairer, Lubich, Wanner, Geometric
+    /// Numerical Integration, 2nd ed. 2006, section VII.1.4. The given `state` is that of the beginning, and `change`
+    /// since the step began grows.
     fn drift(&mut self, time: f64, length: f64, state: &mut [f64], change: &mut [f64]) {
         let _ = time;
         let coordinates = self.coordinates();
@@ -44,8 +45,8 @@ pub trait Flow {
         }
     }
 
-    /// How many numbers at the end of a state are accounts of what makes the velocities change, on which no rate depends: they
-    /// are advanced as velocities are, so that both agree to rounding.
+    /// The number of accounts at the end of a state. They book the causes of changes of velocity, and no rate depends
+    /// on them. They are advanced like velocities, so that both agree to rounding.
     fn accounts(&self) -> usize {
         0
     }

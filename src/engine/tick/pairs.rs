@@ -1,4 +1,4 @@
-//! Candidate pairs: who may touch whom. The search for them fills the lists, contact laws go by them.
+//! Candidate pairs: pairs that may touch. The search fills the lists, and contact laws use them.
 
 use glam::DVec2;
 use jostle_shapes::Feature;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Marks a pair that was not in the list before.
 pub const NEW: u32 = u32::MAX;
 
-/// A pair of atoms of different bodies that are nearer than the margin. `a` stands before `b` in canonical order.
+/// A pair of atoms of different bodies that are nearer than the margin. In canonical order `a` precedes `b`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct AtomPair {
     /// Place of the first atom.
@@ -19,7 +19,7 @@ pub struct AtomPair {
 }
 
 impl AtomPair {
-    /// Unit vector from the centre of the first atom to that of the second; up if they are in one place.
+    /// Unit vector from the centre of the first atom to that of the second; upwards if the centres coincide.
     #[inline]
     pub fn normal(self, bodies: &Bodies) -> DVec2 {
         let between = bodies.atom_place(self.b as usize) - bodies.atom_place(self.a as usize);
@@ -37,7 +37,8 @@ impl AtomPair {
 /// A probe that is nearer to a surface of something else than the margin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct SurfacePair {
-    /// Place of a wall, or of the piece of a line where the search found the probe; or, behind all walls, of a hull.
+    /// Index of a wall, or of the piece of a line at which the search found the probe. Indices behind all walls are
+    /// those of hulls.
     pub surface: u32,
     /// Place of an atom: a corner, or a disc; or, behind all atoms, of an end of a wall.
     pub probe: u32,
@@ -45,7 +46,7 @@ pub struct SurfacePair {
     kept: u32,
 }
 
-/// What a probe is near to.
+/// The surface near a probe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
     /// Place of a wall.
@@ -54,7 +55,7 @@ pub enum Surface {
     Hull(usize),
 }
 
-/// What is near to a surface.
+/// The probe near a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Probe {
     /// Place of an atom.
@@ -70,14 +71,14 @@ impl SurfacePair {
         Self { surface, probe, kept: 0 }
     }
 
-    /// The feature of the hull that counts in a step with stages. Default: none, the nearest counts.
+    /// The feature of the hull that counts in a step with stages. Default: none, and the nearest counts.
     #[inline]
     pub fn kept(&self) -> Option<Feature> {
         let index = self.kept.checked_sub(1)? as usize;
         Some(if index.is_multiple_of(2) { Feature::Corner(index / 2) } else { Feature::Side(index / 2) })
     }
 
-    /// From now on this corner or side counts, or the nearest.
+    /// Sets the corner or side that counts; `None` for the nearest.
     pub fn keep(&mut self, feature: Option<Feature>) {
         self.kept = match feature {
             Some(Feature::Corner(corner)) => 1 + 2 * corner as u32,
@@ -123,7 +124,7 @@ impl SurfacePair {
         }
     }
 
-    /// The place of the wall, if one side is one; of a line that of its first piece.
+    /// The index of the wall, if one side is a wall; for a line that of its first piece.
     #[inline]
     pub fn wall(self, bodies: &Bodies) -> Option<usize> {
         match (self.surface(bodies), self.probe(bodies)) {
@@ -132,7 +133,8 @@ impl SurfacePair {
         }
     }
 
-    /// The bodies of both sides, if they are no walls: that of the surface, or of the probe where the surface is a wall, stands behind.
+    /// The bodies of both sides, except walls. The body of the surface is second, or that of the probe if the surface
+    /// is a wall.
     #[inline]
     pub fn bodies(self, bodies: &Bodies) -> (Option<usize>, usize) {
         let of_hull = |hull: usize| bodies.hulls[hull].body as usize;
@@ -144,22 +146,23 @@ impl SurfacePair {
     }
 }
 
-/// Who may touch whom, in canonical order.
+/// Pairs that may touch, in canonical order.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct CandidatePairs {
-    /// Counts how often the lists were made anew.
+    /// The number of renewals of the lists.
     pub version: u64,
     /// Pairs of atoms.
     pub atoms: Vec<AtomPair>,
-    /// Where the group of those ends that touched when the list was made, and that of those that nearly did. Each group is in order.
+    /// The ends of two groups: pairs that touched when the list was made, and pairs that nearly did. Each group is in
+    /// order.
     pub group_ends: [usize; 2],
     /// Atoms near walls and hulls, and ends of walls near hulls.
     pub surfaces: Vec<SurfacePair>,
     /// Whether some of them keep a feature.
     pub keeps: bool,
-    /// For each item of `atoms` its place in the list before, or [`NEW`].
+    /// For each item of `atoms` its index in the list before, or [`NEW`].
     pub atoms_before: Vec<u32>,
-    /// For each item of `surfaces` its place in the list before, or [`NEW`].
+    /// For each item of `surfaces` its index in the list before, or [`NEW`].
     pub surfaces_before: Vec<u32>,
     /// How the pairs of atoms were found.
     pub search: Search,

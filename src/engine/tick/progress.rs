@@ -1,4 +1,4 @@
-//! How a run goes: what it has come to, and what went wrong.
+//! The progress of a run: its results so far, and its failure.
 
 use bevy_ecs::change_detection::Tick;
 use bevy_ecs::prelude::*;
@@ -11,7 +11,7 @@ use super::guard::EnergyGuard;
 use super::travel::FarTravel;
 use serde::{Deserialize, Serialize};
 
-/// How a run goes.
+/// The progress of a run.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Progress {
     #[serde(skip)]
@@ -19,7 +19,7 @@ pub(super) struct Progress {
     /// Counts changes of method and models.
     #[serde(skip)]
     pub version: u64,
-    /// The schedule of the tick, as long as the world is given to no one else.
+    /// The schedule of the tick, as long as the world is not open to others.
     #[serde(skip)]
     pub sim: Option<Box<Schedule>>,
     /// Something reads components after each batch.
@@ -28,7 +28,7 @@ pub(super) struct Progress {
     /// Components hold the state of an earlier tick.
     #[serde(skip)]
     pub behind: bool,
-    /// What runs during a batch, and stays as long as the schedule of the tick.
+    /// The running parts of a batch, kept as long as the schedule of the tick.
     #[serde(skip)]
     pub running: Option<Box<Running>>,
     /// The totals before others changed the state, if they did since the last tick.
@@ -51,7 +51,7 @@ pub(super) struct Progress {
     pub current: bool,
     /// Greatest travel of any point of a body in one tick, in metres.
     pub travel: f64,
-    /// Sum of all travels in the last tick: not finite as soon as one of them is not.
+    /// Sum of all travels in the last tick. It is NaN or infinite as soon as one of them is.
     pub travelled: f64,
     /// Greatest travel in the last tick, in metres.
     pub farthest: f64,
@@ -60,7 +60,7 @@ pub(super) struct Progress {
     pub energy: EnergyGuard,
     #[serde(skip)]
     pub trouble: Option<Trouble>,
-    /// How many indicators each model with events told last, in order.
+    /// The number of indicators of each model with events at the last call, in order.
     pub told: Vec<usize>,
 }
 
@@ -76,7 +76,7 @@ impl Progress {
 pub struct LocatedEvents {
     /// Events.
     pub count: u64,
-    /// Ticks that went on under velocity Verlet, for contacts were too many.
+    /// Ticks that continued under velocity Verlet, because contacts were too many.
     pub given_up: u64,
 }
 
@@ -103,8 +103,8 @@ impl StepCount {
         self.accepted + self.whole_from.map_or(0, |from| tick - from)
     }
 
-    /// Whether rounding bounds more than a tenth of all steps, and more than one: the first of a run, before anything has moved
-    /// far, and what rounding leaves of a run at its end, do not count.
+    /// Whether rounding bounds more than a tenth of all steps, and more than one. Single steps do not count. The first
+    /// step of a run comes before any body has moved far, and the last one may be a remainder of rounding.
     pub fn is_bounded(&self) -> bool {
         self.bounded > 1 && 10 * self.bounded > self.accepted
     }

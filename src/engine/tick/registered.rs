@@ -1,4 +1,5 @@
-//! Which systems of the tick the engine knows, by identity: a system that was taken out, or put in its place, is another one.
+//! Identification of the systems of the tick that the engine registered. A replacement of a removed system has another
+//! identity.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +9,7 @@ use bevy_ecs::schedule::{NodeId, ScheduleLabel, SystemKey};
 
 use super::{Evaluate, Modes, SimTick};
 
-/// What is known of a system.
+/// The knowledge of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// It works on the state only.
@@ -19,7 +20,7 @@ pub(crate) enum Kind {
     Flies,
 }
 
-/// A system in one of the schedules of the tick, as it was registered.
+/// A system in one of the schedules of the tick, in its registered form.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     schedule: Interned<dyn ScheduleLabel>,
@@ -105,7 +106,7 @@ impl Registered {
         self.knows(label.intern(), schedule, |known| known.kind != Kind::Packed)
     }
 
-    /// Whether a schedule holds the systems that the engine registered for it, and no others.
+    /// Whether a schedule holds exactly the systems that the engine registered for it.
     pub fn is_as_registered(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
         let label = label.intern();
         let own = |known: &Known| known.kind == Kind::Flies;

@@ -1,31 +1,30 @@
-//! How fast bodies that are held respond: the largest angular frequency of all springs together, those of contacts and those
-//! of the scene.
+//! The critical tick: the largest angular frequency of all springs together, those of contacts and those of the scene.
 //!
-//! With the springs' rows `j` (normal, tangential and rolling, lever arms included), stiffnesses `k` and the masses `M` the
-//! motion of small displacements is `K phi = omega^2 M phi`, `K = sum k j j^T`. A method that is stable up to
-//! `omega dt = limit` bears no longer tick than `limit/omega_max`. Springs that hold one body together are faster than
-//! each of them alone, springs off its centre faster than `k/m` says.
+//! The springs have rows `j` (normal, tangential and rolling, lever arms included) and stiffnesses `k`, and the masses
+//! are `M`. The motion of small displacements is `K phi = omega^2 M phi`, `K = sum k j j^T`. If a method is stable up
+//! to `omega dt = limit`, its longest tick is `limit/omega_max`. Several springs that hold one body are faster together
+//! than each alone. A spring off the centre of a body is faster than `k/m`.
 //!
 //! The largest eigenvalue of `M^-1/2 K M^-1/2` is found by Lanczos' method (1950; Golub and Van Loan, *Matrix
-//! Computations*, 2013, 10.1): a few products with the rows, never a matrix. What it finds after `k` products lies below
-//! `omega^2` by a share of `0.103 (ln n/(k - 1))^2` on average, `n` degrees of freedom (Kuczynski and Wozniakowski 1992):
-//! 1.5 % for a hundred bodies. [`Springs::bound`] lies above it always.
+//! Computations*, 2013, 10.1). It takes a few products with the rows, and never a matrix. The result after `k` products
+//! lies below `omega^2` by a share of `0.103 (ln n/(k - 1))^2` on average, with `n` degrees of freedom (Kuczynski and
+//! Wozniakowski 1992). That is 0.015 for a hundred bodies. [`Springs::bound`] lies above it always.
 //!
-//! Left out: the stiffness that comes from turning the normal (force over radius, small beside `k` as long as overlaps
-//! are), and that a slipping contact has no tangential spring.
+//! Neglected: the stiffness from the rotation of the normal (force over radius), which is small beside `k` if overlaps
+//! are. Neglected too: a slipping contact has no tangential spring.
 
 use glam::DVec2;
 
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// Products with the rows. The result is exact after as many as there are degrees of freedom.
+/// Products with the rows. The result is exact if they reach the number of degrees of freedom.
 const STEPS: usize = 16;
 
-/// Two springs, of a contact or of the scene, between two bodies, or a body and a wall or the world.
+/// Two springs of a contact or of the scene. They act between two bodies, or between a body and a wall or the world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
-    /// Place of the body on side A and the arm from its centre of mass to the contact; `None`: a wall or the world.
+    /// Index of the body on side A and the arm from its centre of mass to the contact; `None`: a wall or the world.
     pub a: Option<(usize, DVec2)>,
     /// The same for side B.
     pub b: (usize, DVec2),
@@ -33,7 +32,7 @@ pub struct Spring {
     pub normal: DVec2,
     /// Stiffness along the normal and across it, in N/m.
     pub stiffness: (f64, f64),
-    /// What damping along the normal adds to the stiffness as the method feels it, in N/m.
+    /// The effect of damping along the normal on the method, as an additional stiffness in N/m.
     pub damped: f64,
     /// Stiffness against turning one side over the other, in N m.
     pub turning: f64,
@@ -52,7 +51,7 @@ pub struct Springs {
     list: Vec<Spring>,
     /// How many of them are contacts: they come first.
     contacts: usize,
-    /// For each spring the slots of both sides; [`NOBODY`] for what does not move by forces.
+    /// For each spring the slots of both sides; [`NOBODY`] for sides that do not move by forces.
     slots: Vec<(u32, u32)>,
     /// For each slot the body.
     bodies: Vec<usize>,
@@ -60,7 +59,7 @@ pub struct Springs {
     roots: Vec<(f64, f64)>,
     /// For each body its slot.
     slot_of: Vec<u32>,
-    /// For each slot the sum of what its springs do at most.
+    /// For each slot the upper bound of the effect of its springs.
     sums: Vec<f64>,
 }
 
@@ -69,7 +68,7 @@ const NOBODY: u32 = u32::MAX;
 /// Memory of so many springs is kept for the next time.
 const KEPT: usize = 4096;
 
-/// What is known of the springs without solving anything.
+/// Bounds of the springs without the solution of an eigenvalue problem.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bound {
     /// An upper bound of `omega^2` of all springs together, in 1/s2.
@@ -111,7 +110,7 @@ impl Springs {
         self.list.extend(others);
         self.slots.clear();
         self.roots.clear();
-        // Where few of many bodies are held, filling the whole list each time would cost more than all the rest.
+        // If few of many bodies are held, filling the whole list each time would cost more than all the rest.
         if self.slot_of.len() == bodies.len() {
             self.bodies.drain(..).for_each(|body| self.slot_of[body] = NOBODY);
         } else {
@@ -151,8 +150,8 @@ impl Springs {
         (mass * mass + along * along, mass * mass + across * across)
     }
 
-    /// Bounds `omega^2` from above: each body's springs are summed as if all pulled along one direction, those to other
-    /// moving bodies twice, because `(x - y)^2 <= 2 x^2 + 2 y^2`.
+    /// Bounds `omega^2` from above. Each body's springs are summed as if all pulled along one direction. Those to other
+    /// moving bodies count twice, because `(x - y)^2 <= 2 x^2 + 2 y^2`.
     pub fn bound(&mut self) -> Bound {
         let mut found = Bound::default();
         self.sums.clear();
@@ -262,8 +261,8 @@ fn scale(vector: &mut [Scaled], factor: f64) {
     }
 }
 
-/// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on the sign of its leading minors (Sturm; Golub and
-/// Van Loan 8.4).
+/// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on the sign of its leading minors. The source is
+/// Sturm; Golub and Van Loan 8.4.
 fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> f64 {
     let reach = |place: usize| {
         let before = place.checked_sub(1).and_then(|before| beside.get(before)).copied().unwrap_or(0.0);
@@ -272,7 +271,7 @@ fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> f64 {
     };
     let mut high = (0..diagonal.len()).map(reach).fold(0.0, f64::max);
     let mut low = diagonal.iter().copied().fold(0.0, f64::max);
-    // No eigenvalue above `at`: all leading minors of `T - at` are negative where they should be.
+    // No eigenvalue lies above `at` if all leading minors of `T - at` have the right signs.
     let is_above_all = |at: f64| {
         let mut minor = 1.0;
         diagonal.iter().enumerate().all(|(place, alpha)| {

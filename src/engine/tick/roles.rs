@@ -1,8 +1,8 @@
-//! Which models take part in which stage, found out when the list of models changes.
+//! The models of each stage, found when the list of models changes.
 
 use super::model::{Dependence, Model};
 
-/// What models do, as far as it does not change while they act.
+/// The roles of models, which do not change while they act.
 #[derive(Default)]
 pub(super) struct Roles {
     /// Places of those that take part in a stage.
@@ -23,7 +23,7 @@ pub(super) struct Roles {
     pub velocity_beside_joints: bool,
     pub changing_forces: bool,
     pub flies: bool,
-    /// The fastest angular frequency in rad/s at which a force swings by the clock; zero if none does.
+    /// The fastest angular frequency in rad/s at which a force oscillates in time; zero if none does.
     pub rhythm: f64,
     /// [`Progress::version`] for which all of this was found out.
     pub version: Option<u64>,

@@ -1,7 +1,7 @@
-//! The state of a run as bytes: all that decides its future, and all that it has come to.
+//! Serialisation of the state of a run: all data that decides its future, and all its results.
 //!
-//! Parameters are not among it: they are those of the scene, which is read anew. So bytes are taken up by a run of the same scene
-//! that has the same models in the same order. Numbers are kept to the last bit.
+//! Parameters are excluded, because they follow from the scene, which is read again. So only a run of the same scene
+//! with the same models in the same order can load the bytes. Numbers are kept to the last bit.
 
 use std::fmt;
 
@@ -10,28 +10,28 @@ use serde::{Deserialize, Serialize};
 
 use super::State;
 
-/// What a model or an integrator remembers beside its parameters.
+/// The memory of a model or an integrator beside its parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Memory {
-    /// It does not say. A snapshot refuses, with its name.
+    /// The model does not declare its memory. A snapshot refuses, with its name.
     Untold,
-    /// Nothing: the parameters say it all.
+    /// No memory: the parameters suffice.
     Nothing,
     /// These bytes, see [`Memory::of`].
     Bytes(Vec<u8>),
 }
 
 impl Memory {
-    /// What a value holds.
+    /// The memory that a value holds.
     pub fn of(value: &impl Serialize) -> Self {
         // Only lists of unknown length and values that refuse cannot be written: derived types have neither.
         postcard::to_stdvec(value).map_or(Self::Untold, Self::Bytes)
     }
 
-    /// The bytes, if there are any.
+    /// The bytes, if there is any memory.
     ///
     /// # Errors
-    /// If it does not say, with its name.
+    /// An error with the name if the memory is not declared.
     pub fn bytes(self, name: impl FnOnce() -> String) -> Result<Option<Vec<u8>>, Unsaved> {
         match self {
             Self::Untold => Err(Unsaved { name: name() }),
@@ -56,7 +56,7 @@ pub fn recall<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Unfit> {
 /// Why a state cannot be saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unsaved {
-    /// The name of the type that does not say what it remembers.
+    /// The name of the type that does not declare its memory.
     pub name: String,
 }
 
@@ -136,7 +136,7 @@ impl State {
         }
     }
 
-    /// Becomes another state but for what belongs to this process.
+    /// Takes over another state, except for the parts that belong to this process.
     fn take_over(&mut self, other: Self) {
         let Self { bodies, progress, models, roles, stopwatch, ledger, .. } = std::mem::replace(self, other);
         (self.bodies.level, self.bodies.threads) = (bodies.level, bodies.threads);

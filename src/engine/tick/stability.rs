@@ -1,6 +1,6 @@
-//! How fast the springs of a run respond, against what its method bears. Models that know add a function; the error card
-//! and the guard of energy ask. What is known before the first tick decides how long a tick is that the scene does not
-//! name.
+//! Stability: the responses of the springs of a run, against the limit of its method. Models add functions for their
+//! springs, and the error card and the guard of energy call them. The values before the first tick decide the length of
+//! a tick that the scene does not name.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -8,19 +8,19 @@ use std::fmt;
 use bevy_ecs::prelude::*;
 
 use serde::{Deserialize, Serialize};
-/// What the method bears, and what is known before the first tick of how fast the run responds.
+/// The limit of the method, and the predicted responses before the first tick.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Stability {
     /// Largest stable product of tick and angular frequency of the method.
     pub limit: f64,
-    /// Largest stable product of tick and damping over mass. With a spring beside it `(omega dt/limit)^2 + c/m
-    /// dt/damping_limit` is to stay below 1.
+    /// Largest stable product of tick and damping over mass. With a spring in parallel `(omega dt/limit)^2 + c/m
+    /// dt/damping_limit` has to stay below 1.
     pub damping_limit: f64,
-    /// What models know of that before the first tick: each adds its own when the whole scene stands.
+    /// The predictions of models before the first tick. Each model adds its own after the whole scene is built.
     pub foreseen: Vec<Foreseen>,
 }
 
-/// What holds a body.
+/// The holder of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Holder {
     /// Contacts, or contacts and springs together.
@@ -38,29 +38,29 @@ impl fmt::Display for Holder {
     }
 }
 
-/// How fast a model can respond, as far as that is known before the first tick.
+/// The predicted response of a model before the first tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Foreseen {
     /// The greatest angular frequency in rad/s: of a single contact, or of all springs together.
     pub angular_frequency: f64,
-    /// What responds.
+    /// The holder that responds.
     pub holder: Holder,
 }
 
 impl Stability {
-    /// What damping adds to the stiffness, both as the method feels them: times damping in N s/m and the limit over the
-    /// tick, in 1/s.
+    /// The factor from damping in N s/m to the stiffness that it adds for the method, without the limit over the tick.
+    /// In 1/s.
     pub fn weight_of_damping(&self) -> f64 {
         self.limit / self.damping_limit
     }
 
-    /// The fastest of what models know before the first tick.
+    /// The fastest of the predictions before the first tick.
     pub fn fastest_foreseen(&self) -> Option<Foreseen> {
         let known = self.foreseen.iter().copied().filter(|foreseen| foreseen.angular_frequency > 0.0);
         known.max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))
     }
 
-    /// The greatest angular frequency in rad/s that a single contact can have, if there can be any.
+    /// The greatest possible angular frequency in rad/s of a single contact, if contacts are possible.
     pub fn stiffest_contact(&self) -> Option<f64> {
         let contacts = self.foreseen.iter().filter(|foreseen| foreseen.holder == Holder::Contacts);
         contacts.map(|foreseen| foreseen.angular_frequency).filter(|frequency| *frequency > 0.0).reduce(f64::max)
@@ -68,13 +68,13 @@ impl Stability {
 }
 
 impl Default for Stability {
-    /// Nobody knows anything, under a method that is stable up to 2, as velocity Verlet is.
+    /// No predictions, and a method that is stable up to 2, like velocity Verlet.
     fn default() -> Self {
         Self { limit: 2.0, damping_limit: 1.0, foreseen: Vec::new() }
     }
 }
 
-/// The fastest responses of a run so far, as far as they were measured.
+/// The fastest measured responses of a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Responses {
     /// Of everything that held bodies at once.
@@ -90,7 +90,7 @@ pub struct Fastest {
     pub angular_frequency: f64,
     /// The body that was held most stiffly then.
     pub body: Entity,
-    /// What held it.
+    /// Its holder.
     pub holder: Holder,
     /// When, in seconds.
     pub time: f64,
@@ -101,14 +101,14 @@ pub struct Fastest {
 pub struct Briefest {
     /// In rad/s; the contact lasts half a period.
     pub angular_frequency: f64,
-    /// Whose contact it is.
+    /// The two sides of the contact.
     pub between: (Entity, Entity),
     /// When, in seconds.
     pub time: f64,
 }
 
 impl Responses {
-    /// What these know together.
+    /// The fastest of all.
     pub(super) fn of_all(all: impl Iterator<Item = Self>) -> Self {
         all.fold(Self::default(), |known, found| {
             let faster =

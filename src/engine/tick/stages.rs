@@ -1,8 +1,8 @@
-//! The stages of a step as systems, and the schedules in which they stand.
+//! The stages of a step as systems, and their schedules.
 //!
-//! Each system calls one function of [`State`]. Where the schedules of a run hold these systems and no others, the integrator calls
-//! the functions in the same order without them: a schedule and its systems take more instructions than a small world. Systems see
-//! to the lists of bodies first, for others may have written to them.
+//! Each system calls one function of [`State`]. If the schedules of a run hold exactly these systems, the integrator
+//! calls the functions directly in the same order. The reason is that a schedule and its systems take more instructions
+//! than a small world. Systems first check the lists of bodies, because others may have written to them.
 
 use bevy_ecs::prelude::*;
 
@@ -40,7 +40,7 @@ pub fn begin_step(mut state: ResMut<State>) {
     state.begin_step();
 }
 
-/// The stages that stand in the schedules so far.
+/// The stages in the schedules so far.
 #[derive(Resource, Clone, Copy, Default)]
 struct Scheduled(Stages);
 

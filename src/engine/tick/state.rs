@@ -1,4 +1,5 @@
-//! The state of a run: all that a step changes, as packed arrays in canonical order, and the models that change it.
+//! The state of a run: all data that a step changes, as packed arrays in canonical order, and the models that change
+//! it.
 
 use std::ops::Range;
 
@@ -23,16 +24,16 @@ use serde::{Deserialize, Serialize};
 
 /// The state of a run.
 ///
-/// Systems of users take it as `Res<State>` or `ResMut<State>`, models as an argument. Bodies, atoms and walls stand in canonical
-/// order, the order in which the scene names them.
+/// Systems of users take it as `Res<State>` or `ResMut<State>`, models as an argument. Bodies, atoms and walls are in
+/// canonical order, the order in which the scene names them.
 #[derive(Resource, Default, Serialize, Deserialize)]
 pub struct State {
     pub(crate) bodies: Bodies,
     pub(crate) balance: Balance,
     pub(crate) ledger: Ledger,
-    /// What models hold exactly in the present evaluation.
+    /// The constraints of models in the current evaluation.
     pub(crate) rows: Rows,
-    /// Working memory for bringing states back onto joints: the rows of a state that a step has reached, and of places tried.
+    /// Working memory for projections onto joints: the rows of a state that a step has reached, and of trial positions.
     #[serde(skip)]
     pub(super) projected: Rows,
     #[serde(skip)]
@@ -45,7 +46,7 @@ pub struct State {
     pub(crate) evaluation: Evaluation,
     pub(crate) span: Span,
     pub(crate) clock: Clock,
-    /// Where pairs are searched for.
+    /// The bounding boxes of the search for pairs.
     pub(crate) bounds: Option<Bounds>,
     pub(crate) pairs: Option<CandidatePairs>,
     pub(crate) deepest: DeepestOverlap,
@@ -82,7 +83,7 @@ macro_rules! each {
 
 /// The stages of a step.
 impl State {
-    /// Stages Bounds and Pairs: boxes are checked against where bodies stand now, and candidate pairs found.
+    /// Stages Bounds and Pairs: checks boxes against the current positions of bodies, and finds candidate pairs.
     pub(super) fn update_bounding_boxes(&mut self) {
         self.turn_to(Part::Bounds);
         let Self { bounds, bodies, evaluation, .. } = self;
@@ -188,7 +189,7 @@ impl State {
         }
     }
 
-    /// From now on the time counts for another part of the tick, if it is measured.
+    /// Counts the time from here on for another part of the tick, if it is measured.
     #[inline]
     pub(super) fn turn_to(&mut self, part: Part) {
         if let Some(stopwatch) = &mut self.stopwatch {
@@ -207,9 +208,9 @@ pub(super) struct Stages {
     pub modes: bool,
 }
 
-/// Models, and what they know together.
+/// Models, and their common properties.
 impl State {
-    /// Adds a model behind the others: contact laws stand behind all other models.
+    /// Adds a model behind the others. Contact laws are behind all other models.
     ///
     /// # Panics
     /// While models act: a model cannot add another one. A system in [`Stage::Begin`](super::Stage::Begin) can.
@@ -234,7 +235,7 @@ impl State {
         self.progress.version += 1;
     }
 
-    /// Keeps the models for which `keep` says so. Returns how many went.
+    /// Keeps the models for which `keep` is true. Returns the number of removed models.
     pub fn retain_models(&mut self, keep: impl FnMut(&mut Box<dyn Model>) -> bool) -> usize {
         self.note_change();
         let before = self.models.len();
@@ -244,7 +245,7 @@ impl State {
         before - self.models.len()
     }
 
-    /// Forces are evaluated anew before the next tick, and the energy by which the coming change differs from now counts as work.
+    /// Announces a change. Forces are evaluated again before the next tick, and the change of energy counts as work.
     fn note_change(&mut self) {
         self.bodies.touched = true;
         self.springs.look_again();
@@ -253,7 +254,7 @@ impl State {
         }
     }
 
-    /// Finds out what the models do, if there are others than before.
+    /// Finds the roles of the models, if these have changed.
     pub(super) fn find_roles(&mut self) {
         if self.roles.version != Some(self.progress.version) {
             self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models) };
@@ -281,8 +282,8 @@ impl State {
         self.models_of().next()
     }
 
-    /// The first model of a type, to be changed. Forces are evaluated anew before the next tick; energy that changes with it counts as
-    /// work.
+    /// The first model of a type, mutable. Forces are evaluated again before the next tick, and a change of energy
+    /// counts as work.
     pub fn model_mut<T: 'static>(&mut self) -> Option<&mut T> {
         let has = |model: &dyn Model| {
             let own: &dyn std::any::Any = model;
@@ -308,7 +309,7 @@ impl State {
         state.find_roles();
     }
 
-    /// Whether some force depends on velocities, if those of joints are left out.
+    /// Whether some force depends on velocities, without those of joints.
     pub(super) fn depends_on_velocity_beside_joints(&self) -> bool {
         self.force_systems > 0 || self.roles.velocity_beside_joints
     }
@@ -338,7 +339,7 @@ impl State {
         !self.roles.edges.is_empty()
     }
 
-    /// The fastest angular frequency in rad/s at which a force swings by the clock; zero if none does.
+    /// The fastest angular frequency in rad/s at which a force oscillates in time; zero if none does.
     pub(crate) fn fastest_rhythm(&self) -> f64 {
         self.roles.rhythm
     }
@@ -358,7 +359,7 @@ impl State {
         self.models.iter().find_map(|model| model.contact_law())
     }
 
-    /// All contacts of the present state in canonical order; `None` without a contact law that tells them.
+    /// All contacts of the current state in canonical order; `None` without a contact law that provides them.
     pub fn contact_points(&self) -> Option<Vec<ContactPoint>> {
         self.models.iter().find_map(|model| model.contact_points(self))
     }
@@ -394,14 +395,14 @@ impl State {
         Totals::with(&self.bodies, potential, elastic)
     }
 
-    /// How fast all models respond, as far as it was measured.
+    /// The measured responses of all models.
     pub fn responses(&self) -> Responses {
         let models = self.models.iter().map(|model| model.responses());
         Responses::of_all(models.chain([self.springs.found()]))
     }
 }
 
-/// What systems and models of users read and write.
+/// The part of the state for systems and models of users.
 impl State {
     /// All bodies, atoms and walls.
     pub fn bodies(&self) -> &Bodies {
@@ -423,8 +424,8 @@ impl State {
         &mut self.rows
     }
 
-    /// Gives the forces of some rows to their bodies, with what comes from outside: a model does so in [`Model::take_rows`] with
-    /// the rows that it added, given by their indices.
+    /// Applies the forces of some rows to their bodies, with the external part. A model calls it in
+    /// [`Model::take_rows`] with the indices of its rows.
     pub fn apply_rows(&mut self, indices: Range<usize>) {
         let Self { rows, bodies, balance, .. } = self;
         for index in indices {
@@ -457,7 +458,7 @@ impl State {
         &self.balance
     }
 
-    /// What has gone in and out since the beginning.
+    /// The sums since the beginning.
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
     }
@@ -482,7 +483,7 @@ impl State {
         self.span
     }
 
-    /// Who may touch whom; `None` where nothing is searched for.
+    /// Pairs that may touch; `None` without a search.
     pub fn pairs(&self) -> Option<&CandidatePairs> {
         self.pairs.as_ref()
     }
@@ -507,17 +508,17 @@ impl State {
         self.steps
     }
 
-    /// What is known of the longest stable tick.
+    /// The limit of the longest stable tick.
     pub fn stability(&self) -> &Stability {
         &self.stability
     }
 
-    /// The time that the parts of ticks took, if it is measured.
+    /// The durations of the parts of ticks, if they are measured.
     pub fn stopwatch(&self) -> Option<&Stopwatch> {
         self.stopwatch.as_ref()
     }
 
-    /// The forces of contacts on each body and wall, where a sensor asks for them.
+    /// The forces of contacts on each body and wall, if a sensor asks for them.
     pub fn contact_forces(&self) -> Option<&ContactForces> {
         self.contact_forces.as_ref()
     }
@@ -527,7 +528,7 @@ impl State {
         self.bodies.field.unwrap_or_default()
     }
 
-    /// The section `gravity`: the sums of forces begin with the weight from now on.
+    /// The section `gravity`: from here on the sums of forces begin with the weight.
     pub(crate) fn begin_field(&mut self, gravity: DVec2) {
         self.bodies.field = Some(gravity);
         self.bodies.posed = false;

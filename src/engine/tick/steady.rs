@@ -1,12 +1,11 @@
-//! Springs that are there all the time, as those of the scene are: how fast they respond together.
+//! The common response of permanent springs, such as those of the scene.
 //!
-//! Each model that has some lists them in their present state. Their largest angular frequency is worked out before the
-//! first tick, for the tick that the engine chooses, and every `PATIENCE` ticks for the error card, as directions and
-//! lengths change; contacts that are measured count them too, as they hold the same bodies.
+//! Each model with springs lists them in their current state. Their largest angular frequency is computed before the
+//! first tick, for the tick that the engine chooses. It is computed again every `PATIENCE` ticks for the error card,
+//! because directions and lengths change. Measured contacts include them too, because they hold the same bodies.
 //!
-//! Damping counts as stiffness, in proportion to the frequency that is sought (see
-//! [`Stability::weight_of_damping`]), so the frequency is a fixed point; each of `ROUNDS` rounds halves at least what is
-//! missing.
+//! Damping counts as stiffness, in proportion to the unknown frequency (see [`Stability::weight_of_damping`]). So the
+//! frequency is a fixed point. Each of `ROUNDS` rounds halves the remaining error at least.
 
 use super::response::{Spring, Springs};
 use super::{Fastest, Foreseen, Holder, Responses, Stability, State};
@@ -15,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 /// Ticks after which the springs are looked at again.
 const PATIENCE: u64 = 512;
-/// Rounds in which the frequency is sought where there is damping.
+/// Rounds of the search for the frequency with damping.
 const ROUNDS: usize = 40;
 /// Product of tick and angular frequency above which energy is watched at each tick; methods bear 2 and more.
 const ALERT: f64 = 1.5;
@@ -48,8 +47,8 @@ impl SteadySprings {
         self.list.iter().any(|steady| steady.damping > 0.0 || steady.turning_damping > 0.0)
     }
 
-    /// The springs as they were when they were last looked at. Damping counts as stiffness, as `weight` newtons per metre
-    /// for each N s/m.
+    /// The springs in the state of the last measurement. Damping counts as stiffness, as `weight` newtons per metre for
+    /// each N s/m.
     pub fn rows(&self, weight: f64) -> impl Iterator<Item = Spring> {
         self.list.iter().map(move |&SteadySpring { spring, damping, turning_damping }| Spring {
             damped: damping * weight,
@@ -58,7 +57,7 @@ impl SteadySprings {
         })
     }
 
-    /// How fast they respond, as far as it was measured.
+    /// Their measured responses.
     pub fn found(&self) -> Responses {
         self.found
     }
@@ -73,7 +72,8 @@ impl SteadySprings {
         self.alert
     }
 
-    /// The largest angular frequency in rad/s and the place of the body that is held most stiffly, in the present state.
+    /// The largest angular frequency in rad/s in the current state, and the index of the body that is held most
+    /// stiffly.
     fn measure(&mut self, bodies: &Bodies, stability: &Stability) -> Option<(f64, usize)> {
         if self.list.is_empty() {
             return None;

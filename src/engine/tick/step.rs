@@ -85,7 +85,7 @@ impl State {
         if let Some(before) = before {
             tick.state.book_exchange(before);
         }
-        // Where all bodies are asleep the end of the tick is its beginning.
+        // If all bodies sleep, the end of the tick equals its beginning.
         if !tick.state.bodies.all_asleep() {
             if !style.is_staged() {
                 tick.choose_modes(tick.begin, tick.end);
@@ -133,7 +133,7 @@ impl State {
         }
     }
 
-    /// Looks for a number that is not finite. All bodies have landed.
+    /// Looks for a NaN or infinite number, after all bodies have landed.
     pub(super) fn note_failure(&mut self) {
         if let Some((body, quantity)) = finite::first_not_finite(&self.bodies) {
             let trouble = Trouble::at(&self.clock, Some(body), Wrong::NotFinite(quantity));
@@ -169,7 +169,7 @@ pub(super) fn refresh(world: &mut World) {
 }
 
 impl Trouble {
-    /// With the name of the body.
+    /// The failure with the name of the body.
     pub(super) fn named(self, world: &World) -> Failure {
         let placed = || world.resource::<State>().bodies.entity.get(self.body?).copied();
         let entity = self.entity.or_else(placed);
@@ -190,8 +190,8 @@ pub fn set_method(world: &mut World, method: Method) {
     state.progress.version += 1;
 }
 
-/// The greatest energy that was seen to go round so far, in J, looked for every few hundred ticks: of motion and springs, and
-/// what fields released.
+/// The greatest turnover of energy so far, in J: of motion and springs, and the release of fields. It is sampled every
+/// few hundred ticks.
 pub fn energy_seen(state: &State) -> f64 {
     state.progress.energy.seen()
 }

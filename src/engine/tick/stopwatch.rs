@@ -1,4 +1,4 @@
-//! Where the time of a tick goes. It is measured in a run for which [`watch`] was called, and in no other.
+//! A stopwatch for the parts of a tick. It measures only runs for which [`watch`] was called.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use bevy_ecs::schedule::{ScheduleLabel, Schedules};
 
 use super::{Evaluate, Modes, SimTick, State};
 
-/// Parts of a tick, in the order in which it goes through them.
+/// Parts of a tick, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     /// [`Stage::Begin`](super::Stage::Begin).
@@ -28,7 +28,7 @@ pub enum Part {
     Constraints,
     /// [`EvaluateStage::Settle`](super::EvaluateStage::Settle).
     Settle,
-    /// What is left of [`Stage::Integrate`](super::Stage::Integrate): the integrator itself.
+    /// The rest of [`Stage::Integrate`](super::Stage::Integrate): the integrator itself.
     Integrate,
     /// [`Stage::Observe`](super::Stage::Observe).
     Observe,
@@ -86,7 +86,7 @@ impl Stopwatch {
         self.spent[part as usize]
     }
 
-    /// From now on the time counts for another part.
+    /// Counts the time from here on for another part.
     pub(super) fn turn_to(&mut self, part: Part) {
         let now = Instant::now();
         self.spent[self.part as usize] += now - self.since;
@@ -94,14 +94,14 @@ impl Stopwatch {
     }
 }
 
-/// Measures the ticks of a world from now on. It costs a look at the clock before and after each stage.
+/// Starts to measure the ticks of a world. It reads the clock before and after each stage.
 pub fn watch(world: &mut World) {
     let now = Stopwatch { part: Part::Between, since: Instant::now(), spent: [Duration::ZERO; Part::ALL.len()] };
     world.resource_mut::<State>().stopwatch = Some(now);
 }
 
-/// The names of the systems and models of each part, in the order in which they run. Only a world that has run at least one tick
-/// knows it.
+/// The names of the systems and models of each part, in the order in which they run. Only a world that has run at least
+/// one tick has them.
 pub fn systems(world: &World) -> Vec<(Part, Vec<String>)> {
     let Some(schedules) = world.get_resource::<Schedules>() else { return Vec::new() };
     let mut parts: Vec<(Part, Vec<String>)> = Part::ALL.map(|part| (part, Vec::new())).to_vec();
@@ -114,7 +114,7 @@ pub fn systems(world: &World) -> Vec<(Part, Vec<String>)> {
             let name = system.name().to_string();
             part = part_of(&name).unwrap_or(part);
             parts[part as usize].1.push(name);
-            // What follows the integrator observes.
+            // Systems behind the integrator observe.
             if part == Part::Integrate {
                 part = Part::Observe;
             }

@@ -1,4 +1,5 @@
-//! What contact laws tell of the present state: the deepest overlap, and to those that ask who touches, where, and with what force.
+//! The reports of contact laws on the current state: the deepest overlap, and on request the touching pairs, with
+//! points and forces.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -19,8 +20,8 @@ pub struct Overlap {
     pub time: f64,
 }
 
-/// The deepest overlaps so far. Where bodies have different sizes, a small one may be pressed in by more of its radius than a large one by
-/// more metres.
+/// The deepest overlaps so far. If bodies have different sizes, a small one may be pressed in by more of its radius. A
+/// large one may be pressed in by more metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DeepestOverlap {
     /// The deepest in metres.
@@ -42,7 +43,7 @@ impl DeepestOverlap {
         Self { in_meters: overlap, in_share: overlap }
     }
 
-    /// Takes over what is deeper than before.
+    /// Takes over deeper overlaps.
     pub(crate) fn merge(&mut self, other: &Self) {
         if other.in_meters.overlap > self.in_meters.overlap {
             self.in_meters = other.in_meters;
@@ -53,14 +54,15 @@ impl DeepestOverlap {
     }
 }
 
-/// Force that a wall or body receives through contacts; contact laws fill it when a sensor asks for it.
+/// The force that a wall or body receives through contacts. Contact laws fill it in if a sensor asks for it.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct ContactForces {
     /// Force on each body in newtons, in canonical order.
     pub on_body: Vec<DVec2>,
     /// Force on each wall in newtons, in canonical order.
     pub on_wall: Vec<DVec2>,
-    /// What contacts give that are not evaluated because their bodies are asleep: on bodies, and on walls. Sums begin with it.
+    /// The forces of contacts that are not evaluated because their bodies sleep: on bodies, and on walls. Sums begin
+    /// with them.
     pub asleep: Option<(Vec<DVec2>, Vec<DVec2>)>,
 }
 
@@ -79,10 +81,11 @@ impl ContactForces {
     }
 }
 
-/// Who touches in the present state: contact laws fill it in each evaluation, if it is there.
+/// The touching pairs of the current state. Contact laws fill them in at each evaluation, if the resource exists.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Touches {
-    /// Places of bodies; the second is that of a wall if the flag says so. Sorted and each once after the tick.
+    /// Indices of bodies; if the flag is set, the second is that of a wall. After the tick they are sorted and without
+    /// duplicates.
     pub(crate) pairs: Vec<(bool, u32, u32)>,
     /// Those that began to touch at located events since the last tick, once for each time.
     pub(crate) begun: Vec<(bool, u32, u32)>,
@@ -121,7 +124,7 @@ impl Touches {
 /// Whom a body touches, by its place in canonical order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Other {
-    /// Another body, which stands before it.
+    /// Another body, which precedes it.
     Body(usize),
     /// A wall.
     Wall(usize),
@@ -134,7 +137,7 @@ pub struct ContactPoint {
     pub body: usize,
     /// Whom it touches; the opposite force acts there.
     pub other: Other,
-    /// Where the force acts, in metres.
+    /// The point of action of the force, in metres.
     pub point: DVec2,
     /// The force on `body` in newtons.
     pub force: DVec2,

@@ -1,4 +1,4 @@
-//! How far bodies travel in a tick: who may have passed through others unseen.
+//! The ways of bodies in a tick, and bodies that may have passed through others unseen.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -23,10 +23,10 @@ pub fn largest_travel(state: &State) -> f64 {
     state.progress.travel
 }
 
-/// A way in the whole run, as a share of the smallest radius, that is no motion: forces that cancel leave rounding.
+/// A way in the whole run below this share of the smallest radius is no motion. Forces that cancel leave rounding.
 const STANDS: f64 = 1e-9;
 
-/// Whether bodies have done nothing but stand so far. Before the first tick that is not known.
+/// Whether all bodies have been at rest so far. Before the first tick that is unknown.
 pub fn stands(state: &State) -> bool {
     let (ticks, smallest) = (state.clock.ticks, state.bodies.smallest_radius);
     ticks > 0 && smallest.is_finite() && state.progress.travel * ticks as f64 <= STANDS * smallest
@@ -55,7 +55,8 @@ impl Tick<'_> {
         self.note_travel(Travel { greatest, sum }, smallest);
     }
 
-    /// Notes how far bodies travelled in the tick, and who went too far if it is time to look. `smallest` is the smallest radius.
+    /// Notes the ways of bodies in the tick. When a check is due, it also notes the bodies that went too far.
+    /// `smallest` is the smallest radius.
     #[inline]
     pub(super) fn note_travel(&mut self, Travel { greatest, sum }: Travel, smallest: f64) {
         let progress = &mut self.state.progress;

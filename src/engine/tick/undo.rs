@@ -1,10 +1,10 @@
-//! Taking back a tick. What it travelled still counts among the travels of ticks, as that of a trial.
+//! Undo of a tick. Its ways still count among those of ticks, as that of a trial.
 
 use glam::DVec2;
 
 use super::{Ledger, Tick};
 
-/// What a tick began with. Candidate lists stay as they are, and models may have no history of it.
+/// The state at the beginning of a tick. Candidate lists keep their state, and models must have no history of the tick.
 #[derive(Default)]
 pub struct Undo {
     position: Vec<DVec2>,
