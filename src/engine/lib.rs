@@ -1,7 +1,7 @@
 //! The physics of Jostle: a scene becomes a world, and the world moves. Use it through the crate `jostle`.
 //!
-//! The modules stand in the order in which they build on each other. Nothing points back: a module uses those above it in the
-//! list below and none under it, and a test holds it. A physical model knows nothing of pictures.
+//! The modules are listed in the order of their dependence. A module uses those above it in the list below and none
+//! under it, and a test checks that. A physical model is independent of pictures.
 
 pub mod threads;
 

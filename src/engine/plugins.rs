@@ -1,7 +1,7 @@
 //! The standard plugins, in the order of the tick: the table of contents of the physics.
 //!
-//! Here they only register what a scene may name. What a scene names is installed when it is read, in this order;
-//! what it does not name is not scheduled, not stored, not paid for.
+//! They only register the names for scenes here. A scene installs its sections when it is read, in this order. Other
+//! sections are not scheduled, not stored, and cost nothing.
 
 use bevy_app::App;
 use jostle_frames::palette;
@@ -18,7 +18,7 @@ const RESERVED: [&str; 2] = ["randomise", "scene"];
 pub fn run_and_film(app: &mut App) {
     integrate::clock::plugin(app);
     record::sections::plugin(app);
-    // The painter knows its names; the language asks for them.
+    // The painter has its names of colours, and the language checks against them.
     for color in palette::COLOR_NAMES {
         app.register_word(COLORS, color);
     }

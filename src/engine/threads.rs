@@ -1,10 +1,10 @@
-//! Several threads for the work on many bodies or contacts of one tick.
+//! A thread pool for the work on many bodies or contacts of one tick.
 //!
-//! Work is cut into parts by how much of it there is, never by how many threads do it, and what the parts found is put
-//! together in their order: any number of threads gives the same bits.
+//! Work is cut into parts by its amount, never by the number of threads. The results of the parts are combined in their
+//! order. So any number of threads gives the same bits.
 //!
-//! A thread without work sleeps, but not at once: to wake it takes longer than it takes until the next pass over the bodies
-//! (5 us on a computer of one's own, 45 us were measured on a virtual one).
+//! A thread without work sleeps, but not at once. To wake it takes longer than the time until the next pass over the
+//! bodies. It took 5 us on a physical computer, and 45 us on a virtual one.
 
 use std::cell::Cell;
 use std::fmt;
@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 
 use rayon::{ThreadPool, ThreadPoolBuilder, Yield};
 
-/// How long a thread looks for work before it sleeps, and how long one waits for the others before it does: longer than what one
-/// thread does alone between two passes over 100 000 bodies.
+/// The time for which a thread looks for work before it sleeps. A waiting thread waits for the same time. It exceeds
+/// the sequential work between two passes over 100 000 bodies.
 const PATIENCE: Duration = Duration::from_micros(400);
 
 /// The threads of a run. Copies share them.
@@ -27,7 +27,7 @@ pub struct Threads {
 }
 
 impl Default for Threads {
-    /// One: all work is done by who asks for it.
+    /// One: the calling thread does all work.
     fn default() -> Self {
         Self::new(1)
     }
@@ -40,7 +40,7 @@ impl fmt::Debug for Threads {
 }
 
 impl Threads {
-    /// So many threads, at least one.
+    /// A pool of `count` threads, at least one.
     pub fn new(count: usize) -> Self {
         Self { count: count.max(1), others: Arc::default() }
     }
@@ -50,8 +50,8 @@ impl Threads {
         self.count
     }
 
-    /// Does `work` on each part, several at once. Each thread begins with its share of the parts, the same ones each time, which
-    /// its processor may still have at hand, and then helps the others.
+    /// Does `work` on each part, several at once. Each thread begins with its share of the parts, the same ones each
+    /// time, which its processor may have cached. Then it helps the others.
     ///
     /// # Panics
     /// When `work` does.
@@ -65,7 +65,7 @@ impl Threads {
         let go_through = |thread: usize| {
             let first = thread * parts.len() / self.count;
             for part in parts[first..].iter().chain(parts[..first].iter().rev()) {
-                // Nobody panics while it is locked.
+                // No thread panics while it is locked.
                 if let Some(part) = part.lock().map_or(None, |mut part| part.take()) {
                     work(part);
                     done.fetch_add(1, Ordering::Release);
@@ -89,14 +89,14 @@ impl Threads {
         if self.count == 1 {
             return None;
         }
-        // Where the system gives no threads the one that asks does all.
+        // If the system gives no threads, the calling thread does all work.
         let begin = || ThreadPoolBuilder::new().num_threads(self.count - 1).build().ok();
         self.others.get_or_init(begin).as_ref()
     }
 }
 
 thread_local! {
-    /// Until when this thread looks for work, if it does.
+    /// The time until which this thread looks for work, if it does.
     static AWAKE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
@@ -109,7 +109,7 @@ fn stay_awake() {
 
 fn look_for_work() {
     while AWAKE.get().is_some_and(|until| Instant::now() < until) {
-        // What it finds may ask it to stay awake for longer.
+        // The found work may ask it to stay awake for longer.
         if rayon::yield_now() != Some(Yield::Executed) {
             std::thread::yield_now();
         }

@@ -1,5 +1,5 @@
-//! `Channel(name: "energy.residual", below: 1e-6)`: the magnitude of a channel stays below a bound, from `from` on;
-//! looked at every tenth tick and at the end.
+//! `Channel(name: "energy.residual", below: 1e-6)`: the magnitude of a channel stays below a bound, from `from` on. It
+//! is checked at every tenth tick and at the end.
 
 use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -16,7 +16,7 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Channel {
-    /// The name of the channel, such as `energy.residual` or `ball.velocity.x`; no sensor is needed for it.
+    /// The name of the channel, such as `energy.residual` or `ball.velocity.x`. It needs no sensor.
     name: String,
     /// The bound, in the channel's unit.
     below: Scalar,
@@ -54,7 +54,7 @@ impl Entry for Channel {
 
 struct Watching {
     channel: Option<sensors::Channel>,
-    /// The entry of the energy ledger, if it is one.
+    /// The entry of the energy ledger, for channels of energy.
     energy: Option<fn(&EnergyLedger) -> f64>,
     below: f64,
     from: f64,
@@ -83,7 +83,7 @@ impl Watch for Watching {
         }
     }
 
-    /// Energies take a sum over all bodies and contacts: every tenth tick is enough to see where they go.
+    /// Energies take a sum over all bodies and contacts, so only every tenth tick is checked.
     fn every(&self) -> u64 {
         10
     }

@@ -77,7 +77,7 @@ impl Watch for Watching {
         }
         for place in places(sight.bodies, &self.keys) {
             let position = sight.bodies.position[place];
-            // Written so that a position that is not finite is outside.
+            // In this form a NaN or infinite position is outside.
             if !(position.cmpge(self.low).all() && position.cmple(self.high).all()) {
                 let which = self.keys.iter().position(|&key| key == sight.bodies.key.at(place));
                 let name = which.map_or_else(String::new, |which| self.names[which].clone());

@@ -1,4 +1,4 @@
-//! Expectations: what a scene claims about its own physics. Each file one kind; checked while the run goes on.
+//! Expectations: claims of a scene about its physics, one kind per file. They are checked during the run.
 
 mod at_rest;
 mod channel;
@@ -15,9 +15,9 @@ use crate::tick::snapshot::{Memory, Unfit, Unsaved};
 use crate::tick::{State, add_looker};
 use crate::world::Bodies;
 
-/// What an expectation sees.
+/// The view of an expectation.
 pub struct Sight<'a> {
-    /// The world; only for those that say that they need it.
+    /// The world, for expectations that need it.
     world: Option<&'a World>,
     /// The state of the run.
     pub state: &'a State,
@@ -45,13 +45,13 @@ impl<'a> Sight<'a> {
     /// The world, for channels.
     ///
     /// # Panics
-    /// Where [`Watch::needs_world`] says no.
+    /// If [`Watch::needs_world`] is false.
     pub fn world(&self) -> &'a World {
         self.world.expect("an expectation that looks at the world says so in `needs_world`")
     }
 }
 
-/// Something that watches a run and says in the end whether it held.
+/// An observer of a run that finally decides whether its claim holds.
 pub trait Watch: Send + Sync + 'static {
     /// Looks at a state.
     fn observe(&mut self, sight: &Sight);
@@ -66,12 +66,12 @@ pub trait Watch: Send + Sync + 'static {
         false
     }
 
-    /// Whether it claims something of all times, which it knows only at those at which it looks.
+    /// Whether it claims a property of all times but checks only some of them.
     fn samples(&self) -> bool {
         true
     }
 
-    /// What it has seen so far. Default: it does not say, and snapshots refuse.
+    /// Its memory so far. Default: unknown, and snapshots refuse.
     fn save(&self) -> Memory {
         Memory::Untold
     }
@@ -84,7 +84,7 @@ pub trait Watch: Send + Sync + 'static {
         Ok(())
     }
 
-    /// Whether it held, and what was measured. `None` for the first: the run ended before it could be judged.
+    /// Whether it holds, and the measured value. `None` for the first: the run ended before a decision.
     fn verdict(&self) -> (Option<bool>, String);
 }
 
@@ -96,14 +96,14 @@ pub struct Expectations {
     all_ticks: bool,
 }
 
-/// How an expectation went.
+/// The outcome of an expectation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
-    /// The expectation as it stands in the scene.
+    /// The expectation in the text of the scene.
     pub text: String,
     /// Whether it held.
     pub holds: bool,
-    /// What was measured.
+    /// The measured value.
     pub measured: String,
     /// Whether the run lasted long enough to judge it.
     #[serde(skip)]
@@ -129,12 +129,12 @@ impl Expectations {
         self.watches.iter().any(|(_, watch)| watch.samples())
     }
 
-    /// From now on none leaves a tick out, as where ticks are frames.
+    /// Makes all of them check every tick, for runs whose ticks are frames.
     pub fn look_at_all_ticks(&mut self) {
         self.all_ticks = true;
     }
 
-    /// What all of them have seen so far, as bytes.
+    /// The memories of all of them, as bytes.
     pub(crate) fn save(&self) -> Result<Vec<Option<Vec<u8>>>, Unsaved> {
         self.watches.iter().map(|(text, watch)| watch.save().bytes(|| format!("expect: {text}"))).collect()
     }
@@ -147,7 +147,7 @@ impl Expectations {
         Ok(())
     }
 
-    /// How each expectation went so far.
+    /// The outcome of each expectation so far.
     pub fn outcomes(&self) -> Vec<Outcome> {
         let outcome = |(text, watch): &(String, Box<dyn Watch>)| {
             let (holds, mut measured) = watch.verdict();

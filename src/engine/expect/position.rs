@@ -1,4 +1,4 @@
-//! `Position(of: "ball", at: 2.0, is: (2, 0.2), within: 1e-3)`: where a body is at a time, between ticks too.
+//! `Position(of: "ball", at: 2.0, is: (2, 0.2), within: 1e-3)`: the position of a body at a time, between ticks too.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -19,7 +19,7 @@ struct Position {
     of: String,
     /// When, in seconds.
     at: Time,
-    /// Where its centre of mass should be, in metres.
+    /// The expected position of its centre of mass, in metres.
     is: Place,
     /// The distance from there that is allowed, in metres.
     within: Length,

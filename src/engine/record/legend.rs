@@ -1,4 +1,4 @@
-//! What the colours of a film mean, and a few facts of its scene.
+//! The legend of a film: its colours, and a few facts of its scene.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ use crate::world::{Body, Materials, Motion, Name};
 /// Lines of bodies that are kept.
 const MOST_LINES: usize = 24;
 
-/// What plugins add to the legend.
+/// The entries that plugins add to the legend.
 #[derive(Resource, Default)]
 struct Added(Vec<LegendEntry>);
 
@@ -33,8 +33,8 @@ impl LegendAppExt for App {
 
 /// The legend of a scene at its beginning.
 ///
-/// Bodies of one material with a colour of its own look alike, so they share a line; a material of a single body
-/// goes by the body's name. Fixed bodies stand last.
+/// Bodies of one material with its own colour look alike, so they share a line. A material of a single body has the
+/// body's name in the line. Fixed bodies stand last.
 pub fn legend(world: &World) -> Legend {
     let bodies = &world.resource::<State>().bodies;
     let materials = world.get_resource::<Materials>();

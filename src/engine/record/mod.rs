@@ -1,4 +1,4 @@
-//! World -> plain frames and channels. Behind this border nothing knows the ECS.
+//! From the world to plain frames and channels. Rooms behind this border do not use the ECS.
 
 pub mod layers;
 mod legend;

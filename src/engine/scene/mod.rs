@@ -1,9 +1,9 @@
-//! Scene text -> world: the scene language, and how plugins take part in it.
+//! From scene text to the world: the scene language, and its extension by plugins.
 //!
-//! Each top-level section and each entry of a list such as `forces` belongs to the plugin that registered its name
-//! ([`SceneAppExt`]). How a scene is read is told at [`Scene`].
+//! Each top-level section belongs to the plugin that registered its name ([`SceneAppExt`]). So does each entry of a
+//! list such as `forces`. [`Scene`] describes how a scene is read.
 //!
-//! A plugin with a section of its own:
+//! A plugin with a section:
 //!
 //! ```
 //! # extern crate jostle_engine as jostle;
@@ -58,7 +58,7 @@ pub use registry::{SceneAppExt, SceneRegistry};
 pub(crate) use registry::{install_word, register_embedding};
 pub use section::{Entry, Section, Written};
 
-/// Reads a scene and installs what it asks for.
+/// Reads a scene and installs its sections.
 ///
 /// Everything is read and checked before anything is installed, so after an error the `App` is as it was.
 ///

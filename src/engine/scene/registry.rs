@@ -1,4 +1,4 @@
-//! How plugins of a Bevy app take part in the scene language.
+//! The interface of the scene language to plugins of a Bevy app.
 
 use std::ops::{Deref, DerefMut};
 
@@ -11,8 +11,7 @@ use super::embed::Embedding;
 use super::section::{Entry, Section, Written};
 use super::{Arity, Outline, Report};
 
-/// The names of the scene language and who reads them. Filled by plugins through [`SceneAppExt`] before a scene is
-/// loaded.
+/// The names of the scene language and their readers. Plugins fill it through [`SceneAppExt`] before a scene is loaded.
 #[derive(Resource, Clone, Default)]
 pub struct SceneRegistry(Registry<App>);
 
@@ -68,8 +67,8 @@ impl<E: Entry> ReadEntries<App> for Entries<E> {
     }
 }
 
-/// Installs an entry that stands in no scene, with the defaults of its fields. Returns whether there is such an entry and
-/// it needs no field.
+/// Installs an entry outside of any scene, with the defaults of its fields. Returns whether such an entry exists and
+/// needs no field.
 pub(crate) fn install_word(app: &mut App, outline: &Outline, section: &str, name: &str) -> bool {
     let registry = app.world().get_resource::<SceneRegistry>();
     let Some(entry) = registry.and_then(|registry| registry.bare_entry(section, name)) else { return false };
@@ -80,8 +79,8 @@ pub(crate) fn install_word(app: &mut App, outline: &Outline, section: &str, name
 /// How plugins take part in the scene language. Everything here is called from `Plugin::build`.
 ///
 /// # Panics
-/// A name that is registered twice, or an entry whose section is not registered, is a mistake of the program and
-/// panics when it starts. A reserved name may be registered later.
+/// It is a mistake of the program to register a name twice, or an entry before its section. The program then panics
+/// when it starts. A reserved name may be registered later.
 pub trait SceneAppExt {
     /// Lets a type read a top-level section.
     fn register_section<S: Section>(&mut self) -> &mut Self;

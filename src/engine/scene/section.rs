@@ -1,5 +1,5 @@
-//! How a plugin claims a name of the scene language: a top-level section (`gravity: ..`) or an entry of a section
-//! that takes several kinds (`forces: [Drag(..)]`, `contacts: Penalty(..)`).
+//! Registration of a name of the scene language by a plugin. It is a top-level section (`gravity: ..`) or an entry of a
+//! section that takes several kinds (`forces: [Drag(..)]`, `contacts: Penalty(..)`).
 
 use bevy_app::App;
 use schemars::{Schema, SchemaGenerator};
@@ -9,17 +9,18 @@ use super::{Outline, Report};
 
 /// A top-level section of the scene, `name: value`.
 ///
-/// The type says how the value is written: a struct with named fields as `(a: 1, b: 2)`, a newtype of a `Vec` as
+/// The type determines the form of the value. A struct with named fields is `(a: 1, b: 2)`, and a newtype of a `Vec` is
 /// `[..]`. Give every struct and enum in it `#[serde(deny_unknown_fields)]`, and use the quantities of
-/// [`units`](super::units) where a number has a unit. Do not use `flatten` or `untagged`: they lose places and words.
+/// [`units`](super::units) for numbers with units. Do not use `flatten` or `untagged`, because they lose places and
+/// words.
 pub trait Section: DeserializeOwned + Send + Sync + 'static {
-    /// The name as it stands in the scene.
+    /// The name in scenes.
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
 
-    /// What may be written in it, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on the
-    /// type it is `Some(generator.subschema_for::<Self>())`. Default: nothing, and the manual tells no fields.
+    /// Its possible content, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on the type it
+    /// is `Some(generator.subschema_for::<Self>())`. Default: none, and the manual shows no fields.
     fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
         None
     }
@@ -38,15 +39,15 @@ pub trait Section: DeserializeOwned + Send + Sync + 'static {
 
 /// One kind of entry of a section that takes several kinds.
 pub trait Entry: DeserializeOwned + Send + Sync + 'static {
-    /// The section it stands in, for example `"forces"`.
+    /// Its section, for example `"forces"`.
     const SECTION: &'static str;
-    /// Its leading name, for example `"Drag"`. The type reads what stands in the brackets after it.
+    /// Its leading name, for example `"Drag"`. The type reads the content of the brackets after it.
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
 
-    /// What may be written in its brackets, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on
-    /// the type it is `Some(generator.subschema_for::<Self>())`. Default: nothing, and the manual tells no fields.
+    /// The possible content of its brackets, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]`
+    /// on the type it is `Some(generator.subschema_for::<Self>())`. Default: none, and the manual shows no fields.
     fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
         None
     }
@@ -66,6 +67,6 @@ pub trait Entry: DeserializeOwned + Send + Sync + 'static {
 pub struct Written<T> {
     /// The entry.
     pub value: T,
-    /// Its text as it stands in the file, comments left out at both ends.
+    /// Its text in the file, without comments at both ends.
     pub text: String,
 }

@@ -6,7 +6,7 @@
 //! * `Union`: that of the area the atoms cover together, uniformly heavy, overlaps counted once; mass and centre too;
 //! * a number in kg m2.
 //!
-//! A given mass wins over the sum: everything that followed from the sum is scaled to it.
+//! A given mass replaces the sum, and all results of the sum are scaled to it.
 
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -20,18 +20,18 @@ use super::{AtomSpec, union};
 use crate::scene::Report;
 use crate::scene::units::Inertia;
 
-/// What the places of a body's atoms are counted from.
+/// The origin of the coordinates of a body's atoms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Datum {
     /// `at` is the centre of mass, wherever it is in the shape's own frame.
     #[default]
     CenterOfMass,
-    /// `at` is the origin of the shape's own frame: the atoms stay where they were put.
+    /// `at` is the origin of the shape's frame: the atoms keep their coordinates.
     Origin,
 }
 
-/// Where a body's moment of inertia comes from.
+/// The rule for a body's moment of inertia.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum InertiaRule {
     /// Each atom is a solid disc.
@@ -96,7 +96,7 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
-    /// Reports atoms, at `atoms`, that are so large that these are no numbers.
+    /// Reports atoms, at `atoms`, that are so large that results are infinite.
     pub fn check(&self, report: &mut Report) {
         let sizes = [self.mass, self.inertia, self.center.x, self.center.y];
         if report.is_clean() && !sizes.iter().all(|size| size.is_finite()) {
@@ -136,10 +136,10 @@ pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64
     MassProperties { mass, center, inertia, atoms, hulls: Vec::new(), intangible: Vec::new() }
 }
 
-/// The same where the body has parts with sides beside its atoms.
+/// The same for a body with parts with sides beside its atoms.
 ///
-/// If no part has a mass or a density of its own, mass and inertia are those of the area that all cover together, uniformly heavy.
-/// Otherwise each part weighs for itself, and what two of them cover counts twice; the atoms together are one such part.
+/// Without any mass or density of a part, mass and inertia are those of the common area of all parts, uniformly heavy.
+/// Otherwise each part weighs separately, and overlaps of two parts count twice. The atoms together are one such part.
 pub fn of_parts(
     specs: &[AtomSpec],
     parts: &[Part],
@@ -223,14 +223,14 @@ pub fn center_depends_on_density(specs: &[AtomSpec]) -> bool {
     own != 0 && own != specs.len()
 }
 
-/// The radius of a circle about the centre of mass that holds all atoms, in m; if the centre depends on the density,
-/// of one that holds them wherever it is.
+/// The radius of a circle about the centre of mass that holds all atoms, in m. If the centre depends on the density, it
+/// holds them for every density.
 pub fn reach(specs: &[AtomSpec], rule: InertiaRule) -> f64 {
     let widest =
         |center: DVec2| specs.iter().map(|atom| (atom.offset - center).length() + atom.radius).fold(0.0, f64::max);
     if center_depends_on_density(specs) {
         let middle = specs.iter().map(|atom| atom.offset).sum::<DVec2>() / specs.len() as f64;
-        // The centre of mass lies among the atoms' centres, none of which is farther than this from the middle.
+        // The centre of mass lies among the atoms' centres, all of which are within this distance from the middle.
         return 2.0 * widest(middle);
     }
     widest(of(specs, None, rule, 1.0).center)

@@ -1,4 +1,4 @@
-//! Shapes, and the one form they all turn into: a list of discs, the atoms.
+//! Shapes, and their common form: a list of discs, the atoms.
 //!
 //! A shape is one file with its fields, its check and `specs`, and one line in [`Atoms`].
 
@@ -69,7 +69,7 @@ macro_rules! shapes {
 }
 
 impl Atoms {
-    /// Where mass and inertia come from unless the body says so: from the covered area where discs overlap by design.
+    /// The default rule for mass and inertia: the covered area for shapes whose discs overlap by design.
     pub fn own_rule(&self) -> InertiaRule {
         if matches!(self, Self::Png(_)) { InertiaRule::Union } else { InertiaRule::default() }
     }

@@ -51,7 +51,7 @@ impl Picture {
     }
 
     /// Its atoms, row by row from the top, each from the left. The lower left corner of the grid's lowest row is at
-    /// (-spacing/2, -spacing/2): the first disc of that row would be at the origin.
+    /// (-spacing/2, -spacing/2). So the first disc of that row would be at the origin.
     pub fn specs(&self) -> Vec<AtomSpec> {
         let spacing = self.spacing.si();
         let mut atoms = Vec::new();

@@ -1,7 +1,6 @@
 //! `Png(file, height, count | radius)`: a silhouette from a picture file, covered by discs.
 //!
-//! The file is read before the sections of a scene are: here the discs are known already. How they are chosen stands in
-//! `silhouette`.
+//! The file is read before the sections of a scene, so the discs are known here. `silhouette` describes their choice.
 
 use glam::DVec2;
 use schemars::JsonSchema;
@@ -12,32 +11,31 @@ use crate::scene::Report;
 use crate::scene::units::{Length, Stiffness};
 use crate::scene::values::WholeNumber;
 
-/// The largest number of atoms of one silhouette: two bodies of more would take seconds where they touch.
+/// The largest number of atoms of one silhouette. Two larger bodies would take seconds on contact.
 pub const MOST_ATOMS: u64 = 5000;
 
 /// A silhouette covered by discs.
 ///
-/// What is opaque is the silhouette; in a picture without transparency, what is dark. The origin is the middle of its
-/// lowest edge. Discs overlap, so mass and inertia are by default those of the area they cover together.
+/// The silhouette is the opaque part, or the dark part of a picture without transparency. The origin is the middle of
+/// its lowest edge. Discs overlap, so by default mass and inertia are those of the area that they cover together.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Png")]
 pub struct Png {
-    /// The picture: a path from the folder of the file in which this stands, or `example:cow.png` for one that comes
-    /// with the program.
+    /// The picture: a path from the folder of the file with this entry. `example:cow.png` comes with the program.
     pub file: String,
     /// How high the silhouette is, in m; margins of the picture do not count. Above zero.
     pub height: Length,
-    /// At most so many discs of different sizes, from 1 to 5000. Either this or `radius`. Default: `radius` says it.
+    /// At most this many discs of different sizes, from 1 to 5000. Either this or `radius`. Default: from `radius`.
     #[serde(default)]
     pub count: Option<WholeNumber>,
-    /// Discs of this radius in m, side by side. Above zero. Either this or `count`. Default: `count` says it.
+    /// Discs of this radius in m, side by side. Above zero. Either this or `count`. Default: from `count`.
     #[serde(default)]
     pub radius: Option<Length>,
     /// The stiffness of each disc in N/m. Above zero. Default: the material's.
     #[serde(default)]
     pub stiffness: Option<Stiffness>,
-    /// What the picture became: centre and radius of each disc, in m. Not written by hand.
+    /// The discs of the picture: centre and radius of each, in m. Not written by hand.
     #[serde(default)]
     #[schemars(skip)]
     pub discs: Vec<(f64, f64, f64)>,
@@ -47,7 +45,7 @@ impl Png {
     /// One correct use.
     pub const EXAMPLE: &'static str = "atoms: Png(file: \"example:cow.png\", height: 1.5, count: 60)";
 
-    /// Reports numbers that are not above zero, and a picture that nobody has read.
+    /// Reports numbers that are not above zero, and a picture that was not read.
     pub fn check(&self, report: &mut Report) {
         if self.numbers_are_good(report) && self.discs.is_empty() {
             let message = "the picture was not read";

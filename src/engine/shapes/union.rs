@@ -1,7 +1,7 @@
-//! The area covered by discs together, with its centre and polar moment, exactly.
+//! The exact area of a union of discs, with its centre and polar moment (Green's theorem).
 //!
-//! By Green's theorem an integral over an area is one along its boundary: the arcs of the circles that lie in no other
-//! disc. With x = cx + r cos t and y = cy + r sin t,
+//! By Green's theorem an integral over an area equals one along its boundary. The boundary consists of the arcs of the
+//! circles that lie in no other disc. With x = cx + r cos t and y = cy + r sin t,
 //!
 //! * area = 1/2 of the integral of x dy - y dx,
 //! * first moments = 1/2 of the integrals of x^2 dy and -y^2 dx,
@@ -87,7 +87,7 @@ fn covered_arcs(discs: &[(DVec2, f64)], index: usize, near: std::ops::Range<usiz
     Some(covered)
 }
 
-/// What is left of a circle, from -pi to pi.
+/// The remaining arcs of a circle, from -pi to pi.
 fn free_arcs(mut covered: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     covered.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut free = Vec::new();
@@ -195,8 +195,8 @@ mod tests {
         let exact = area_moments(&atoms);
         let count = 2_000_000;
         let counted = counted(&atoms, 3.0, count);
-        // Five standard deviations of the counts: sqrt(p (1 - p) / n) of the square for the area, and the like with
-        // lengths up to 3 m for the moments.
+        // Five standard deviations of the counts: sqrt(p (1 - p) / n) of the square for the area. For the moments it is
+        // the like with lengths up to 3 m.
         let share = exact.area / 36.0;
         let deviation = 36.0 * (share * (1.0 - share) / f64::from(count)).sqrt();
         assert!((exact.area - counted.area).abs() < 5.0 * deviation, "{exact:?} {counted:?}");

@@ -1,4 +1,4 @@
-//! Choices: method, tick and pace of a run, from what the scene and the command line ask for.
+//! The choice of method, tick and pace of a run, from the requests of the scene and the command line.
 
 use std::f64::consts::PI;
 
@@ -16,14 +16,15 @@ use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::tick::Notes;
 use crate::tick::{Clock, Holder, State};
 
-/// Ticks per half period of the fastest contact or spring when the engine chooses the tick: impacts are off by some thousandths.
+/// Ticks per half period of the fastest contact or spring if the engine chooses the tick. Errors of impacts are then
+/// some thousandths.
 const TICKS_PER_HALF_PERIOD: f64 = 40.0;
-/// The same for contacts in a crowd. No tick foretells its paths, as they part exponentially; its statistics bear errors of impacts
-/// of a hundredth.
+/// The same for contacts among many bodies. No tick can predict such paths, because they diverge exponentially. Their
+/// statistics tolerate errors of impacts of a hundredth.
 const TICKS_PER_CONTACT_IN_A_CROWD: f64 = 20.0;
 /// Bodies that move by forces from which on they are a crowd.
 const CROWD: usize = 100;
-/// First digits of ticks that are chosen; those of a crowd are finer steps, and still divide the frames of common films.
+/// First digits of chosen ticks. Those for many bodies are finer steps, and still divide the frames of common films.
 const DIGITS: [f64; 3] = [5.0, 2.0, 1.0];
 const DIGITS_IN_A_CROWD: [f64; 6] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.0];
 /// The tick in seconds when nothing in the scene asks for a finer one.
@@ -33,7 +34,7 @@ const MOST_TICKS: f64 = 1e15;
 /// Ticks per frame where frames do not fall on ticks: states between ticks are interpolated.
 const TICKS_PER_ODD_FRAME: f64 = 8.0;
 
-/// What a run is asked for in place of a tick.
+/// The goal of a run in place of a tick.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// An error no larger than this share of the scene's motion.
@@ -59,17 +60,17 @@ pub struct Plan {
     pub detail: Detail,
     /// When forces jump.
     pub events: EventTiming,
-    /// What led to it.
+    /// The reasons for it.
     pub notes: Vec<String>,
     /// The error it is known to have.
     pub error: Option<ErrorEstimate>,
-    /// Why it does not reach what was asked for.
+    /// The reason why it misses the goal.
     pub warning: Option<String>,
 }
 
 type Wrong = Box<SceneError>;
 
-/// Chooses, and makes the world ready for it; returns the number of ticks of the run.
+/// Makes the choice and prepares the world for it. Returns the number of ticks of the run.
 pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64, Wrong> {
     let clock = world
         .remove_resource::<ClockSection>()
@@ -105,8 +106,8 @@ pub(super) fn set_clock(world: &mut World, overrides: &Overrides) -> Result<u64,
     Ok(ticks)
 }
 
-/// What is asked for in place of a tick. A tick on the command line wins over a tolerance in the scene, and the other way
-/// round.
+/// The goal in place of a tick. A tick on the command line replaces a tolerance in the scene, and a tolerance there
+/// replaces a tick.
 fn goal(clock: &ClockSection, overrides: &Overrides, notes: &mut Vec<String>) -> Result<Option<Goal>, Wrong> {
     let reference = overrides.method.as_ref().unwrap_or(&clock.method.0) == ClockSection::REFERENCE;
     if let Some(tolerance) = overrides.tolerance {
@@ -185,7 +186,7 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
     Ok(Plan { method, tick, pace, detail, events, notes, error: None, warning: None })
 }
 
-/// The method that suits what the scene holds, and why.
+/// The method that suits the scene, and the reason.
 fn chosen_method(world: &World) -> (&'static str, &'static str) {
     let state = world.resource::<State>();
     if state.contact_law().is_some() {
@@ -241,7 +242,7 @@ fn plan_for(
     plan.method = method;
     let estimates = description.one_step.is_some_and(|make| make().order_of_error() > 0);
     plan.pace = if estimates {
-        // Trials say how much a step may err.
+        // Trials determine the allowed error of a step.
         Pace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps: MOST_STEPS })
     } else {
         Pace::Even(steps_per_tick(world, &plan))
@@ -249,8 +250,8 @@ fn plan_for(
     Ok(plan)
 }
 
-/// The time from frame to frame where the run is a whole number of frames long; else a part of it of which the run is a whole
-/// number.
+/// The time between frames, if the run is a whole number of frames long. Otherwise it is a part of that time of which
+/// the run is a whole multiple.
 fn frame_tick(world: &World, duration: f64) -> Result<f64, Wrong> {
     let film = world.get_resource::<FilmSection>();
     let frame = film.map_or(1.0 / 30.0, |film| film.speed().abs() / film.frames_per_second());
@@ -275,7 +276,7 @@ fn count(
     }
     let exact = duration / dt;
     if exact > MOST_TICKS {
-        // Behind the largest number a quotient is no number to show.
+        // A quotient beyond the largest number cannot be shown.
         let many = if exact.is_finite() { format!("{exact:.1e} ticks") } else { "beyond counting".to_owned() };
         let path = match (overrides.duration, overrides.tick) {
             (Some(_), _) => "--duration",
@@ -288,7 +289,7 @@ fn count(
             error.with_help("a run takes at most 1e15 ticks; choose a longer tick or a shorter duration"),
         ));
     }
-    // A quotient that is whole but for rounding is whole.
+    // A quotient that is whole up to rounding counts as whole.
     let ticks =
         if (exact - exact.round()).abs() < 1e-9 * exact.max(1.0) { exact.round() } else { exact.ceil() }.max(1.0);
     if (ticks * dt - duration).abs() > 1e-9 * duration {
@@ -340,7 +341,8 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
     }
 }
 
-/// Forty ticks per half period of whatever responds fastest, or twenty for contacts in a crowd, rounded down to few digits.
+/// Forty ticks per half period of the fastest response, or twenty for contacts among many bodies. The tick is rounded
+/// down to few digits.
 fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
     let state = world.resource::<State>();

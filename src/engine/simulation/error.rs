@@ -1,4 +1,4 @@
-//! How wrong a run is, in numbers: an estimate, or what is known of it from trials.
+//! The error of a run in numbers: an estimate, or knowledge from trials.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use jostle_language::numbers::{LEAST, number, rough};
 
-/// An error and where it comes from; `null` until it is estimated.
+/// An error and its sources; `null` until it is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorParts {
     /// From the finite tick.
@@ -19,7 +19,7 @@ pub struct ErrorParts {
 }
 
 impl ErrorParts {
-    /// All parts that are known; nothing without that of the tick.
+    /// The sum of all known parts; `None` without that of the tick.
     pub fn sum(&self) -> Option<f64> {
         Some(self.discretisation? + self.rounding.unwrap_or(0.0) + self.model.unwrap_or(0.0))
     }
@@ -34,7 +34,7 @@ pub struct ErrorEstimate {
     pub velocity: ErrorParts,
     /// Order of accuracy that was seen.
     pub observed_order: Option<f64>,
-    /// Time in seconds until which the error is that: after it chaos has eaten all digits, or nothing was run again.
+    /// Time in seconds until which the error holds. Later chaos has destroyed all digits, or no second run was made.
     pub horizon: Option<f64>,
 }
 
@@ -58,10 +58,10 @@ impl fmt::Display for ErrorEstimate {
 /// The error that a run is known to have.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct KnownError {
-    /// The error; nothing, if no runs were compared.
+    /// The error; `None` if no runs were compared.
     pub estimate: Option<ErrorEstimate>,
-    /// Why it is not what was asked for.
+    /// The reason why it differs from the request.
     pub warning: Option<String>,
-    /// The tolerance that was asked for; nothing, if it was the smallest error there is.
+    /// The requested tolerance; `None` if the smallest possible error was requested.
     pub tolerance: Option<f64>,
 }

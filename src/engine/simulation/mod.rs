@@ -1,4 +1,4 @@
-//! A scene, ready to run: the door through which programs use the engine.
+//! A scene that is ready to run: the interface for programs that use the engine.
 
 pub mod accuracy;
 mod choice;
@@ -34,7 +34,7 @@ use accuracy::Tell;
 use jostle_language::numbers::number;
 use jostle_simd::{Level, give_back};
 
-/// What a caller wants otherwise than the scene says. Each is named on the card.
+/// Requests of a caller that replace those of the scene. The card names each.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// Length of a tick in seconds.
@@ -45,19 +45,19 @@ pub struct Overrides {
     pub tolerance: Option<f64>,
     /// Length of the run in seconds.
     pub duration: Option<f64>,
-    /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]; an empty list: no
-    /// layers at all. They change nothing of the run.
+    /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]. An empty list
+    /// means no layers at all. They do not change the run.
     pub layers: Option<Vec<String>>,
     /// Vector instructions to use, which the processor must have. Default: the best it has. All give the same results to the
     /// bit.
     pub level: Option<Level>,
     /// Threads for work on many bodies or contacts. Default: one. Any number gives the same results to the bit.
     pub threads: Option<usize>,
-    /// Factor of the stiffness of all contacts, for whoever asks what hard ones would do. Default: one.
+    /// Factor of the stiffness of all contacts, to see the effect of harder ones. Default: one.
     pub stiffness: Option<f64>,
-    /// How the scene is run, as found for an earlier run of it ([`Simulation::plan`]): nothing is tried again.
+    /// The plan of the run, from an earlier run of the scene ([`Simulation::plan`]). No trials are made then.
     pub plan: Option<Plan>,
-    /// Whether the scene is read to be looked at, not run: a tolerance is not tried, and its first plan stands.
+    /// Whether the scene is only read and not run. A tolerance is then not tried, and its first plan stays.
     pub untried: bool,
     /// Told of each trial run that a tolerance or a reference run needs.
     pub tell: Option<Tell>,
@@ -127,7 +127,7 @@ impl Simulation {
         })
     }
 
-    /// Reads a scene with nothing but the plugins given: what they do not register, the scene cannot name.
+    /// Reads a scene with the given plugins alone. The scene cannot name anything that they do not register.
     ///
     /// # Errors
     /// All mistakes of the scene, with their places; overrides that cannot be.
@@ -208,12 +208,12 @@ impl Simulation {
     /// A resource of the world. Between ticks the schedules of the tick are there after [`Self::world`] only.
     ///
     /// # Panics
-    /// If there is none of this type.
+    /// If there is no resource of this type.
     pub fn resource<R: Resource>(&self) -> &R {
         self.unpublished_world().resource()
     }
 
-    /// A resource of the world, if there is one of this type.
+    /// A resource of the world, or `None`.
     pub fn get_resource<R: Resource>(&self) -> Option<&R> {
         self.unpublished_world().get_resource()
     }
@@ -247,17 +247,17 @@ impl Simulation {
         self.state().bodies()
     }
 
-    /// What the scene says about itself.
+    /// The title, notes and names of the scene.
     pub fn header(&self) -> &SceneHeader {
         &self.header
     }
 
-    /// What the engine chose and what it noted so far; the card adds what shows at its end.
+    /// The choices and notes of the engine so far. The card adds those of the end.
     pub fn notes(&self) -> &[String] {
         self.unpublished_world().get_resource::<Notes>().map_or(&[], |notes| &notes.0)
     }
 
-    /// What is to be drawn.
+    /// The section `film`.
     pub fn film(&self) -> &FilmSection {
         &self.film
     }
@@ -283,8 +283,8 @@ impl Simulation {
     /// Runs until `tick` ticks are done in all; does nothing if they are.
     ///
     /// # Errors
-    /// When a number stops being finite, or energy comes out of nowhere; when there are too many contacts; when something that ticks
-    /// need was taken from the world, or put into it in a state that cannot be.
+    /// When a number becomes NaN or infinite, or energy is created. When there are too many contacts. When a part that
+    /// ticks need was removed from the world, or put into an impossible state.
     pub fn run_to_tick(&mut self, tick: u64) -> Result<(), Failure> {
         let ticks = self.get_resource::<State>().map_or(0, |state| state.clock.ticks);
         let missing = tick.saturating_sub(ticks);
@@ -309,7 +309,7 @@ impl Simulation {
         self.run_to_tick(self.ticks)
     }
 
-    /// How the run went wrong, if it did.
+    /// The failure of the run, if it failed.
     pub fn failure(&self) -> Option<&Failure> {
         self.failure.as_ref()
     }
@@ -319,7 +319,7 @@ impl Simulation {
         self.spent.as_secs_f64()
     }
 
-    /// Name of the body at `place`; empty for a body spawned without one, and where there is no body.
+    /// Name of the body with index `place`. It is empty if the body has no name or does not exist.
     ///
     /// # Panics
     /// As [`Self::state`].
@@ -333,7 +333,7 @@ impl Simulation {
         self.film.speed() / self.film.frames_per_second()
     }
 
-    /// How the scene's expectations went so far.
+    /// The outcomes of the scene's expectations so far.
     pub fn outcomes(&self) -> Vec<Outcome> {
         self.unpublished_world().get_resource::<Expectations>().map_or_else(Vec::new, Expectations::outcomes)
     }
@@ -389,7 +389,7 @@ pub fn begin(
     Ok(ticks)
 }
 
-/// Ticks are the frames of the film: expectations look at each, and the card says what that leaves out.
+/// Ticks are the frames of the film. Expectations check each, and the card states the gaps.
 fn look_at_frames(world: &mut World) {
     let spacing = number(world.resource::<State>().clock.dt);
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };

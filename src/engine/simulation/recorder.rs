@@ -1,4 +1,4 @@
-//! Takes frames of a running simulation: frame k shows its time exactly, between two ticks if need be.
+//! The recorder of a film: frame k shows its time exactly, interpolated between two ticks if necessary.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// One that takes frames without layers, for whoever wants to know where bodies are.
+    /// A recorder of frames without layers, for the positions of bodies alone.
     pub fn bare() -> Self {
         Self { bare: true, ..Self::default() }
     }
@@ -33,14 +33,14 @@ impl Recorder {
     /// Runs to `time` seconds and takes the frame. Times may not go back by more than a tick.
     ///
     /// # Errors
-    /// When the run goes wrong.
+    /// When the run fails.
     ///
     /// # Panics
     /// If the time is not a finite number; as [`Simulation::state`].
     pub fn frame(&mut self, simulation: &mut Simulation, time: f64) -> Result<Frame, Failure> {
         assert!(time.is_finite(), "no frame shows {time} s: its time has to be a finite number");
         let dt = simulation.clock().dt;
-        // A time that is a tick but for rounding is that tick.
+        // A time that is a tick up to rounding counts as that tick.
         let exact = time / dt;
         let on_tick = (exact - exact.round()).abs() < 1e-6;
         let tick = if on_tick { exact.round() } else { exact.floor() } as u64;
@@ -70,7 +70,7 @@ impl Recorder {
         {
             self.looked = Some(next);
             simulation.run_to_tick(next)?;
-            // What has gone by unseen cannot be looked at.
+            // Past ticks cannot be read.
             if simulation.clock().ticks == next {
                 Layers::look(&mut simulation.world, next, dt);
             }
@@ -96,7 +96,7 @@ fn look(hull: &Hull) -> HullLook {
     HullLook { corners: hull.corners().to_vec(), cuts, radius: hull.radius() }
 }
 
-/// What a film shows of the present bodies and walls.
+/// The cast of a film from the current bodies and walls.
 fn cast_of(simulation: &Simulation) -> Cast {
     let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
     let materials = world.get_resource::<Materials>();

@@ -1,7 +1,7 @@
-//! Samples a run for its plots. It only reads: the run is the same with and without it.
+//! The sampler of a run for its plots. It only reads: the run is the same with and without it.
 //!
-//! A plot shows the whole time of its film at once, and its axes have to fit what is yet to come: so the channels are
-//! read in a run beforehand, and what is kept depends on what a picture can show, not on the length of the run.
+//! A plot shows the whole time of its film at once, and its axes have to include the future. So the channels are read
+//! in a run beforehand. The stored samples depend on the resolution of a picture, not on the length of the run.
 
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ const COLUMNS: f64 = 2048.0;
 /// Counts of a histogram that are kept.
 const COUNTS: u64 = 2048;
 
-/// A run that goes wrong ends with enormous numbers: from the first one that exceeds the largest of the first half so many
-/// times, nothing is plotted.
+/// A failing run ends with enormous numbers. From the first number that exceeds the largest of the first half by this
+/// factor, no samples are plotted.
 const WILDEST_GROWTH: f64 = 100.0;
 
 /// A channel that is not there, though its name looks right.
@@ -35,7 +35,7 @@ pub struct Missing {
     pub channel: String,
 }
 
-/// Reads the channels of plots while a run goes on.
+/// Reads the channels of plots during a run.
 pub struct Sampler {
     plots: Vec<Sampled>,
     from: f64,
@@ -57,7 +57,7 @@ struct Sampled {
 enum Gauge {
     Times(Vec<(Channel, Decimator)>),
     Phases(Channel, Vec<(Channel, Vec<Sample>)>),
-    /// Values of bodies now.
+    /// Current values of bodies.
     Bodies(Vec<Channel>, Vec<(f64, Vec<u64>)>),
     /// Values of a channel so far.
     Values(Channel, Vec<u64>, Vec<(f64, Vec<u64>)>),
@@ -86,9 +86,9 @@ impl Sampler {
     /// Runs until `time` seconds, or the tick before, and reads on the way.
     ///
     /// # Errors
-    /// When the run goes wrong.
+    /// When the run fails.
     pub fn run_to(&mut self, simulation: &mut Simulation, time: f64) -> Result<(), Failure> {
-        // A time that is a tick but for rounding is that tick.
+        // A time that is a tick up to rounding counts as that tick.
         let reached = (time / simulation.clock().dt + 1e-6) as u64;
         while self.next <= reached.min(self.last) {
             simulation.run_to_tick(self.next)?;
@@ -102,7 +102,7 @@ impl Sampler {
     /// Runs until the last reading.
     ///
     /// # Errors
-    /// When the run goes wrong.
+    /// When the run fails.
     pub fn run_to_end(&mut self, simulation: &mut Simulation) -> Result<(), Failure> {
         self.run_to(simulation, f64::INFINITY)
     }
@@ -141,7 +141,7 @@ impl Sampler {
         }
     }
 
-    /// The plots. `wrong` tells that the run went wrong: its wild end is left out.
+    /// The plots. If `wrong`, the run failed, and its wild end is left out.
     pub fn finish(self, wrong: bool) -> Vec<Plot> {
         let finish = |sampled: Sampled| sampled.finish((self.from, self.to), &self.bodies);
         let mut plots: Vec<Plot> = self.plots.into_iter().map(finish).collect();
@@ -228,7 +228,7 @@ impl Sampled {
                 let (shared, unit, labels) = labels(curves.iter().map(|(channel, _)| channel));
                 let curves = curves.into_iter().zip(labels);
                 let curves = curves.map(|((channel, samples), label)| Curve { label, body: body(&channel), samples });
-                // What both axes begin with stands above them.
+                // The common beginning of both axes is above them.
                 let (owner, [to_the_right, upwards]) = headed([&x.name, &shared]);
                 Plot {
                     title: titled(if owner.is_empty() { format!("{shared} against {}", x.name) } else { owner }),
@@ -263,7 +263,8 @@ impl Sampled {
     }
 }
 
-/// What channels share, their unit if they have one in common, and a label for each, with its unit if they have not.
+/// The common part of channels, their common unit if there is one, and a label for each. Without a common unit the
+/// labels have units.
 fn labels<'a>(channels: impl Iterator<Item = &'a Channel> + Clone) -> (String, String, Vec<String>) {
     let names: Vec<&str> = channels.clone().map(|channel| channel.name.as_str()).collect();
     let (shared, mut labels) = common(&names);
@@ -276,7 +277,7 @@ fn labels<'a>(channels: impl Iterator<Item = &'a Channel> + Clone) -> (String, S
     (shared, String::new(), labels)
 }
 
-/// Leaves out the wild end of a run that went wrong.
+/// Removes the wild end of a failed run.
 fn tame(plot: &mut Plot) {
     let (Content::Times(curves) | Content::Phases(curves, _)) = &mut plot.content else { return };
     let size = |sample: &Sample| sample.x.abs().max(sample.y.abs());

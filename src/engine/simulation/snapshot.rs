@@ -1,8 +1,8 @@
-//! Snapshots: a run set down between two ticks, to go on later, elsewhere, or several times.
+//! Snapshots: a run saved between two ticks, to continue later, elsewhere, or several times.
 //!
-//! A snapshot holds all that decides the future of a run and all that its card tells, to the last bit. It does not hold the
-//! scene: it goes on in a run of the same scene, read by the same version with the same plugins. The number of threads and the
-//! vector instructions may differ.
+//! A snapshot holds all data that decides the future of a run, and all data of its card. It keeps them to the last bit.
+//! It does not hold the scene. It continues in a run of the same scene, read by the same version with the same plugins.
+//! The number of threads and the vector instructions may differ.
 
 use std::fmt;
 
@@ -103,10 +103,10 @@ impl Snapshot {
 pub enum ForkError {
     /// It cannot be set down.
     Unsaved(Unsaved),
-    /// Its scene can no longer be read: a file that it includes has changed.
+    /// Its scene is unreadable, because an included file has changed.
     Scene(SceneErrors),
-    /// A run of its scene cannot go on from it: bodies were spawned or removed, systems were added, or an included file has
-    /// changed.
+    /// A run of its scene cannot continue from it. Bodies were spawned or removed, systems were added, or an included
+    /// file has changed.
     Unfit(Unfit),
 }
 
@@ -123,10 +123,10 @@ impl fmt::Display for ForkError {
 impl std::error::Error for ForkError {}
 
 impl Simulation {
-    /// A second run that goes on from here to the same bits, on its own: what is done to one does not touch the other.
+    /// A second, independent run that continues from here with the same bits.
     ///
-    /// The scene is read once more, which takes longer than the rest. For many rollouts from one state fork a few times, one
-    /// for each thread, and [`restore`](Self::restore) a snapshot in them as often as needed.
+    /// The scene is read once more, which takes longer than the rest. For many rollouts from one state fork once for
+    /// each thread. Then [`restore`](Self::restore) a snapshot in the forks as often as needed.
     ///
     /// # Errors
     /// As [`Simulation::snapshot`]; if bodies were spawned or removed, or systems added, since the scene was read.
@@ -159,12 +159,13 @@ impl Simulation {
         Ok(fork)
     }
 
-    /// Sets the run down as it is now, between two ticks.
+    /// Saves the current run between two ticks.
     ///
     /// Systems of plugins that remember something of their own (`Local`) are not seen.
     ///
     /// # Errors
-    /// If a model, an integrator, a resource or a component of a plugin does not say what it remembers; after a failure.
+    /// If a model, an integrator, a resource or a component of a plugin does not declare its memory. Also after a
+    /// failure.
     pub fn snapshot(&mut self) -> Result<Snapshot, Unsaved> {
         if self.failure.is_some() {
             return Err(Unsaved { name: "a run that went wrong".to_owned() });
@@ -182,8 +183,8 @@ impl Simulation {
         Ok(Snapshot { header: self.identity(), body })
     }
 
-    /// Goes on from a snapshot of the same scene: from now on the run is what it was then, to the last bit. If it does not fit,
-    /// nothing is changed, unless a plugin's own reader fails.
+    /// Continues from a snapshot of the same scene, with the same bits as then. If it does not fit, nothing changes,
+    /// unless a plugin's reader fails.
     ///
     /// # Errors
     /// If the snapshot is of another scene, version, method or tick, or the plugins are others.
@@ -239,7 +240,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// One number for all that decides the future of the run: two runs of a scene with the same one go on alike.
+    /// A hash of all data that decides the future of the run. Two runs of a scene with the same hash continue alike.
     ///
     /// # Errors
     /// As [`Simulation::snapshot`].

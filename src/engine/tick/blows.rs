@@ -28,8 +28,8 @@ pub(super) enum Jump<'a> {
     Sticks(&'a [usize]),
 }
 
-/// The factor between the impulse that a bounded row may need to stick and the impulse of its bound in a tick. In the
-/// tick before, it gave its bound, and the driving force at most as much again.
+/// A bounded row may need this many times the impulse of its bound in a tick to stick. In the tick before, it gave its
+/// bound, and the driving force at most as much again.
 const MOST_TO_STICK: f64 = 2.0;
 
 /// A rate counts as held if its deviation is below this share of the speeds.

@@ -22,8 +22,8 @@ const SEARCH_PER_ATOM: f64 = 12.0;
 const SEARCH_PER_PAIR: f64 = 3.0;
 /// Searches may cost this share of the work on pairs. The margin shrinks if they cost less than a sixteenth of that.
 const SEARCH_SHARE: f64 = 1.0;
-/// The same for bodies with hulls. Pairs that do not touch are checked now and then, and each check costs as much as a
-/// pair of discs.
+/// The same for bodies with hulls. Pairs that do not touch are checked now and then. A check costs as much as a pair of
+/// discs.
 const SEARCH_SHARE_OF_HULLS: f64 = 7.0;
 const FEW_SEARCHES: f64 = 16.0;
 /// The same if most bodies fly: the cost of a search for each atom, with landing and taking off. It is relative to a

@@ -79,7 +79,7 @@ impl Tick<'_> {
         self.state.has_velocity_forces()
     }
 
-    /// The time in seconds of the first known jump of forces or their rates after `now`; infinite if there is none.
+    /// The time in seconds of the first known jump of forces or their rates after `now`; infinite without one.
     pub fn next_edge(&self, now: f64) -> f64 {
         self.state.next_edge(now).min(self.state.bodies.prescribed.next_point(now))
     }
@@ -105,7 +105,7 @@ impl Tick<'_> {
 
     /// Evaluates the forces of the current state, `elapsed` seconds after the beginning of the tick.
     pub fn evaluate(&mut self, elapsed: f64) {
-        // The end of a tick equals the beginning of the next to the last bit, so that schedules see one edge once.
+        // The end of a tick equals the beginning of the next to the last bit. So schedules see one edge once.
         let time = if elapsed == self.dt { self.end } else { self.begin + elapsed };
         let begin = self.begin;
         let bodies = self.packed();

@@ -134,8 +134,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         self.dynamic.iter().map(|&body| (bodies.position[body], bodies.angle[body])).collect()
     }
 
-    /// The greatest distance of any point of a dynamic body from its position in `places`, in m, and its speed in m/s.
-    /// A turn counts as at most one radian.
+    /// The greatest distance of any point of a dynamic body from its position in `places` (m), and its speed (m/s). A
+    /// turn counts as at most one radian.
     pub fn sizes_since(&self, places: &[(DVec2, f64)]) -> (f64, f64) {
         let bodies = &self.tick.state.bodies;
         let far = |(&body, &(position, angle)): (&usize, &(DVec2, f64))| {
@@ -145,8 +145,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         (self.dynamic.iter().zip(places).map(far).fold(0.0, f64::max), self.reach().speed)
     }
 
-    /// The greatest displacement of any point of a dynamic body by a change of the state, in m, and its gain of speed
-    /// in m/s.
+    /// The greatest displacement of any point of a dynamic body by a change of the state (m), and its gain of speed
+    /// (m/s).
     pub fn sizes_of(&self, change: &[f64]) -> (f64, f64) {
         let bodies = &self.tick.state.bodies;
         let size = |changes: &[f64]| {
@@ -175,8 +175,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         })
     }
 
-    /// The unit of errors for each number of a state, from a distance in m and a speed in m/s. Angles are measured at
-    /// the farthest point of their body, and states of models as positions. Accounts have no unit.
+    /// The unit of errors for each number of a state, from a distance (m) and a speed (m/s). Angles are measured at the
+    /// farthest point of their body, and states of models as positions. Accounts have no unit.
     pub fn measures(&self, distance: f64, speed: f64, sizes: &mut Vec<f64>) {
         let bodies = &self.tick.state.bodies;
         let turns = |size: f64, body: usize| size / bodies.extent(body).max(f64::MIN_POSITIVE);

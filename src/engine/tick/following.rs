@@ -1,5 +1,4 @@
-//! The transition from stages of steps to whole steps that follow one another, and back, for an integrator that uses
-//! both.
+//! The transition from stages of steps to whole steps that follow one another, and back.
 
 use super::{Style, Tick};
 

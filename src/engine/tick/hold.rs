@@ -1,5 +1,5 @@
-//! Constraint stabilisation of joints in a step: rows of the current state, and positions and velocities that are
-//! brought back onto them.
+//! Constraint stabilisation of joints in a step. Positions and velocities are brought back onto the rows of the current
+//! state.
 
 use glam::DVec2;
 
@@ -36,8 +36,8 @@ pub struct FromOutside {
 }
 
 impl FromOutside {
-    /// Adds `amount` of a row's unit force on the bodies at their current poses, if forces do not move one of its
-    /// sides.
+    /// Adds `amount` of a row's unit force on the bodies at their current poses. It does so if one side does not move
+    /// by forces.
     fn add(&mut self, row: &Row, amount: f64, bodies: &Bodies) {
         let driven = if row.kind == Kind::Velocity { row.rate } else { 0.0 };
         self.work += amount * (row.powers(bodies)[2] + driven);
@@ -415,8 +415,8 @@ impl State {
     }
 }
 
-/// The torque about the origin of one unit of a row on the bodies that move by forces, at their positions `elapsed`
-/// seconds earlier. Zero for rows between two such bodies.
+/// The torque about the origin of one unit of a row on its bodies, at their positions `elapsed` seconds earlier. Zero
+/// for rows between two such bodies.
 fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
     if row.is_inside(bodies) {
         return 0.0;

@@ -22,8 +22,8 @@
 //!
 //! **Systems of users.** A system that works on [`State`] alone is registered with [`TickAppExt::add_packed_systems`].
 //! Around any other system the engine keeps the components (`Position`, `Velocity` ...) up to date. A scene without
-//! such systems pays nothing for that. The engine notices a system in [`Stage::Begin`] that changes components, spawns
-//! or despawns, and evaluates the forces again before the tick. A system that changes any other input of forces
+//! such systems pays nothing for that. A system in [`Stage::Begin`] may change components, spawn or despawn. The engine
+//! notices that, and evaluates the forces again before the tick. A system that changes any other input of forces
 //! announces it with [`Bodies::touched`](crate::world::Bodies::touched).
 
 pub mod after_load;

@@ -118,9 +118,9 @@ pub trait Model: Any + Send + Sync {
     /// Stage Forces of an evaluation: adds to the forces and torques of bodies, and to the rates of the ledger.
     fn apply_forces(&mut self, _: &mut State) {}
 
-    /// Adds the rows of its constraints on positions or velocities, for these bodies at a time in seconds: their gaps,
-    /// rates and directions. The engine calls it in each evaluation, and when it brings states back onto joints. Number
-    /// and order of the rows never change. See [`Model::has_rows`].
+    /// Adds the rows of its constraints on positions or velocities, with gaps, rates and directions. The bodies are
+    /// those at a time in seconds. The engine calls it in each evaluation, and when it brings states back onto joints.
+    /// Number and order of the rows never change. See [`Model::has_rows`].
     fn add_rows(&mut self, _: &Bodies, _: f64, _: &mut Rows) {}
 
     /// Stage Constraints of an evaluation: its rows, added to [`State::rows_mut`] in [`Model::apply_forces`], have been solved.
@@ -255,7 +255,7 @@ pub trait Events {
     /// Model -> state. Default: a model without numbers has nothing to copy.
     fn read(&self, _: &mut [f64]) {}
 
-    /// The units of errors of its states, if they exceed the way of bodies: an integral grows while bodies are at rest.
+    /// The units of errors of its states, if they exceed the way of bodies. An integral grows while bodies are at rest.
     /// All are zero before. Default: no change.
     fn measures(&self, _: &mut [f64]) {}
 

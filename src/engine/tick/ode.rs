@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A system of ordinary differential equations of motion, `q' = v`, `v' = a(t, q, v, z)`, `z' = r(t, q, v, z)`.
 ///
-/// A state is one list of numbers: coordinates `q`, the same number of velocities `v`, and the states of models (`z`).
+/// A state is one list of numbers. It holds coordinates `q`, as many velocities `v`, and the states of models (`z`).
 /// These are elongations, states of controllers, and accounts of energy.
 pub trait Flow {
     /// Number of coordinates, and of velocities.

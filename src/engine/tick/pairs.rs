@@ -133,8 +133,7 @@ impl SurfacePair {
         }
     }
 
-    /// The bodies of both sides, except walls. The body of the surface is second, or that of the probe if the surface
-    /// is a wall.
+    /// The bodies of both sides. A wall has no body, and then the first is absent.
     #[inline]
     pub fn bodies(self, bodies: &Bodies) -> (Option<usize>, usize) {
         let of_hull = |hull: usize| bodies.hulls[hull].body as usize;

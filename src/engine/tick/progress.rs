@@ -104,7 +104,7 @@ impl StepCount {
     }
 
     /// Whether rounding bounds more than a tenth of all steps, and more than one. Single steps do not count. The first
-    /// step of a run comes before any body has moved far, and the last one may be a remainder of rounding.
+    /// step of a run comes before any body has moved far. The last one may be a remainder of rounding.
     pub fn is_bounded(&self) -> bool {
         self.bounded > 1 && 10 * self.bounded > self.accepted
     }

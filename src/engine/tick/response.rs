@@ -6,8 +6,8 @@
 //! than each alone. A spring off the centre of a body is faster than `k/m`.
 //!
 //! The largest eigenvalue of `M^-1/2 K M^-1/2` is found by Lanczos' method (1950; Golub and Van Loan, *Matrix
-//! Computations*, 2013, 10.1). It takes a few products with the rows, and never a matrix. The result after `k` products
-//! lies below `omega^2` by a share of `0.103 (ln n/(k - 1))^2` on average, with `n` degrees of freedom (Kuczynski and
+//! Computations*, 2013, 10.1). It takes a few products with the rows, and never a matrix. With `n` degrees of freedom
+//! the result after `k` products lies below `omega^2`. The share is `0.103 (ln n/(k - 1))^2` on average (Kuczynski and
 //! Wozniakowski 1992). That is 0.015 for a hundred bodies. [`Springs::bound`] lies above it always.
 //!
 //! Neglected: the stiffness from the rotation of the normal (force over radius), which is small beside `k` if overlaps
@@ -24,7 +24,7 @@ const STEPS: usize = 16;
 /// Two springs of a contact or of the scene. They act between two bodies, or between a body and a wall or the world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
-    /// Index of the body on side A and the arm from its centre of mass to the contact; `None`: a wall or the world.
+    /// Index of the body on side A, and the arm from its centre of mass to the contact. `None`: a wall or the world.
     pub a: Option<(usize, DVec2)>,
     /// The same for side B.
     pub b: (usize, DVec2),

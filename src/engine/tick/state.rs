@@ -1,5 +1,5 @@
-//! The state of a run: all data that a step changes, as packed arrays in canonical order, and the models that change
-//! it.
+//! The state of a run: all data that a step changes, and the models that change it. The data are packed arrays in
+//! canonical order.
 
 use std::ops::Range;
 

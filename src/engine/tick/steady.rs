@@ -72,8 +72,7 @@ impl SteadySprings {
         self.alert
     }
 
-    /// The largest angular frequency in rad/s in the current state, and the index of the body that is held most
-    /// stiffly.
+    /// The largest angular frequency in rad/s in the current state, and the index of the most stiffly held body.
     fn measure(&mut self, bodies: &Bodies, stability: &Stability) -> Option<(f64, usize)> {
         if self.list.is_empty() {
             return None;

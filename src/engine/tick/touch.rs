@@ -1,5 +1,5 @@
-//! The reports of contact laws on the current state: the deepest overlap, and on request the touching pairs, with
-//! points and forces.
+//! The reports of contact laws on the current state. They are the deepest overlap, and on request the touching pairs
+//! with points and forces.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;

@@ -1,4 +1,4 @@
-//! `Boxes(of: ["T"])`: the bounding boxes of bodies, as the search for contacts sees them but for its margin.
+//! `Boxes(of: ["T"])`: the bounding boxes of bodies, as in the search for contacts but without its margin.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -39,7 +39,7 @@ impl OfBodies for Boxes {
     }
 }
 
-/// Lower left and upper right corner of the box around a body's atoms, in metres; none without atoms.
+/// Lower left and upper right corner of the box around a body's atoms, in metres; `None` without atoms.
 pub(super) fn bounding_box(bodies: &Bodies, body: usize) -> Option<(DVec2, DVec2)> {
     let atom = |atom: usize| {
         let (center, radius) = (bodies.atom_place(atom), DVec2::splat(bodies.atom_radius[atom]));

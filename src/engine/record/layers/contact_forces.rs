@@ -1,9 +1,10 @@
-//! `ContactForces(of: ["T"], scale: "10 N")`: the forces that contacts give, as arrows.
+//! `ContactForces(of: ["T"], scale: "10 N")`: the forces of contacts, as arrows.
 //!
-//! What two bodies, or a body and a wall, give each other through neighbouring atoms in about one direction is one arrow:
-//! the resultant, at the centre of pressure. The arrow begins there and points into the body that receives the force; of
-//! two bodies that is the one that the contact bears up, and without gravity the later one in the scene. Forces are those
-//! at the end of a tick, not means over a frame: in an impact of a few ticks they are large, and between frames unseen.
+//! Forces between two bodies, or a body and a wall, through neighbouring atoms in about one direction make one arrow.
+//! It is their resultant at the centre of pressure. The arrow begins there and points into the body that receives the
+//! force. Of two bodies it is the one that the contact bears up, and without gravity the later one in the scene. Forces
+//! are those at the end of a tick, not means over a frame. In an impact of a few ticks they are large, and an impact
+//! between frames is invisible.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -20,14 +21,14 @@ use crate::scene::values::Names;
 use crate::scene::{Outline, Report, SceneAppExt};
 use crate::tick::{AfterLoad, State};
 
-/// The forces with which things touch, as arrows on the body that feels them.
+/// The forces of contacts, as arrows on the body that feels them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForces {
     /// The bodies, `*` matches. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
-    /// The force whose arrow is a tenth of the picture's height long, in N. Default: from the weight of a body of the
+    /// The force in N whose arrow is a tenth of the picture's height long. Default: from the weight of a body of the
     /// scene, and without gravity from the force with which it stops.
     #[serde(default)]
     scale: Option<Force>,
@@ -82,7 +83,7 @@ pub(super) fn loads(contacts: impl Iterator<Item = ContactPoint>) -> Vec<Contact
     let mut sums: Vec<(DVec2, f64)> = Vec::new();
     for contact in contacts {
         let (size, direction) = (contact.force.length(), contact.force.normalize_or_zero());
-        // Contacts of one pair follow each other in the list, but for those of bodies with many atoms.
+        // Contacts of one pair are consecutive in the list, except those of bodies with many atoms.
         let same = |(load, (first, _)): &(&mut ContactPoint, &mut (DVec2, f64))| {
             load.body == contact.body && load.other == contact.other && first.dot(direction) >= ALIKE
         };
@@ -102,15 +103,15 @@ pub(super) fn loads(contacts: impl Iterator<Item = ContactPoint>) -> Vec<Contact
     loads
 }
 
-/// How many loads are looked through for one that a contact belongs to: a body has few in touch at once.
+/// The number of loads that are searched for that of a contact. A body has few loads at once.
 const LOOKED_BACK: usize = 64;
 
-/// The force of a scene, in N, by which the default scale is chosen: it stays the same for the whole film.
+/// The force of a scene, in N, that determines the default scale. It is the same for the whole film.
 #[derive(Resource)]
 pub(super) struct TypicalForce(pub f64);
 
-/// The weight of the middle one of the bodies; without gravity the force with which the fastest body would be stopped by
-/// its own stiffness, `v sqrt(k m)`.
+/// The median of the weights of bodies. Without gravity it is the force with which the fastest body would be stopped by
+/// its stiffness, `v sqrt(k m)`.
 pub(super) fn note_start(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let mut masses: Vec<f64> = (0..bodies.len()).filter(|&b| bodies.dynamic[b]).map(|b| bodies.mass[b]).collect();

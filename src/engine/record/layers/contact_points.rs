@@ -1,4 +1,4 @@
-//! `ContactPoints(of: ["T"])`: a dot where atoms touch each other or a wall.
+//! `ContactPoints(of: ["T"])`: a dot at each contact of atoms with each other or with a wall.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

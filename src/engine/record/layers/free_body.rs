@@ -1,4 +1,5 @@
-//! `FreeBody(of: ["block"], parts: [Weight, Normal, Friction])`: the free-body diagram: each force on a body as an arrow with its name.
+//! `FreeBody(of: ["block"], parts: [Weight, Normal, Friction])`: the free-body diagram. Each force on a body is an
+//! arrow with its name.
 //!
 //! Weight acts at the centre of mass, `m g`. A contact's force is drawn in two parts: along its normal, and friction across it. Forces
 //! of springs and joints act at their anchors. Neighbouring contacts in about one direction are one arrow, as in the layer
@@ -20,7 +21,7 @@ use crate::scene::values::Names;
 use crate::scene::{Outline, Report, SceneAppExt};
 use crate::tick::{AfterLoad, ForcePart, State};
 
-/// Names stand above a point: those of arrows that point down are so much lower, as a share of the picture's height.
+/// Names are above a point. Names of arrows that point down are lower by this share of the picture's height.
 const LINE: f64 = 0.042;
 
 /// The forces on bodies one by one, as arrows with their names: a free-body diagram.
@@ -125,7 +126,7 @@ impl OfBodies for FreeBody {
     }
 }
 
-/// Each force on a body: its kind, where it acts in metres, and the force in newtons.
+/// Each force on a body: its kind, the point of action in metres, and the force in newtons.
 fn forces_on(state: &State, body: usize) -> Vec<(Part, DVec2, DVec2)> {
     let bodies = state.bodies();
     let mut found = Vec::new();

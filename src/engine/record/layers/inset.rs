@@ -21,7 +21,7 @@ struct Inset {
     /// The corner of the picture: `TopLeft`, `TopRight`, `BottomLeft` or `BottomRight`. Default: `BottomRight`.
     #[serde(default)]
     corner: Place,
-    /// How high it stands in the picture, as a share of its shorter side, from 0.05 to 1. Default: 0.4.
+    /// Its height in the picture, as a share of the shorter side, from 0.05 to 1. Default: 0.4.
     #[serde(default = "share")]
     share: Scalar,
 }

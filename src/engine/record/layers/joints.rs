@@ -16,8 +16,8 @@ use crate::tick::State;
 /// Radius of a hinge as a share of the picture's height.
 const HINGE: f64 = 0.006;
 
-/// Joints: an arm from the centre of each body to its anchor, and a ring at the anchor; anchors in the world have a dot inside. Shown by
-/// default where a scene has joints.
+/// Joints: an arm from the centre of each body to its anchor, and a ring at the anchor. Anchors in the world have a dot
+/// inside. Shown by default if a scene has joints.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Joints {}

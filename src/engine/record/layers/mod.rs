@@ -1,9 +1,8 @@
-//! Layers of a film: what is drawn beside bodies, walls and title, as plain marks in the world. Each file one layer.
+//! Layers of a film, one per file: plain marks in the world, beside bodies, walls and title.
 //!
-//! A layer looks at the world and adds marks; it is called once for each frame, with the state at the end of the tick in
-//! which the frame's time lies. It measures and never pushes. A layer that shows what was before also looks at the world
-//! between frames, at a rate of its own. A film without a layer does not pay for it, and a run without pictures pays for
-//! none.
+//! A layer reads the world and adds marks. It is called once for each frame, with the state at the end of the frame's
+//! tick. It measures and never pushes. A layer that shows the past also reads the world between frames, at its rate. A
+//! film pays only for its layers, and a run without pictures pays for none.
 
 mod boxes;
 mod contact_forces;
@@ -46,7 +45,7 @@ pub const WORDS: [(&str, &str); 11] = [
     ("time", "Time"),
 ];
 
-/// Whether a layer is shown in a film whose scene names none.
+/// Whether a film shows a layer if its scene names none.
 fn is_default(layer: &str, outline: &Outline) -> bool {
     match layer {
         "ScaleBar" | "Time" => true,
@@ -81,7 +80,7 @@ impl<F: Fn(&World, &mut Vec<Mark>) + Send + Sync + 'static> Layer for F {
 pub struct Memory {
     /// From one look to the next.
     pub every: f64,
-    /// What happened longer ago than this before a frame does not matter to it.
+    /// The time before a frame, beyond which the past does not matter to it.
     pub length: f64,
 }
 
@@ -99,7 +98,7 @@ impl Layers {
         marks
     }
 
-    /// The next tick after `seen` at which some layer looks, on the way to a frame at `time` s, in ticks of `dt` s.
+    /// The next tick after `seen` at which some layer reads the world, before a frame at `time` s. Ticks last `dt` s.
     pub(crate) fn next_look(world: &World, seen: Option<u64>, time: f64, dt: f64) -> Option<u64> {
         let layers = world.get_resource::<Self>()?;
         let next = |memory: Memory| {
@@ -146,7 +145,7 @@ fn add_own_layer(app: &mut App, layer: impl Layer) {
     app.world_mut().get_resource_or_init::<Layers>().0.push(Box::new(layer));
 }
 
-/// The height of a film's picture in metres: whoever records a film says so, so that arrows get lengths that can be seen.
+/// The height of a film's picture in metres. The recorder of a film sets it, so that arrows get visible lengths.
 /// Absent: one metre.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct PictureHeight(pub f64);
@@ -162,8 +161,8 @@ impl PictureHeight {
 #[derive(Resource, Clone, Debug, Default)]
 pub(crate) struct WantedLayers(pub Option<Vec<String>>);
 
-/// Installs what a film shows whose scene says nothing about it, and what the caller wants. The scene's own layers are
-/// there already.
+/// Installs the default layers if the scene names none, and the layers that the caller wants. The scene's layers have
+/// been installed before.
 pub(crate) fn install_wanted(outline: &Outline, app: &mut App) {
     let wanted = app.world_mut().remove_resource::<WantedLayers>().unwrap_or_default().0;
     if wanted.as_ref().is_some_and(Vec::is_empty) {

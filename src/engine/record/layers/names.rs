@@ -13,14 +13,14 @@ use crate::scene::{Outline, SceneAppExt};
 use crate::tick::State;
 use crate::world::{Bodies, Name};
 
-/// More names than these would be a wall of text; who names the bodies in `of` gets them all.
+/// The most names by default, because more would be a wall of text. With names in `of` there is no limit.
 const MOST: usize = 60;
 
 /// The names of bodies, beside them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Names {
-    /// The bodies, `*` matches. Default: all that move, if they are at most sixty.
+    /// The bodies, `*` matches. Default: all mobile bodies, if they are at most sixty.
     #[serde(default)]
     of: Option<Choice>,
 }

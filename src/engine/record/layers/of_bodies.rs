@@ -1,4 +1,4 @@
-//! What layers of bodies have in common: an entry of `look.layers` with the field `of`.
+//! The common part of layers of bodies: an entry of `look.layers` with the field `of`.
 
 use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -25,7 +25,7 @@ pub(super) trait OfBodies: DeserializeOwned + JsonSchema + Send + Sync + 'static
     /// Installs once what all layers of the kind need.
     fn prepare(_app: &mut App) {}
 
-    /// What is drawn.
+    /// Makes the layer.
     fn layer(self, shown: Shown, outline: &Outline) -> impl Layer;
 }
 

@@ -1,23 +1,23 @@
-//! Scales of arrows: how long an arrow is for what it stands for. Length is proportional to the quantity; the scale stands
-//! in the corner of the picture.
+//! Scales of arrows: the ratio of an arrow's length to its quantity. Length is proportional to the quantity, and the
+//! corner of the picture states the scale.
 
 use glam::DVec2;
 
 use super::{Mark, MarkShape};
 
-/// An arrow of the scale's own quantity is so long, as a share of the picture's height.
+/// The length of an arrow of the scale's quantity, as a share of the picture's height.
 const REFERENCE: f64 = 0.1;
 
-/// No arrow is longer than this, as a share of the picture's height: it has two heads instead.
+/// The longest arrow, as a share of the picture's height. Longer ones are cut, and have two heads.
 const LONGEST: f64 = 0.3;
 
-/// Shorter arrows than this, as a share of the picture's height, are left out: they would be all head.
+/// The shortest arrow, as a share of the picture's height. Shorter ones are left out, because they would be all head.
 const SHORTEST: f64 = 0.01;
 
 /// How long arrows are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
-    /// The quantity that [`REFERENCE`] stands for, in SI units.
+    /// The quantity for an arrow of length [`REFERENCE`], in SI units.
     reference: f64,
     /// The height of the picture in metres.
     height: f64,
@@ -37,7 +37,7 @@ impl Scale {
         Mark::new(MarkShape::Key { length: REFERENCE * self.height, text }, self.color)
     }
 
-    /// An arrow for a quantity, beginning at a point; none for one too small to see.
+    /// An arrow for a quantity, beginning at a point; `None` for one that is too small to see.
     pub(super) fn arrow(&self, from: DVec2, quantity: DVec2) -> Option<Mark> {
         let length = quantity.length() / self.reference * REFERENCE;
         if !(length >= SHORTEST && length.is_finite()) {
@@ -52,7 +52,7 @@ impl Scale {
     }
 }
 
-/// The nearest 1, 2 or 5 times a power of ten, by ratio; 1 for what is not above zero.
+/// The nearest 1, 2 or 5 times a power of ten, by ratio. It is 1 for NaN and for values not above zero.
 pub(super) fn round(value: f64) -> f64 {
     if !(value.is_normal() && value > 0.0) {
         return 1.0;
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(with_unit(1e200, "N"), "1e200 N");
     }
 
-    /// Arrows are as long as their quantity says, up to the longest.
+    /// The length of arrows is proportional to their quantity, up to the longest.
     #[test]
     fn length_is_proportional_to_the_quantity() {
         let scale = Scale::new(2.0, 7.2, "N", "force");

@@ -1,7 +1,7 @@
-//! `Trails(of: ["T"], seconds: 0.5)`: where the centres of bodies were, fading and tapering.
+//! `Trails(of: ["T"], seconds: 0.5)`: the past positions of the centres of bodies, fading and tapering.
 //!
-//! Positions are noted at the end of ticks, at least so often that a trail has 256 points; with very many bodies it has
-//! fewer, so that all trails together stay within some 33 000 points however long the film is.
+//! Positions are noted at the end of ticks, at least so often that a trail has 256 points. With very many bodies a
+//! trail has fewer. So all trails together stay within some 33 000 points, however long the film is.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -24,7 +24,7 @@ const POINTS: (usize, usize) = (4, 256);
 /// Points of all trails of one kind together, unless each has the least.
 const ALL_POINTS: usize = 1 << 15;
 
-/// Where the centres of bodies were, fading. It may stand more than once.
+/// The past positions of the centres of bodies, fading. It may stand more than once.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Trails {
@@ -59,7 +59,7 @@ impl OfBodies for Trails {
     }
 }
 
-/// Where bodies were.
+/// The past positions of bodies.
 struct Tracks {
     shown: Shown,
     /// How long a trail is, in seconds.
@@ -89,7 +89,7 @@ impl Layer for Tracks {
 
     fn look(&mut self, world: &World) {
         let (bodies, clock) = (&world.resource::<State>().bodies, &world.resource::<State>().clock);
-        // Between two frames far apart nobody looks until the trail of the second one begins.
+        // Between two distant frames no positions are needed until the trail of the second one begins.
         let stride = self.memory().map_or(1, |memory| stride(memory, clock.dt));
         if self.looked.is_some_and(|looked| looked + stride != clock.ticks) {
             self.tracks.clear();

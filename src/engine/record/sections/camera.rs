@@ -1,4 +1,4 @@
-//! `camera`: which part of the world the film shows. Entries `Fit`, `Look` and `Follow`.
+//! `camera`: the part of the world that the film shows. Entries `Fit`, `Look` and `Follow`.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
@@ -10,7 +10,7 @@ use crate::scene::{Entry, Kind, Outline, Report, Written};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
-/// What the section is for.
+/// The meaning of the section.
 pub const MEANING: &str = "Which part of the world the film shows. Without this section `Fit`, with its default.";
 /// One correct use of the section.
 pub const EXAMPLE: &str = "camera: Fit(margin: 0.05)";

@@ -1,4 +1,4 @@
-//! `film`: what is drawn of the run. It never changes the physics.
+//! `film`: the part of the run that is drawn. It never changes the physics.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
@@ -12,7 +12,7 @@ use crate::scene::{Kind, Outline, Report, Section};
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
 
-/// What is drawn of the run. It never changes the physics.
+/// The part of the run that is drawn. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Film")]
@@ -32,7 +32,7 @@ pub struct FilmSection {
     /// Last moment drawn, in s of physics, after `from`. Default: the end of the run; a later moment means the end.
     #[serde(default)]
     pub to: Option<Time>,
-    /// Where the film stands still. Default: nowhere.
+    /// The moments at which the film stands still. Default: nowhere.
     #[serde(default)]
     pub freeze: Vec<FreezeEntry>,
 }
@@ -42,14 +42,13 @@ pub struct FilmSection {
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Freeze")]
 pub struct FreezeEntry {
-    /// The moment, in s of physics, from the film's beginning to its end. Default: `touch` says when.
+    /// The moment, in s of physics, from the film's beginning to its end. Default: from `touch`.
     #[serde(default)]
     pub at: Option<Time>,
-    /// Two bodies, or a body and a wall: the moment they first begin to touch in the film, to a tick.
-    /// Default: `at` says when.
+    /// Two bodies, or a body and a wall: the moment of their first contact in the film, to a tick. Default: from `at`.
     #[serde(default)]
     pub touch: Option<(String, String)>,
-    /// How long the film stands still, in s of film. Above zero.
+    /// The duration of the still, in s of film. Above zero.
     #[serde(rename = "for")]
     pub lasts: Time,
 }

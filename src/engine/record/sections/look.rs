@@ -1,4 +1,4 @@
-//! `look`: how films look. It never changes the physics.
+//! `look`: the appearance of films. It never changes the physics.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
@@ -14,7 +14,7 @@ pub const THEMES: &str = "theme";
 /// The list of entries inside this section: the layers of a film.
 pub const LAYERS: &str = "look.layers";
 
-/// The layers that may stand more than once, with other bodies or another place each time.
+/// The layers that may occur more than once, with other bodies or another position each time.
 const REPEATABLE: [&str; 2] = ["Trails", "Inset"];
 
 /// How films look. It never changes the physics.
@@ -22,11 +22,10 @@ const REPEATABLE: [&str; 2] = ["Trails", "Inset"];
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Look")]
 pub struct LookSection {
-    /// The colours: the name of a theme that comes with the program, or a file that ends with `.ron`, beside the scene.
-    /// Default: `"paper"`.
+    /// The colours: the name of a theme of the program, or of a `.ron` file beside the scene. Default: `"paper"`.
     #[serde(default)]
     pub theme: Option<String>,
-    /// What is drawn beside bodies, walls and title. Default: `[ScaleBar, Time]`.
+    /// The layers beside bodies, walls and title. Default: `[ScaleBar, Time]`.
     #[serde(default)]
     pub layers: Elsewhere,
 }
@@ -47,7 +46,7 @@ impl Section for LookSection {
         Some(generator.subschema_for::<Self>())
     }
 
-    /// Reports an unknown theme, and layers that stand there twice.
+    /// Reports an unknown theme, and duplicate layers.
     fn check(&self, outline: &Outline, report: &mut Report) {
         if let Some(theme) = self.theme.as_deref().filter(|theme| !Self::is_file(theme))
             && outline.word(THEMES, theme).is_none()

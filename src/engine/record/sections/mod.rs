@@ -1,4 +1,4 @@
-//! The sections of a scene that describe the film and its plots, as plain data. They never change the physics.
+//! The sections of a scene for the film and its plots, as plain data. They never change the physics.
 
 pub mod camera;
 pub mod film;

@@ -1,4 +1,4 @@
-//! `plots`: what is plotted beside the film. It never changes the physics.
+//! `plots`: the plots beside the film. It never changes the physics.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
@@ -10,13 +10,13 @@ use crate::scene::values::{Names, WholeNumber};
 use crate::scene::{Kind, Outline, Report, Section};
 use crate::sensors;
 
-/// More bins than anybody tells apart.
+/// The most bins that a reader can distinguish.
 const MOST_BINS: u64 = 200;
 
-/// More plots than stand beside a film and can be read.
+/// The most plots that fit beside a film and stay readable.
 const MOST_PLOTS: usize = 6;
 
-/// What is plotted beside the film, on the film's clock. It never changes the physics.
+/// The plots beside the film, on the film's clock. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct PlotsSection(pub Vec<PlotEntry>);
@@ -26,7 +26,7 @@ pub struct PlotsSection(pub Vec<PlotEntry>);
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Plot")]
 pub struct PlotEntry {
-    /// What stands above it. Default: what the names of its channels share.
+    /// The words above it. Default: the common part of the names of its channels.
     #[serde(default)]
     pub title: Option<String>,
     /// Channels to plot against time; `*` stands for any letters of the names of bodies. Default: none; a plot has these, or
@@ -39,13 +39,13 @@ pub struct PlotEntry {
     /// The channel, or channels, upwards. Default: none.
     #[serde(default)]
     pub y: Option<Names>,
-    /// How often values occur. Default: none.
+    /// The frequencies of values. Default: none.
     #[serde(default)]
     pub histogram: Option<HistogramEntry>,
-    /// From where to where the upward axis reaches, in the channels' unit. Default: as far as the values do.
+    /// The ends of the upward axis, in the channels' unit. Default: those of the values.
     #[serde(default)]
     pub range: Option<(Scalar, Scalar)>,
-    /// Equal factors take equal lengths upwards; what is not above zero is not shown. Default: `false`.
+    /// Whether the axis is logarithmic; values that are not above zero are not shown. Default: `false`.
     #[serde(default)]
     pub log: bool,
     /// How long the way stays in a phase portrait, in s of physics, while it fades. Above zero. Default: all of it
@@ -54,26 +54,27 @@ pub struct PlotEntry {
     pub tail: Option<Time>,
 }
 
-/// How often values of a quantity of many bodies, or of one channel so far, lie in each of some equally wide bins.
+/// The frequencies of values in equally wide bins. The values are a quantity of many bodies, or those of one channel so
+/// far.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Histogram")]
 pub struct HistogramEntry {
-    /// The bodies, `*` matches. Default: `channel` says what is counted.
+    /// The bodies, `*` matches. Default: from `channel`.
     #[serde(default)]
     pub of: Option<Names>,
-    /// What of them, such as `position.x`. Default: `channel` says what is counted.
+    /// Their quantity, such as `position.x`. Default: from `channel`.
     #[serde(default)]
     pub quantity: Option<String>,
-    /// Instead of bodies: a channel, whose values since the beginning are counted. Default: `of` and `quantity` say it.
+    /// Instead of bodies: a channel, whose values since the beginning are counted. Default: from `of` and `quantity`.
     #[serde(default)]
     pub channel: Option<String>,
     /// How many bins, from 1 to 200. Default: 12.
     #[serde(default = "bins")]
     pub bins: WholeNumber,
-    /// Where the first bin begins, in the quantity's unit.
+    /// The beginning of the first bin, in the quantity's unit.
     pub from: Scalar,
-    /// Where the last bin ends.
+    /// The end of the last bin.
     pub to: Scalar,
 }
 

@@ -1,4 +1,4 @@
-//! How mistakes are shown: as data, in colour, many of them, on long lines, in large and odd texts.
+//! The display of mistakes: as data, in colour, many of them, on long lines, in large and odd texts.
 
 use super::super::{Report, SceneErrors, Source, load};
 use super::{messages, plugins};

@@ -1,4 +1,4 @@
-//! Whole scenes, read with a few small plugins, and the exact messages for those that are wrong.
+//! Whole scenes, read with a few small plugins, and the exact messages for wrong ones.
 
 mod display;
 mod plugins;
@@ -9,7 +9,7 @@ use bevy_app::App;
 
 use super::{Source, load};
 
-/// The messages for a wrong scene, as they are printed.
+/// The printed messages for a wrong scene.
 fn messages(text: &str) -> String {
     let mut app = plugins::app();
     match load(&mut app, &Source::new("a.ron", text)) {
@@ -18,7 +18,7 @@ fn messages(text: &str) -> String {
     }
 }
 
-/// A scene is wrong with exactly these messages. The first line break of both texts is for looks.
+/// Checks that a scene is wrong with exactly these messages. The first line break of both texts is ignored.
 #[track_caller]
 fn wrong(scene: &str, expected: &str) {
     let found = messages(scene.strip_prefix('\n').unwrap_or(scene));

@@ -1,5 +1,5 @@
-//! The engine's sections, a section and some entries of a plugin, to read scenes with. Nothing is built; they only
-//! write down what was installed.
+//! The engine's sections, and a section and some entries of a plugin, for reading scenes. They build nothing, and only
+//! record their installation.
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
@@ -172,7 +172,7 @@ impl Entry for Drag {
     }
 }
 
-/// An app that reads the engine's sections, a plugin's `wind` and `forces: [Drag(..)]`, and knows reserved names.
+/// An app that reads the engine's sections, a plugin's `wind` and `forces: [Drag(..)]`, and reserved names.
 pub(super) fn app() -> App {
     let mut app = App::empty();
     for color in jostle_frames::palette::COLOR_NAMES {

@@ -1,4 +1,4 @@
-//! Good scenes: what is installed, in which order.
+//! Good scenes: the installed sections and their order.
 
 use super::super::{Kind, Source, load};
 use super::loaded;

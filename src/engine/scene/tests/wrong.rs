@@ -1,5 +1,5 @@
-//! Mistakes that no scene of the standard plugins can make, or none for long: in sections of plugins, and in names kept
-//! for later versions. All others stand in `tests/wrong_scenes`, a file each.
+//! Mistakes that no scene of the standard plugins can make, or that will soon disappear. They are in sections of
+//! plugins, and in names reserved for later versions. All others are in `tests/wrong_scenes`, a file each.
 
 use super::wrong;
 

@@ -9,9 +9,9 @@ use crate::scene::units::{Length, Position};
 sided! {
     /// A bar with round ends.
     CapsuleShape, "Capsule" {
-        /// Where its middle line begins, in m.
+        /// The beginning of its middle line, in m.
         from: Position,
-        /// Where its middle line ends, in m.
+        /// The end of its middle line, in m.
         to: Position,
         /// Half its thickness in m. Above zero.
         radius: Length,

@@ -19,7 +19,7 @@ sided! {
         /// Play in m between two such gears along the pitch circle; each gives half of it. Default: 0.
         #[serde(default)]
         backlash: Length,
-        /// How many chords stand for the involute of each flank. From 1 to 64. Default: 8.
+        /// The number of chords for the involute of each flank. From 1 to 64. Default: 8.
         #[serde(default)]
         chords: Option<usize>,
     }

@@ -1,6 +1,7 @@
-//! `shape: Rectangle(..)`: shapes with sides, each the convex hull of its corners grown by a radius, or several such hulls.
+//! `shape: Rectangle(..)`: shapes with sides. Each is the convex hull of its corners grown by a radius, or several such
+//! hulls.
 //!
-//! A shape is one file with its fields and the hulls that [`jostle_shapes`] makes of them, and one line in the list below.
+//! A shape is one file with its fields and its hulls by [`jostle_shapes`], and one line in the list below.
 
 mod capsule;
 mod disc;
@@ -37,16 +38,16 @@ pub struct Part {
     pub collides: bool,
 }
 
-/// What a shape is made of.
+/// The parts of a shape.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parts {
     /// Its parts, in the order of the scene.
     pub parts: Vec<Part>,
-    /// What was mended in the numbers of the scene.
+    /// The corrections of the numbers of the scene.
     pub mended: Vec<String>,
 }
 
-/// Where a shape stands in its body, and how heavy it is.
+/// The position of a shape in its body, and its mass or density.
 pub(crate) struct Common {
     at: DVec2,
     angle: f64,
@@ -68,7 +69,7 @@ pub(crate) trait Sided: Placed {
     /// Numbers of which no shape can be made.
     fn made(&self) -> Result<shapes::Shape, ShapeError>;
 
-    /// One as it stands in a scene.
+    /// An example for scenes.
     fn example(&self) -> &'static str;
 }
 
@@ -85,7 +86,7 @@ macro_rules! sided {
         #[schemars(rename = $title)]
         pub struct $name {
             $($(#[$about_field])* pub $field: $type,)*
-            /// Where its origin is in the frame of the body, in m. Default: (0, 0).
+            /// Its origin in the frame of the body, in m. Default: (0, 0).
             #[serde(default)]
             pub at: crate::scene::units::Position,
             /// How far it is turned about that point, in rad, counter-clockwise. Default: 0.
@@ -119,7 +120,8 @@ use sided;
 
 macro_rules! list {
     ($($(#[$about:meta])* $name:ident($fields:ty),)*) => {
-        /// A shape with sides, or a disc. Measures are those of the outside; `rounding` goes inwards and makes corners round.
+        /// A shape with sides, or a disc. Measures are those of the outside. `rounding` goes inwards and makes corners
+        /// round.
         #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
         pub enum Shape {
@@ -196,14 +198,14 @@ impl Shape {
         }
     }
 
-    /// What it is made of; nothing if it cannot be made.
+    /// Its parts; empty if it cannot be made.
     pub fn parts(&self) -> Parts {
         let mut parts = Parts::default();
         self.add_to(&mut parts, "");
         parts
     }
 
-    /// Adds its parts; `place` says in messages where it stands.
+    /// Adds its parts; `place` is its path in messages.
     fn add_to(&self, parts: &mut Parts, place: &str) {
         let shape = match self.as_sided() {
             Ok(shape) => shape,

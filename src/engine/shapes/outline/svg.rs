@@ -1,6 +1,7 @@
 //! `Svg(file, height | unit, tolerance, rounding)`: the outlines of a drawing.
 //!
-//! The file is read before the sections of a scene are: here the outlines are known already. How they are found stands in `shapes/svg`.
+//! The file is read before the sections of a scene, so the outlines are known here. `shapes/svg` describes how they are
+//! found.
 
 use glam::DVec2;
 use jostle_shapes as shapes;
@@ -12,25 +13,25 @@ use crate::scene::units::Length;
 sided! {
     /// The outlines of the paths, polygons, rectangles and ellipses of an SVG file. Its origin is the middle of the lower side of the box around them.
     SvgShape, "Svg" {
-        /// The drawing: a path from the folder of the file in which this stands.
+        /// The drawing: a path from the folder of the file with this entry.
         file: String,
         /// The id of the one element that counts, a group or an outline. Default: all of them.
         #[serde(default)]
         id: Option<String>,
-        /// How high the drawing becomes, in m. Above zero. Either this or `unit`. Default: `unit` says it.
+        /// The height of the drawing, in m. Above zero. Either this or `unit`. Default: from `unit`.
         #[serde(default)]
         height: Option<Length>,
-        /// The length of one unit of the drawing, in m. Above zero. Either this or `height`. Default: `height` says it.
+        /// The length of one unit of the drawing, in m. Above zero. Either this or `height`. Default: from `height`.
         #[serde(default)]
         unit: Option<Length>,
-        /// How far chords lie from the curves that they stand for at most, in m. Above zero. Points that are nearer than a hundredth of it are
-        /// one. Default: a thousandth of the height.
+        /// The greatest distance of chords from their curves, in m. Above zero. Points that are nearer than a hundredth
+        /// of it count as one. Default: a thousandth of the height.
         #[serde(default)]
         tolerance: Option<Length>,
         /// The radius of its corners in m; those that bend inwards stay sharp. Default: 0.
         #[serde(default)]
         rounding: Length,
-        /// What the drawing became: corners of each outline, in m. Not written by hand.
+        /// The outlines of the drawing: the corners of each, in m. Not written by hand.
         #[serde(default)]
         #[schemars(skip)]
         outlines: Vec<Vec<(f64, f64)>>,

@@ -1,4 +1,4 @@
-//! Discs that cover a silhouette, and how well.
+//! Discs that cover a silhouette, and the quality of the cover.
 
 use std::collections::BinaryHeap;
 
@@ -32,8 +32,8 @@ pub(crate) struct Covering {
     pub(crate) uncovered: f64,
     /// The area of the discs that lies outside, as a share of the silhouette's.
     pub(crate) outside: f64,
-    /// How far a point of the silhouette is from the nearest disc at most, or a point of a disc from the silhouette, as
-    /// a share of the height.
+    /// The greatest distance of a point of the silhouette from the nearest disc, or the reverse. It is a share of the
+    /// height.
     pub(crate) distance: f64,
 }
 
@@ -45,7 +45,7 @@ struct Spot {
     radius: f64,
 }
 
-/// A mask with how many pixels count to the left of each, so that a disc is counted row by row.
+/// A mask with the number of counted pixels to the left of each. So a disc is counted row by row.
 struct Counted<'a> {
     mask: &'a Mask,
     before: Vec<u32>,
@@ -106,7 +106,7 @@ impl Mask {
         self.area() as f64 / (2.0 * 3.0_f64.sqrt() * radius * radius)
     }
 
-    /// How high a pixel of the grid is, as a share of the height.
+    /// The height of a pixel of the grid, as a share of the height.
     pub(crate) fn resolution(&self) -> f64 {
         1.0 / self.rows as f64
     }
@@ -149,12 +149,12 @@ impl Mask {
     }
 }
 
-/// The largest discs that fit, each where it covers most of what is left.
+/// The largest discs that fit, each at the point at which it covers most of the rest (greedy).
 fn inscribed(grid: &Mask, count: usize) -> Vec<Spot> {
     let squares = grid.squared_distances(false);
     let radius = |at: usize| (squares[at] as f64).sqrt() - 0.5;
     let spot = |at: usize| Spot { x: (at % grid.columns) as f64, y: (at / grid.columns) as f64, radius: radius(at) };
-    // A disc that lies in that of a neighbour covers nothing more. The margin makes all neighbours exist.
+    // A disc inside that of a neighbour covers no more. The margin makes all neighbours exist.
     let (width, diagonal) = (grid.columns, std::f64::consts::SQRT_2);
     let neighbours = |at: usize| {
         let straight = [at - 1, at + 1, at - width, at + width].map(|near| (near, 1.0));
@@ -166,7 +166,7 @@ fn inscribed(grid: &Mask, count: usize) -> Vec<Spot> {
     let candidates = (0..grid.inside.len()).filter(|&at| grid.inside[at]).filter(is_largest);
     let mut counted = Counted::new(grid);
     let mut left = grid.inside.clone();
-    // What a disc gains only falls while others are placed, so what was counted before is an upper bound.
+    // The gain of a disc only falls as others are placed, so an earlier count is an upper bound.
     let mut heap: BinaryHeap<(u32, std::cmp::Reverse<usize>)> =
         candidates.map(|at| (counted.count(spot(at)).1, std::cmp::Reverse(at))).collect();
     let mut spots = Vec::new();
@@ -249,8 +249,8 @@ mod tests {
         Mask { columns, rows, inside: (0..columns * rows).map(at).collect() }
     }
 
-    /// One disc covers a disc, but for a ring: its middle is that of a pixel, so off by up to sqrt(1/2), and it keeps half
-    /// a pixel away from the outer pixels, whose edge is rough by another half.
+    /// One disc covers a disc, except for a ring. Its middle is that of a pixel, with an error of up to sqrt(1/2). It
+    /// also keeps half a pixel away from the outer pixels, whose edge is rough by another half.
     #[test]
     fn a_disc_is_one_atom() {
         let (side, r) = (300, 150.0);
@@ -266,7 +266,8 @@ mod tests {
         );
     }
 
-    /// A strip five times as long as high holds five discs that do not overlap: pi/4 of it, and no other five cover more.
+    /// A strip five times as long as high holds five discs that do not overlap. They cover pi/4 of it, and no other
+    /// five cover more.
     #[test]
     fn five_discs_cover_a_strip_as_far_as_discs_can() {
         let mask = drawn(500, 100, |_, _| true);
@@ -278,8 +279,8 @@ mod tests {
         assert_eq!(found.outside, 0.0);
     }
 
-    /// Inside, a hexagonal lattice of touching discs leaves 1 - pi/sqrt(12) open; the outline, of 4 sides of 64 radii
-    /// each, adds at most half a disc's height along it.
+    /// Inside, a hexagonal lattice of touching discs leaves 1 - pi/sqrt(12) open. The outline of 4 sides of 64 radii
+    /// each adds at most half a disc's height along it.
     #[test]
     fn a_lattice_covers_its_share() {
         let mask = drawn(384, 384, |_, _| true);

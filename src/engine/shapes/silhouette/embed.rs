@@ -1,4 +1,4 @@
-//! `atoms: Png(..)`: the picture is read, and the discs that cover its silhouette are added to what is written.
+//! `atoms: Png(..)`: the picture is read, and the discs that cover its silhouette are added to the entry.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -18,16 +18,16 @@ pub(crate) const EMBEDDING: Embedding = Embedding {
     example: Png::EXAMPLE,
     reader: || Box::<Pictures>::default(),
 };
-/// What pictures that come with the program are called by.
+/// The prefix of pictures that come with the program.
 const SHIPPED: &str = "example:";
 /// Name and contents of each picture in `assets/silhouettes/`.
 const PICTURES: &[(&str, &[u8])] = &[("cow.png", include_bytes!("../../../../assets/silhouettes/cow.png"))];
 const PICTURE: Wanted =
     Wanted { most: 16 << 20, noun: "a PNG picture", smaller: "make it smaller: 400 pixels a side are enough" };
-/// So many different silhouettes are worked out, each in up to half a second.
+/// The most different silhouettes of a scene, each of which takes up to half a second.
 const MOST_DIFFERENT: usize = 50;
 
-/// What was found for silhouettes before.
+/// The discs of earlier silhouettes.
 #[derive(Default)]
 struct Pictures(Vec<Known>);
 
@@ -42,7 +42,7 @@ type Wrong = (String, String, &'static str);
 
 impl Embed for Pictures {
     fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
-        // What the shape's own reading and check find is told by them, in their words.
+        // The shape's reader and check report their mistakes in their words.
         let Some(png) = read_value::<Png>(entry).ok().filter(|png| png.numbers_are_good(&mut Report::new())) else {
             return Ok(None);
         };

@@ -1,4 +1,4 @@
-//! Which pixels of a picture belong to its silhouette.
+//! The pixels of a picture that belong to its silhouette.
 
 use std::io::Cursor;
 
@@ -21,7 +21,7 @@ impl Mask {
     /// Reads a PNG picture.
     ///
     /// # Errors
-    /// What is wrong with it, and what to do.
+    /// The mistake, and the remedy.
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, (String, &'static str)> {
         if !bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
             return Err((
@@ -56,7 +56,7 @@ impl Mask {
         })
     }
 
-    /// The silhouette of what is at least half inked, rows from the top.
+    /// The silhouette of all pixels with at least half the ink, rows from the top.
     fn of_ink(ink: &[u8], width: usize, height: usize) -> Option<Self> {
         let longer = width.max(height);
         let (up, down) = (SIDE.div_ceil(longer), longer.div_ceil(2 * SIDE));
@@ -99,8 +99,8 @@ impl Mask {
         Self { columns, rows, inside }
     }
 
-    /// Of each pixel the square of the distance to the nearest pixel that is (`to: true`) or is not in the silhouette,
-    /// between their middles; exact. Far above all squares if there is none.
+    /// For each pixel the squared distance to the nearest pixel inside the silhouette (`to: true`) or outside of it. It
+    /// is exact, and counts between middles. Far above all squares if there is no such pixel.
     pub(super) fn squared_distances(&self, to: bool) -> Vec<u64> {
         let far = (self.columns + self.rows) as u64;
         let (columns, rows) = (self.columns, self.rows);
@@ -121,7 +121,7 @@ impl Mask {
         let mut hull: Vec<(usize, i64)> = Vec::new();
         for row in 0..rows {
             let height = |column: usize| (along[row * columns + column] * along[row * columns + column]) as i64;
-            // The first column from which on the parabola of `right` is below that of `left`.
+            // The first column from which on the parabola of `right` is below that of `left` (distance transform).
             let meets = |left: usize, right: usize| {
                 let (l, r) = (left as i64, right as i64);
                 let twice = height(right) + r * r - height(left) - l * l;

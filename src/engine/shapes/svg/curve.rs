@@ -1,8 +1,9 @@
-//! Curves of a drawing, and the chords that stand for them.
+//! Flattening of curves: the curves of a drawing, and the chords that approximate them.
 //!
-//! A chord over a share `h` of a curve `p(s)`, `0 <= s <= 1`, is nowhere farther from it than `h^2/8 max|p''|` (remainder of linear
-//! interpolation). So `sqrt(max|p''|/(8 tolerance))` chords are enough. Of a Bezier curve of degree `d`, `|p''|` is at most `d (d - 1)` times the
-//! largest second difference of its points (Farin, Curves and Surfaces for CAGD, section 5.3). Lengths are in units of the drawing.
+//! Let a chord span a share `h` of a curve `p(s)`, `0 <= s <= 1`. It is nowhere farther from the curve than `h^2/8
+//! max|p''|` (remainder of linear interpolation). So `sqrt(max|p''|/(8 tolerance))` chords are enough. For a Bezier
+//! curve of degree `d`, `|p''|` is at most `d (d - 1)` times the largest second difference of its points. The source is
+//! Farin, Curves and Surfaces for CAGD, section 5.3. Lengths are in units of the drawing.
 
 use std::f64::consts::{PI, TAU};
 
@@ -33,7 +34,8 @@ impl Affine {
 pub(super) enum Curve {
     /// A Bezier curve by its points: two of a line, up to four.
     Bezier(Vec<DVec2>),
-    /// An arc of an ellipse: centre, two conjugate half axes, the parameter where it begins, and by how much that grows, in rad.
+    /// An arc of an ellipse: centre, two conjugate half axes, the parameter of its beginning, and the parameter's
+    /// growth, in rad.
     Arc { center: DVec2, axes: DMat2, from: f64, turn: f64, end: DVec2 },
 }
 
@@ -42,8 +44,8 @@ impl Curve {
         Self::Bezier(vec![from, to])
     }
 
-    /// The arc from one place to another on an ellipse with two half axes, of which the first is turned by `tilt` rad; `large` and `sweep` are
-    /// the flags of a drawing. Where the ellipse is too small it grows (SVG 1.1, appendix F.6).
+    /// The arc between two points on an ellipse with two half axes. The first axis is turned by `tilt` rad; `large` and
+    /// `sweep` are the flags of a drawing. An ellipse that is too small grows (SVG 1.1, appendix F.6).
     pub fn arc(from: DVec2, to: DVec2, radii: DVec2, tilt: f64, (large, sweep): (bool, bool)) -> Self {
         let radii = radii.abs();
         if radii.x == 0.0 || radii.y == 0.0 || from == to {
@@ -52,7 +54,7 @@ impl Curve {
         let (sin, cos) = libm::sincos(tilt);
         let axes = DMat2::from_cols(DVec2::new(cos, sin) * radii.x, DVec2::new(-sin, cos) * radii.y);
         let back = axes.inverse();
-        // In the frame where the ellipse is a circle of radius 1.
+        // In the frame in which the ellipse is a circle of radius 1.
         let half = back * ((to - from) / 2.0);
         let grown = half.length().max(1.0);
         let (axes, half) = (axes * grown, half / grown);
@@ -69,7 +71,7 @@ impl Curve {
         Self::Arc { center: from + axes * center, axes, from: start, turn, end: to }
     }
 
-    /// Where it ends.
+    /// Its end.
     pub fn end(&self) -> DVec2 {
         match self {
             Self::Bezier(points) => points.last().copied().unwrap_or_default(),
@@ -112,14 +114,15 @@ impl Curve {
         }
     }
 
-    /// How many chords are nowhere farther from it than a tolerance; of an arc each turns by a third of a round at most.
+    /// The number of chords that stay within a tolerance of it. Each chord of an arc turns by at most a third of a
+    /// round.
     pub fn chords(&self, tolerance: f64) -> usize {
         let least = if let Self::Arc { turn, .. } = self { (turn.abs() * 1.5 / PI).ceil().max(1.0) } else { 1.0 };
         // Rounding of a straight curve's points is no bend.
         (self.bend() / (8.0 * tolerance)).sqrt().ceil().max(least) as usize
     }
 
-    /// The ends of so many chords, without the place where the curve begins.
+    /// The ends of `chords` chords, without the beginning of the curve.
     pub fn ends(&self, chords: usize) -> impl Iterator<Item = DVec2> {
         let between = (1..chords).map(move |chord| self.at(chord as f64 / chords as f64));
         between.chain(std::iter::once(self.end()))
@@ -156,7 +159,8 @@ mod tests {
         (0..=1000).map(|step| from_chords(curve.at(f64::from(step) / 1000.0))).fold(0.0, f64::max)
     }
 
-    /// Law: chords stay within the tolerance. For one arc and half a chord more than needed the bound is sharp to 15 %.
+    /// Law: chords stay within the tolerance. For one arc and half a chord more than needed the bound is sharp to 0.15
+    /// of it.
     #[test]
     fn chords_stay_within_the_tolerance() {
         let start = DVec2::new(-1.0, 0.5);
@@ -177,8 +181,8 @@ mod tests {
         assert!(found > 0.85e-4, "{found}");
     }
 
-    /// Law: an arc begins and ends where it should, on its ellipse, the way round and as far as its flags say. Tolerance: roundings of numbers
-    /// near 1.
+    /// Law: an arc begins and ends at the given points and lies on its ellipse. Its flags give its direction and
+    /// length. Tolerance: roundings of numbers near 1.
     #[test]
     fn arcs_follow_their_flags() {
         let (from, to) = (DVec2::X, DVec2::Y);

@@ -9,11 +9,11 @@ use super::path::{self, Contour};
 
 /// Groups in groups are followed so deep.
 const DEEPEST: usize = 64;
-/// So many elements a drawing has at the most.
+/// The most elements of a drawing.
 const MOST_NODES: u32 = 1 << 20;
 const SVG: &str = "http://www.w3.org/2000/svg";
 
-/// What a file draws.
+/// The contours of a file.
 #[derive(Debug, Default)]
 pub(super) struct Drawing {
     pub contours: Vec<Contour>,
@@ -99,7 +99,7 @@ fn no_drawing(what: &str) -> Wrong {
     (what.to_owned(), "an SVG file begins with `<svg`; programs for drawing write it as `plain SVG`".to_owned())
 }
 
-/// An element, as messages call it.
+/// The name of an element in messages.
 fn told(node: Node) -> String {
     let name = node.tag_name().name();
     node.attribute("id")

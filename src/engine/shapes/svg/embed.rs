@@ -1,4 +1,4 @@
-//! `shape: Svg(..)`: the drawing is read, and its outlines are added to what is written.
+//! `shape: Svg(..)`: the drawing is read, and its outlines are added to the entry.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -21,13 +21,13 @@ pub(crate) const EMBEDDING: Embedding = Embedding {
 };
 const DRAWING: Wanted = Wanted { most: 4 << 20, noun: "an SVG file", smaller: "make the drawing simpler" };
 
-/// What was read before, so that its note stands once.
+/// The drawings that were read, so that each note appears once.
 #[derive(Default)]
 struct Drawings(Vec<(String, Outlines)>);
 
 impl Embed for Drawings {
     fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
-        // What the shape's own reading finds is told by it, in its words.
+        // The shape's reader reports its mistakes in its words.
         let Ok(shape) = read_value::<SvgShape>(entry) else { return Ok(None) };
         let told = |(message, help, field): Wrong| Unfit { message, help, field };
         let size = size(&shape).map_err(told)?;

@@ -1,7 +1,7 @@
 //! Outlines of a drawing (SVG) as polygons.
 //!
-//! Paths, polygons, rectangles and ellipses of the file become closed contours. Chords stand for their curves, within a tolerance. In the
-//! drawing y points down; here it points up.
+//! Paths, polygons, rectangles and ellipses of the file become closed contours. Chords replace their curves, within a
+//! tolerance. In the drawing y points down; here it points up.
 
 mod curve;
 mod drawing;
@@ -31,17 +31,17 @@ pub(crate) struct Outlines {
     pub polygons: Vec<Vec<DVec2>>,
     /// The tolerance in m.
     pub tolerance: f64,
-    /// By how much the area of the polygons differs from that of the curves, as a share.
+    /// The difference between the areas of polygons and curves, as a share.
     pub lost: f64,
     /// Elements that are seen but have no outline.
     pub left_out: Vec<String>,
 }
 
-/// Points of all outlines at the most: two bodies of more would take seconds where they touch.
+/// The most points of all outlines. Two larger bodies would take seconds on contact.
 pub(crate) const MOST_POINTS: usize = 2000;
 /// Chords of a curve from which the height of a drawing is known.
 const FINE: usize = 256;
-/// The tolerance unless it is given, as a share of the height.
+/// The default tolerance, as a share of the height.
 const TOLERANCE: f64 = 1e-3;
 /// Points that are nearer than this share of the tolerance are one.
 const SAME: f64 = 0.01;
@@ -116,7 +116,7 @@ fn chained(contour: &Contour, chords: impl Fn(&curve::Curve) -> usize, apart: f6
     points
 }
 
-/// Twice the area of a polygon, below zero if it goes clockwise.
+/// Twice the area of a polygon; negative if it runs clockwise.
 fn twice_area(ring: &[DVec2]) -> f64 {
     let origin = ring.first().copied().unwrap_or_default();
     ring.windows(2).map(|two| (two[0] - origin).perp_dot(two[1] - origin)).sum()
@@ -147,7 +147,8 @@ mod tests {
         Outlines::read(text.as_bytes(), id, Size::Unit(0.5), None)
     }
 
-    /// Law: what a file draws in several ways is one L, upright, with its origin below its middle; transforms apply from the inside out.
+    /// Law: several ways to draw an L give one L, upright, with its origin below its middle. Transforms apply from the
+    /// inside out.
     #[test]
     fn an_l_is_drawn_in_several_ways() {
         let corners = [(-1.0, 0.0), (1.0, 0.0), (1.0, 0.5), (-0.5, 0.5), (-0.5, 1.5), (-1.0, 1.5)];
@@ -167,7 +168,8 @@ mod tests {
         }
     }
 
-    /// Law: the polygon in a circle has an area less by `1 - sin(a)/a` with `a` the angle of a chord; so has a rectangle with round corners.
+    /// Law: the polygon in a circle has an area less by `1 - sin(a)/a` with `a` the angle of a chord. The same holds
+    /// for a rectangle with round corners.
     #[test]
     fn the_area_that_chords_lose_is_told() {
         let found = read("<circle cx=\"2\" cy=\"2\" r=\"2\"/>", None).unwrap();

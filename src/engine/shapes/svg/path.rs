@@ -5,7 +5,7 @@ use svgtypes::{PathParser, PathSegment};
 
 use super::curve::{Affine, Curve};
 
-/// A contour: where it begins, and its curves. Where it does not end at its beginning, a line closes it.
+/// A contour: its beginning and its curves. If it does not end at its beginning, a line closes it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contour {
     pub start: DVec2,
@@ -29,7 +29,7 @@ impl Contour {
     }
 }
 
-/// What a path draws while it is read.
+/// The contours of a path while it is read.
 #[derive(Default)]
 struct Pen {
     contours: Vec<Contour>,
@@ -55,7 +55,7 @@ impl Pen {
         self.contour.curves.push(Curve::line(from, to));
     }
 
-    /// A curve with control points; its first one mirrors the last one before, if it is not given.
+    /// A curve with control points. If the first one is absent, it mirrors the last one of the curve before.
     fn bezier(&mut self, controls: &[DVec2], first: Option<DVec2>, to: DVec2) {
         let (from, degree) = (self.at(), controls.len() + 1 + usize::from(first.is_none()));
         let mirrored =
@@ -99,7 +99,7 @@ impl Pen {
                 let (tilt, flags) = (x_axis_rotation.to_radians(), (large_arc, sweep));
                 self.contour.curves.push(Curve::arc(from, place(abs, x, y), DVec2::new(rx, ry), tilt, flags));
             }
-            // The next command begins where the contour did.
+            // The next command begins at the start of the contour.
             PathSegment::ClosePath { .. } => self.lift(self.contour.start),
         }
     }
@@ -122,7 +122,8 @@ pub(super) fn contours(data: &str) -> Result<Vec<Contour>, String> {
 mod tests {
     use super::*;
 
-    /// Commands in the frame of the drawing, and from where the pen is, draw the same; so do smooth curves with mirrored control points.
+    /// Commands in the frame of the drawing and commands relative to the pen draw the same. So do smooth curves with
+    /// mirrored control points.
     #[test]
     fn relative_and_smooth_commands_are_the_absolute_ones() {
         let ends = |data: &str| {

@@ -1,4 +1,4 @@
-//! Trials of a scene, one finer than the other.
+//! Trials of a scene with increasing fineness.
 
 use super::Tell;
 use super::trajectory::{MOST_MOMENTS, Trajectory};
@@ -9,7 +9,7 @@ use crate::scene::{SceneError, SceneErrors};
 use crate::simulation::Plan;
 use jostle_language::numbers::number;
 
-/// What is made finer from trial to trial.
+/// The quantity that becomes finer from trial to trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Ladder {
     /// The error allowed to a step.
@@ -23,10 +23,12 @@ pub(super) enum Ladder {
 /// The power of the step by which errors of the methods that estimate them fall.
 const ORDER: f64 = 8.0;
 
-/// Looks of a trial are so many of the steps apart that suit the fastest contact or spring: eight to a contact.
+/// The steps between two readings of a trial. The steps are those that suit the fastest contact or spring: eight
+/// readings to a contact.
 const STEPS_BETWEEN_LOOKS: u32 = 5;
 
-/// Steps of a tick at which a hasty trial ends, and how many more it may take for each that suits the fastest contact or spring.
+/// A hasty trial ends at this number of steps in a tick. For each step that suits the fastest contact or spring the
+/// next constant is added.
 const HASTY_STEPS: f64 = 1e4;
 const STEPS_OF_A_SWING: f64 = 10.0;
 
@@ -54,12 +56,13 @@ pub(super) struct Trials<'a> {
     pub steps: u32,
     make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
     tell: Option<Tell>,
-    /// Ticks of a trial in one of the plan, where its steps do not depend on them: moments at which trials are compared lie within
-    /// contacts, and within swings of springs and drives.
+    /// Ticks of a trial in one of the plan, if its steps do not depend on ticks. So trials are compared at moments
+    /// within contacts, and within swings of springs and drives.
     looks: u32,
-    /// Whether something moves as prescribed, which is told from tick to tick: then no step goes beyond a tick.
+    /// Whether the motion of some body is prescribed from tick to tick. Then no step goes beyond a tick.
     by_ticks: bool,
-    /// Whether a trial ends where a tick takes many steps: errors that let bodies meet in a way they never would take most of them.
+    /// Whether a trial ends if a tick takes many steps. Errors that let bodies meet in an impossible way would take
+    /// most of them.
     pub hasty: bool,
     /// Whether the last one ended so.
     pub cut: bool,
@@ -69,7 +72,7 @@ pub(super) struct Trials<'a> {
     pub count: u32,
     /// How often forces were evaluated in all of them.
     pub evaluations: u64,
-    /// How far and how fast bodies go, as the last trial found it.
+    /// The greatest distance and speed of bodies, from the last trial.
     sizes: (f64, f64),
 }
 
@@ -127,7 +130,7 @@ impl<'a> Trials<'a> {
             Ladder::Allowed => {
                 if let Pace::Allowed(allowance) = &mut plan.pace {
                     allowance.share = fineness;
-                    // Where no error bounds a step, two trials would make the same steps, and differ by nothing.
+                    // If no error bounds a step, two trials would make the same steps, and would not differ.
                     let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
                     allowance.longest /= finer;
                     if self.by_ticks && finer > 1.0 {
@@ -197,7 +200,7 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// What the trials cost, in words.
+    /// The cost of the trials, in words.
     pub fn cost(&self) -> String {
         format!("{} runs before this one, with {} evaluations of all forces, found that", self.count, self.evaluations)
     }

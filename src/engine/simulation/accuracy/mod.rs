@@ -1,4 +1,4 @@
-//! Runs that know their error: a scene is run in several ways, and what they differ by says how wrong they are.
+//! Error estimation by repeated runs: a scene is run in several ways, and the differences give the error.
 
 mod fineness;
 pub mod reference;
@@ -10,11 +10,11 @@ use crate::scene::SceneErrors;
 use crate::simulation::{Goal, Plan};
 use fineness::Trials;
 
-/// What is told while trials are made: which one is under way, counted from one, and what it is for.
+/// A callback during trials, with the number of the current trial, counted from one, and its purpose.
 pub type Tell = fn(u32, &str);
 
-/// Finds the plan that reaches a goal, beginning with `first`: a plan, the order of its method, and how many steps of a tick
-/// suit the fastest contact or spring. `make` gives the scene at its beginning, ready to run by a plan.
+/// Finds the plan that reaches a goal. It begins with `first`: a plan, the order of its method, and the steps of a tick
+/// that suit the fastest response. `make` gives the scene at its beginning, ready to run by a plan.
 ///
 /// # Errors
 /// Those of `make`.

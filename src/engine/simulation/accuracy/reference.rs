@@ -1,8 +1,9 @@
-//! `method: Reference`: the smallest error there is, how large it is, and for how long the motion can be told at all.
+//! `method: Reference`: the smallest possible error, its size, and the time for which the motion is predictable
+//! (Lyapunov horizon).
 //!
-//! Two runs with steps of very small errors differ by no less than what either is wrong by, if their errors are not alike by
-//! chance. A third one begins beside the first, by a hair: how fast that grows says for how long digits last. Errors of chaotic
-//! motion grow as `e^(lambda t)`, so that rounding alone, `2^-53`, is seen after `ln(seen / 2^-53) / lambda`.
+//! Two runs with very small errors of steps differ by at least the error of either, except by chance. A third run
+//! begins very near to the first. The growth of their distance gives the time for which digits last. Errors of chaotic
+//! motion grow as `e^(lambda t)`. So rounding alone, `2^-53`, becomes visible after `ln(seen / 2^-53) / lambda`.
 
 use super::fineness::Trials;
 use super::tolerance::estimate;
@@ -22,13 +23,14 @@ pub const BESIDE: f64 = 1e-10;
 const SEEN: f64 = 1e-3;
 /// A disturbance that grows by less is no chaos.
 const CHAOS: f64 = 1e4;
-/// A disturbance that grows as `e^(lambda t)` needs twice the time for the square of a factor, one that grows as `t^p` needs
-/// the `1/p`-th power of that factor as many times: more than this for `p` up to 2.
+/// A disturbance that grows as `e^(lambda t)` needs twice the time for the square of a factor. One that grows as `t^p`
+/// needs the `1/p`-th power of that factor as a multiple. For `p` up to 2 that is more than this.
 const TWICE: f64 = 5.0;
-/// Runs that differ by more than this share of the motion tell no places.
+/// If runs differ by more than this share of the motion, their positions are meaningless.
 pub const TELLS_NOTHING: f64 = 0.1;
 
-/// Runs that differ by less than this share of the distance from the origin are alike but for a few roundings of places.
+/// Runs that differ by less than this share of the distance from the origin are alike. Only a few roundings of
+/// positions separate them.
 const ALIKE: f64 = 8.0 * f64::EPSILON;
 
 /// Finds the plan.
@@ -45,7 +47,8 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let growth = growths.iter().fold(0.0, |most, (_, growth)| growth.max(most));
     let mut known = estimate(error);
     let rounding = growth.max(1.0) * f64::EPSILON * fine.farthest();
-    // Greater errors than that are no places: chaos, or an impact that happens in one run and not in the other.
+    // Greater errors make positions meaningless. The cause is chaos, or an impact that happens in one run and not in
+    // the other.
     known.position.rounding = Some(rounding).filter(|error| *error <= TELLS_NOTHING * distance);
     let lost =
         growths.iter().position(|(_, growth)| growth * f64::EPSILON * fine.farthest() > TELLS_NOTHING * distance);
@@ -88,7 +91,8 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     Ok(plan)
 }
 
-/// When rounding is seen, in s, if a disturbance grows by these factors until these times, and does so exponentially.
+/// The time in s at which rounding becomes visible, if a disturbance grows exponentially. It has grown by these factors
+/// at these times.
 pub fn horizon(growths: &[(f64, f64)]) -> Option<f64> {
     // Once it is seen it can grow no more.
     let most = growths.iter().fold(0.0, |most, (_, growth)| growth.max(most)).min(SEEN / BESIDE);
@@ -118,8 +122,9 @@ mod tests {
         horizon(&(0..=100).map(|time| (f64::from(time), law(f64::from(time)))).collect::<Vec<_>>())
     }
 
-    /// `e^(t/4)` reaches `SEEN` of the motion from a share of 2^-52 after `4 ln(SEEN 2^52)` = 117 s; what saturates or comes to
-    /// rest afterwards is as chaotic. Tolerance: a moment, 1 s of those after which it is seen.
+    /// `e^(t/4)` reaches `SEEN` of the motion from a share of 2^-52 after `4 ln(SEEN 2^52)` = 117 s. A motion that
+    /// saturates or comes to rest afterwards is equally chaotic. Tolerance: 1 s, the distance of the moments at which
+    /// it is read.
     #[test]
     fn exponential_growth_is_chaos_and_powers_are_not() {
         let exact = 4.0 * (SEEN / f64::EPSILON).ln();

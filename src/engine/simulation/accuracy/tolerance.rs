@@ -1,9 +1,9 @@
-//! `tolerance`: the coarsest steps with which the error of a whole run stays below what is allowed.
+//! `tolerance`: the coarsest steps with which the error of a whole run stays below the allowed one.
 //!
-//! Two runs differ by the error of the coarser one, unless they are wrong alike. So a fineness is taken only after it was tried: where
-//! a finer trial differs by no more than is allowed. Otherwise the power by which errors fall says how fine the steps have to
-//! be; it is believed only where a third trial differs by what it foretold. Errors are those of the whole run, not of a
-//! step: what a scene makes of the error of a step is measured, not guessed.
+//! Two runs differ by the error of the coarser one, unless their errors are equal. So a fineness is accepted only after
+//! a finer trial has differed by no more than the allowed error. Otherwise the power by which errors fall determines
+//! the necessary fineness. It is accepted only if a third trial differs by the predicted amount. Errors are those of
+//! the whole run, not of a step. The growth of the error of a step in a scene is measured, not guessed.
 
 use super::fineness::{Ladder, Trials};
 use super::trajectory::{Apart, Trajectory};
@@ -12,24 +12,25 @@ use crate::simulation::Plan;
 use crate::simulation::error::{ErrorEstimate, ErrorParts};
 use jostle_language::numbers::{number, rough};
 
-/// A trial is good where a finer one differs from it by this share of the tolerance; and the finer one is where they differ by so
-/// many tolerances: it is wrong by more only if both are wrong by as much, and alike.
+/// A trial is good if a finer one differs from it by at most this share of the tolerance. The finer one is good if they
+/// differ by at most `BETWEEN` tolerances. Its error exceeds that only if both errors are equally large and alike.
 const MEASURED: f64 = 0.7;
 const BETWEEN: f64 = 2.5;
-/// The fineness of a trial whose steps are no parts of those of the others, over that of the finer one.
+/// The ratio of the fineness of a trial with other steps to that of the finer one. Its steps are not parts of those of
+/// the others.
 const OTHER_STEPS: f64 = 1.0 / 1.37;
 /// An error that is foretold aims at this share of the tolerance.
 const FORETOLD: f64 = 0.3;
-/// What was foretold is confirmed by no more than so many times as much: errors of located events scatter.
+/// A prediction is confirmed if the result exceeds it by at most this factor, because errors of located events scatter.
 const SCATTER: f64 = 3.0;
 /// The first run allows its steps this share of the tolerance: errors of steps add up.
 const FIRST: f64 = 0.1;
-/// Trials at the most, where the error does not fall as it should.
+/// The greatest number of trials if the error does not fall as expected.
 const MOST_TRIALS: u32 = 9;
 /// Evaluations of all forces after which no further trial is made: some ten seconds of a small scene.
 const MOST_EVALUATIONS: u64 = 30_000_000;
 
-/// A scene so many times as far from the origin as its bodies go loses digits that it would have there.
+/// A scene loses digits if its distance from the origin exceeds the ways of its bodies by this factor.
 const FAR: f64 = 10.0;
 
 /// Observed powers beyond these are chance.
@@ -44,7 +45,7 @@ struct Climb {
     finest_step: f64,
     /// The power of the fineness by which the error falls, until it is seen.
     power: f64,
-    /// Whether the power has to be seen before it says how fine the next trial is.
+    /// Whether the power has to be observed before it determines the fineness of the next trial.
     wary: bool,
     /// The finest that is tried.
     finest: f64,
@@ -80,7 +81,7 @@ impl Climb {
     }
 }
 
-/// Finds the plan: with hasty trials, and with patient ones where hasty ones ended before they told anything.
+/// Finds the plan with hasty trials, or with patient ones if hasty ones ended without a result.
 pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     trials.hasty = true;
     let plan = climb(tolerance, trials)?;
@@ -99,7 +100,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
     }
     if coarse.bounded {
-        // Two runs that rounding bounds are alike, and what they differ by is no error.
+        // Two runs that rounding bounds are alike, and their difference is not an error.
         climb.first /= climb.finer;
         coarse = trials.run(climb.first, "a coarser run", |_| {})?;
     }
@@ -111,7 +112,8 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let fine = trials.run(next, "a finer run", |_| {})?;
         let mut apart = coarse.apart(&fine);
         if trials.ladder == Ladder::Steps && fine.jumped && apart.share <= BETWEEN * tolerance {
-            // Steps of one run are halves of those of the other: events that fall alike into both are wrong alike.
+            // The steps of one run are halves of those of the other. Events at the same phase of both have equal
+            // errors.
             let other = trials.run(next * OTHER_STEPS, "a run with other steps", |_| {})?;
             apart = apart.max(coarse.apart(&other));
         }
@@ -126,13 +128,13 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         // The finer run's own error is in the difference too.
         let left = 1.0 - (next / fineness).powf(climb.power);
         let foretold_at = |then: f64| (then / fineness).powf(climb.power) / left;
-        // What rounding bounds no longer falls with fineness.
+        // An error that rounding bounds does not fall with fineness.
         let share_at = |then: f64| if fine.bounded { foretold_at(then).max(1.0) } else { foretold_at(then) };
         let wanted = fineness * (FORETOLD * tolerance * left / difference).powf(1.0 / climb.power);
         let alike = coarse.bounded && fine.bounded;
         let chosen = match difference {
             _ if alike => None,
-            // Ticks with too many events went on by another method, of which two runs make the same errors.
+            // Ticks with too many events continued by another method, and two runs of it make the same errors.
             _ if coarse.crowded || fine.crowded => None,
             _ if difference <= MEASURED * tolerance => Some(fineness),
             _ if difference <= BETWEEN * tolerance => Some(next),
@@ -150,7 +152,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         before = Some((fineness, difference, difference * share_at(next)));
         (fineness, coarse) = (next, fine);
         next = wanted.clamp(next * least, next * climb.finer);
-        // Two trials that are finest but for rounding would differ by nothing.
+        // Two trials that are finest up to rounding would not differ.
         if next < 2.0 * climb.finest {
             next = climb.finest;
         }
@@ -193,7 +195,7 @@ fn bounded(farthest: f64, distance: f64) -> String {
     }
 }
 
-/// No run was fine enough: the finest is taken, and the card says from when on it is wrong.
+/// No run was fine enough. The finest is taken, and the card gives the time from which it is wrong.
 fn missed(
     trials: &Trials,
     fineness: f64,

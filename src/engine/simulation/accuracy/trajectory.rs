@@ -1,4 +1,4 @@
-//! What two runs of a scene have in common, and how far apart they are.
+//! The recorded motion of a run, and the distance between two of them.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -9,7 +9,7 @@ use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
 pub(super) const MOST_MOMENTS: u64 = 20_000;
-/// Parts of a run between which it is asked whether it goes on.
+/// Parts of a run, after each of which the caller may stop it.
 const PARTS: u64 = 100;
 /// Numbers kept of one run, at most.
 const MOST_NUMBERS: u64 = 4_000_000;
@@ -51,12 +51,12 @@ impl Moments {
     }
 }
 
-/// A run as it went.
+/// The recorded motion of a run.
 pub struct Trajectory {
     moments: Moments,
     /// Greatest distance of any point of each body from its centre of mass in m.
     extents: Vec<f64>,
-    /// Whether it went wrong before its end.
+    /// Its failure, if it failed before its end.
     pub failure: Option<Failure>,
     /// How often forces were evaluated.
     pub evaluations: u64,
@@ -68,13 +68,13 @@ pub struct Trajectory {
     pub jumped: bool,
 }
 
-/// A body that goes less far than this share of the farthest is measured as if it went so far.
+/// The least distance for errors of a body, as a share of that of the farthest body.
 const LEAST_SHARE: f64 = 1e-2;
 
 /// How far two runs are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apart {
-    /// The greater of both as shares: of how far each body goes, and of how fast it is.
+    /// The greater of both as shares: of the distance of each body, and of its speed.
     pub share: f64,
     /// Greatest distance between the places of a point of a body, in m.
     pub distance: f64,
@@ -92,17 +92,17 @@ impl Apart {
         }
     }
 
-    /// So many times as far.
+    /// The same errors times a factor.
     pub fn times(self, factor: f64) -> Self {
         Self { share: self.share * factor, distance: self.distance * factor, speed: self.speed * factor }
     }
 }
 
-/// After so many ticks, and each time that they have doubled, it is seen what the whole run would take.
+/// After this number of ticks, and after each doubling, the cost of the whole run is predicted.
 const FORETOLD_FROM: u64 = 1 << 16;
 
-/// Where a run looks at its bodies, and what it saw: without ending a batch of ticks, after which forces are evaluated for
-/// whoever else may look.
+/// Reads the bodies during a run and stores their states. It does not end a batch of ticks, after which forces would be
+/// evaluated for other readers.
 #[derive(Resource, Default)]
 struct Lookout {
     /// The ticks at whose ends it looks, and how many of them are over.
@@ -125,8 +125,8 @@ impl Lookout {
 }
 
 impl Trajectory {
-    /// Runs a scene to its end. `per_moment` ticks of it are one of the run that it is to be compared with. Nothing if it would take
-    /// more than `budget` evaluations of all forces, as they go on from its beginning; how many it would take instead.
+    /// Runs a scene to its end. The run to be compared with has one tick for `per_moment` ticks of this one. If the
+    /// prediction exceeds `budget` evaluations of all forces, it stops and returns that prediction.
     pub fn record(simulation: &mut Simulation, per_moment: u64, budget: f64) -> Result<Self, f64> {
         let ticks = simulation.ticks() / per_moment;
         let bodies = simulation.bodies().len() as u64;
@@ -150,8 +150,8 @@ impl Trajectory {
         endless.map_or(Ok(trajectory), Err)
     }
 
-    /// Runs a scene to its end and looks at each `stride` ticks. `goes_on` is asked a hundred times; nothing, and the share of the
-    /// run that is done, if it says no.
+    /// Runs a scene to its end and reads it every `stride` ticks. `goes_on` is called a hundred times. If it is false,
+    /// the result is the finished share of the run.
     pub fn while_it(simulation: &mut Simulation, stride: u64, goes_on: &dyn Fn() -> bool) -> Result<Self, f64> {
         let mut stopped = None;
         let part = (simulation.ticks() / PARTS).max(stride).max(1);
@@ -171,7 +171,7 @@ impl Trajectory {
         stopped.map_or(Ok(trajectory), Err)
     }
 
-    /// What is seen of a run that `run` makes, each `stride` ticks.
+    /// The states of a run by `run`, every `stride` ticks.
     fn seen(simulation: &mut Simulation, stride: u64, run: impl FnOnce(&mut Simulation) -> Option<Failure>) -> Self {
         let end = simulation.ticks();
         let last = (!end.is_multiple_of(stride)).then_some(end);
@@ -195,7 +195,7 @@ impl Trajectory {
         }
     }
 
-    /// What was seen of a run that was watched, and how it went wrong, if it did. It is watched no longer.
+    /// The recorded motion of a watched run, and its failure if it failed. The watch ends.
     pub fn watched(simulation: &mut Simulation, failure: Option<Failure>) -> Self {
         let lookout = simulation.world_mut().get_resource_mut::<Lookout>();
         let moments = lookout.map_or_else(Moments::default, |mut lookout| {
@@ -243,8 +243,8 @@ impl Trajectory {
         self.moments.len().saturating_sub(1)
     }
 
-    /// How far bodies came from where they began, in m, and how fast they were, in m/s. A turn counts as no more than one
-    /// radian.
+    /// The greatest distance of bodies from their beginning, in m, and their greatest speed, in m/s. A turn counts as
+    /// at most one radian.
     pub fn sizes(&self) -> (f64, f64) {
         let Some(first) = self.moments.first() else { return (0.0, 0.0) };
         let (mut distance, mut speed) = (0.0_f64, 0.0_f64);
@@ -263,7 +263,7 @@ impl Trajectory {
         places.fold(0.0, f64::max)
     }
 
-    /// How far and how fast each body goes, as in [`Trajectory::sizes`].
+    /// The greatest distance and speed of each body, as in [`Trajectory::sizes`].
     pub fn measures(&self) -> Vec<(f64, f64)> {
         let (farthest, fastest) = self.sizes();
         let Some(first) = self.moments.first() else { return Vec::new() };
@@ -277,12 +277,12 @@ impl Trajectory {
         first.iter().enumerate().map(of).collect()
     }
 
-    /// How far another run is from this one. A run that went wrong is infinitely far from any.
+    /// The distance of another run from this one. A failed run is infinitely far from any.
     pub fn apart(&self, other: &Self) -> Apart {
         self.apart_by(other, &other.measures())
     }
 
-    /// The same, where it is known how far and how fast each body goes.
+    /// The same, for known distances and speeds of each body.
     pub fn apart_by(&self, other: &Self, measures: &[(f64, f64)]) -> Apart {
         let infinite = Apart { share: f64::INFINITY, distance: f64::INFINITY, speed: f64::INFINITY };
         if self.failure.is_some() || other.failure.is_some() || self.moments.len() != other.moments.len() {
@@ -319,7 +319,8 @@ impl Trajectory {
         })
     }
 
-    /// The first body whose place is farther than `distance` metres from that of another run, and the moment in s.
+    /// The first body whose position differs by more than `distance` metres from that of another run. The moment is in
+    /// s.
     pub fn first_apart(&self, other: &Self, distance: f64) -> Option<(usize, f64)> {
         self.moments.iter().zip(other.moments.iter()).find_map(|((time, own), (_, others))| {
             let apart = own.iter().zip(others).zip(&self.extents);
@@ -335,7 +336,7 @@ impl Trajectory {
     }
 }
 
-/// Distance in m from where a body began, and its speed in m/s, of any of its points.
+/// Greatest distance in m of any point of a body from its beginning, and its speed in m/s.
 fn size(pose: &Pose, first: &Pose, extent: f64) -> (f64, f64) {
     let turn = (pose.angle - first.angle).abs().min(1.0);
     ((pose.position - first.position).length() + turn * extent, pose.velocity.length() + pose.spin.abs() * extent)
@@ -347,7 +348,7 @@ fn difference(a: &Pose, b: &Pose, extent: f64) -> (f64, f64) {
     (distance, (a.velocity - b.velocity).length() + (a.spin - b.spin).abs() * extent)
 }
 
-/// The greater of two numbers; what is no number is greater than all.
+/// The greater of two numbers; NaN counts as the greatest.
 fn greater(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
