@@ -1,8 +1,8 @@
-//! Contact events: which bodies began and which ceased to touch in the last tick.
+//! Contact events: pairs of bodies that began or ceased to touch in the last tick.
 //!
-//! Whoever wants to know says so with [`ContactEventsAppExt::watch_contacts`]; then the contact law notes who touches and
-//! the lists of two ticks are compared. In a scene where nobody asks there is neither the list nor the system. Two bodies
-//! touch as long as any of their atoms do.
+//! [`ContactEventsAppExt::watch_contacts`] switches them on. Then the contact law notes the touching pairs, and the
+//! lists of two ticks are compared. Other scenes have neither the list nor the system. Two bodies touch as long as any
+//! of their atoms do.
 
 use std::collections::BTreeSet;
 
@@ -13,8 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::tick::{Notes, State, add_packed_observer};
 
-/// A body and another body or a wall. Of two bodies the first stands before the second in canonical order; a wall stands
-/// second.
+/// A body and another body or a wall. In canonical order the first of two bodies precedes the second. A wall is second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Touching {
     /// The first body.
@@ -23,13 +22,15 @@ pub struct Touching {
     pub b: Entity,
 }
 
-/// What the last tick changed: an observer reads it in [`crate::tick::Stage::Observe`] after [`FindContactEvents`], or between ticks.
+/// The changes of the last tick. An observer reads them in [`crate::tick::Stage::Observe`] after [`FindContactEvents`],
+/// or between ticks.
 #[derive(Resource, Clone, Debug, Default, Serialize, Deserialize)]
 pub struct ContactEvents {
-    /// Pairs that began to touch, in canonical order. In the first tick these are all that touch. Where events are located a
-    /// pair stands here as often as it began to touch in the tick, else once if it touches and did not before.
+    /// Pairs that began to touch, in canonical order. In the first tick these are all touching pairs. If events are
+    /// located, a pair occurs each time that it began to touch in the tick. Otherwise it occurs once, if it touches and
+    /// did not before.
     pub begun: Vec<Touching>,
-    /// Pairs that ceased to touch, as often as they did, in canonical order.
+    /// Pairs that ceased to touch, once for each time, in canonical order.
     pub ended: Vec<Touching>,
     /// All pairs that touch, in canonical order.
     pub present: Vec<Touching>,
@@ -44,7 +45,7 @@ impl ContactEvents {
     }
 }
 
-/// Where contact events are found.
+/// The system that finds contact events.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FindContactEvents;
 
@@ -61,7 +62,7 @@ impl ContactEventsAppExt for App {
     }
 }
 
-/// The same for whoever has no app.
+/// The same for a world without an app.
 pub fn watch(world: &mut World) {
     if world.contains_resource::<ContactEvents>() {
         return;
@@ -69,7 +70,7 @@ pub fn watch(world: &mut World) {
     world.init_resource::<ContactEvents>();
     let mut state = world.get_resource_or_init::<State>();
     state.touches.get_or_insert_default();
-    // The pairs that touch already are found by an evaluation, also where all bodies are asleep.
+    // An evaluation finds the pairs that touch from the beginning, even if all bodies sleep.
     state.bodies.touched = true;
     add_packed_observer(world, find_contact_events.in_set(FindContactEvents));
 }
@@ -109,7 +110,7 @@ fn find_contact_events(
     if touches.begun.is_empty() {
         return;
     }
-    // What was located is known exactly, and replaces what two states show.
+    // Located events are exact, and replace the comparison of two states.
     let located: Vec<Touching> = touches.begun.drain(..).map(|pair| entities(&pair)).collect();
     let seen: BTreeSet<Touching> = located.iter().copied().collect();
     begun.retain(|pair| !seen.contains(pair));

@@ -1,7 +1,9 @@
-//! The geometry of a candidate pair: overlap, normal, arms, velocities and their rates. Contact laws make forces of it.
+//! The geometry of a candidate pair: overlap, normal, arms, velocities and their rates. Contact laws compute forces
+//! from it.
 //!
-//! Side B is an atom, or the side of a hull near an end of a wall; side A another atom, the side of a hull, or a wall. The normal points from A to B. The overlap is positive where they touch.
-//! The kernel for many discs ([`crate::contacts::penalty`]) works out the same for eight pairs at a time.
+//! Side B is an atom, or the side of a hull near an end of a wall. Side A is another atom, the side of a hull, or a
+//! wall. The normal points from A to B. The overlap is positive for touching sides. The kernel for many discs
+//! ([`crate::contacts::penalty`]) computes the same for eight pairs at a time.
 
 use bevy_ecs::entity::Entity;
 use glam::DVec2;
@@ -26,7 +28,7 @@ pub(crate) struct Shares {
     pub b: f64,
 }
 
-/// One side of a contact: an atom, or the place of a hull's core that is nearest to the other side.
+/// One side of a contact: an atom, or the nearest point of a hull's core to the other side.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct End {
     pub body: usize,
@@ -65,8 +67,8 @@ impl End {
         bodies.inverse_mass(self.body) + lever * lever * bodies.inverse_inertia(self.body)
     }
 
-    /// Displacement of the atom's centre since the last accepted state (the chord of its arc, to second order), and
-    /// the turn of its body.
+    /// Displacement of the atom's centre since the last accepted state, and its body's turn. The displacement is the
+    /// chord of its arc, to second order.
     #[inline(always)]
     pub fn displacement(&self, bodies: &Bodies) -> (DVec2, f64) {
         let (moved, turn) = bodies.displacement(self.body);
@@ -88,7 +90,7 @@ pub(crate) enum SideA {
     Wall(u32),
 }
 
-/// The list in which a pair stands.
+/// The list that holds a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Listed {
     Atoms,
@@ -117,7 +119,7 @@ impl Link for Pair {
 }
 
 impl Pair {
-    /// The list in which it stands.
+    /// The list that holds it.
     pub fn listed(&self) -> Listed {
         if matches!(self.a, SideA::Atom(_)) { Listed::Atoms } else { Listed::Surfaces }
     }
@@ -139,7 +141,7 @@ impl Pair {
         (a, bodies.entity[self.b.body])
     }
 
-    /// Arms of both sides to the point where they touch, in metres.
+    /// Arms of both sides to the contact point, in metres.
     pub fn arms(&self, shares: Shares, overlap: f64) -> (DVec2, DVec2) {
         match &self.a {
             SideA::Atom(other) | SideA::Hull(other) => arms((other, &self.b), self.normal, overlap, shares),
@@ -147,21 +149,21 @@ impl Pair {
         }
     }
 
-    /// Velocity in m/s of the surface of side A, if that is a wall with one.
+    /// Velocity in m/s of the surface of side A, if that is a moving wall.
     pub fn surface(&self, bodies: &Bodies) -> Option<DVec2> {
         let SideA::Wall(wall) = self.a else { return None };
         bodies.belts.get(wall as usize).copied()
     }
 }
 
-/// Arms of both sides to the point where they touch: between the centres, nearer to the undeformed surface of the harder
+/// Arms of both sides to the contact point. It lies between the centres, nearer to the undeformed surface of the harder
 /// side.
 #[inline]
 pub(crate) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares) -> (DVec2, DVec2) {
     (a.arm + normal * (a.radius - shares.a * overlap), b.arm - normal * (b.radius - shares.b * overlap))
 }
 
-/// Where and how the two sides of a candidate pair stand and move.
+/// The positions and motions of the two sides of a candidate pair.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct PairGeometry {
     /// The sides.
@@ -170,9 +172,9 @@ pub(crate) struct PairGeometry {
     pub overlap: f64,
     /// Distance of the centres in metres; infinite for the flat side of a wall or hull; see [`NearestPoint::distance`].
     pub distance: f64,
-    /// Where the nearest place is on a flat side of a hull: the spin of its body, and the distance of the cores in metres.
+    /// If the nearest point is on a flat side of a hull: the spin of its body, and the distance of the cores in metres.
     flat: Option<(f64, f64)>,
-    /// Velocity of the centre of side B seen from that of side A, or from the surface of the wall, in m/s.
+    /// Velocity in m/s of the centre of side B relative to that of side A, or to the wall's surface.
     pub velocity: DVec2,
     /// Spins of side A and side B times their radii given way, for the velocity along the surface; see [`PairGeometry::sliding`].
     spins: (f64, f64),
@@ -198,7 +200,8 @@ impl PairGeometry {
         Self::near(bodies, index, pair).0
     }
 
-    /// The same, with the distance in metres of the probe from the surface, whether or not a contact belongs to that part of its body.
+    /// The same, with the distance in metres of the probe from the surface. It is given even if no contact belongs to
+    /// that part of its body.
     #[inline(always)]
     pub fn near(bodies: &Bodies, index: usize, pair: SurfacePair) -> (Self, f64) {
         match (pair.surface(bodies), pair.probe(bodies)) {
@@ -307,13 +310,13 @@ impl PairGeometry {
         self.spins.1.abs() + self.spins.0.abs()
     }
 
-    /// Distances of the centres from where the sides touch, in metres.
+    /// Distances of the centres from the contact point, in metres.
     fn radii(&self, shares: Shares) -> (f64, f64) {
         let radius_a = self.pair.other_end().map_or(0.0, |a| a.radius - shares.a * self.overlap);
         (radius_a, self.pair.b.radius - shares.b * self.overlap)
     }
 
-    /// The turn in rad of the normal since the last accepted state, if side B was displaced against side A by so much.
+    /// The turn in rad of the normal since the last accepted state, for this relative displacement of side B.
     #[inline]
     pub fn turned(&self, bodies: &Bodies, displacement: DVec2) -> f64 {
         let flat = match (self.flat, &self.pair.a) {
@@ -336,13 +339,13 @@ impl PairGeometry {
         self.velocity.dot(self.pair.normal.perp()) / self.distance + self.flat.map_or(0.0, |(spin, _)| spin)
     }
 
-    /// The acceleration in m/s2 along the normal that comes from the place on a flat side, which moves along it.
+    /// The acceleration in m/s2 along the normal due to the motion of the nearest point along a flat side.
     fn gliding(&self) -> f64 {
         self.flat.map_or(0.0, |(spin, height)| spin * (self.velocity.dot(self.pair.normal.perp()) - spin * height))
     }
 
-    /// What the relative accelerations along normal and tangent would be if no force acted: the frame of the contact turns
-    /// and its lever arms change.
+    /// The relative accelerations along normal and tangent without any force. They come from the rotation of the
+    /// contact's frame and the change of its lever arms.
     pub fn inertial(&self, shares: Shares, bodies: &Bodies) -> (f64, f64) {
         let own = |end: &End| {
             let (acceleration, turning) = bodies.prescribed.acceleration(end.body);
@@ -362,7 +365,7 @@ impl PairGeometry {
         )
     }
 
-    /// Arms of both sides to where they touch.
+    /// Arms of both sides to the contact point.
     pub fn contact_arms(&self, shares: Shares) -> (DVec2, DVec2) {
         self.pair.arms(shares, self.overlap)
     }
@@ -380,7 +383,7 @@ impl PairGeometry {
         mobility(&self.pair.b, of_b) + self.pair.other_end().map_or(0.0, |a| mobility(a, of_a))
     }
 
-    /// The speeds in m/s along the tangent with which the places on sides A and B move along their flat sides.
+    /// The speeds in m/s of the nearest points on sides A and B along their flat sides.
     fn glides(&self) -> (f64, f64) {
         let Some((spin, height)) = self.flat else { return (0.0, 0.0) };
         let along = self.velocity.dot(self.pair.normal.perp()) - spin * height;
@@ -420,7 +423,7 @@ impl PairGeometry {
         own(self.pair.b.body, arm_b) + self.pair.other_body().map_or(0.0, |body| own(body, arm_a))
     }
 
-    /// The angular acceleration of one side seen from the other that one newton metre between them makes, in 1/(kg m2).
+    /// The relative angular acceleration of both sides by one newton metre between them, in 1/(kg m2).
     pub fn mobility_of_turning(&self, bodies: &Bodies) -> f64 {
         let other = self.pair.other_body().map_or(0.0, |body| bodies.inverse_inertia(body));
         bodies.inverse_inertia(self.pair.b.body) + other
@@ -433,8 +436,8 @@ impl PairGeometry {
         own(self.pair.b.body) - self.pair.other_body().map_or(0.0, own)
     }
 
-    /// The greatest acceleration in m/s2 that one side may have seen from the other: the distance of two centres bends no more
-    /// than that, as all else lets it bend outwards.
+    /// The greatest possible relative acceleration in m/s2 of both sides. The distance of two centres bends downwards
+    /// by no more than that, because all other terms bend it upwards.
     pub fn bend(&self, bodies: &Bodies) -> f64 {
         let acceleration = |end: &End| {
             let body = end.body;
@@ -458,9 +461,9 @@ mod tests {
     use crate::contacts::penalty::PenaltyState;
     use crate::scene::Source;
 
-    /// Law: the kernel for eight pairs at a time and this geometry are one, to the last bit: overlaps, and normals as the force on
-    /// each disc shows them. Pairs of discs of many sizes stand in all directions, far from the origin too, and move. Tolerance:
-    /// none.
+    /// Law: the kernel for eight pairs at a time and this geometry agree to the last bit. That holds for overlaps, and
+    /// for normals as the force on each disc shows them. Pairs of discs of many sizes lie in all directions, also far
+    /// from the origin, and move. Tolerance: none.
     #[test]
     fn the_kernel_knows_the_same_geometry_to_the_last_bit() {
         let mut bodies = String::new();

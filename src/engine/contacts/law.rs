@@ -1,5 +1,5 @@
-//! What a contact law owes the card: a law from outside is a model of which overlap and critical tick are measured beside it, so
-//! that nothing is left out in silence.
+//! Contact laws from outside the crate, and their results on the card. Overlap and critical tick are measured beside
+//! such a law, so that the card misses none.
 
 use std::any::Any;
 
@@ -44,23 +44,23 @@ pub enum LawSide {
     Wall(usize),
 }
 
-/// A contact law from outside, as [`add_law`] takes it: a model that goes by [`State::pairs`].
+/// A contact law from outside, for [`add_law`]: a model that uses [`State::pairs`].
 pub trait Law: Model {
-    /// Its name, as scenes write it.
+    /// Its name in scenes.
     fn law(&self) -> &'static str;
 
     /// Stiffness along the normal and across it, in N/m, of a pair that touches. The critical tick follows from them.
     fn pair_stiffness(&self, state: &State, pair: &LawTouch) -> (f64, f64);
 }
 
-/// Adds a contact law with the search for pairs, and all that the card says of contacts: the deepest overlap, the elastic energy,
-/// the critical tick.
+/// Adds a contact law with the search for pairs, and the results of contacts on the card. These are the deepest
+/// overlap, the elastic energy and the critical tick.
 pub fn add_law(app: &mut App, law: impl Law) {
     search::plugin(app);
     app.add_model(Watched { law, found: Responses::default(), springs: Springs::default(), next: 0 });
 }
 
-/// A law from outside, and how fast its contacts respond, as far as it was measured.
+/// A law from outside, and the measured response of its contacts.
 struct Watched<L> {
     law: L,
     found: Responses,
@@ -190,7 +190,7 @@ impl<L: Law> Model for Watched<L> {
 }
 
 impl<L: Law> Watched<L> {
-    /// Notes the deepest overlap, and now and then how fast the contacts respond.
+    /// Notes the deepest overlap, and now and then the response of the contacts.
     fn watch(&mut self, state: &mut State) {
         let touching = touching(state);
         let (ticks, time) = (state.clock.ticks, state.clock.time());

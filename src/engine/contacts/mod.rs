@@ -1,4 +1,4 @@
-//! Contacts: who may touch whom ([`search`]), and what follows from it: one contact law per scene.
+//! Contacts: the search for pairs that may touch ([`search`]), and one contact law per scene.
 
 pub mod events;
 pub(crate) mod geometry;

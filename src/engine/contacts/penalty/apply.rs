@@ -1,4 +1,5 @@
-//! Penalty contacts applied: every candidate pair is followed, forces go to the bodies, losses to the ledger.
+//! Application of penalty contacts: every candidate pair is followed, forces act on the bodies, and losses enter the
+//! ledger.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -35,7 +36,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Resource, Debug, Serialize, Deserialize)]
 pub struct PenaltyContacts {
     version: u64,
-    /// Of the bodies, as the lists were made.
+    /// The generation of the bodies at which the lists were made.
     generation: u64,
     #[serde(skip)]
     pub(super) settings: Penalty,
@@ -51,7 +52,7 @@ pub struct PenaltyContacts {
     pub(super) rest: Rest,
     pub(super) schedule: SearchSchedule,
     pub(super) sleep: Sleep,
-    /// Whether bodies at rest are left out of the work as long as nothing touches them; without, each evaluation looks at
+    /// Whether bodies at rest are left out of the work until something touches them. Otherwise each evaluation includes
     /// them. It changes nothing of the motion.
     pub may_sleep: bool,
     pub(super) watch: Watch,
@@ -59,8 +60,8 @@ pub struct PenaltyContacts {
     pub(super) told: Told,
     /// Energy in J of the tangential springs before modes were switched.
     pub(super) held_before: Option<f64>,
-    /// As an event begins: the tangential and the rolling spring of each contact, where they stick, or slip beside a normal force
-    /// that is not held.
+    /// The tangential and the rolling spring of each contact at the beginning of an event. They are those that stick,
+    /// and those that slip beside a normal force that is not held.
     pub(super) before: Vec<[Option<Slider>; 2]>,
     /// Energy in J of the tangential springs that slip, at the beginning of the step.
     pub(super) slid: f64,
@@ -157,14 +158,15 @@ pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2)
     Approach { parting: (b.velocity(bodies) - velocity).dot(normal), mobility: mobility + b.mobility(bodies, normal) }
 }
 
-/// Where the forces of contacts go.
+/// The recipients of contact forces.
 pub(super) struct Sink<'a> {
     pub bodies: &'a mut Bodies,
     pub balance: &'a mut Balance,
     pub forces: Option<&'a mut ContactForces>,
 }
 
-/// Accounts of a force on side B that has gone to the bodies: for who asks for it, and for what does not move by forces.
+/// Accounts for a force on side B that the bodies have received. They serve the sensors of forces, and sides that do
+/// not move by forces.
 #[inline]
 pub(super) fn account(
     bodies: &Bodies,
@@ -177,7 +179,7 @@ pub(super) fn account(
         forces.on_body[a.body] -= force;
         forces.on_body[b.body] += force;
     }
-    // What a fixed body gives comes from outside; one that moves as prescribed works.
+    // The force of a fixed body comes from outside. A body with prescribed motion also does work.
     let driven = |end: &End, arm: DVec2, force: DVec2| {
         if bodies.moves[end.body] { force.dot(bodies.velocity_at(end.body, arm)) } else { 0.0 }
     };
@@ -192,7 +194,7 @@ pub(super) fn account(
 }
 
 impl Sink<'_> {
-    /// `force` acts on side B, the opposite on side A, at the point where they touch.
+    /// `force` acts on side B, the opposite on side A, at the contact point.
     #[inline]
     pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares, force: DVec2) {
         let (arm_a, arm_b) = arms((a, b), normal, overlap, shares);
@@ -202,7 +204,7 @@ impl Sink<'_> {
         account(self.bodies, (self.balance, forces), (a, b), arms, force);
     }
 
-    /// `force` acts on an atom where it touches the wall, `height` metres from its centre.
+    /// `force` acts on an atom at its contact with the wall, `height` metres from its centre.
     #[inline]
     pub fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
         let arm = end.arm - normal * height;
@@ -227,7 +229,7 @@ pub(super) struct Shared<'a> {
     pub rows: &'a mut Rows,
 }
 
-/// What contacts have beside it.
+/// The data of contacts beside it.
 pub(super) struct Own<'a> {
     pub pairs: &'a CandidatePairs,
     pub contacts: &'a mut PenaltyContacts,
@@ -323,9 +325,9 @@ fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePa
 }
 
 impl PenaltyContacts {
-    /// After all contacts were followed at the end of a tick: whoever touches something is bound, and who does not may fly.
+    /// Called after all contacts were followed at the end of a tick. Touching bodies are bound, and others may fly.
     fn follow_flights(&self, bodies: &mut Bodies, pairs: &CandidatePairs, elapsed: f64) {
-        // Whoever rests may sleep, and whether it does must change nothing: nor must it when lists were made.
+        // Sleep must not change the motion, and so it must not change the time at which lists are made.
         if !self.rest.is_empty() {
             return bodies.put_off_flights();
         }

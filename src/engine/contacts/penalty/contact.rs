@@ -1,4 +1,4 @@
-//! One contact: its history, and how its modes are chosen. How it follows the motion of its sides: `follow.rs`.
+//! One contact: its history, and the choice of its modes. `follow.rs` describes how it follows the motion of its sides.
 
 use glam::DVec2;
 
@@ -37,7 +37,7 @@ impl Contact {
         Self { law, ..Self::default() }
     }
 
-    /// Chooses the mode for a pair that is not to be held. Returns what it was before if that changed anything.
+    /// Chooses the mode for a pair that is not to be held. Returns the mode before, if that changed anything.
     #[inline]
     pub fn choose_mode<N: NormalForce>(
         &mut self,
@@ -63,7 +63,7 @@ impl Contact {
         self.take_on(law, tangential, losses);
     }
 
-    /// Friction does what was found for the tick to come; a weaker normal force holds less of it.
+    /// Applies the friction that was found for the next tick. A weaker normal force holds less of it.
     fn take_on(&mut self, law: &PairLaw, friction: Friction, losses: &mut Losses) {
         let slider = law.tangential();
         if slider.acts() {

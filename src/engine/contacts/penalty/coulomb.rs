@@ -1,12 +1,13 @@
-//! A spring with a Coulomb limit (Cundall and Strack 1979): tangential friction and rolling resistance are made of it.
+//! The Coulomb slider (Cundall and Strack 1979): a spring with a Coulomb limit, for tangential friction and rolling
+//! resistance.
 //!
 //! The spring's elongation `s` follows a displacement (along the contact, or the turn of one side against the other).
-//! It pulls with `k s` as long as that is at most `mu N`; beyond, it slips and the elongation is `mu N / k`. One that
-//! sticks gives way at the static coefficient, one that slips is limited by the dynamic one. What the spring holds when
-//! the contact opens, and the work of slipping, is energy lost to friction.
+//! It pulls with `k s` as long as that is at most `mu N`. Beyond that it slips, and the elongation is `mu N / k`. A
+//! sticking spring yields at the static coefficient, and the dynamic one limits a slipping spring. The energy in the
+//! spring when the contact opens, and the work of slipping, are lost to friction.
 //!
-//! At rest the law is set-valued: any force up to `mu N` keeps the contact there. Which one it is the balance of forces
-//! decides ([`crate::constraints::rest_solver`]).
+//! At rest the law is set-valued: every force up to `mu N` keeps the contact at rest. The balance of forces determines
+//! it ([`crate::constraints::rest_solver`]).
 
 use super::switching::Base;
 use crate::constraints::rest_solver::{CoulombSpring, Friction};
@@ -15,8 +16,8 @@ use serde::{Deserialize, Serialize};
 /// A share of a force or of a velocity that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A spring that begins to stick has the force it slipped with; the normal force that rows then answer is another one by this share
-/// at the most.
+/// A spring that begins to stick has the force with which it slipped. The normal force of the rows then differs by at
+/// most this share.
 const BEYOND: f64 = 1e-9;
 
 /// Phase of a spring with a Coulomb limit.
@@ -29,8 +30,8 @@ pub enum Grip {
     Slip,
     /// At rest: the force is whatever keeps it so, up to the static limit.
     Hold,
-    /// It slips against the force in [`Slider::held`]: where contacts are stages of a step, and where they rest along the normal
-    /// and gave way without a drawn spring.
+    /// It slips against the force in [`Slider::held`]. Contacts in stages of a step use it. So do contacts that rest
+    /// along the normal and yielded without a stretched spring.
     Slide,
 }
 
@@ -120,8 +121,8 @@ impl Slider {
         0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
     }
 
-    /// Lets a spring stick that slipped as it was `before` and whose limit has jumped beyond that: only the motion of its ends draws
-    /// it farther. They move past each other with `velocity`. Says whether it was so.
+    /// Makes a spring stick that slipped in the state `before`, if its limit has jumped beyond that. Only the motion of
+    /// its ends stretches it farther. They slide with the relative velocity `velocity`. Returns whether it did.
     pub(super) fn settle_jump(&mut self, law: &SliderLaw, before: Option<Self>, velocity: f64) -> bool {
         let Some(drawn) = before.filter(|before| before.grip == Grip::Slide).map(|before| before.elongation) else {
             return false;
@@ -133,7 +134,8 @@ impl Slider {
         short
     }
 
-    /// Lets a spring swing back that stuck `before`, and was tried as held where it came to a stand. Says whether it was so.
+    /// Lets a spring swing back that stuck `before`, and was tried as held at its turning point. Returns whether it
+    /// did.
     pub(super) fn swing_back(&mut self, before: Option<Self>) -> bool {
         let Some(before) = before.filter(|before| before.grip == Grip::Stick && self.grip == Grip::Hold) else {
             return false;
@@ -144,7 +146,7 @@ impl Slider {
 
     /// Lets a spring slip that is beyond its cone, or swing back if it stuck `before`. Says whether it was.
     pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base, before: Option<Self>) -> bool {
-        // Where a contact begins or ends rounding may leave a normal force below zero.
+        // At the beginning or end of a contact, rounding may leave a normal force below zero.
         let (force, limit) = (self.force(law), law.friction_static * base.force.max(0.0));
         let gives = match self.grip {
             Grip::Hold => force.abs() > limit,
@@ -164,7 +166,7 @@ impl Slider {
         let rounding = ROUNDING * (speed + follows.abs());
         match self.grip {
             Grip::Slide if (velocity - follows) * self.held.signum() < -rounding => {
-                // One that holds remembers which way it goes.
+                // A holding spring remembers its direction.
                 (self.grip, self.held) = (Grip::Stick, 0.0_f64.copysign(velocity));
             }
             Grip::Stick if base.force == 0.0 && velocity.abs() > rounding && !base.bears(law, velocity) => {
@@ -175,7 +177,8 @@ impl Slider {
         true
     }
 
-    /// Does what was found for the tick to come, under the normal force `normal_force`. Returns the energy lost in J.
+    /// Applies the friction that was found for the next tick, under the normal force `normal_force`. Returns the energy
+    /// lost in J.
     pub(super) fn take_on(&mut self, law: &SliderLaw, friction: Friction, normal_force: f64) -> f64 {
         match friction {
             Friction::Holds(force) => {
@@ -187,8 +190,8 @@ impl Slider {
                 (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
                 0.0
             }
-            // The normal force of that tick depends on where in it the contact turned. A spring that stuck by it would bear more than
-            // what slips does, where the coefficients differ.
+            // The normal force of that tick depends on the time of the contact's turn. If the coefficients differ, a
+            // spring that stuck by it would bear more than a slipping one.
             Friction::Turns if law.friction_static > law.friction_dynamic => {
                 let lost = self.let_go(law) + self.follow(law, None, normal_force);
                 if self.grip == Grip::Slip {
@@ -216,7 +219,7 @@ impl Slider {
         }
     }
 
-    /// The spring takes over from a hold or a slide, as far as the energy it has allows. Returns the energy lost in J.
+    /// The spring replaces a hold or a slide, as far as its energy allows. Returns the energy lost in J.
     pub fn let_go(&mut self, law: &SliderLaw) -> f64 {
         if !matches!(self.grip, Grip::Hold | Grip::Slide) {
             return 0.0;

@@ -1,9 +1,9 @@
-//! Measures how fast the contacts of a run respond, at some of its ticks: all ticks would cost as much as the contacts
+//! The critical tick of contacts, measured at some ticks of a run. All ticks would cost as much as the contacts
 //! themselves.
 //!
-//! A tick is looked at when the number of touching pairs has changed and as many ticks have passed as there are pairs,
-//! and every [`PATIENCE`] ticks. A bound of the frequency is cheap; where it lies above what was found before, the
-//! eigenvalue itself is worked out, which costs some ten times as much, and so is done less often unless the bound has
+//! A tick is measured when the number of touching pairs has changed, after as many ticks as there are pairs. It is also
+//! measured every [`PATIENCE`] ticks. A bound of the frequency is cheap. If it lies above the earlier result, the
+//! eigenvalue itself is computed, which costs some ten times as much. So that is done less often unless the bound has
 //! risen clearly.
 
 use super::apply::PenaltyContacts;
@@ -28,7 +28,7 @@ const TICKS_PER_PAIR: u64 = 32;
 /// Looks in which the tick is sought where forces depend on velocities, at most.
 const ROUNDS: usize = 12;
 
-/// What may be missing, as a share: a hundredth of what [`Springs::largest`] leaves out.
+/// The allowed error, as a share: a hundredth of that of [`Springs::largest`].
 const ENOUGH: f64 = 1e-4;
 
 /// Product of tick and angular frequency above which energy is watched at each tick; methods bear 2 and more.
@@ -61,7 +61,7 @@ impl PenaltyContacts {
     ) {
         let touching = self.atoms.touching_count() + self.surfaces.touching_count();
         if touching == 0 {
-            // Whoever touches next is new.
+            // The next touching pair counts as new.
             self.watch.pairs = 0;
             return;
         }
@@ -179,10 +179,12 @@ impl PenaltyContacts {
     }
 }
 
-/// The square of the angular frequency at which springs respond, where damping stiffens them the more the faster they are: `looked` is a
-/// frequency for which damping was counted, in rad/s, with the square that was found then; `look` finds it for another one.
+/// The square of the angular frequency at which springs respond. Damping stiffens them in proportion to the frequency.
+/// `looked` is a frequency in rad/s for which damping was counted, with the resulting square. `look` computes the
+/// square for another frequency.
 ///
-/// For a single spring the square is `k + c omega`, for many it is nearly so: the line through two looks tells where to look next.
+/// For a single spring the square is `k + c omega`, and for many it is nearly so. The line through two results gives
+/// the next frequency (secant method).
 fn frequency_squared(looked: (f64, f64), mut look: impl FnMut(f64) -> f64) -> f64 {
     let (mut before, mut squared_before) = looked;
     let (mut now, mut squared) = (squared_before.sqrt(), squared_before);
@@ -201,7 +203,7 @@ fn frequency_squared(looked: (f64, f64), mut look: impl FnMut(f64) -> f64) -> f6
 }
 
 impl PairLaw {
-    /// Stiffness of the tangential spring in N/m, if there is friction that stretches it.
+    /// Stiffness of the tangential spring in N/m, if friction stretches it.
     fn held_across(&self) -> f64 {
         if self.friction_static > 0.0 || self.friction_dynamic > 0.0 { self.tangential_stiffness } else { 0.0 }
     }
@@ -222,7 +224,7 @@ mod tests {
                     looks += 1;
                     stiffness + damping * angular_frequency
                 });
-                // What is missing is less than what the last two differ by.
+                // The error is below the difference of the last two results.
                 assert!((found - exact * exact).abs() <= ENOUGH * found, "{stiffness} {damping}: {found}");
                 assert!(looks <= 2, "{looks} looks");
             }

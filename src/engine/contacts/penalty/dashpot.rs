@@ -1,17 +1,17 @@
 //! Normal law: a spring and a dashpot side by side, `N = max(0, k d - c v_n)` with `v_n` the velocity with which the
 //! sides part.
 //!
-//! The contact never pulls: it ends when the force does, before the overlap is gone (Schwager and Poeschel 2007). With
-//! `m` the effective mass, `b = c/(2 m)`, `w0^2 = k/m` and `w^2 = w0^2 - b^2` it lasts
-//! `t = atan2(2 b w, b^2 - w^2)/w` and the restitution is `e = exp(-b t)`; overdamped, with `W^2 = b^2 - w0^2`,
-//! `t = artanh(2 b W/(b^2 + W^2))/W`. A restitution in the scene is turned into a damping ratio `b/w0` by solving that
-//! for it; codes that let the contact pull until the overlap is gone need another ratio for the same restitution.
+//! The contact never pulls: it ends when the force does, before the overlap is gone (Schwager and Poeschel 2007). Let
+//! `m` be the effective mass, `b = c/(2 m)`, `w0^2 = k/m` and `w^2 = w0^2 - b^2`. Then the contact lasts `t = atan2(2 b
+//! w, b^2 - w^2)/w`, and the restitution is `e = exp(-b t)`. If it is overdamped, with `W^2 = b^2 - w0^2`, then `t =
+//! artanh(2 b W/(b^2 + W^2))/W`. A restitution in the scene is converted to a damping ratio `b/w0` by solving that
+//! equation. Codes whose contacts pull until the overlap is gone need another ratio for the same restitution.
 //!
-//! The damping `c` is that of the ratio for the effective mass of the contact, `c = 2 zeta sqrt(k m)`, so that a single
-//! contact has the restitution that was asked for, also off the centre of a body. A body that lands on n atoms at once
-//! rebounds less than from one: with a damping in N s/m its damping ratio is `sqrt(n)` times as large, with a restitution
-//! up to that, as atoms far from the centre of mass have less damping (two of them where one feels nothing of the other,
-//! `m x^2 = I`, rebound as one does). The run notes it on its card.
+//! The damping is that of the ratio for the effective mass of the contact, `c = 2 zeta sqrt(k m)`. So a single contact
+//! has the required restitution, also off the centre of a body. A body that lands on n atoms at once rebounds less than
+//! from one. With a damping in N s/m its damping ratio is `sqrt(n)` times as large. With a restitution it is at most
+//! that, because atoms far from the centre of mass have less damping. If two atoms do not affect each other, `m x^2 =
+//! I`, they rebound like one. The card notes the effect.
 
 use super::Penalty;
 use super::inelasticity::restitution_of;
@@ -35,7 +35,7 @@ pub enum Damping<V = f64> {
 }
 
 impl<V: Default> Default for Damping<V> {
-    /// None.
+    /// No damping.
     fn default() -> Self {
         Self::Ratio(V::default())
     }
@@ -101,7 +101,7 @@ impl NormalForce for Dashpot {
         }
     }
 
-    /// The damping of a ratio is in proportion to `1/sqrt(mobility)`, that of a rate to `1/mobility`.
+    /// The damping of a ratio is proportional to `1/sqrt(mobility)`, that of a rate to `1/mobility`.
     fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64 {
         if mode == Mode::Unloading {
             return 0.0;
@@ -203,8 +203,8 @@ mod tests {
 
     #[test]
     fn restitution_of_a_contact_that_does_not_pull() {
-        // Two discs of mass pi/4 with k = 1e5 and b = 100, and an overdamped contact: event-located integration of the
-        // law to 1e-12, printed to ten and seven digits.
+        // Two discs of mass pi/4 with k = 1e5 and b = 100, and an overdamped contact. The values come from
+        // event-located integration of the law to 1e-12, printed to ten and seven digits.
         let ratio = 100.0 / (1e5 / (std::f64::consts::PI / 8.0)).sqrt();
         assert!((restitution(ratio) - 0.574_364_374_5).abs() < 1e-9);
         assert!((restitution(1.5) - 0.075_588_3).abs() < 1e-7);
@@ -219,7 +219,7 @@ mod tests {
         assert!((ratio_of(0.9) - 0.034_265_20).abs() < 1e-8);
         assert!((ratio_of(0.5) - 0.255_275_64).abs() < 1e-8);
         for wanted in [LEAST_RESTITUTION, 0.05, 0.3, 0.7, 0.99, 1.0] {
-            // A bisection to the last bit: what is left is rounding of the restitution.
+            // A bisection to the last bit: only rounding of the restitution remains.
             assert!((restitution(ratio_of(wanted)) - wanted).abs() < 1e-14);
         }
     }

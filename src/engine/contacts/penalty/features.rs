@@ -1,7 +1,9 @@
-//! Contacts with hulls as stages of a step: the corner or side that is touched stays the same in the step, so that forces are smooth. Where
-//! another one becomes the nearest is an event. Normal and overlap go on smoothly there, and their rates jump.
+//! Active features of contacts with hulls in stages of a step. The touched corner or side stays fixed, so that forces
+//! are smooth. A change of the nearest feature is an event. There normal and overlap are continuous, and their rates
+//! jump.
 //!
-//! Where the outline goes on at another part of the shape, the contact moves to the pair of that part with all its history.
+//! If the outline continues at another part of the shape, the contact moves to the pair of that part. It takes all its
+//! history along.
 
 use glam::DVec2;
 use jostle_shapes::{Feature, Hull, beyond};
@@ -23,7 +25,7 @@ pub(super) fn release(pairs: &mut CandidatePairs) {
     }
 }
 
-/// Before a step with stages: contacts that touch a hull keep the feature that is the nearest now, or that they have kept before.
+/// Before a step with stages: contacts that touch a hull keep the nearest feature, or the earlier one.
 pub(super) fn keep(pairs: &mut CandidatePairs, touching: &ContactList, bodies: &Bodies) {
     if bodies.hulls.is_empty() {
         return;
@@ -37,7 +39,7 @@ pub(super) fn keep(pairs: &mut CandidatePairs, touching: &ContactList, bodies: &
     }
 }
 
-/// A probe as it is seen from a hull.
+/// A probe as seen from a hull.
 struct Seen<'a> {
     hull: usize,
     packed: &'a PackedHull,
@@ -48,7 +50,7 @@ struct Seen<'a> {
 }
 
 impl<'a> Seen<'a> {
-    /// None if the surface is no hull.
+    /// `None` if the surface is not a hull.
     fn of(pair: SurfacePair, bodies: &'a Bodies) -> Option<Self> {
         let Surface::Hull(hull) = pair.surface(bodies) else { return None };
         let packed = &bodies.hulls[hull];
@@ -158,7 +160,7 @@ pub(super) fn cross(
     }
 }
 
-/// The outline ends there: another contact bears what comes, or none.
+/// The outline ends there, and another contact bears the load, or none does.
 fn open(contacts: &mut PenaltyContacts, place: usize) {
     let law = contacts.surfaces.get(place).law;
     contacts.surfaces.set(place, &Contact::open(law));

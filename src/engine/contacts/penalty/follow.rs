@@ -1,4 +1,4 @@
-//! What a touch does to contacts, one or several side by side: springs are drawn, give way and let go.
+//! The effect of a motion on contacts, one or several side by side: springs are stretched, yield and release.
 
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider};
@@ -43,8 +43,8 @@ impl<V: Lanes> Touch<V> {
         V::select(within, self.overlap.at_least_zero() / -along, one)
     }
 
-    /// Displacement of B relative to A along the contact, in metres, to second order in the step: tangent and lever
-    /// arms are those of its middle.
+    /// Displacement of B relative to A along the contact, in metres, to second order in the step. Tangent and lever
+    /// arms are those of the middle of the step.
     #[inline(always)]
     fn tangential_displacement(&self, law: &PairLaw<V>, before: V, overlap: V) -> V {
         let half = V::splat(0.5);
@@ -56,7 +56,7 @@ impl<V: Lanes> Touch<V> {
     }
 }
 
-/// The history of contacts, as it stands in [`super::list::ContactList`].
+/// The history of contacts, in the form of [`super::list::ContactList`].
 #[derive(Clone, Copy)]
 pub(super) struct Followed<V: Lanes> {
     pub overlap: V,
@@ -124,8 +124,8 @@ impl<V: Lanes> Followed<V> {
             let drawn = V::select(beyond, (law.slip * normal_force).copysign(trial), trial);
             // Mean force times the displacement that the spring did not take up.
             let slipped = V::splat(0.5) * law.tangential_stiffness * (elongation + drawn) * (trial - drawn);
-            // What holds stays as it is; where no time has passed only the normal force may be another one, and a
-            // contact that slips begins to stick by moving back, never by being looked at.
+            // Holding contacts do not change. If no time has passed, only the normal force may differ. A slipping
+            // contact begins to stick by moving back, never by an evaluation alone.
             let (mut lost, mut springs) = (slipped, acts);
             if V::bits(self.slides) != 0 {
                 lost = V::select(self.slides, self.held * displacement, slipped);

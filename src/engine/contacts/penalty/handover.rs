@@ -1,10 +1,10 @@
-//! Contacts between the two ways to evaluate them: as stages of steps ([`super::staged`]), and following from state to state
-//! ([`super::apply`]).
+//! Transfer of contacts between their two ways of evaluation. These are stages of steps ([`super::staged`]), and
+//! following from state to state ([`super::apply`]).
 //!
-//! Both know the same modes. A spring that slips has the same elongation in both; friction that sticks without a spring gets
-//! one that begins without any elongation, and gives up what it has on the way back. What is held stays so as long as the
-//! contact stands but for rounding; whatever moves goes on in the mode of its velocity, and stops at an event of its own. The
-//! energy of springs that a change takes is lost to friction.
+//! Both have the same modes. A slipping spring has the same elongation in both. Friction that sticks without a spring
+//! gets one with zero elongation, and releases its energy on the way back. A held contact stays held as long as it is
+//! at rest up to rounding. A moving contact continues in the mode of its velocity, and stops at an event. The energy of
+//! springs that a transfer takes is lost to friction.
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
@@ -19,7 +19,7 @@ use crate::tick::Style;
 /// Rows of held contacts that are solved together; they cost the third power of their number.
 const MOST_ROWS: usize = 64;
 
-/// A share of a contact force over a tick that counts as rounding: what the search for rest leaves.
+/// The share of a contact force over a tick that counts as rounding: the remainder of the search for rest.
 const ROUNDING: f64 = 1e-9;
 
 /// Whether more contacts are held than rows can be solved for.
@@ -67,7 +67,7 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) 
 }
 
 impl Contact {
-    /// Goes on as a stage of a step; velocities up to `rounding` m/s count as none.
+    /// Converts the contact to a stage of a step. Velocities up to `rounding` m/s count as zero.
     fn take_over<N: NormalForce>(&mut self, law: &PairLaw, geometry: &PairGeometry, rounding: f64) {
         let (parting, sliding) = (geometry.parting(), geometry.sliding(law.shares()));
         if self.mode == Mode::Hold && parting.abs() > rounding {
@@ -85,7 +85,7 @@ impl Contact {
 }
 
 impl Slider {
-    /// Goes on as a stage of a step, `held` or not, where the sides move past each other with `velocity`.
+    /// Converts it to a stage of a step, `held` or not, for a relative velocity of the sides of `velocity`.
     fn take_over(&mut self, law: &SliderLaw, held: bool, velocity: f64) {
         if self.grip == Grip::Hold && !held {
             self.let_go(law);
@@ -95,7 +95,7 @@ impl Slider {
                 self.grip = Grip::Slide;
                 self.held = 0.0_f64.copysign(self.elongation);
             }
-            // It knows its direction.
+            // Its direction is known.
             Grip::Slide => {}
             Grip::Stick => self.held = 0.0_f64.copysign(velocity),
             Grip::Hold => {}

@@ -10,7 +10,7 @@ use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// What of a contact a row holds.
+/// The part of a contact that a row holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Kind {
     Normal,
@@ -47,14 +47,14 @@ impl Held {
         self.contacts.clear();
     }
 
-    /// The contact of each row, what of it is held, and the force in newtons or torque in N m on side B.
+    /// The contact of each row, the held part, and the force in newtons or torque in N m on side B.
     pub fn answers<'a>(&'a self, rows: &'a Rows) -> impl Iterator<Item = (&'a PairGeometry, Kind, f64)> + 'a {
         let indices = self.first..;
         self.contacts.iter().zip(indices).map(|((geometry, kind), index)| (geometry, *kind, rows.force(index)))
     }
 
-    /// Holds the normal of a contact. While the contact slips its tangential force is `slope` times the normal one; while its
-    /// rolling spring slips, its torque is `twist` times the normal force.
+    /// Holds the normal of a contact. While the contact slips, its tangential force is `slope` times the normal one.
+    /// While its rolling spring slips, its torque is `twist` times the normal force.
     pub fn add_normal(
         &mut self,
         rows: &mut Rows,

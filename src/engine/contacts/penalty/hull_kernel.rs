@@ -1,8 +1,8 @@
-//! The kernel of contacts with hulls: those that touch are followed eight at a time, and their forces go to the bodies one by one in
-//! canonical order.
+//! The vectorised kernel of contacts with hulls. Touching contacts are followed eight at a time. Their forces are added
+//! to the bodies one by one in canonical order.
 //!
-//! A probe over the middle of the side that it touched before is over that side still ([`super::remembered`]): where it is follows side by
-//! side. All else is worked out one by one ([`PairGeometry`]), to the same bits.
+//! A probe over the middle of a side that it touched before is still over that side ([`super::remembered`]). Such
+//! probes are followed side by side. All others are computed one by one ([`PairGeometry`]), with the same bits.
 
 use std::marker::PhantomData;
 
@@ -34,13 +34,14 @@ pub(super) struct Waiting {
     law: [u32; BLOCK],
     /// Side A is a hull of the first body, side B an atom of the second.
     sides: [Sides; BLOCK],
-    /// Centres of the probes in metres, then of the first bodies with cosine and sine of their angles, then of the second bodies.
+    /// The centres of the probes in metres. Then follow the first bodies with cosine and sine of their angles, and then
+    /// the second bodies.
     poses: [Numbers; 8],
     /// Of both bodies: velocity, spin, inverse mass and inertia, displacement and turn.
     motion: [[Numbers; 8]; 2],
     normal: [Numbers; 2],
     overlap: Numbers,
-    /// Distances of the centres, where the place is not on a side.
+    /// Distances of the centres, for points that are not on a side.
     distance: Numbers,
     /// From the centres of mass of both bodies.
     arm: [[Numbers; 2]; 2],
@@ -49,7 +50,7 @@ pub(super) struct Waiting {
     flat: u8,
 }
 
-/// What contacts do to both bodies.
+/// The effects of contacts on both bodies.
 #[derive(Default)]
 #[repr(C, align(64))]
 struct Effects {
@@ -63,7 +64,7 @@ struct Effects {
 }
 
 impl Waiting {
-    /// Takes up a contact behind all others; says whether there is no room for more.
+    /// Appends a contact; returns whether the block is full.
     #[inline(always)]
     pub fn add(&mut self, bodies: &Bodies, (place, pair): (usize, SurfacePair), law: u32, sides: Sides) -> bool {
         let lane = self.count;
@@ -135,7 +136,7 @@ impl Waiting {
         account(sink.bodies, (sink.balance, sink.forces.as_deref_mut()), (&a, &b), arms, force);
     }
 
-    /// Works out where the sides of one contact are.
+    /// Computes the positions of the sides of one contact.
     #[inline(never)]
     fn look(&mut self, lane: usize, list: &mut ContactList, pair: SurfacePair, bodies: &Bodies) {
         let place = self.place[lane] as usize;

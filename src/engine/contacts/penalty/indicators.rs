@@ -1,5 +1,5 @@
-//! Indicators of events: each is positive while a mode of a contact lasts, and its rate says where it may vanish between two
-//! looks.
+//! Event indicators: each is positive while a mode of a contact lasts. Its rate bounds its roots between two
+//! evaluations.
 
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
@@ -11,14 +11,14 @@ use crate::contacts::geometry::PairGeometry;
 use crate::tick::Indicator;
 use crate::world::Bodies;
 
-/// A turn of the line of centres counts as so many of a swing: a body that passes another one has turned it by half a turn.
+/// The weight of a turn of the line of centres against a swing. A body that passes another one turns it by half a turn.
 const TURNS: f64 = 4.0;
 
 /// A rate that is not known.
 const UNKNOWN: f64 = f64::NAN;
 
-/// The normal force of a contact: its value in N, and its first two rates per second, the second but for changes of what else
-/// acts on both sides.
+/// The normal force of a contact: its value in N, and its first two rates per second. The second neglects changes of
+/// other forces on both sides.
 #[derive(Clone, Copy)]
 pub(super) struct Pressure {
     pub force: f64,
@@ -74,7 +74,7 @@ impl View<'_> {
                 what.push((place as u32, event));
                 told.push(indicator);
             };
-            // Where a body is fast the line of centres turns faster than springs swing.
+            // For fast bodies the line of centres turns faster than springs swing.
             let turns = if contact.mode == Mode::Hold { 0.0 } else { TURNS * geometry.turns() };
             let known = |value: f64, slope: f64| {
                 let swings = pressure.swings.sqrt().max(turns);
@@ -106,7 +106,7 @@ impl View<'_> {
     }
 }
 
-/// What ends the present mode of friction, and indicators of it.
+/// The end of the current mode of friction, and its indicators.
 fn tell_friction(
     contact: &Contact,
     law: &PairLaw,
@@ -122,7 +122,7 @@ fn tell_friction(
         speed: geometry.speed(law.shares()),
         mobility: geometry.mobility_along(law.shares(), bodies),
     };
-    // Where the normal force is held, or friction has no spring, a spring that slips does not follow the limit.
+    // If the normal force is held, or friction has no spring, a slipping spring does not follow the limit.
     let held = law.exact || contact.mode == Mode::Hold;
     tell_slider((slider, &law.tangential()), (contact.mode, held), pressure, motion, |event, indicator| {
         say(
@@ -135,8 +135,8 @@ fn tell_friction(
     });
 }
 
-/// How the ends of a spring with a Coulomb limit move past each other: a velocity, its rate, the speeds of which it is a
-/// difference, and the rate that a unit of force makes.
+/// The relative motion of the ends of a spring with a Coulomb limit. It has a velocity, its rate, the speeds whose
+/// difference it is, and the rate per unit of force.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
     pub velocity: f64,
@@ -156,7 +156,8 @@ pub(super) enum Ends {
 /// A share of a velocity that counts as rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// What ends the present phase of a spring with a Coulomb limit, and indicators of it. `held`: its elongation follows no limit.
+/// The end of the current phase of a spring with a Coulomb limit, and its indicators. `held`: its elongation follows no
+/// limit.
 pub(super) fn tell_slider(
     (slider, law): (&Slider, &SliderLaw),
     (mode, held): (Mode, bool),
@@ -165,7 +166,7 @@ pub(super) fn tell_slider(
     mut say: impl FnMut(Ends, Indicator),
 ) {
     let (sign, rounding) = (slider.held.signum(), ROUNDING * motion.speed);
-    // What a swing with this angular frequency has: the amplitude of the second rate.
+    // The amplitude of the second rate in a swing with this angular frequency.
     let stiffness = if slider.grip == Grip::Stick { law.stiffness } else { 0.0 };
     let squared = pressure.swings + stiffness * motion.mobility;
     let bend = |slope: f64, second_rate: f64| {

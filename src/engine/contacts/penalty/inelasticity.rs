@@ -1,13 +1,13 @@
 //! Normal law: a linear spring that is stiffer while loading than while unloading.
 //!
 //! `N = k d (1 + mu_e)` while the bodies approach and `N = k d (1 - mu_e)` while they part, with `d` the overlap. The
-//! work lost in a full cycle gives the restitution `e = sqrt((1 - mu_e)/(1 + mu_e))`, whatever the speed, the masses and
-//! the number of atoms that touch at once (the idea of Walton and Braun 1986). Within a mode the force has a potential,
-//! so the energy lost between two overlaps is known exactly: `+-mu_e k (d1^2 - d0^2)/2`. A contact ends when the overlap
-//! does; it never pulls.
+//! work lost in a full cycle gives the restitution `e = sqrt((1 - mu_e)/(1 + mu_e))`. It does not depend on speed,
+//! masses and the number of touching atoms (the idea of Walton and Braun 1986). Within a mode the force has a
+//! potential. So the energy lost between two overlaps is known exactly: `+-mu_e k (d1^2 - d0^2)/2`. A contact ends when
+//! the overlap does; it never pulls.
 //!
-//! At rest, `v_n = 0`, the law is set-valued: any force between the two keeps the contact there. Which one it is the
-//! balance of forces decides ([`crate::constraints::rest_solver`]).
+//! At rest, `v_n = 0`, the law is set-valued: every force between the two keeps the contact at rest. The balance of
+//! forces determines it ([`crate::constraints::rest_solver`]).
 
 use super::Penalty;
 use super::law::PairLaw;
@@ -16,7 +16,7 @@ use crate::world::Materials;
 use crate::world::material::Rebound;
 use jostle_simd::Lanes;
 
-/// The inelasticity of a material, from 0 to 1: `mu_e = (1 - e^2)/(1 + e^2)` where it says its restitution `e`.
+/// The inelasticity of a material, from 0 to 1. For a restitution `e` it is `mu_e = (1 - e^2)/(1 + e^2)`.
 pub fn inelasticity_of(rebound: Rebound) -> f64 {
     match rebound {
         Rebound::Inelasticity(inelasticity) => inelasticity,

@@ -1,4 +1,4 @@
-//! Joints of bodies that touch something, as the search for rest sees them.
+//! Joints of bodies with contacts, for the search for rest.
 
 use crate::constraints::islands::{Link, Members};
 use crate::constraints::rest_solver::{JointRow, JointRowSide, Mover};

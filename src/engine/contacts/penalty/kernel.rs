@@ -1,8 +1,8 @@
-//! The kernel of contacts between atoms: candidate pairs are followed eight at a time, as many side by side as the
-//! processor can, and their forces go to the bodies pair by pair in canonical order.
+//! The vectorised kernel of contacts between atoms. Candidate pairs are followed eight at a time, in the lanes of the
+//! processor. Their forces are added to the bodies pair by pair in canonical order.
 //!
-//! What a pair needs to know of an atom stands in one [`Record`], a line of the cache ([`super::records`]): the sixteen lines of
-//! eight pairs are loaded and transposed in registers.
+//! The data of an atom for a pair is one [`Record`], a cache line ([`super::records`]). The sixteen lines of eight
+//! pairs are loaded and transposed in registers.
 
 use std::marker::PhantomData;
 
@@ -22,10 +22,10 @@ use crate::world::Bodies;
 use crate::world::part::{cut, parts_of};
 use jostle_simd::{BLOCK, Kernel, Lanes, Level, PairBlock, PairedRecords, Pushes, Record};
 
-/// What else is to be known of an evaluation.
+/// The other data of an evaluation.
 #[derive(Clone, Copy)]
 pub(super) struct Moment {
-    /// How far any point of a body can have gone since the beginning, in metres; not a number where that is not known.
+    /// The greatest possible way of any point of a body since the beginning, in metres; NaN if it is unknown.
     pub path: f64,
     /// Time of the state in seconds.
     pub time: f64,
@@ -36,8 +36,9 @@ pub(super) struct Moment {
 /// Pairs of the smallest part: with fewer it costs more to hand them out than they do.
 pub(super) const FEWEST: usize = 16384;
 
-/// All candidate pairs of atoms follow the motion of their sides, in parts if there are many. Each part gives forces to the
-/// bodies that stand first in its pairs; what is for others waits until all are done, and goes to them in the order of pairs.
+/// All candidate pairs of atoms follow the motion of their sides, in parts if there are many. Each part adds forces to
+/// the bodies that are first in its pairs. Forces on other bodies wait until all parts are done, and are added in the
+/// order of pairs.
 pub(super) fn follow_pairs<N: NormalForce>(
     records: &[Record],
     (pairs, group_ends): (&[AtomPair], [usize; 2]),
@@ -47,7 +48,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     moment: Moment,
 ) -> Losses {
-    // Where a few pairs of each block have to be looked at it is done one by one.
+    // If each block has only a few pairs to be evaluated, they are evaluated one by one.
     let sparse = list.is_sparse();
     let level = if sparse { Level::Scalar } else { sink.bodies.level };
     let plain = sink.bodies.lone_discs && sink.bodies.all_dynamic && sink.forces.is_none();
@@ -118,7 +119,7 @@ struct Share<'a> {
     torque: &'a mut [f64],
 }
 
-/// What comes of a part of the pairs beside forces on its own bodies.
+/// The results of a part of the pairs, beside forces on its bodies.
 #[derive(Clone, Default)]
 struct Found {
     /// Forces and torques for bodies of other parts.
@@ -136,15 +137,15 @@ struct FollowPairs<'a, N> {
     forces: Option<&'a mut ContactForces>,
 }
 
-/// What the pairs of a part are followed with. No function that is called for itself may take it by reference, only those that are
-/// inlined: then the places of its lists stay in registers.
+/// The inputs for following the pairs of a part. Only inlined functions may take it by reference. Then the addresses of
+/// its lists stay in registers.
 struct Pairs<'a, N> {
     sides: PairedRecords<'a>,
     list: ListPart<'a>,
     laws: &'a LawTable,
     /// Without forces: those are shared out.
     bodies: &'a Bodies,
-    /// Bodies are discs that move by forces, and nobody asks for single forces.
+    /// Whether bodies are discs that move by forces, and no sensor needs single forces.
     plain: bool,
     /// Few pairs of each block have to be looked at, and others are left out.
     sparse: bool,
@@ -155,7 +156,7 @@ struct Pairs<'a, N> {
 /// Touching pairs of a block from which on all its pairs are pushed.
 const FULL: u32 = 4;
 
-/// Partial sums of what is lost, in J.
+/// Partial sums of losses, in J.
 #[derive(Default)]
 #[repr(C, align(64))]
 struct PartialLosses {
@@ -169,13 +170,13 @@ fn lanes_of<V: Lanes>() -> u8 {
     ((1_u16 << V::COUNT) - 1) as u8
 }
 
-/// Whether none of the bits is set that belong to the lanes from `lane` on, and they are not the whole block.
+/// Whether no bit of the lanes from `lane` on is set, and they are not the whole block.
 #[inline(always)]
 fn none_of<V: Lanes>(bits: u8, lane: usize) -> bool {
     V::COUNT < BLOCK && (bits >> lane) & lanes_of::<V>() == 0
 }
 
-/// Bits of a block with those of some lanes written anew.
+/// The bits of a block with those of some lanes replaced.
 #[inline(always)]
 fn written<V: Lanes>(old: u8, mask: V::Mask, lane: usize) -> u8 {
     (old & !(lanes_of::<V>() << lane)) | ((V::bits(mask) & lanes_of::<V>()) << lane)
@@ -186,7 +187,7 @@ fn add<V: Lanes>(sums: &mut [f64], terms: V) {
     (V::load(sums) + terms).store(sums);
 }
 
-/// Where the sides of the pairs of a block are, and how they moved. Lists begin at lines of the cache.
+/// The positions and displacements of the sides of the pairs of a block. Lists begin at cache lines.
 #[derive(Clone, Copy, Default)]
 #[repr(C, align(64))]
 struct Geometry {
@@ -202,8 +203,8 @@ struct Geometry {
     among: u8,
 }
 
-/// Blocks whose geometry is worked out before their laws are applied: so the processor finds the roots and quotients of several
-/// at the same time.
+/// Blocks whose geometry is computed before their laws are applied. So the processor computes the roots and quotients
+/// of several blocks at the same time.
 const AHEAD: usize = 4;
 
 /// How many blocks before they are looked at records are fetched: the time of some two hundred nanoseconds.
@@ -234,8 +235,8 @@ impl<N: NormalForce> Kernel for FollowPairs<'_, N> {
 }
 
 impl<N: NormalForce> FollowPairs<'_, N> {
-    /// Follows all pairs; `law` is that of all of them if there is only one. `PLAIN`: they are [plain](Pairs::plain), and all of them
-    /// have to be looked at.
+    /// Follows all pairs; `law` is that of all of them if there is only one. `PLAIN`: they are [plain](Pairs::plain),
+    /// and all of them have to be evaluated.
     #[inline(always)]
     fn all<V: Lanes, const ONE_LAW: bool, const PLAIN: bool>(self, law: &PairLaw<V>) -> Found {
         let Self { mut pairs, share: Share { first, force, torque }, mut found, mut forces } = self;
@@ -250,7 +251,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
             for _ in 0..together {
                 let block = if PLAIN { number } else { pairs.list.awake_block(number) };
                 number += 1;
-                // Nobody can have come near since it was looked at last.
+                // No pair can have come near since its last evaluation.
                 if pairs.list.is_early(block, pairs.moment.path) {
                     continue;
                 }
@@ -286,7 +287,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
                     push_and_account(pairs.bodies, sides, geometry, touching, &pushes, laws, sink);
                     continue;
                 }
-                // Where most pairs touch the others push with nothing: cheaper than to guess which they are.
+                // If most pairs touch, the others push with zero force. That is cheaper than to select them.
                 let lanes = if touching.count_ones() >= FULL && !sparse { u8::MAX } else { touching };
                 let Share { first, force, torque } = share;
                 if !pushes.give(&pairs.sides, pairs.list.first + block, lanes, (first, force, torque)) {
@@ -301,7 +302,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
 }
 
 impl<N: NormalForce> Pairs<'_, N> {
-    /// Finds out where the sides of the pairs of a block are.
+    /// Computes the positions of the sides of the pairs of a block.
     #[inline(always)]
     fn look<V: Lanes, const PLAIN: bool>(&mut self, block: usize, geometry: &mut Geometry) {
         let sparse = !PLAIN && self.sparse;
@@ -317,7 +318,7 @@ impl<N: NormalForce> Pairs<'_, N> {
                 self.sides.load::<V>(self.list.first + block, lane);
             let squared = x * x + y * y;
             let reach = radius_a + radius_b;
-            // Written so that what is no number counts as near.
+            // In this form NaN counts as near.
             let away = !squared.lt(reach * reach) & squared.lt(V::splat(f64::INFINITY));
             let near = V::mask((there & touched) >> lane) | (V::mask(there >> lane) & !away);
             among |= (V::bits(near) & lanes_of::<V>()) << lane;
@@ -407,7 +408,7 @@ impl<N: NormalForce> Pairs<'_, N> {
         contacts.overlap.store(&mut history.overlap[lane..]);
         contacts.normal_force.store(&mut history.normal_force[lane..]);
         contacts.elongation.store(&mut history.elongation[lane..]);
-        // What is held counts only where something slides.
+        // Held forces count only if some contact slides.
         if phases.slides != 0 {
             contacts.held.store(&mut self.list.held[block][lane..]);
         }
@@ -466,8 +467,8 @@ fn note_deepest(
     }
 }
 
-/// Forces of a block go to the bodies, one pair after the other, where some side stands in another part: [`Pushes::give`] gives
-/// them where none does.
+/// If some side lies in another part, adds the forces of a block to the bodies, one pair after the other. Otherwise
+/// [`Pushes::give`] adds them.
 #[cold]
 fn push_among_parts(mut share: Share, found: &mut Found, sides: &PairBlock, touching: u8, pushes: &Pushes) {
     for lane in lanes(touching) {
@@ -490,7 +491,8 @@ impl Share<'_> {
     }
 }
 
-/// Forces of a block go to the bodies, one pair after the other, where those have several atoms, where some do not move by forces, or where somebody asks for forces.
+/// Adds the forces of a block to the bodies, one pair after the other. It serves bodies of several atoms, bodies that
+/// do not move by forces, and sensors of forces.
 #[inline(never)]
 fn push_and_account(
     bodies: &Bodies,

@@ -1,4 +1,4 @@
-//! The coefficients of a pair of materials and stiffnesses, worked out once per kind of pair.
+//! The coefficients of a pair of materials and stiffnesses, computed once per kind of pair.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub struct PairLaw<V = f64> {
     pub stiffness: V,
     /// `mu_e`, between 0 (elastic) and 1. Zero if the normal law is another one.
     pub inelasticity: V,
-    /// Damping. None if the normal law has none.
+    /// Damping. Zero if the normal law has none.
     pub damping: Damping<V>,
     /// Coulomb coefficient of a sticking contact.
     pub friction_static: V,

@@ -1,4 +1,4 @@
-//! What a penalty law cannot give, and how fast a single contact may respond: known before the first tick.
+//! The limits of a penalty law, and the response of a single contact, before the first tick.
 
 use super::inelasticity::{largest_inelasticity, restitution_of};
 use super::law::PairLaw;
@@ -7,7 +7,7 @@ use super::{NormalLaw, Penalty, TangentialLaw, dashpot, rolling};
 use crate::tick::Stability;
 use crate::world::{Bodies, Materials};
 
-/// What the law cannot give, for the card.
+/// The effects that the law cannot produce, for the card.
 pub(super) fn notes(settings: &Penalty, materials: &Materials, bodies: &Bodies) -> Vec<String> {
     let mut notes = Vec::new();
     if settings.tangential == TangentialLaw::None && materials.any_friction() {
@@ -30,10 +30,10 @@ pub(super) fn notes(settings: &Penalty, materials: &Materials, bodies: &Bodies) 
 
 /// Greatest angular frequency that a single contact of any body can have, in rad/s.
 ///
-/// A contact of atom `i` with something harder has `omega^2 = k w`, with the mobility `w = 1/m + r^2/I` along its
-/// direction; between two moving bodies it is a weighted mean of both sides' values, so no pair exceeds the greatest.
-/// Normal and tangential spring turn the same body, so their values are added. Many contacts on one body at once
-/// respond faster still.
+/// A contact of atom `i` with a harder side has `omega^2 = k w`. Its mobility along its direction is `w = 1/m + r^2/I`.
+/// Between two moving bodies it is a weighted mean of both sides' values, so no pair exceeds the greatest. Normal and
+/// tangential spring turn the same body, so their values are added. Many simultaneous contacts on one body respond
+/// still faster.
 ///
 /// Damping counts as if the method were the default one, the strictest: with `g = 2 c w` the frequency is
 /// `g/2 + sqrt(g^2/4 + omega^2)` (see [`Stability::damping_limit`]).

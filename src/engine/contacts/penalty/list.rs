@@ -1,7 +1,7 @@
-//! The history of all candidate pairs, one list for each quantity: what the kernel of contacts (`kernel.rs`) reads
-//! and writes several at a time.
+//! The history of all candidate pairs, one list for each quantity. The kernel of contacts (`kernel.rs`) reads and
+//! writes several pairs at a time.
 //!
-//! Modes are bits, a byte for eight contacts: they are masks as they stand.
+//! Modes are bits, a byte for eight contacts, which serve as masks directly.
 
 use std::ops::{Deref, DerefMut, Range};
 
@@ -73,7 +73,7 @@ pub(super) struct Histories {
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct ContactList {
     len: usize,
-    /// The pairs of atoms; none in a list of walls.
+    /// The pairs of atoms; empty in a list of walls.
     pub(super) pairs: PairBlocks,
     pub(super) law: Vec<[u32; BLOCK]>,
     /// The law of all of them, if there is one.
@@ -81,20 +81,21 @@ pub struct ContactList {
     pub(super) histories: Vec<Histories>,
     /// Forces that are held.
     pub(super) held: Vec<[f64; BLOCK]>,
-    /// Damping in N s/m, where it is the same as long as the pairs are; else empty.
+    /// Damping in N s/m, if it is constant during the life of the pairs; else empty.
     pub(super) damping: Vec<[f64; BLOCK]>,
     pub(super) phases: Vec<Phases>,
     /// For each block the [`Bodies::path`](crate::world::Bodies::path) up to which none of its pairs can begin to touch.
     pub(super) due: Vec<f64>,
-    /// The same for each pair; empty where it is not told.
+    /// The same for each pair; empty if it is unknown.
     pub(super) each_due: Vec<[f64; BLOCK]>,
-    /// What is remembered of each pair with a hull.
+    /// The memory of each pair with a hull.
     pub(super) remembered: Remembered,
-    /// A bit each for pairs that an evaluation has to look at, where few of them are, touching ones among them; empty: all.
+    /// A bit for each pair that an evaluation has to include, touching ones among them, if these are few. Empty: all
+    /// pairs.
     looked_at: Vec<u8>,
     /// Blocks in which some are, in order; only then.
     watched: Vec<u32>,
-    /// A bit each for contacts of bodies that are asleep; empty: none is.
+    /// A bit for each contact of sleeping bodies; empty if there is none.
     pub(super) asleep: Vec<u8>,
     /// Blocks in which some contact is not asleep; only where some are.
     awake: Vec<u32>,
@@ -111,7 +112,7 @@ impl ContactList {
         self.len
     }
 
-    /// Whether there are none.
+    /// Whether there are no contacts.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -147,7 +148,7 @@ impl ContactList {
         self.phases[block].set(lane, mode, grip);
     }
 
-    /// The contact at a place, to be changed: it goes back when the loan ends.
+    /// The contact at an index, for a change. It returns to the list when the loan ends.
     #[inline]
     pub fn edit(&mut self, place: usize) -> Edited<'_> {
         Edited { contact: self.get(place), place, list: self }
@@ -254,7 +255,7 @@ impl ContactList {
         let held = |block: usize| self.phases[block].loading & self.phases[block].unloading;
         let blocks = self.awake_blocks();
         let together = move |first: usize| first..blocks.min(first + TOGETHER);
-        // Mostly none is: it is seen of many blocks at once, where those are all in a row.
+        // Mostly there is none. Many consecutive blocks are checked at once.
         let some_are = move |first: &usize| {
             let held = |bits: u8, phases: &Phases| bits | phases.loading & phases.unloading;
             self.few().is_some() || self.phases[together(*first)].iter().fold(0, held) != 0
@@ -278,13 +279,13 @@ impl ContactList {
         self.each_due.clear();
     }
 
-    /// The next evaluation looks at no pair but for those that it is told; see [`ContactList::look_at`].
+    /// Excludes all pairs from the next evaluation, except those added by [`ContactList::look_at`].
     pub(super) fn look_at_none(&mut self) {
         self.looked_at.resize(self.phases.len(), 0);
         self.watched.clear();
     }
 
-    /// The next evaluation looks at these pairs of a block behind all others that it was told.
+    /// Includes these pairs of a block in the next evaluation, behind all others that were included.
     pub(super) fn look_at(&mut self, block: usize, pairs: u8) {
         if pairs != 0 {
             (self.looked_at[block], self.due[block]) = (pairs, f64::NEG_INFINITY);
@@ -304,7 +305,7 @@ impl ContactList {
         self.asleep_touching = 0;
     }
 
-    /// Lays contacts asleep, those at the places that `sleeps` says, and wakes all others.
+    /// Puts the contacts at the indices of `sleeps` to sleep, and wakes all others.
     pub(super) fn lay_asleep(&mut self, sleeps: impl Fn(usize) -> bool) {
         self.wake_all();
         self.look_at_all();
@@ -323,8 +324,8 @@ impl ContactList {
         }
     }
 
-    /// Becomes the list of other pairs: each has the history of the old place that it is told, or none ([`NEW`]). Of the `same` bodies as
-    /// before it keeps its law, and what is remembered of it.
+    /// Becomes the list of other pairs. Each has the history of the given old index, or none ([`NEW`]). If the bodies
+    /// are the `same` as before, it keeps its law and its memory.
     pub(super) fn carry(&mut self, before: &[u32], same: bool, mut law: impl FnMut(usize) -> u32) {
         let old = std::mem::take(self);
         self.resize(before.len());

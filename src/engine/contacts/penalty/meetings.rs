@@ -1,9 +1,9 @@
-//! When pairs may begin to touch while bodies fly.
+//! Prediction of the next possible touch of pairs while bodies fly.
 //!
-//! Two discs that fly in a uniform field pass each other along a straight line: whether and when they touch follows from a
-//! quadratic equation. Of a pair with a disc that is bound it is known how near they are, and that no body goes farther than
-//! [`Bodies::path`] says. So each pair has its next meeting, and is not looked at before. Who is bound anew breaks the
-//! meetings of its pairs.
+//! In a uniform field the relative motion of two flying discs is a straight line. So a quadratic equation decides
+//! whether and when they touch. For a pair with a bound disc the distance is known, and [`Bodies::path`] bounds the
+//! ways of bodies. So each pair has its next meeting, and is not evaluated before. When a body is bound, the meetings
+//! of its pairs become invalid.
 
 use super::list::ContactList;
 use super::records::record;
@@ -32,15 +32,16 @@ pub(super) struct Meetings {
     first: Vec<u32>,
 }
 
-/// By how much nearer than they touch discs may pass that are looked at all the same, as a share of the distance: far more than
-/// rounding, which counts by `NOISE` as well.
+/// Discs that pass each other within this share of the touching distance are evaluated all the same. It is far more
+/// than rounding, for which `NOISE` is counted as well.
 const NEAR_MISS: f64 = 1e-6;
-/// Rounding of places, as a share of them.
+/// Rounding of positions, as a share of them.
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
 impl Meetings {
-    /// Sees which pairs have to be looked at in an evaluation, and fills in the records of their atoms; the others are put
-    /// off in the list. `bound` are the bodies that were bound since. Does nothing unless bodies fly, which it returns.
+    /// Finds the pairs that an evaluation has to include, and fills in the records of their atoms. The others are
+    /// postponed in the list. `bound` are the bodies that were bound since the last call. If no body flies, it does
+    /// nothing and returns false.
     pub fn keep(
         &mut self,
         (bodies, bound): (&Bodies, &[u32]),
@@ -112,7 +113,7 @@ impl Meetings {
     }
 }
 
-/// For the card: in how many ticks bodies flew.
+/// For the card: the number of ticks in which bodies flew.
 pub(super) fn remark(bodies: &Bodies, ticks: u64) -> Option<String> {
     let flown = bodies.flights.flown();
     (flown > 0).then(|| {
@@ -137,7 +138,8 @@ impl Meeting {
     }
 }
 
-/// When a pair may begin to touch; `None` where it is near enough now. Of each side it is told whether it flies.
+/// The time at which a pair may begin to touch; `None` if it is near enough now. Each side comes with its flag for
+/// flying.
 fn next_meeting(bodies: &Bodies, [a, b]: [(Record, bool); 2]) -> Option<Meeting> {
     let (Record([ax, ay, amx, amy, .., a_radius]), Record([bx, by, bmx, bmy, .., b_radius])) = (a.0, b.0);
     let (x, y, reach) = (bx - ax, by - ay, a_radius + b_radius);
@@ -163,8 +165,8 @@ fn side(bodies: &Bodies, atom: u32) -> (Record, bool) {
     (Record([position.x, position.y, moved.x, moved.y, velocity.x, velocity.y, turn, radius]), true)
 }
 
-/// Ticks until two discs are as near as `reach` that are `(x, y)` apart and move past each other by `(dx, dy)` in each; infinite
-/// if they never are.
+/// Ticks until the distance of two discs is `reach`. They are `(x, y)` apart and move past each other by `(dx, dy)` in
+/// each tick. Infinite if they never come so near.
 fn ticks_until((x, y): (f64, f64), (dx, dy): (f64, f64), reach: f64) -> f64 {
     let left = x * x + y * y - reach * reach;
     let (closing, way) = (-(x * dx + y * dy), dx * dx + dy * dy);
@@ -188,7 +190,8 @@ mod tests {
     fn discs_that_pass_each_other_touch_when_the_line_says_so() {
         // Head on, 3 m apart of which 1 m is reach, a quarter of a metre each tick.
         assert_eq!(ticks_until((3.0, 0.0), (-0.25, 0.0), 1.0), 8.0);
-        // Along the legs of a right triangle: 4 m to go beside 0.6 m, reach 1 m, so 0.8 m before the other's centre.
+        // Along the legs of a right triangle: 4 m to go beside 0.6 m with a reach of 1 m. So it ends 0.8 m before the
+        // other's centre.
         assert!((ticks_until((4.0, 0.6), (-0.1, 0.0), 1.0) - 32.0).abs() < 1e-12);
         assert_eq!(ticks_until((4.0, 1.01), (-0.1, 0.0), 1.0), f64::INFINITY);
         assert_eq!(ticks_until((4.0, 0.0), (0.1, 0.0), 1.0), f64::INFINITY);

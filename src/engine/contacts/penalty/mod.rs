@@ -1,4 +1,5 @@
-//! Penalty contacts: overlap makes force. A normal law, a tangential law and a rolling law are chosen one by one.
+//! Penalty contacts: forces from overlaps (soft-sphere discrete element method). Normal, tangential and rolling law are
+//! independent choices.
 
 pub mod apply;
 mod case;
@@ -55,20 +56,21 @@ use crate::world::Materials;
 
 /// Contacts as springs: overlap makes force.
 ///
-/// The three laws are chosen one by one; each may stand with each.
+/// The three laws are independent choices, and all combinations are possible.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Penalty {
-    /// What acts across the surface. Default: `Inelasticity`.
+    /// The law across the surface. Default: `Inelasticity`.
     pub normal: NormalLaw,
     /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: what gives the restitution of the pair.
     pub damping: Option<Damping>,
-    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`: all contacts
-    /// lose their speed alike. The `gamma_n` of LAMMPS. Default: none, `damping` or the restitution counts.
+    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`. All
+    /// contacts then lose their speed alike. It is the `gamma_n` of LAMMPS. Default: none, `damping` or the restitution
+    /// counts.
     pub damping_rate: Option<Rate>,
-    /// What acts along the surface, friction. Default: `Spring(ratio: 0.8)`.
+    /// The law along the surface, friction. Default: `Spring(ratio: 0.8)`.
     pub tangential: TangentialLaw,
-    /// What acts against rolling. Default: `None`.
+    /// The law against rolling. Default: `None`.
     pub rolling: RollingLaw,
 }
 
@@ -83,11 +85,11 @@ pub enum NormalLaw {
     Dashpot,
 }
 
-/// What acts along the surface.
+/// The law along the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum TangentialLaw {
-    /// No friction, whatever the materials say.
+    /// No friction, even if materials have some.
     None,
     /// A spring that holds up to the static friction and then slips with the dynamic one.
     Spring {
@@ -95,7 +97,7 @@ pub enum TangentialLaw {
         /// (Mindlin 1949).
         ratio: f64,
     },
-    /// Dry friction that sticks without any give, up to the static friction, and slips with the dynamic one. For few
+    /// Dry friction that sticks without compliance, up to the static friction, and slips with the dynamic one. For few
     /// contacts, under methods that locate events.
     Exact,
 }
@@ -118,7 +120,7 @@ impl TangentialLaw {
     }
 }
 
-/// What acts against turning one side over the other.
+/// The law against turning one side relative to the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum RollingLaw {

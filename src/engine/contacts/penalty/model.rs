@@ -25,12 +25,12 @@ use serde::{Deserialize, Serialize};
 pub struct PenaltyState {
     /// Contacts.
     pub contacts: PenaltyContacts,
-    /// Rolling springs, if the law has them.
+    /// Rolling springs, if the scene has them.
     pub rolling: Option<RollingContacts>,
 }
 
 impl PenaltyState {
-    /// What the scene says of contacts.
+    /// The section of the scene for contacts.
     pub fn settings(&self) -> &Penalty {
         &self.contacts.settings
     }
@@ -71,7 +71,7 @@ impl<N: NormalForce> Model for Contacts<N> {
         Some("Penalty")
     }
 
-    /// Friction that sticks without any give turns with the body that it holds: so it depends on how fast the body turns.
+    /// Friction that sticks without compliance turns with its body. So it depends on the spin of the body.
     fn dependence(&self) -> Dependence {
         let turns = self.own.contacts.settings.tangential == TangentialLaw::Exact;
         if N::DEPENDS_ON_VELOCITY || turns { Dependence::Velocity } else { Dependence::Position }
@@ -81,7 +81,7 @@ impl<N: NormalForce> Model for Contacts<N> {
         self.own.rolling.is_none()
     }
 
-    /// Takes up what the scene says of materials.
+    /// Takes the materials of the scene.
     fn start(&mut self, world: &mut World) {
         let contacts = &mut self.own.contacts;
         contacts.materials = world.get_resource::<Materials>().cloned().unwrap_or_default();
@@ -126,7 +126,8 @@ impl<N: NormalForce> Model for Contacts<N> {
         let shared = Shared { bodies, balance, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
         let changed = choose::<N>(shared, (clock, span), own, known, &mut self.scratch);
-        // Joints still have the forces of before. A motor with a limit would take the difference by an impulse beyond it.
+        // Joints still have the forces of the state before. A motor with a limit would take the difference by an
+        // impulse beyond its limit.
         if changed && state.rows.some_yield() {
             state.change_rows();
         }

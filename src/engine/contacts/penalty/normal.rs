@@ -1,4 +1,4 @@
-//! What a normal law has to say. Each law is one file: [`super::inelasticity`], [`super::dashpot`].
+//! The interface of normal laws. Each law is one file: [`super::inelasticity`], [`super::dashpot`].
 
 use super::Penalty;
 use super::law::PairLaw;
@@ -51,10 +51,10 @@ pub struct Change {
 
 /// A normal law over the spring of the pair.
 pub trait NormalForce: Send + Sync + 'static {
-    /// Whether the force depends on velocities. If not, [`Approach`] is not filled in.
+    /// Whether the force depends on velocities. If not, [`Approach`] is left empty.
     const DEPENDS_ON_VELOCITY: bool;
 
-    /// Whether the force may have several values at rest. If not, a contact that is held follows its law all the same.
+    /// Whether the force may have several values at rest. If not, a held contact still follows its law.
     const SET_VALUED: bool;
 
     /// Fills in the coefficients of the law for a pair of materials with this inelasticity.
@@ -66,40 +66,43 @@ pub trait NormalForce: Send + Sync + 'static {
     /// Normal force in newtons, never below zero. `sign` is that of the mode, [`Mode::sign`].
     fn force<V: Lanes>(law: &PairLaw<V>, sign: V, overlap: V, approach: Approach<V>) -> V;
 
-    /// Its smooth continuation beyond where the mode ends, below zero too. Default: the force itself.
+    /// Its smooth continuation beyond the end of the mode, also below zero. Default: the force itself.
     fn smooth_force(law: &PairLaw, mode: Mode, overlap: f64, approach: Approach) -> f64 {
         Self::force(law, mode.sign(), overlap, approach)
     }
 
-    /// The rate of [`NormalForce::smooth_force`] in N/s, where the contact moves and is accelerated like this.
+    /// The rate of [`NormalForce::smooth_force`] in N/s, for this motion and acceleration of the contact.
     fn force_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64;
 
-    /// The rate of [`NormalForce::force_rate`] in N/s2, but for changes of what else acts on both sides.
+    /// The rate of [`NormalForce::force_rate`] in N/s2, without changes of other forces on both sides.
     fn force_second_rate(law: &PairLaw, mode: Mode, approach: Approach, change: Change) -> f64;
 
-    /// What is positive while the contact lasts, given overlap, present force and the force that its law would have; and
-    /// whether that is the overlap itself.
+    /// A number that is positive while the contact lasts, from the overlap and the force of its law. The second value
+    /// is true if the number is the overlap itself.
     fn remaining(_: Mode, overlap: f64, _: f64) -> (f64, bool) {
         (overlap, true)
     }
 
-    /// What is positive while a contact stays in its mode, apart from [`NormalForce::remaining`], and its rate (not a number if
-    /// unknown), given what parts it (in m/s and m/s2) and the force it would have while loading. `None`: nothing ends it.
+    /// A number that is positive while a contact stays in its mode, apart from [`NormalForce::remaining`], and its
+    /// rate. The rate is NaN if it is unknown. The inputs are the parting velocity (m/s), its rate (m/s2), and the
+    /// force of the contact if it were loading. `None`: the mode does not end.
     fn stays(law: &PairLaw, mode: Mode, parting: (f64, f64), loading: f64) -> Option<(f64, f64)>;
 
     /// The mode for a first try when [`NormalForce::stays`] or [`NormalForce::remaining`] came to its end.
     fn after(mode: Mode, parted: bool) -> Mode;
 
-    /// The least and the greatest force in newtons that a contact at rest may have, if it has `present` now.
+    /// The least and the greatest force in newtons of a contact at rest whose current force is `present`.
     fn band(law: &PairLaw, overlap: f64, present: f64) -> (f64, f64);
 
-    /// Energy in J that is lost between two states of one mode, each an overlap in metres and a force in newtons.
+    /// Energy in J that is lost between two states of one mode. Each state is an overlap in metres and a force in
+    /// newtons.
     fn loss<V: Lanes>(law: &PairLaw<V>, sign: V, before: (V, V), after: (V, V)) -> V;
 
     /// The greatest stiffness in N/m and the damping in N s/m of a contact with this mobility in 1/kg.
     fn response(law: &PairLaw, mobility: f64) -> (f64, f64);
 
-    /// Whether the law takes energy from a pair. What takes none never comes to rest, and keeps its springs' motion.
+    /// Whether the law takes energy from a pair. Pairs without losses never come to rest, and keep the motion of their
+    /// springs.
     fn dissipates(law: &PairLaw) -> bool;
 }
 
@@ -109,8 +112,9 @@ pub fn elastic_energy<V: Lanes>(law: &PairLaw<V>, overlap: V) -> V {
     V::splat(0.5) * law.stiffness * overlap * overlap
 }
 
-/// What the force took from the bodies and the spring does not hold, in J: mean force times the change of overlap, less
-/// the change of elastic energy. Exact for a constant force, else to second order in the step.
+/// The work in J that the force took from the bodies and that the spring does not store. It is mean force times the
+/// change of overlap, minus the change of elastic energy. It is exact for a constant force, else of second order in the
+/// step.
 #[inline(always)]
 pub fn lost_work<V: Lanes>(law: &PairLaw<V>, before: (V, V), after: (V, V)) -> V {
     let work = V::splat(0.5) * (before.1 + after.1) * (after.0 - before.0);

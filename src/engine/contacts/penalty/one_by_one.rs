@@ -1,11 +1,11 @@
-//! Contacts that are looked at one by one: when each is due, and histories at places that are not in a row.
+//! Evaluation of contacts one by one: the time at which each is due, and histories at scattered indices.
 
 use super::follow::Followed;
 use super::list::{ContactList, Phases, lanes, split};
 use jostle_simd::{BLOCK, Lanes};
 
 impl ContactList {
-    /// Which pairs of a block cannot have begun to touch, as far as it is told.
+    /// The pairs of a block that cannot have begun to touch, as far as it is known.
     #[inline(always)]
     pub(super) fn early_in(&self, block: usize, path: f64) -> u8 {
         let bit = |lane: usize, due: &f64| u8::from(path < *due) << lane;
@@ -13,13 +13,13 @@ impl ContactList {
         self.each_due.get(block).map_or(0, bits)
     }
 
-    /// How much farther in metres any point may go until one of the `early` pairs of a block can begin to touch.
+    /// The way in metres that any point may go until one of the `early` pairs of a block can touch.
     #[inline]
     pub(super) fn way_left(&self, block: usize, early: u8, path: f64) -> f64 {
         lanes(early).fold(f64::INFINITY, |left, lane| left.min(self.each_due[block][lane] - path))
     }
 
-    /// Makes room to tell of each pair when it can begin to touch.
+    /// Makes room for the time at which each pair can begin to touch.
     pub(super) fn tell_each(&mut self) {
         self.each_due.resize(self.phases.len(), [f64::NEG_INFINITY; BLOCK]);
     }

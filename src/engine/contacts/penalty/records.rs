@@ -1,7 +1,7 @@
-//! Records of atoms: what the kernel of contacts reads of them, a line of the cache each.
+//! Records of atoms for the kernel of contacts, a cache line each.
 //!
-//! Where an evaluation needed those of all discs they are lent to the bodies: whoever moves all of them has all that a record
-//! holds at hand, and fills it in on the way. To read it again from eight lists takes half as long as the moving.
+//! If an evaluation needed those of all discs, they are lent to the bodies. The code that moves all bodies has all data
+//! of a record at hand, and fills it in. To read the data again from eight lists takes half as long as the move.
 
 use std::ops::Range;
 
@@ -15,11 +15,11 @@ use crate::world::part::parts_of;
 use jostle_simd::{BLOCK, Record};
 use serde::{Deserialize, Serialize};
 
-/// Evaluations for which all records are lent again before it is seen whether all are still needed: to see it costs a look at each
-/// block of pairs, a fiftieth of a tick; to fill them in for nothing a few of 64 times costs less.
+/// Evaluations in which all records are lent again before a check whether all are still needed. The check visits each
+/// block of pairs, which takes a fiftieth of a tick. A few useless fillings in 64 cost less.
 const TRUSTED: u32 = 64;
 
-/// What contacts need to know of each atom: place, displacement since the last accepted state, turn since then, radius and
+/// The data of each atom for contacts: position, displacement and turn since the last accepted state, radius and
 /// velocity.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Records {
@@ -30,7 +30,7 @@ pub(super) struct Records {
     sparse: bool,
     /// The last evaluation needed all of them.
     all: bool,
-    /// Nobody flew in it: whoever moves bodies moves all of them.
+    /// Whether no body flew in it, so that the next move includes all bodies.
     pub lendable: bool,
     /// Those that were lent have come back with the present state.
     current: bool,
@@ -39,8 +39,8 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// After an evaluation: lends them, if all were needed, to the bodies until the next one. Only where nobody else changes bodies
-    /// between the step and that evaluation: it would not be seen.
+    /// After an evaluation: lends them to the bodies until the next one, if all were needed. It requires that no other
+    /// code changes bodies between the step and that evaluation, because such changes would be missed.
     pub fn lend(&mut self, bodies: &mut Bodies) {
         let lendable = std::mem::take(&mut self.lendable);
         if lendable && self.all && bodies.asleep.is_empty() && matches!(bodies.moved, Moved::For(_)) {
@@ -48,7 +48,7 @@ impl Records {
         }
     }
 
-    /// Takes back what was lent.
+    /// Takes back the lent records.
     pub fn take_back(&mut self, bodies: &mut Bodies) {
         if !bodies.records.is_empty() {
             self.list = std::mem::take(&mut bodies.records);
@@ -68,7 +68,7 @@ impl Records {
         }
         let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
         let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
-        // Where most are needed, going by all in order is faster.
+        // If most are needed, visiting all in order is faster.
         let few = 4 * count < 3 * needed.len();
         if few || !bodies.lone_discs {
             self.needed.reserve_exact(count);
@@ -83,12 +83,12 @@ impl Records {
             self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
             return;
         }
-        // Those of bodies that stand or are asleep are not filled in again.
+        // Those of bodies at rest or asleep are not filled in again.
         self.list.reserve_exact(needed.len());
         self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
     }
 
-    /// Fills in the present state, as far as some pair has to be looked at; see [`super::kernel::Moment::path`].
+    /// Fills in the current state for all pairs that have to be evaluated; see [`super::kernel::Moment::path`].
     pub fn update(&mut self, bodies: &Bodies, pairs: &[AtomPair], list: &ContactList, path: f64) {
         let is_due = |block: &usize| !list.is_early(*block, path);
         let blocks = || (0..list.awake_blocks()).map(|number| list.awake_block(number)).filter(is_due);
@@ -140,7 +140,8 @@ impl Records {
     }
 }
 
-/// The records of lone discs in a row, as [`record`] makes them: lists are cut to them, so that places are looked at once.
+/// The records of consecutive lone discs, as [`record`] makes them. Lists are cut to the discs, so that indices are
+/// checked once.
 #[inline]
 fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
     let Some((velocity, spin, time)) = bodies.drift_of(discs.clone()) else {
@@ -157,7 +158,7 @@ fn fill(bodies: &Bodies, discs: Range<usize>, records: &mut [Record]) {
     }
 }
 
-/// What contacts need to know of an atom at present.
+/// The current data of an atom for contacts.
 #[inline(always)]
 pub(super) fn record(bodies: &Bodies, atom: usize) -> Record {
     if bodies.lone_discs {

@@ -1,11 +1,12 @@
-//! What is remembered of pairs of a probe and a hull, in the frame of the hull: a line that parts them, or the side that is touched.
+//! Temporal coherence of pairs of a probe and a hull. The memory is a separating line or the touched side, in the
+//! hull's frame.
 //!
-//! A probe on one side of a line, with all of a hull on the other, does not touch it (Gottschalk, Lin and Manocha 1996). Bodies that move
-//! together keep their line. So most pairs that do not touch are dismissed by the line that parted them before. A line that a probe has
-//! come near to is given up, and the nearest place is looked for.
+//! A probe does not touch a hull on the other side of a line (Gottschalk, Lin and Manocha 1996). Bodies that move
+//! together keep their line. So the earlier separating line dismisses most pairs that do not touch. If a probe comes
+//! near to its line, the line is discarded, and the nearest point is searched.
 //!
-//! A probe outside a convex core that stands over a side is nearest to that side (`shapes/nearest.rs`). As long as it stays over the side
-//! that it touches no other side needs a look.
+//! A probe outside a convex core and over a side is nearest to that side (`shapes/nearest.rs`). While it stays over the
+//! side that it touches, no other side needs a check.
 
 use jostle_shapes::{Feature, Hull, nearest};
 use serde::{Deserialize, Serialize};
@@ -15,11 +16,12 @@ use crate::contacts::{Probe, Surface, SurfacePair};
 use crate::world::Bodies;
 use jostle_simd::Record;
 
-/// Gaps below this share of the hull's extent are not trusted to a line, nor the ends of a side below this share of its length: far more
-/// than rounding takes.
+/// A line is not trusted for gaps below this share of the hull's extent. The ends of a side are not trusted below this
+/// share of its length. The share is far above rounding.
 pub(super) const TRUSTED: f64 = 1e-6;
 
-/// Sides whose normals have a greater cosine meet in a corner too flat to tell by rounded numbers which of them is nearer.
+/// Sides whose normals have a greater cosine meet in a very flat corner. Rounded numbers then cannot decide which side
+/// is nearer.
 const FLATTEST: f64 = 1.0 - 1e-6;
 
 /// The bodies of a hull and of an atom, and half the width in metres of the thinner.
@@ -29,16 +31,17 @@ pub(super) struct Sides {
     pub size: f64,
 }
 
-/// What is remembered of each pair in a list; empty without hulls.
+/// The memory of each pair in a list; empty without hulls.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Remembered {
-    /// Of a side its unit normal, its beginning, how far along it a probe may be from there, and the radii of hull and probe. Of a line its
-    /// unit normal, nothing, and where the probe would touch along the normal; no probe is over it. In metres, in the frame of the hull.
+    /// For a side: its unit normal, its beginning, the range of probes along it, and the radii of hull and probe. For a
+    /// line: its unit normal, zero, and the point of a touch along the normal; the range is empty. Lengths are in
+    /// metres, in the frame of the hull.
     pub records: Vec<Record>,
     pub sides: Vec<Sides>,
 }
 
-/// A line, or nothing where it is infinitely high.
+/// A line; an infinite height means that there is none.
 fn line(x: f64, y: f64, height: f64) -> Record {
     Record([x, y, 0.0, height, f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0])
 }
@@ -70,8 +73,8 @@ impl Remembered {
         if from == f64::INFINITY { x * at.x + y * at.y - height } else { f64::NEG_INFINITY }
     }
 
-    /// Draws the line through the nearest place of a hull, across the way to the probe. There is none for ends of walls, nor where the
-    /// `gap` in metres is too small.
+    /// Sets the line through the nearest point of a hull, perpendicular to the way to the probe. Ends of walls have
+    /// none. If the `gap` in metres is too small, there is none either.
     pub fn part(&mut self, place: usize, bodies: &Bodies, pair: SurfacePair, (geometry, gap): (&PairGeometry, f64)) {
         let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return };
         let packed = &bodies.hulls[hull];
@@ -87,12 +90,12 @@ impl Remembered {
         }
     }
 
-    /// Takes note of the side over which an atom is that touches a hull, if it is over one.
+    /// Stores the side of a touched hull over which an atom is, if there is one.
     pub fn touch(&mut self, place: usize, bodies: &Bodies, pair: SurfacePair) {
         let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return };
         let (shape, at, radius) = bodies.meeting(hull, atom);
         let packed = &bodies.hulls[hull];
-        // What meets as a round corner is not where its atom is.
+        // A rounded corner is not at the position of its atom.
         if !std::ptr::eq(shape, &packed.hull) {
             return;
         }
@@ -132,10 +135,10 @@ mod tests {
     use crate::contacts::penalty::PenaltyState;
     use crate::scene::Source;
 
-    /// Law: what is remembered says nothing else than the geometry of the present state. A pair that a line parts is apart, by what the line
-    /// tells at least; a contact that follows a side side by side has the overlap of [`PairGeometry`] to the last bit. Round and sharp shapes
-    /// of many kinds and discs tumble in a box of planks, far from the origin. Tolerance: none. It does not test how many pairs are
-    /// dismissed.
+    /// Law: the memory agrees with the geometry of the current state. A pair with a separating line is apart, by at
+    /// least the distance that the line gives. A contact that follows a side in the kernel has the overlap of
+    /// [`PairGeometry`] to the last bit. Round and sharp shapes of many kinds and discs tumble in a box of planks, far
+    /// from the origin. Tolerance: none. It does not test how many pairs are dismissed.
     #[test]
     fn what_is_remembered_is_the_present_geometry() {
         let shapes = [

@@ -1,8 +1,8 @@
-//! Bodies at rest: islands whose contacts hold every load stand still to the last bit until something changes.
+//! Sleeping islands: bodies whose contacts hold every load are exactly at rest until something changes.
 //!
-//! A body is laid to rest only with its whole island, when [`crate::constraints::rest_solver`] found forces within the bounds of the contact
-//! law that balance all loads and take the last velocity away. It stays while the sum of all forces on it does not change
-//! by a bit; anything new (a touch, another load, a changed velocity or place) wakes it.
+//! A body is laid to rest only with its whole island. [`crate::constraints::rest_solver`] must have found forces within
+//! the bounds of the contact law. They balance all loads and cancel the last velocity. The body stays at rest while no
+//! bit of the sum of its forces changes. A touch, another load, or a changed velocity or position wakes it.
 
 use glam::DVec2;
 
@@ -14,10 +14,10 @@ use crate::world::Bodies;
 use jostle_simd::BLOCK;
 use serde::{Deserialize, Serialize};
 
-/// Largest imbalance of a body laid to rest, as a share of the forces on it: what rounding leaves.
+/// Largest imbalance of a body that is laid to rest, as a share of the forces on it. It allows for rounding.
 const IMBALANCE: f64 = 1e-9;
 
-/// Bodies that move by forces, among which one at least has to sleep for all to be asked whether they do.
+/// Bodies that move by forces, of which at least one has to sleep. Only then are all bodies checked for sleep.
 const FEWEST: usize = 16;
 
 /// A body at rest.
@@ -39,7 +39,7 @@ pub(super) struct Rest {
     resting: Vec<Resting>,
     /// For each body whether it is at rest.
     still: Vec<bool>,
-    /// Bodies have been laid to rest or have woken since contacts were told.
+    /// Whether bodies have been laid to rest or have woken since contacts were informed.
     changed: bool,
     /// Some woke since their neighbours were looked at.
     pub woke: bool,
@@ -99,21 +99,21 @@ impl Rest {
         self.resting.retain(|resting| still[resting.body]);
     }
 
-    /// After an evaluation: bodies on which nothing changed stay at rest, what rounding left of their balance is given
-    /// by what carries them. The others wake. Those that are asleep were given no force but that of what touches them anew.
+    /// After an evaluation: bodies without a change stay at rest. The bodies that carry them supply the rounding
+    /// remainder of their balance. The others wake. Sleeping bodies have received no force except that of new touches.
     pub fn settle(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
         if self.resting.is_empty() {
             return;
         }
         if self.generation != bodies.generation {
-            // Places have changed. Whoever rests is found at rest again before the next step.
+            // Indices have changed. Bodies at rest are found again before the next step.
             self.clear();
             return;
         }
         if !bodies.asleep.is_empty() {
             bodies.disturbed = self.any_pushed_asleep(bodies);
-            // Where all that rest are asleep nothing else is to be seen; and an evaluation that is made anew with all
-            // of them counts alone: who was just laid to rest is looked at in that one.
+            // If all bodies at rest sleep, there is no more to check. If an evaluation is repeated with all of them,
+            // only the repetition counts. Bodies that were just laid to rest are checked in it.
             if bodies.disturbed || !self.changed {
                 return;
             }
@@ -137,10 +137,11 @@ impl Rest {
             }
             stays
         });
-        // The list may hold a body twice, or one that has woken. So its length does not tell that all rest.
+        // The list may hold a body twice, or one that has woken. So its length does not show whether all rest.
         let all = |still: &[bool]| (0..bodies.len()).all(|body| still[body] || !bodies.dynamic[body]);
         if self.resting.len() >= bodies.dynamic_count() && all(&self.still) {
-            // Nothing moves: what comes from outside cancels, and rounding of its sum must not add up over the ticks.
+            // No body moves. So the external forces cancel, and the rounding of their sum must not accumulate over the
+            // ticks.
             (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
         }
     }
@@ -161,8 +162,8 @@ pub(super) enum Sleep {
 }
 
 impl PenaltyContacts {
-    /// Tells bodies and contacts who is asleep: whoever is at rest under forces that were found not to change, with
-    /// what touches nothing else.
+    /// Informs bodies and contacts about sleepers. They are the bodies at rest under forces that do not change and that
+    /// only touch such bodies.
     pub(super) fn lay_asleep(
         &mut self,
         bodies: &mut Bodies,
@@ -170,7 +171,7 @@ impl PenaltyContacts {
         forces: Option<&mut ContactForces>,
     ) {
         let Self { rest, atoms, surfaces, sleep, .. } = self;
-        // Whoever was laid to rest in this tick has yet to be looked at, though the lists be made anew before that.
+        // Bodies that were laid to rest in this tick have yet to be checked. The lists may be renewed before that.
         rest.changed = rest.resting.iter().any(|resting| resting.left_over.is_none());
         let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
         let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
@@ -207,7 +208,7 @@ impl PenaltyContacts {
             let fixed = fixed.fold(0, |bits, body| bits << 1 | u8::from(!bodies.moves[body]));
             *awake = (bodies.asleep[block] | fixed) & whole(block) != whole(block);
         }
-        // Whoever may be touched by what is awake is looked at.
+        // Bodies that awake bodies may touch are evaluated.
         for number in 0..atoms.awake_blocks() {
             let first = BLOCK * atoms.awake_block(number);
             for pair in &pairs.atoms[first..pairs.atoms.len().min(first + BLOCK)] {

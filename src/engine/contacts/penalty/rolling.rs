@@ -1,9 +1,9 @@
 //! Rolling law: a torque against rolling, `k_r theta` up to `mu_r R N` (type C of Ai, Chen, Rotter and Ooi 2011).
 //!
-//! `theta` is the turn of one side against the other while they touch: zero when a pair turns as one rigid body. `R` is
-//! the rolling radius, `1/R = 1/Ra + 1/Rb`, that of the atom on a wall, and `k_r = ratio k R^2`, the stiffness of a
-//! tangential spring at the rim. Unlike a constant torque, which changes its sign at rest, the spring with its Coulomb
-//! limit comes to rest; on a slope it holds up to `tan(slope) = mu_r`.
+//! `theta` is the relative turn of both sides while they touch. It is zero if a pair turns as one rigid body. `R` is
+//! the rolling radius, `1/R = 1/Ra + 1/Rb`, or that of the atom on a wall. The stiffness is `k_r = ratio k R^2`, that
+//! of a tangential spring at the rim. A constant torque would change its sign at rest, but the spring with its Coulomb
+//! limit comes to rest. On a slope it holds up to `tan(slope) = mu_r`.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -20,7 +20,8 @@ use crate::tick::pairs::NEW;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// Rolling springs of all candidate pairs, beside the lists of [`CandidatePairs`]. Present in scenes that ask for it.
+/// Rolling springs of all candidate pairs, beside the lists of [`CandidatePairs`]. Present in scenes with a rolling
+/// law.
 #[derive(Resource, Debug, Default, Serialize, Deserialize)]
 pub struct RollingContacts {
     /// `mu_r`: torque over normal force and rolling radius, at which the spring gives way.
@@ -92,8 +93,8 @@ pub(super) fn stiffness(ratio: f64, normal: f64, radius: f64) -> f64 {
     ratio * normal * radius * radius
 }
 
-/// `torque` acts on side A, the opposite on side B. What does not move by forces gives it from outside, and
-/// works as it turns.
+/// `torque` acts on side A, the opposite on side B. A side that does not move by forces takes it from outside, and does
+/// work as it turns.
 pub(super) fn twist(bodies: &mut Bodies, balance: &mut Balance, a: Option<&End>, b: &End, torque: f64) {
     bodies.torque[b.body] -= torque;
     match a {
@@ -110,7 +111,7 @@ pub(super) fn twist(bodies: &mut Bodies, balance: &mut Balance, a: Option<&End>,
     }
 }
 
-/// Brings the springs of a list up to date: those of pairs that opened let go, the others follow the turn.
+/// Updates the springs of a list: those of open pairs release, and the others follow the turn.
 struct Follow<'a> {
     bodies: &'a mut Bodies,
     balance: &'a mut Balance,

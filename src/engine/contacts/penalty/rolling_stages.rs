@@ -1,5 +1,5 @@
-//! Rolling springs where contacts are stages of a step: their angles are state, they stick and slip at events of their own, and
-//! where the normal force is held and nothing rolls they are held with it ([`super::held`]).
+//! Rolling springs in stages of a step: their angles are states, and they stick and slip at events. If the normal force
+//! is held and no side rolls, they are held with it ([`super::held`]).
 
 use super::apply::{PenaltyContacts, Sink};
 use super::contact::Contact;
@@ -77,7 +77,7 @@ pub(super) fn rates(
     rates.iter_mut().zip(sticking).for_each(|(rate, (_, turning))| *rate = turning);
 }
 
-/// Torque per newton of normal force, with its sign, of a spring that slips under a normal force that is held.
+/// Signed torque per newton of normal force of a slipping spring under a held normal force.
 pub(super) fn slope((slider, law): &Roller, contact: &Contact) -> f64 {
     let slips = contact.mode == Mode::Hold && slider.grip == Grip::Slide;
     if slips { law.friction_dynamic.copysign(slider.held) } else { 0.0 }
@@ -119,7 +119,7 @@ pub(super) fn push(slider: &Slider, law: &SliderLaw, geometry: &PairGeometry, si
     }
 }
 
-/// What ends the present mode of the spring, and indicators of it.
+/// The end of the current mode of the spring, and its indicators.
 pub(super) fn tell(
     (slider, law): &Roller,
     contact: &Contact,
@@ -146,7 +146,8 @@ pub(super) fn tell(
     });
 }
 
-/// The modes of a spring whose contact begins, under the normal force of that moment; or, without one, is there at the beginning.
+/// The modes of a spring whose contact begins, under the normal force of that moment. Without a force the contact
+/// exists from the beginning.
 pub(super) fn begin((slider, law): Roller, contact: &Contact, geometry: &PairGeometry, base: Option<Base>) {
     let turning = geometry.turning();
     *slider = Slider { held: 0.0_f64.copysign(turning), ..Slider::default() };
@@ -184,7 +185,7 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, geometry: &Pa
     }
 }
 
-/// What a rolling spring bears of its own accord, on side B, where the spring of the contact pulls with `pull` newtons.
+/// The preferred load of a rolling spring on side B, if the spring of the contact pulls with `pull` newtons.
 fn share(slider: &Slider, law: &SliderLaw, pull: f64) -> Share {
     let measure = (law.friction_static * pull).max(f64::MIN_POSITIVE);
     Share { natural: -law.stiffness * slider.elongation, measure }

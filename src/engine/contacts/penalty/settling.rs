@@ -1,5 +1,5 @@
-//! Modes that follow from the forces of a state, and not from the mode before: a state that others have made, and the state behind
-//! an event, where forces have jumped.
+//! Modes from the forces of a state instead of the mode before. They serve states that others have made, and states
+//! behind an event, at which forces have jumped.
 
 use super::coulomb::{Grip, Slider, SliderLaw};
 use super::law::PairLaw;
@@ -9,11 +9,12 @@ use super::switching::{Base, View, standing};
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 
-/// A held contact accelerates by no more than this share of what acts on it. Forces of dependent rows leave 1e-10; rows that contradict each
-/// other leave about all of it.
+/// A held contact accelerates by at most this share of the forces on it. Forces of dependent rows leave 1e-10; rows
+/// that contradict each other leave nearly all of it.
 const HOLDS: f64 = 1e-6;
 
-/// The mode of a contact that is not held although it should be: two contacts at one place with different curvatures cannot both stay.
+/// The mode of a contact that is not held although it should be. Two contacts at one point with different curvatures
+/// cannot both stay.
 fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<Mode> {
     let rate = geometry.parting_rate(law.shares(), bodies);
     let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
@@ -24,7 +25,7 @@ fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<M
 impl View<'_> {
     /// Corrects modes that cannot last under the forces just evaluated. Says whether there were any.
     ///
-    /// Friction waits for the normal forces: a contact that is tried as held has a force of its own until it is let go.
+    /// Friction waits for the normal forces. A contact that is tried as held has a separate force until it is released.
     pub fn settle<N: NormalForce>(&mut self) -> bool {
         if self.contacts.held_before.is_none() {
             // Another model may have ended the step: what springs that slip have given in it is lost too.
@@ -55,7 +56,8 @@ impl View<'_> {
             let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
             if contact.normal_force < least || contact.normal_force > greatest {
                 let (base, is_below) = (Base { force: least, rate: 0.0 }, contact.normal_force < least);
-                // Springs that were held for a first try, or that stick under no force within the bounds, may be what moves it.
+                // Its motion may come from springs that were held for a first try. It may also come from springs that
+                // stick under no force within the bounds.
                 let gives = |slider: &mut Slider, law: &SliderLaw, before: Option<Slider>| {
                     let below = is_below && slider.grip == Grip::Stick;
                     slider.swing_back(before) || below && slider.settle_force(law, base, None)
@@ -85,9 +87,10 @@ impl View<'_> {
         corrected
     }
 
-    /// Ends phases of friction that have lost their base: the normal force has jumped, at the turn from loading to unloading or as
-    /// a dashpot goes slack. What is beyond the cone slips at once; what would slip backwards, or is not drawn to its limit, sticks.
-    /// Says whether there was any. `which`: only of those grips. What holds waits for springs: what it has to bear depends on them.
+    /// Ends phases of friction whose normal force has jumped. It jumps at the turn from loading to unloading, or as a
+    /// dashpot goes slack. A spring beyond the cone slips at once. A spring sticks if it would slip backwards, or is
+    /// not stretched to its limit. Returns whether there was any. `which`: only of those grips. Holding friction waits
+    /// for springs, because its load depends on them.
     fn settle_friction<N: NormalForce>(&mut self, which: impl Fn(Grip) -> bool) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);

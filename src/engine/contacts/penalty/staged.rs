@@ -1,8 +1,8 @@
-//! Contacts as one stage of a step: forces as a function of the state, in modes that stay as they are.
+//! Contacts in stages of a step: forces as a function of the state, in frozen modes.
 //!
-//! What follows a contact from state to state elsewhere (the elongation of its springs) is part of the state here, and
-//! its losses are powers that the method integrates. Normal forces go on smoothly where the mode would end (a contact
-//! pulls beyond its end), because a trial step may overshoot an event before it is located.
+//! Here the elongation of springs is part of the state, and losses are powers that the method integrates. Elsewhere
+//! both follow from state to state. Normal forces continue smoothly beyond the end of the mode, so that a contact pulls
+//! there. The reason is that a trial step may overshoot an event before it is located.
 
 use super::apply::{PenaltyContacts, Sink, approach};
 use super::contact::Contact;
@@ -144,9 +144,9 @@ fn stage<N: NormalForce>(
     }
 }
 
-/// Books the powers of a contact force, in two parts if need be: what the force takes from the bodies and the springs do not
-/// take up is lost. The spring of the elastic part takes up `k d` whatever the force is, booked with the normal force. A
-/// spring that slips takes up or gives what its energy says at the end of a step ([`super::switching`]).
+/// Books the powers of a contact force, in two parts if necessary. The power that the force takes from the bodies and
+/// the springs do not store is lost. The spring of the elastic part stores `k d` for every force, and is booked with
+/// the normal force. A slipping spring books the change of its energy at the end of a step ([`super::switching`]).
 fn book(
     contact: &Contact,
     law: &PairLaw,
@@ -155,7 +155,7 @@ fn book(
     normal: Option<f64>,
     tangential: f64,
 ) {
-    // Without a force too, where a contact has gone slack: the spring gives up what it has.
+    // Also without a force, if a contact has gone slack: the spring releases its energy.
     if let Some(normal) = normal {
         sink.balance.inelasticity -= geometry.parting() * (normal - law.stiffness * geometry.overlap);
     }

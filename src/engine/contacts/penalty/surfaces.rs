@@ -1,7 +1,7 @@
 //! Contacts with walls and hulls follow the motion of their sides.
 //!
-//! A pair that does not touch is looked at again when both sides can have gone as far as they were apart. Then its separating line
-//! ([`super::remembered`]) mostly dismisses it, and tells how far they are apart now.
+//! A pair that does not touch is evaluated again when both sides can have closed the gap. Then its separating line
+//! ([`super::remembered`]) mostly dismisses it, and gives the current distance.
 
 use super::apply::{Sink, approach};
 use super::contact::Losses;
@@ -16,8 +16,8 @@ use crate::contacts::{DeepestOverlap, Probe, Surface, SurfacePair};
 use crate::world::{Bodies, NearestPoint};
 use jostle_simd::BLOCK;
 
-/// Share of a gap that any point may go before the pair is looked at again. Both sides may move, so half of it can close the gap: the rest is
-/// for rounding and for what joints correct.
+/// Share of a gap that any point may go before the pair is evaluated again. Both sides may move, so half of the gap
+/// would close it. The rest is for rounding and for corrections by joints.
 const WAY: f64 = 0.4;
 
 /// Probes near surfaces follow their motion.
@@ -51,7 +51,8 @@ fn follow_with_hulls<N: NormalForce>(
     waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, moment);
 }
 
-/// Those that may touch follow their motion. What touches hulls joins those `waiting`; there are none without hulls.
+/// Pairs that may touch follow their motion. Pairs that touch hulls join those `waiting`, which are empty without
+/// hulls.
 #[inline(always)]
 fn follow_near<N: NormalForce>(
     (list, pairs): (&mut ContactList, &[SurfacePair]),
@@ -64,7 +65,7 @@ fn follow_near<N: NormalForce>(
     let path = moment.path;
     for number in 0..list.awake_blocks() {
         let block = list.awake_block(number);
-        // Nothing can have come near since it was looked at last.
+        // No pair can have come near since its last evaluation.
         if list.is_early(block, path) {
             continue;
         }
@@ -106,7 +107,7 @@ fn follow_near<N: NormalForce>(
                 gap = gap.min(0.5 * apart);
             } else {
                 near = true;
-                // What touches flies no more.
+                // A touching body does not fly.
                 sink.bodies.bind(atom);
                 follow_wall::<N>((list, place), (wall, pair.probe), laws, (sink, losses), deepest, moment);
             }
@@ -115,7 +116,7 @@ fn follow_near<N: NormalForce>(
     }
 }
 
-/// What is found of a pair.
+/// The result of the check of a pair.
 #[derive(Clone, Copy)]
 enum Found {
     /// They do not touch, and are at least so many metres apart.

@@ -1,4 +1,4 @@
-//! When the modes of contacts end, and what follows.
+//! The ends of the modes of contacts, and the modes that follow.
 //!
 //! | mode | lasts while | then |
 //! |---|---|---|
@@ -11,8 +11,8 @@
 //! | slip | the sides slide the same way | stick, for a first try |
 //! | touching a feature of a hull | no other one is nearer | touching that one |
 //!
-//! A mode that begins at rest is decided by accelerations, not by velocities: it is tried as held, and where the forces that
-//! would hold it are out of bounds it takes the mode beyond the bound.
+//! Accelerations, not velocities, decide a mode that begins at rest. It is tried as held. If the holding forces are out
+//! of bounds, it takes the mode beyond the bound.
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
@@ -31,7 +31,7 @@ use crate::tick::balance::{angular_momentum, momentum};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// What an indicator of a contact stands for.
+/// The meaning of an indicator of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum What {
     Touch,
@@ -49,7 +49,7 @@ pub(super) enum What {
     Border(bool),
 }
 
-/// The indicators of the present modes: candidate pairs (pairs of atoms first, then surfaces) and what is watched of them.
+/// The indicators of the current modes: candidate pairs (pairs of atoms first, then surfaces) and their meanings.
 pub(super) type Told = Vec<(u32, What)>;
 
 /// All candidate pairs with their contacts.
@@ -144,7 +144,7 @@ pub(super) fn rates((bodies, pairs): (&Bodies, &CandidatePairs), contacts: &Pena
 }
 
 impl PenaltyContacts {
-    /// Whether no pair is near, and nothing is left to be booked of one that was: then nobody has to geometry.
+    /// Whether no pair is near, and no booking of a former pair is due. Then no geometry is needed.
     pub(super) fn is_idle(&self) -> bool {
         let near = !self.atoms.is_empty() || !self.surfaces.is_empty();
         !near && self.held.is_empty() && self.held_before.is_none() && self.slid == 0.0
@@ -158,7 +158,7 @@ impl View<'_> {
             self.note_begun(fired, touches);
         }
         let slid = self.close_slides();
-        // What springs hold before and no longer after is lost; it is booked when all modes have settled.
+        // Energy that springs held before and lose by the change is lost. It is booked when all modes have settled.
         self.contacts.held_before = Some(self.stored(|_| true));
         self.note_springs();
         for &place in fired {
@@ -195,8 +195,8 @@ impl View<'_> {
         self.contacts.before = before;
     }
 
-    /// Notes which bodies begin to touch, for who asks: those of open contacts that are touched now, if no other contact between
-    /// the two holds.
+    /// Notes the bodies that begin to touch, for their observers. They are those of open contacts that now touch, if no
+    /// other contact between the two holds.
     fn note_begun(&mut self, fired: &[usize], touches: &mut Touches) {
         let between = |view: &Self, place: usize| {
             let case = view.look(place).pair;
@@ -250,7 +250,8 @@ impl View<'_> {
         sum
     }
 
-    /// What the springs that slip have given since the step began, in J: it is lost beside what slipping took.
+    /// The energy in J that the slipping springs have released since the step began. It is lost beside the work of
+    /// slipping.
     pub(super) fn close_slides(&mut self) -> f64 {
         let now = self.sliding_energy();
         std::mem::replace(&mut self.contacts.slid, now) - now
@@ -261,12 +262,12 @@ impl View<'_> {
     }
 }
 
-/// The mode of a contact that parts with `parting` m/s; one that does neither is held, for a first try.
+/// The mode of a contact that parts with `parting` m/s. If it neither parts nor approaches, it is held for a first try.
 pub(super) fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode {
     if parting == 0.0 && N::SET_VALUED && N::dissipates(law) { Mode::Hold } else { N::chosen(present, parting) }
 }
 
-/// What friction is limited by: the normal force in newtons, and its rate in N/s.
+/// The limit of friction: the normal force in newtons, and its rate in N/s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Base {
     pub force: f64,
@@ -274,7 +275,7 @@ pub(super) struct Base {
 }
 
 impl Base {
-    /// At the touch itself, where a spring holds nothing yet.
+    /// At the first touch, when a spring holds no force yet.
     fn at_touch<N: NormalForce>(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Self {
         let approach = geometry.approach(bodies);
         Self {
@@ -283,7 +284,7 @@ impl Base {
         }
     }
 
-    /// Of a contact as it was evaluated; what is held does not change.
+    /// Of a contact as it was evaluated; a held force does not change.
     pub fn of<N: NormalForce>(contact: &Contact, law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Self {
         let rate = match contact.mode {
             Mode::Hold => 0.0,
@@ -292,14 +293,15 @@ impl Base {
         Self { force: contact.normal_force, rate }
     }
 
-    /// Whether a spring that begins without elongation, drawn at `velocity`, sticks at first. A damper bears it at once; beside
-    /// a spring alone both forces grow from zero, the spring's with the way along, the limit with the overlap.
+    /// Whether a spring without elongation that is stretched at `velocity` sticks at first. With a damper it sticks at
+    /// once. With a spring alone both forces grow from zero: the spring's with the way along, the limit with the
+    /// overlap.
     pub fn bears(self, law: &SliderLaw, velocity: f64) -> bool {
         self.force > 0.0 || law.stiffness * velocity.abs() <= law.friction_static * self.rate.max(0.0)
     }
 }
 
-/// After a step: what is held stands, and the deepest overlap is noted. Says whether velocities have changed.
+/// After a step: stops held contacts, and notes the deepest overlap. Returns whether velocities have changed.
 pub(super) fn tidy(
     (bodies, ledger, rows): (&mut Bodies, &mut Ledger, &mut Rows),
     (time, dt): (f64, f64),
@@ -318,8 +320,8 @@ pub(super) fn tidy(
     moved
 }
 
-/// Takes out of velocities what rounding and the error of a step have left along held rows, and books it: what gives way begins
-/// to move in the direction of the forces, not of an error. Says whether there was anything.
+/// Removes from velocities the remainders of rounding and of the step's error along held rows, and books them. So a
+/// contact that yields begins to move in the direction of the forces, not of an error. Returns whether there were any.
 pub(super) fn stand_still(
     (bodies, ledger, rows): (&mut Bodies, &mut Ledger, &mut Rows),
     contacts: &PenaltyContacts,
@@ -358,7 +360,8 @@ impl View<'_> {
 }
 
 impl Contact {
-    /// A pair begins to touch, under the normal force of that moment; or, without one, is found in touch where the motion begins.
+    /// A pair begins to touch, under the normal force of that moment. Without a force it touches when the motion
+    /// begins.
     pub(super) fn begin<N: NormalForce>(&mut self, law: &PairLaw, geometry: &PairGeometry, base: Option<Base>) {
         self.mode = standing::<N>(law, Mode::Loading, geometry.parting());
         self.tangential = Slider::default();
@@ -402,8 +405,8 @@ impl Contact {
         }
     }
 
-    /// Brings the spring into line with a normal mode that has changed: it takes over from a hold when the normal is held no
-    /// longer, and one that holds remembers which way it is going.
+    /// Adapts the spring to a normal mode that has changed. When the normal is released, the spring replaces the hold.
+    /// A holding spring remembers its direction.
     pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry) {
         let slider = &mut self.tangential;
         if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {

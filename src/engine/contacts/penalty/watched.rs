@@ -1,4 +1,5 @@
-//! What contacts tell methods with several stages: elongations that the integrator advances, and events.
+//! The states and events of contacts for methods with several stages: elongations that the integrator advances, and
+//! indicators.
 
 use super::handover;
 use super::model::{Contacts, PenaltyState, is_crowded};
@@ -8,7 +9,7 @@ use super::{Penalty, RollingLaw, TangentialLaw, features, rolling_stages};
 use crate::tick::{Events, Indicator, Objection, State, Style};
 use crate::world::Materials;
 
-/// What these contacts cannot do yet, or cannot do at all.
+/// The abilities that these contacts lack.
 pub(super) fn objection(settings: &Penalty, materials: &Materials, style: Style) -> Option<Objection> {
     let friction = materials.any_friction();
     let (path, message, help) = match (style, settings.tangential) {

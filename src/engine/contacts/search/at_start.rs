@@ -1,5 +1,5 @@
-//! What overlaps at the start: springs that begin compressed, with energy that nothing in the scene put into them. It is noted
-//! once, before the first tick, so that `jostle check` tells it too.
+//! Overlaps at the start: springs that begin compressed, with energy that the scene does not supply. They are noted
+//! once, before the first tick, so that `jostle check` reports them too.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -12,14 +12,14 @@ use crate::world::line::BEHIND;
 use crate::world::{Bodies, Name};
 use jostle_language::numbers::number;
 
-/// What overlaps by no more than this share of the smaller radius is not told: contacts at rest bear their loads so.
+/// Overlaps of at most this share of the smaller radius are not reported. Contacts at rest bear their loads like that.
 const SHARE: f64 = 0.05;
 /// Pairs that are counted for the note: what lies in one heap has billions.
 const MOST_PAIRS: usize = 1 << 22;
 /// Pairs of atoms that are looked at, at most: a second or two are enough.
 const MOST_LOOKS: usize = 1 << 30;
 
-/// The deepest overlap before the first tick, if there is one worth telling.
+/// The deepest overlap before the first tick, if it deserves a report.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct OverlapAtStart {
     /// As a share of the smaller radius.
@@ -35,7 +35,7 @@ enum Pair {
     Wall(u32, u32),
 }
 
-/// Who overlaps.
+/// The overlapping pairs.
 #[derive(Default)]
 struct Overlaps {
     /// More pairs of atoms than this are too many.
@@ -45,7 +45,7 @@ struct Overlaps {
     atoms: usize,
     /// Whether there may be more.
     more: bool,
-    /// The deepest, as a share of the smaller radius: the share, the overlap in metres, and whose it is.
+    /// The deepest, as a share of the smaller radius: the share, the overlap in metres, and the pair.
     deepest: Option<(f64, f64, Pair)>,
 }
 
@@ -101,12 +101,12 @@ impl Overlaps {
         found
     }
 
-    /// Takes up an overlap; says whether there is room for more.
+    /// Adds an overlap; returns whether there is room for more.
     fn add(&mut self, overlap: f64, smaller_radius: f64, pair: Pair) -> bool {
         let share = overlap / smaller_radius;
         if share > SHARE {
             self.atoms += 1;
-            // Atoms of one body follow each other, so most of what is there already is seen here.
+            // Atoms of one body are consecutive, so most duplicates are found here.
             self.more |= self.pairs.len() == MOST_PAIRS;
             if self.pairs.last() != Some(&pair) && !self.more {
                 self.pairs.push(pair);
@@ -119,7 +119,7 @@ impl Overlaps {
     }
 }
 
-/// Says on the card who overlaps.
+/// Notes the overlapping pairs on the card.
 pub(super) fn note_overlaps(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let Overlaps { most, pairs, atoms, more, deepest } = Overlaps::of(bodies);

@@ -1,4 +1,5 @@
-//! Walls that have all bodies behind them: their points may stand in the wrong order. It is noted once, before the first tick.
+//! Walls with all bodies behind them, whose points may be in the wrong order. They are noted once, before the first
+//! tick.
 
 use bevy_ecs::prelude::*;
 

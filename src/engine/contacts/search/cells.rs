@@ -1,8 +1,9 @@
-//! Cells: atoms are sorted into squares as wide as most of them reach, and each is compared with those of the nine squares
-//! around it (linked cells: Hockney and Eastwood 1981), in one pass over lists that lie row by row.
+//! Linked cells (Hockney and Eastwood 1981): atoms are sorted into squares as wide as the reach of most of them. Each
+//! is compared with those of the nine squares around it, in one pass over lists that lie row by row.
 //!
-//! Atoms much larger than most stand beside the cells: each is compared with all cells that it covers. So one large disc
-//! under a thousand grains does not make all cells as large as itself, and costs no more than the cells under it.
+//! Atoms much larger than most are kept beside the cells, and each is compared with all cells that it covers. So one
+//! large disc under a thousand grains does not make all cells as large as itself. It costs no more than the cells under
+//! it.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -16,16 +17,16 @@ use serde::{Deserialize, Serialize};
 
 /// Atoms of the smallest part of a search.
 const FEWEST: usize = 4096;
-/// An atom is large when its radius is so many times that of most.
+/// An atom is large if its radius exceeds that of most by this factor.
 const LARGE: f64 = 2.0;
 /// The share of atoms that counts as most.
 const MOST: f64 = 0.75;
-/// Fine cells along a side, at most: with more, rounding could put what is near two cells away. What is farther from the middle of all is
-/// in the first or in the last of them.
+/// The most fine cells along a side. With more, rounding could separate near atoms by two cells. Atoms farther from the
+/// middle are in the first or in the last cell.
 const LONGEST: f64 = 1e7;
 /// Cells per atom, at most.
 const CELLS_PER_ATOM: f64 = 4.0;
-/// With so many times as many fine cells what lies empty is looked for.
+/// With this many times as many fine cells, empty ones are removed.
 const WASTE: f64 = 16.0;
 
 /// An atom or a hull as the search sees it: a circle.
@@ -74,8 +75,8 @@ impl Sorted {
         Self { all: Vec::new(), ..self }
     }
 
-    /// All pairs of atoms of different bodies that are nearer than the margin and do not both stand still, in canonical order; some
-    /// of them, but more than `most`, if there are more.
+    /// All near pairs of atoms of different bodies that are not both at rest, in canonical order. Near means below the
+    /// margin. If there are more than `most`, it returns only some of them, but more than `most`.
     pub fn pairs(&self, bodies: &Bodies, most: usize) -> Vec<AtomPair> {
         let among = self.cells.all_pairs(&bodies.threads, most, |a, b| moves(bodies, a, b));
         let mut pairs = in_order(among, bodies.atom_count());
@@ -108,8 +109,8 @@ impl Sorted {
         }
     }
 
-    /// Shows the same pairs as [`Sorted::pairs`], in any order, and those with one of `others`, of bodies that `counts` says; some of
-    /// them, but more than `most`, if there are more.
+    /// Gives the same pairs as [`Sorted::pairs`], in any order, and those with one of `others`. `counts` selects the
+    /// bodies. If there are more than `most`, it gives only some of them, but more than `most`.
     pub fn each_pair(
         &self,
         bodies: &Bodies,
@@ -164,7 +165,7 @@ impl Entry {
     }
 }
 
-/// Pairs that were found in any order in canonical order: those of each first atom together, and then by the second.
+/// Sorts found pairs into canonical order, first by the first atom and then by the second.
 fn in_order(found: Vec<Vec<AtomPair>>, atoms: usize) -> Vec<AtomPair> {
     let mut first = vec![0_u32; atoms + 1];
     for pair in found.iter().flatten() {
@@ -186,8 +187,8 @@ fn in_order(found: Vec<Vec<AtomPair>>, atoms: usize) -> Vec<AtomPair> {
     pairs
 }
 
-/// Shows pairs of atoms of different bodies that overlap and do not both stand still, until `see` has seen enough or so many
-/// pairs were looked at; says whether all were shown.
+/// Gives pairs of atoms of different bodies that overlap and are not both at rest. It ends when `see` returns false or
+/// after `looks` pairs. Returns whether all were given.
 pub(super) fn overlapping(bodies: &Bodies, mut looks: usize, mut see: impl FnMut(AtomPair) -> bool) -> bool {
     let Sorted { all, large, cells } = Sorted::of(bodies, 0.0);
     let mut go_on = true;
@@ -228,7 +229,7 @@ fn usual_reach(all: &[Entry]) -> f64 {
     *reaches.select_nth_unstable_by(most, f64::total_cmp).1
 }
 
-/// The place in the middle of all: where most are, if some are far away.
+/// The median position: that of most atoms, even if some are far away.
 fn median(all: &[Entry], place: fn(&Entry) -> f64) -> f64 {
     let mut places: Vec<f64> = all.iter().map(place).collect();
     let middle = places.len() / 2;
@@ -249,8 +250,8 @@ struct Axis {
     per_meter: f64,
     /// The last fine cell: what lies beyond is in it.
     last: u64,
-    /// Fine cells in which something lies, from low to high, each with its number among those that are kept: of what lies empty
-    /// between two of them one is kept. Empty: all are kept.
+    /// Fine cells with contents, from low to high, each with its number among the kept ones. Of the empty cells between
+    /// two of them one is kept. Empty list: all are kept.
     taken: Vec<(u64, u64)>,
     /// Cells that are kept and count as one.
     merged: u64,
@@ -318,7 +319,7 @@ impl Cells {
         let (low, high, reach) = all.iter().fold(none, |(low, high, reach), entry| {
             (low.min(entry.center), high.max(entry.center), reach.max(entry.reach))
         });
-        // A little wider, so that rounding never puts what is near two cells away.
+        // A little wider, so that rounding never separates near atoms by two cells.
         let width = (2.000_000_01 * reach).max(f64::MIN_POSITIVE);
         let axis = |low: f64, high: f64, place: fn(&Entry) -> f64| {
             let longest = LONGEST * width;
@@ -371,8 +372,8 @@ impl Cells {
         row * self.columns.count + column
     }
 
-    /// Pairs of entries of different bodies that are near each other, each once, if their bodies are wanted: band by band of
-    /// rows, in the order of cells. The search ends where it has found more than `most`.
+    /// Pairs of near entries of different bodies, each once, if their bodies are wanted. The order is band by band of
+    /// rows, then by cells. The search ends when it has found more than `most`.
     fn all_pairs(
         &self,
         threads: &Threads,
@@ -398,7 +399,7 @@ impl Cells {
         found
     }
 
-    /// Those of a row with what stands behind them in the row, and with the next row.
+    /// The pairs of a row with later entries of the row, and with the next row.
     fn pairs_of_row(&self, row: usize, wanted: &impl Fn(u32, u32) -> bool, most: usize, found: &mut Vec<AtomPair>) {
         let columns = self.columns.count;
         let (begin, end) = (row * columns, (row + 1) * columns);
@@ -463,7 +464,7 @@ pub(super) mod tests {
     use super::*;
     use crate::tick::bounds::Bounds;
 
-    /// Discs strewn over a square; some are a hundred times as large, some do not collide, some stand.
+    /// Discs scattered over a square; some are a hundred times as large, some do not collide, some are fixed.
     pub(in super::super) fn strewn(seed: u64, count: usize, side: f64) -> (Bodies, Bounds) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
@@ -514,7 +515,7 @@ pub(super) mod tests {
         ] {
             let cells = Cells::of(&all);
             let most = cells.first.windows(2).map(|pair| pair[1] - pair[0]).max();
-            // Squares of 1 m hold one or, where they are merged, a few.
+            // Squares of 1 m hold one disc, or a few if they are merged.
             assert!(most <= Some(36), "{what}: {most:?} in one cell");
             assert!(cells.first.len() <= 16 * all.len(), "{what}: {} cells", cells.first.len());
         }

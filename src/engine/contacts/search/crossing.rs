@@ -1,14 +1,15 @@
-//! Atoms that pass through walls with ends, and corners that pass through hulls: the run ends, with both names.
+//! Tunnelling: atoms that pass through walls with ends, and corners that pass through hulls. The run ends, with both
+//! names.
 //!
-//! Such a wall is open on both sides, so an atom whose centre has passed the middle line would be pushed out on the other side. So would
-//! one that has passed the middle line of a capsule, or lies in a hull deeper than half its width. Soft contacts let that happen, and
-//! ticks in which a small atom goes farther than it is wide. A film would not show it.
+//! Such a wall is open on both sides. So it would push out an atom on the other side if its centre has passed the
+//! middle line. The same holds for the middle line of a capsule, and for a depth in a hull of half its width. Soft
+//! contacts allow that. So do ticks in which a small atom goes farther than its width. A film would not show it.
 //!
-//! A line pushes what is behind it back to its open side. That ends where the centre of a disc, or a corner, lies so deep that it may have
-//! come from elsewhere.
+//! A line pushes atoms behind it back to its open side. That ends if the centre of a disc, or a corner, may have come
+//! from elsewhere because of its depth.
 //!
-//! Two sharp hulls meet as round ones. Where the core of a corner has entered the other core, the side that is nearest need not be the one it
-//! came through. The run ends where a contact would change from one side to another so.
+//! Two sharp hulls meet in rounded form. If the core of a corner has entered the other core, the nearest side need not
+//! be its entry. The run ends if a contact would thus change from one side to another.
 
 use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
@@ -21,26 +22,26 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Model, State, SteadySpring, Wrong};
 use crate::world::{Bodies, PackedHull};
 
-/// What passes through a hull lies in it as deep as this share of half its width.
+/// A probe that passes through a hull reaches this share of half its width.
 const THROUGH: f64 = 0.5;
 
-/// So deep a probe lies at the most, as a share of half the width of a hull: the side that is nearest is the one it came through. So deep
-/// lies the centre of what is behind a line, as a share of half its own width.
+/// The greatest depth of a probe at which the nearest side is its side of entry, as a share of half the hull's width.
+/// It is also the greatest depth of a centre behind a line, as a share of half its owner's width.
 const DEEPEST: f64 = 0.9;
 
-/// What was where at the beginning of the present step.
+/// The positions at the beginning of the current step.
 #[derive(Default, Serialize, Deserialize)]
 struct Crossings {
-    /// Places of atoms in m, where there are walls with ends.
+    /// Positions of atoms in m, if there are walls with ends.
     before: Vec<DVec2>,
-    /// The same as strips without thickness see them, where there are shapes with sides.
+    /// The same for strips without thickness, if there are shapes with sides.
     before_round: Vec<DVec2>,
     /// Probes near hulls and lines, of the lists of this version.
     near: Vec<Watched>,
     /// Each stays outside up to this [`Crossings::path`].
     until: Vec<f64>,
     version: u64,
-    /// Of the bodies, as those lists were made.
+    /// The generation of the bodies at which those lists were made.
     generation: u64,
     /// Places in m and angles in rad of all bodies when they were last looked at.
     seen: Vec<(DVec2, f64)>,
@@ -48,19 +49,20 @@ struct Crossings {
     path: f64,
 }
 
-/// A probe near a hull or a line, as it was when it was last looked at.
+/// A probe near a hull or a line, at its last check.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 struct Watched {
     pair: SurfacePair,
-    /// Where it was in the frame of the hull, in m.
+    /// Its position in the frame of the hull, in m.
     place: DVec2,
-    /// If it is a sharp corner near a sharp hull, as both meet: the normal of the side, and where the corner was, in that frame.
+    /// For a sharp corner near a sharp hull, in the forms in which they meet. It holds the normal of the side and the
+    /// corner's position, in that frame.
     touched: Option<(DVec2, DVec2)>,
-    /// So far in m it has to go, seen from the hull, before anything can happen to it.
+    /// The way in m, relative to the hull, that it has to go before it needs a check.
     left: f64,
 }
 
-/// Watches for what passes through walls with ends and hulls, if the scene has some.
+/// Watches walls with ends and hulls, if the scene has some, for atoms that pass through.
 pub(super) fn watch(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     if has_ends(state.bodies()) || !state.bodies().hulls.is_empty() {
@@ -147,7 +149,7 @@ impl Crossings {
         let mut due = self.until.iter_mut().zip(&self.near).filter(|(until, _)| **until <= path);
         let wrong = due.find_map(|(until, watched)| {
             let left = watched.left_now(bodies);
-            // What has gone farther is due when the next step begins.
+            // A probe that has gone farther is due when the next step begins.
             if left > 0.5 * watched.left {
                 *until = path + 0.5 * left;
             }
@@ -163,7 +165,8 @@ impl Crossings {
         }
     }
 
-    /// A body with an atom that went straight through a hull, and that hull, where bodies went farther in the step than lists of pairs reach.
+    /// A body with an atom that went straight through a hull, and that hull. It serves steps in which bodies went
+    /// farther than lists of pairs reach.
     #[cold]
     fn through_any_hull(&self, bodies: &Bodies) -> Option<(usize, usize)> {
         let pose = |body: usize| Pose::new(self.seen[body].0, self.seen[body].1);
@@ -191,7 +194,7 @@ impl Crossings {
         if far { self.through_any_hull(bodies) } else { None }
     }
 
-    /// The greatest way in m that any point of a body went since the last look.
+    /// The greatest way in m of any point of a body since the last check.
     fn way(&self, bodies: &Bodies) -> f64 {
         let farther = |greatest: f64, (body, (place, turned)): (usize, &(DVec2, f64))| {
             let (moved, turn) =
@@ -220,7 +223,7 @@ impl Crossings {
         }
     }
 
-    /// Adds the greatest way that any point of a body went since the last look.
+    /// Adds the greatest way of any point of a body since the last check.
     fn follow(&mut self, bodies: &Bodies) {
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
             return;
@@ -230,7 +233,8 @@ impl Crossings {
         self.seen.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
     }
 
-    /// Whether an atom was near a line as the step began, or that is not known yet: what comes from behind is in no list before.
+    /// Whether an atom was near a line as the step began, or that is unknown. Atoms that come from behind were in no
+    /// list before.
     fn knows(&self, bodies: &Bodies, atom: usize, wall: usize) -> bool {
         self.version == 0 || self.near.iter().any(|near| near.is_near_line(bodies, atom, wall))
     }
@@ -273,7 +277,8 @@ impl Watched {
         near && self.pair.probe(bodies) == Probe::Atom(atom)
     }
 
-    /// With the [`Crossings::path`] up to which it stays outside. None: it is near a wall that cannot be crossed in this way.
+    /// With the [`Crossings::path`] up to which it stays outside. `None`: it is near a wall that cannot be crossed in
+    /// this way.
     fn at(pair: SurfacePair, bodies: &Bodies, path: f64) -> Option<(Self, f64)> {
         let (place, left) = if let Some((packed, place)) = place_at_hull(pair, bodies) {
             (place, left_to_cross(packed, nearest(&packed.hull, place).distance))
@@ -300,7 +305,7 @@ impl Watched {
         self.left - met.map_or(moved, |((_, before), (_, place, _))| place.distance(before).max(moved))
     }
 
-    /// What happened to it since.
+    /// The failure that happened to it since.
     fn wrong(&self, bodies: &Bodies) -> Option<fn(Entity) -> Wrong> {
         if is_deep(self.pair, bodies) || has_crossed(self.pair, self.place, bodies) {
             return Some(Wrong::Crossed);
@@ -313,7 +318,7 @@ fn has_ends(bodies: &Bodies) -> bool {
     bodies.walls.iter().any(|wall| wall.ends.is_some())
 }
 
-/// Where a probe is, in m.
+/// The position of a probe, in m.
 fn place(pair: SurfacePair, bodies: &Bodies) -> DVec2 {
     match pair.probe(bodies) {
         Probe::Atom(atom) => bodies.atom_place(atom),
@@ -333,13 +338,13 @@ fn place_at_hull(pair: SurfacePair, bodies: &Bodies) -> Option<(&PackedHull, DVe
 struct Met {
     /// The nearest place of the hull.
     nearest: Nearest,
-    /// Where the centre of the corner is in the frame of the hull, in m.
+    /// The position of the centre of the corner in the frame of the hull, in m.
     place: DVec2,
     /// Of the corner, in m.
     radius: f64,
 }
 
-/// The shape of a sharp hull as it meets a sharp corner, and the place in its frame and the radius of that, in m.
+/// The form in which a sharp hull meets a sharp corner. Then the corner's position in its frame and its radius, in m.
 fn meeting_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<(&Hull, DVec2, f64)> {
     let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return None };
     let (shape, place, radius) = bodies.meeting(hull, atom);
@@ -354,7 +359,7 @@ fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<Met> {
     Some(Met { nearest: nearest(shape, place), place, radius })
 }
 
-/// The cosine of the greatest angle between the normals of sides that a corner in the core of a hull passes on to.
+/// The cosine of the greatest angle between two sides that may take over a corner in a hull's core from each other.
 const LEAST_COSINE: f64 = 0.7;
 
 /// Whether a corner in the core of a hull touches another side than before.
@@ -382,14 +387,14 @@ fn has_passed(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     (0.0..=along.length_squared()).contains(&(crossing - from).dot(along))
 }
 
-/// Whether a probe in the core of a polygon is nearer to the far side than to the one it came from.
+/// Whether a probe in the core of a polygon is nearer to the far side than to its entry.
 fn has_turned_over(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     let [came, found] = [before, now].map(|at| nearest(&packed.hull, at));
     let owned = packed.hull.owns(&came) && packed.hull.owns(&found);
     owned && came.normal.dot(found.normal) < -LEAST_COSINE && way_in_core(packed, before, now).is_some()
 }
 
-/// The part of the way from one place to another, as shares of it, that lies in the core of a polygon (Cyrus and Beck 1978).
+/// The part of a straight way inside the core of a polygon, as shares of the way (Cyrus and Beck 1978).
 fn way_in_core(packed: &PackedHull, before: DVec2, now: DVec2) -> Option<(f64, f64)> {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for (side, corner) in packed.hull.sides().iter().zip(packed.hull.corners()) {
@@ -407,7 +412,7 @@ fn way_in_core(packed: &PackedHull, before: DVec2, now: DVec2) -> Option<(f64, f
     (enters < leaves).then_some((enters, leaves))
 }
 
-/// How far in m a probe at least goes before it is deep in a hull or through it, if it is at such a distance from the core.
+/// The least way in m to be deep in a hull or through it, for a probe at this distance from the core.
 fn left_to_cross(packed: &PackedHull, distance: f64) -> f64 {
     if packed.hull.corners().len() == 2 {
         return distance;
@@ -432,15 +437,15 @@ fn has_gone_through(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     [enters, 0.5 * (enters + leaves), leaves].into_iter().any(is_deep)
 }
 
-/// Whether the centre of an atom is deeper behind a line than half the width of what it belongs to.
+/// Whether the centre of an atom is deeper behind a line than half the width of its owner.
 fn is_behind(bodies: &Bodies, wall: usize, atom: usize) -> bool {
     let half = bodies.walls[wall].ends.map_or(0.0, |ends| ends.half);
     let found = bodies.nearest_on_wall(wall, atom, bodies.atom_place(atom));
     found.height + half < -DEEPEST * bodies.size_of_atom(atom)
 }
 
-/// The piece of a line through which an atom went straight from one place to another, if it is now farther from it than half the width of
-/// what it belongs to; or from behind. The second says whether it came from behind.
+/// The piece of a line that an atom crossed on a straight way between two positions. The atom must have come from
+/// behind, or be deeper behind it than half the width of its owner. The second value is true if it came from behind.
 fn crossed_line(bodies: &Bodies, atom: usize, before: DVec2, now: DVec2) -> Option<(usize, bool)> {
     let (middle, reach) = (0.5 * (before + now), 0.5 * before.distance(now));
     let mut crossed = None;
@@ -470,7 +475,7 @@ fn is_deep(pair: SurfacePair, bodies: &Bodies) -> bool {
     polygon && near.distance < packed.hull.radius() - half_width_at(packed, near.feature) * DEEPEST
 }
 
-/// Half the width in m of a polygon at a place of it: that of a concave one behind the side that is nearest.
+/// Half the width in m of a polygon at a feature. For a concave polygon it is that behind the nearest side.
 fn half_width_at(packed: &PackedHull, feature: Feature) -> f64 {
     let hull = &packed.hull;
     let thickness = match feature {

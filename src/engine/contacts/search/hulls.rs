@@ -12,7 +12,8 @@ use crate::tick::{LoadErrors, Notes, State};
 use crate::world::hull::ROUNDING;
 use crate::world::{Bodies, Name, PackedHull, PackedWall};
 
-/// Says on the card that sharp corners are rounded off where they meet sharp shapes, or strips without thickness, if they can.
+/// Notes on the card that sharp corners are rounded off in contacts with sharp shapes, or with strips without
+/// thickness. The note appears if such contacts are possible.
 pub(super) fn note_sharp(world: &mut World) {
     let bodies = world.resource::<State>().bodies();
     let sharp = |body: usize| bodies.collides[body] && bodies.hulls_of(body).any(|hull| hull.rounded.is_some());
@@ -53,7 +54,7 @@ pub(super) fn refuse_pointed(world: &mut World) {
     world.get_resource_or_init::<LoadErrors>().0.push(error);
 }
 
-/// Pairs of hulls, or of a hull and a disc, are looked at up to so many times the greatest number of candidate pairs.
+/// The bound of checks over the greatest number of candidate pairs. A check is of two hulls, or of a hull and a disc.
 const LOOKS: usize = 8;
 
 /// A hull as the search sees it, with half of the margin around it.
@@ -68,18 +69,18 @@ fn entry(bodies: &Bodies, margin: f64, packed: &PackedHull) -> Entry {
     }
 }
 
-/// For each atom that is a disc, or the first corner of a hull, those others that are near.
+/// For each atom that is a disc, or the first corner of a hull, its near neighbours.
 struct Neighbours {
-    /// Where those of each atom begin, and how many there are at the end.
+    /// The index of the first neighbour of each atom, and the total number at the end.
     first: Vec<u32>,
-    /// In order, for each atom.
+    /// The neighbours of each atom, in order.
     others: Vec<u32>,
     /// Whether these are all.
     complete: bool,
 }
 
 impl Neighbours {
-    /// Of pairs in order; of each hull and disc it is told how many candidate pairs there may be.
+    /// From pairs in order. `most` bounds the candidate pairs of each hull and disc.
     fn of(bodies: &Bodies, margin: f64, apart: &[(usize, usize)], most: usize) -> Self {
         let most = most.saturating_mul(LOOKS);
         let discs = (0..bodies.atom_count()).filter(|&atom| !bodies.is_corner(atom) && bodies.probes(atom));
@@ -98,7 +99,7 @@ impl Neighbours {
             first[atom] += first[atom - 1];
         }
         let mut others = vec![0; 2 * pairs.len()];
-        // Those before an atom come first, as pairs are in order.
+        // Neighbours before an atom come first, because pairs are in order.
         for pair in &pairs {
             for (atom, other) in [(pair.a, pair.b), (pair.b, pair.a)] {
                 let next = &mut first[atom as usize + 1];
@@ -132,8 +133,9 @@ pub(super) fn each_pair_of_hulls(
     }
 }
 
-/// Shows the probes that are nearer to hulls than the margin, and few others: hull by hull, for each in the order of the probes. Bodies
-/// `apart` do not touch each other. Says whether these are all: there are more than `most` pairs if they are not.
+/// Gives the probes that are nearer to hulls than the margin, and few others. The order is hull by hull, and then that
+/// of the probes. Bodies `apart` do not touch each other. Returns whether these are all; if not, there are more than
+/// `most` pairs.
 pub(super) fn each_pair(
     bodies: &Bodies,
     margin: f64,

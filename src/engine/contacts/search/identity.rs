@@ -1,10 +1,10 @@
-//! Which atom is which when bodies come and go: the key of its body, and its number within it.
+//! Identities of atoms when bodies come and go: the key of the body, and the number within the body.
 
 use super::NEW;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// Bodies whose keys follow one another, each with as many atoms.
+/// Bodies with consecutive keys and equal numbers of atoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Run {
     key: u64,
@@ -40,7 +40,7 @@ impl Identities {
         (body < u64::from(run.bodies) && number < run.atoms).then(|| run.first + body as u32 * run.atoms + number)
     }
 
-    /// For each atom its place among others, or [`NEW`] if it is not among them.
+    /// For each atom its index among others, or [`NEW`] if it is not among them.
     pub fn places_in(&self, others: &Self) -> Vec<u32> {
         let of_body = |run: Run, body: u32| (0..run.atoms).map(move |number| (run.key + u64::from(body), number));
         let all = self.0.iter().flat_map(|&run| (0..run.bodies).flat_map(move |body| of_body(run, body)));

@@ -1,7 +1,7 @@
-//! Atoms near lines, found by trees of boxes. Each atom has a pair for each place of a line that is nearer than its neighbourhood.
+//! Atoms near lines, found by trees of boxes. Each atom has a pair for each local minimum of its distance from a line.
 //!
-//! A pair is named after the piece where its atom was as the list was made. Between lists the place goes on from there, so an old pair is
-//! found again under the name of the piece where its atom is now.
+//! The name of a pair is the piece that was nearest to its atom when the list was made. Between lists the nearest point
+//! moves. So an old pair is found again under the name of the current piece.
 
 use bevy_ecs::world::World;
 
@@ -27,7 +27,7 @@ pub(super) fn known(
     known
 }
 
-/// A pair under the name of the piece where its atom is now.
+/// A pair under the name of the piece that is nearest now.
 fn present(pair: SurfacePair, bodies: &Bodies) -> SurfacePair {
     match (pair.surface(bodies), pair.probe(bodies)) {
         (Surface::Wall(wall), Probe::Atom(atom)) => SurfacePair::new(bodies.piece_now(wall, atom) as u32, pair.probe),
@@ -41,7 +41,8 @@ pub(super) fn place(known: &[(SurfacePair, u32)], pair: SurfacePair) -> u32 {
     known.get(first).filter(|(other, _)| *other == pair).map_or(NEW, |(_, place)| *place)
 }
 
-/// Shows the atoms near lines: line by line, for each in the order of the atoms. Where bodies have just `begun` corners may lie behind lines.
+/// Gives the atoms near lines: line by line, each in the order of the atoms. If bodies have just `begun`, corners may
+/// be behind lines.
 pub(super) fn each_pair(
     bodies: &Bodies,
     (margin, begun): (f64, bool),
@@ -72,11 +73,11 @@ pub(super) fn each_place(
     }
 }
 
-/// Names pairs after the pieces where they are as a step begins, so that walks are short. Sees to it that no two pairs go to one place: the
-/// lists are made anew before they count it twice.
+/// Renames pairs after their current pieces at the beginning of a step, so that walks are short. If two pairs reach one
+/// point, the lists are renewed before the point counts twice.
 struct Walks;
 
-/// Watches for places on lines that become one, if the scene has lines.
+/// Watches for pairs that reach one point of a line, if the scene has lines.
 pub(super) fn watch(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     if !state.bodies().lines.is_empty() {

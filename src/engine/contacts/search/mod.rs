@@ -1,11 +1,11 @@
-//! The broad phase: who may touch whom. Few atoms are found by their bodies' boxes (`sweep.rs`), many by cells (`cells.rs`);
-//! both find the same pairs.
+//! The broad phase: the search for pairs that may touch. Few atoms are found by their bodies' boxes (`sweep.rs`), many
+//! by cells (`cells.rs`). Both find the same pairs.
 //!
-//! Each candidate pair has a place in a list sorted by atoms, which is a function of keys and positions only. Of many atoms the
-//! pairs that touch as the list is made stand first, then those that nearly do, then the others, each group sorted: so the
-//! work on several pairs side by side is on pairs that touch, and those that are far are passed over together. When the list is made anew every pair that was in the old one is told
-//! its old place, so that whoever keeps history beside the list can carry it over. Where most bodies sleep the list stays, unless
-//! those that are awake have come near to others (`still.rs`).
+//! Each candidate pair has an index in a list sorted by atoms. The list is a function of keys and positions only. For
+//! many atoms it begins with the pairs that touch as it is made. Then follow those that nearly touch, and then the
+//! others. Each group is sorted. So vectorised work is on touching pairs, and distant pairs are skipped together. When
+//! the list is renewed, every old pair gets its old index. So history beside the list can be carried over. If most
+//! bodies sleep, the list stays until awake bodies come near to others (`still.rs`).
 
 mod at_start;
 mod behind;
@@ -33,18 +33,18 @@ use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, T
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
-/// Makes the lists of candidate pairs anew when the bounding boxes were.
+/// Renews the lists of candidate pairs after the bounding boxes.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct PairSearch {
     bounds_version: u64,
     generation: u64,
-    /// What stays the same when places change.
+    /// The identities that stay the same when indices change.
     identities: Identities,
     wall_count: usize,
     /// The first corner of each hull, and how many atoms there were.
     first_atoms: Vec<u32>,
     atom_count: u32,
-    /// Where most bodies are asleep: what stays of the lists as long as those do.
+    /// The part of the lists that stays while most bodies sleep.
     still: Option<Still>,
 }
 
@@ -109,8 +109,8 @@ impl Model for PairSearch {
 }
 
 impl PairSearch {
-    /// Makes the lists anew when the bounding boxes were. If there are too many pairs the lists are empty, and the body is returned
-    /// that has most of them.
+    /// Renews the lists if the bounding boxes were renewed. If there are too many pairs, the lists are empty, and it
+    /// returns the body with most of them.
     #[inline]
     fn update(&mut self, pairs: &mut CandidatePairs, bodies: &Bodies, bounds: &mut Bounds) -> Option<usize> {
         if self.bounds_version == bounds.version {
@@ -152,7 +152,7 @@ impl PairSearch {
                 .as_ref()
                 .map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
         };
-        // Walls do not come and go one by one: when their number changes the history of surfaces starts anew.
+        // Walls do not come and go one by one. If their number changes, the history of surfaces starts again.
         let old_wall_count = std::mem::replace(&mut self.wall_count, bodies.walls.len());
         let same_walls = same || old_wall_count == bodies.walls.len();
         let first_atoms = bodies.hulls.iter().map(|hull| hull.first_atom).collect();
@@ -224,10 +224,10 @@ impl PairSearch {
 
 /// Pairs take 200 to 700 bytes each: so many take less than a gigabyte.
 const MOST_PAIRS: usize = 1 << 20;
-/// Pairs for each atom that are never too many: in the densest packing of discs the widest margin of `bounds` gives 55.
+/// A sufficient number of pairs for each atom. In the densest packing of discs the widest margin of `bounds` gives 55.
 const PAIRS_PER_ATOM: usize = 64;
 
-/// So many candidate pairs at most are taken up: with more of them a run ends.
+/// The greatest number of candidate pairs, beyond which a run ends.
 fn most_pairs(bodies: &Bodies) -> usize {
     MOST_PAIRS.max(PAIRS_PER_ATOM * bodies.atom_count())
 }
@@ -259,8 +259,8 @@ fn ordered(a: usize, b: usize) -> (usize, usize) {
 /// Share of the margin that pairs are apart at the most that nearly touch.
 const CLOSE: f64 = 1.0 / 8.0;
 
-/// For each new pair the place of the same pair in the old list. The new list is sorted, and so is each group of the old one; they
-/// stay so when old pairs are told their new places, because places keep the order of identities.
+/// For each new pair the index of the same pair in the old list. The new list is sorted, and so is each group of the
+/// old one. They stay sorted when old pairs get new indices, because indices keep the order of identities.
 fn carry<P: Ord + Copy, const GROUPS: usize>(
     new: &[P],
     old: [&[P]; GROUPS],
@@ -306,7 +306,7 @@ fn suiting(bodies: &Bodies) -> Search {
     if bodies.atom_count() <= bounds::MOST_ATOMS { Search::Sweep } else { Search::Cells }
 }
 
-/// Shows the atoms of some bodies that are near walls: wall by wall, for each in the order of the bodies.
+/// Gives the atoms of some bodies that are near walls: wall by wall, each in the order of the bodies.
 fn each_wall_pair(
     bodies: &Bodies,
     margin: f64,

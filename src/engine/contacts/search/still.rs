@@ -1,9 +1,8 @@
 //! Lists of candidate pairs where most bodies are asleep.
 //!
-//! Whoever is asleep stands where it stood, so lists that are made anew because somebody else has left the skin can differ in the
-//! pairs of those others alone. These are looked for among the cells of the last search; if they are what they were, the
-//! lists stay, and with them all that was made from them. Lists made anew would be the same: nothing of the motion depends on
-//! whether they were.
+//! Sleeping bodies keep their positions. So if another body has left its margin, renewed lists can differ only in the
+//! pairs of awake bodies. These are searched in the cells of the last search. If they are unchanged, the lists stay,
+//! and so do all data made from them. Renewed lists would be the same, so the motion does not depend on the choice.
 
 use super::cells::Sorted;
 use super::{AtomPair, SurfacePair, each_wall_pair, group_of, most_pairs};
@@ -15,13 +14,13 @@ use serde::{Deserialize, Serialize};
 /// Bodies for each one that may move, at least: with fewer the search spares too little.
 const MOST: usize = 8;
 
-/// What was there when lists were made.
+/// The state when lists were made.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Still {
     generation: u64,
     rousings: u64,
     margin: f64,
-    /// All atoms; those of bodies that may move are somewhere else by now.
+    /// All atoms. Those of awake bodies have moved since.
     sorted: Sorted,
     /// The bodies that may move, in order.
     moving: Vec<u32>,
@@ -43,7 +42,7 @@ fn has(bits: &[u8], body: usize) -> bool {
 }
 
 impl Still {
-    /// What was found just now, if most bodies are asleep.
+    /// The result of the last search, if most bodies sleep.
     pub fn of(
         bodies: &Bodies,
         bounds: &Bounds,
@@ -72,7 +71,7 @@ impl Still {
         Some(Self { generation, rousings, margin, sorted: sorted.without_list(), moving, moves, pairs })
     }
 
-    /// Whether lists made now would be the same.
+    /// Whether renewed lists would be the same.
     pub fn holds(&self, bodies: &Bodies, bounds: &Bounds) -> bool {
         let told = (self.generation, self.rousings, self.margin);
         told == (bodies.generation, bodies.rousings, bounds.margin) && self.pairs_now(bodies) == self.pairs
@@ -102,7 +101,7 @@ mod tests {
     use crate::tick::pairs::CandidatePairs;
     use crate::world::{MaterialIndex, PackedWall};
 
-    /// Law: lists hold if and only if lists that are made anew would be the same.
+    /// Law: lists hold if and only if renewed lists would be the same.
     #[test]
     fn lists_hold_where_new_ones_would_be_the_same() {
         let (mut held, mut changed, mut walls_alone) = (0, 0, 0);

@@ -1,4 +1,4 @@
-//! Shapes that begin with a corner so deep behind a line that no contact would hold it: the scene is refused, with both names.
+//! Shapes that begin with a corner too deep behind a line for a contact. The scene is refused, with both names.
 
 use bevy_ecs::prelude::*;
 
@@ -8,7 +8,8 @@ use crate::world::line::{BEHIND, PackedLine};
 use crate::world::{Bodies, Name};
 use jostle_language::numbers::number;
 
-/// Reports the first body with a corner behind a line, by less than half its width, whose centre of mass lies before that line.
+/// Reports the first body with a corner too deep behind a line, if its centre of mass lies before the line. The depth
+/// is below half the corner's width.
 pub(super) fn refuse_sunk(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let Some((body, wall, depth)) = bodies.lines.iter().find_map(|line| sunk_in(bodies, line)) else { return };

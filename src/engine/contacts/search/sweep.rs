@@ -1,5 +1,5 @@
-//! Sort and sweep (Cohen, Lin, Manocha, Ponamgi 1995): boxes of bodies along the axis along which they spread farther; atoms of
-//! overlapping boxes are compared one by one.
+//! Sort and sweep (Cohen, Lin, Manocha, Ponamgi 1995): boxes of bodies are sorted along the axis of their greatest
+//! spread. Atoms of overlapping boxes are compared one by one.
 
 use glam::DVec2;
 
