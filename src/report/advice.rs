@@ -1,10 +1,10 @@
-//! What a run is advised to try next: one number for all warnings of a run.
+//! The advice of a run: one number that answers all its warnings.
 
 use std::fmt;
 
 use jostle_language::numbers::number;
 
-/// What to try next.
+/// The next setting to try.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Remedy {
     /// A tick in seconds.
@@ -32,22 +32,22 @@ impl Remedy {
     }
 }
 
-/// What is known of a run's tick, in seconds.
+/// The time scales of a run, in seconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Known {
     /// The tick of the run.
     pub tick: f64,
-    /// The largest that is stable, if anything limits it.
+    /// The longest stable tick, if there is a limit.
     pub critical: Option<f64>,
-    /// How long the briefest contact lasts, if there may be any.
+    /// The duration of the briefest contact, if contacts are possible.
     pub shortest_contact: Option<f64>,
     /// The longest way in a tick over the smallest radius.
     pub travel: f64,
 }
 
 impl Known {
-    /// A quarter of the tick, or less where that would still be too long: a tenth of the critical tick, a twentieth of the
-    /// briefest contact, half a radius of travel. Rounded down to few digits.
+    /// A quarter of the tick, or less if that is still too long. The limits are a tenth of the critical tick, a
+    /// twentieth of the briefest contact, and half a radius of travel. Rounded down to few digits.
     ///
     /// Above the critical tick nothing else counts: what flies about then is what came of that.
     pub fn advised_tick(&self) -> f64 {
@@ -69,11 +69,11 @@ impl Known {
 
 /// The next lower of 1, 2, 2.5 and 5 times a power of ten.
 pub(super) fn rounded_down(value: f64) -> f64 {
-    // What asks for no time at all is told the shortest there is.
+    // A demand for zero time gets the shortest number.
     let value = value.max(f64::MIN_POSITIVE);
     let exponent = value.log10().floor() as i32;
     let candidates = [(5.0, exponent), (2.5, exponent), (2.0, exponent), (1.0, exponent), (5.0, exponent - 1)];
-    // Read back from decimal digits, so that it is the same number as on a command line; a part in 1e12 is rounding.
+    // Read back from decimal digits, so that it equals the number on a command line. A part in 1e12 is rounding.
     let numbers = candidates.into_iter().filter_map(|(digits, exponent)| format!("{digits}e{exponent}").parse().ok());
     numbers.into_iter().find(|number: &f64| *number <= value * (1.0 + 1e-12)).unwrap_or(value)
 }

@@ -1,4 +1,4 @@
-//! Tells the report the compiler that made it.
+//! Passes the version of the compiler to the report.
 
 use std::process::Command;
 

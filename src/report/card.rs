@@ -1,4 +1,4 @@
-//! The error card: it ends every run and says how far to trust it.
+//! The error card: it ends every run and states how far to trust it.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -43,7 +43,7 @@ impl fmt::Display for LargestOverlap {
     }
 }
 
-/// How far the two bodies of a joint were from where it holds them, at most.
+/// The largest gap between the two bodies of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LargestDrift {
     /// In metres.
@@ -64,8 +64,8 @@ pub struct Card {
     pub method: String,
     /// Length of a tick in seconds.
     pub tick: f64,
-    /// Largest stable tick in seconds: the smallest that was measured on contacts of the run, or what a single contact
-    /// may need where nothing touched; `null` without contacts.
+    /// Largest stable tick in seconds. It is the smallest measured on contacts of the run, or the possible one of a
+    /// single contact if no bodies touched. `null` without contacts.
     pub critical_tick: Option<f64>,
     /// Events that were located inside ticks.
     pub events_located: u64,
@@ -95,12 +95,12 @@ pub struct Card {
     pub notes: Vec<String>,
     /// The estimated error; `null` until it is estimated.
     pub error: Option<ErrorEstimate>,
-    /// What the run has to be warned of; it stands in the notes too.
+    /// The warnings of the run, which are among the notes too.
     #[serde(skip)]
     pub warnings: Vec<String>,
     #[serde(skip)]
     pub(super) shortest_contact: Option<f64>,
-    /// The likely cause of a run that went wrong, and what to try.
+    /// The likely cause of a failed run, and a remedy.
     #[serde(skip)]
     pub why: Option<String>,
     #[serde(skip)]
@@ -138,7 +138,8 @@ impl SimulationExt for Simulation {
 }
 
 impl Card {
-    /// The card of the present state, after `seconds_spent` seconds of computing, and how the run went wrong, if it did.
+    /// The card of the current state, after `seconds_spent` seconds of computing, with the failure of the run if it
+    /// failed.
     pub fn of(world: &World, seconds_spent: f64, failure: Option<&Failure>) -> Self {
         let state = world.resource::<State>();
         let (bodies, clock, stability, ledger) = (state.bodies(), state.clock(), state.stability(), state.ledger());
@@ -210,8 +211,8 @@ impl Card {
         self.verdict.starts_with(DISTRUST)
     }
 
-    /// Energy residual over the energy that went round; zero where the residual is rounding of the energies it is found from, or
-    /// nothing moves.
+    /// Energy residual over the energy turnover. It is zero if the residual is rounding of the energies, or if no body
+    /// moves.
     pub fn energy_error(&self) -> f64 {
         if self.stands || self.energy.residual.abs() <= ROUNDING * self.energy.potential.abs() {
             return 0.0;
@@ -219,7 +220,7 @@ impl Card {
         if self.energy_scale > 0.0 { self.energy.residual.abs() / self.energy_scale } else { 0.0 }
     }
 
-    /// What this run is advised to try next; nothing where nothing finer can be asked for.
+    /// The next setting that this run should try; `None` if no finer one is possible.
     pub fn remedy(&self) -> Option<Remedy> {
         match self.asked {
             Some(tolerance) => tolerance.map(|tolerance| Remedy::Tolerance(tolerance / 10.0)),
@@ -233,7 +234,7 @@ impl Card {
         self.asked.flatten().is_some()
     }
 
-    /// Whether its steps are its ticks, as long as they were asked for.
+    /// Whether its steps are its ticks, of the requested length.
     pub(super) fn by_ticks(&self) -> bool {
         self.asked.is_none()
     }
@@ -249,7 +250,7 @@ impl Card {
     }
 }
 
-/// What a body or wall is called.
+/// The name of a body or wall.
 pub(super) fn name(world: &World, entity: Entity) -> String {
     world.get::<Name>(entity).map_or_else(|| "(gone)".to_owned(), Name::to_string)
 }
@@ -331,7 +332,7 @@ impl fmt::Display for Card {
         }
         row("largest travel", format!("{:.1} % of the smallest radius per tick", self.largest_travel_share * 100.0))?;
         if let Some(error) = &self.error {
-            // How chaos grows tells a horizon even where that lies behind the end of the run.
+            // The growth of chaos gives a horizon even beyond the end of the run.
             let horizon = error.horizon.filter(|horizon| *horizon < self.time);
             row("error", ErrorEstimate { horizon, ..*error }.to_string())?;
         }

@@ -1,4 +1,4 @@
-//! How wrong the result is: the error card, estimates, ladders of ticks, and problems whose answers are known.
+//! The error of results: the error card, estimates, ladders of ticks, and problems with known answers.
 
 mod advice;
 pub mod bench;

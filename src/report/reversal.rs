@@ -1,6 +1,6 @@
-//! There and back: a run to its end, all velocities turned round, and as many ticks once more. Motion without losses comes back
-//! to where it began. Methods that are symmetric in time come back but for rounding, others err by about twice the error of
-//! the run (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed. 2006, V.1).
+//! Time reversal test: a run to its end, with all velocities reversed there, and the same number of ticks back. Motion
+//! without losses returns to its beginning. Methods that are symmetric in time return up to rounding. Others err by
+//! about twice the error of the run (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed. 2006, V.1).
 
 use crate::SimulationExt;
 use serde::Serialize;
@@ -12,18 +12,18 @@ use jostle_engine::world::{Spin, Velocity};
 /// How closely a scene comes back to its beginning.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reversal {
-    /// Greatest distance of a centre of mass from where it began, in m.
+    /// Greatest distance of a centre of mass from its beginning, in m.
     pub position: f64,
     /// Greatest difference of a velocity from the opposite of that at the beginning, in m/s.
     pub velocity: f64,
     /// Greatest difference of an angle from that at the beginning, in radians.
     pub angle: f64,
-    /// Why it cannot come back, if something in it has a direction of time.
+    /// The reason why it cannot return, if some part of it has a direction of time.
     pub because: Option<String>,
 }
 
 impl Reversal {
-    /// Runs a scene that stands at its beginning to its end and back.
+    /// Runs a scene from its beginning to its end and back.
     ///
     /// # Errors
     /// When a number stops being finite, or energy comes out of nowhere.
@@ -56,7 +56,7 @@ impl Reversal {
     }
 }
 
-/// What in a run has a direction of time, in words.
+/// The parts of a run with a direction of time, in words.
 fn direction_of_time(simulation: &Simulation) -> Option<String> {
     let energy = simulation.card().energy;
     let lost = energy.losses().filter(|(_, lost)| *lost != 0.0).map(|(name, _)| name).collect::<Vec<_>>().join(", ");

@@ -1,4 +1,4 @@
-//! What a run has to be warned of although it came to its end: limits of its tick that it went beyond.
+//! The warnings of a completed run: limits that its tick exceeded.
 
 use bevy_ecs::prelude::*;
 
@@ -24,7 +24,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
     let mut warnings = Vec::new();
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
-    // Where steps are as long as their error allows, ticks are only moments at which the run is looked at.
+    // If steps follow their error, ticks are only moments at which the run is read.
     let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
     let by_ticks = by_ticks && !EstimatedError::is_small(world);
     let responses = if by_ticks { responses } else { Responses::default() };
@@ -56,7 +56,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
             if steps.shortened == 1 { "was" } else { "were" },
         ));
     }
-    // Where the tick is above the critical one this goes without saying.
+    // If the tick is above the critical one, this warning is superfluous.
     let brief = responses.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
     if let Some(brief) = brief {
         let ticks = brief.duration() / clock.dt;

@@ -91,7 +91,8 @@ mod tests {
             for b in (0..200).filter(|&b| (x[a] - x[b]).hypot(y[a] - y[b]) < 7.0) {
                 assert!(visited.contains(&b), "{a} {b}");
             }
-            // Three cells of 7 m wide and high, of an area of 100 m by 88 m in which 200 points are spread evenly, hold 10.
+            // Three cells of 7 m wide and high hold 10 points. The area is 100 m by 88 m, with 200 points spread
+            // evenly.
             assert!(visited.len() < 40, "the grid leaves nothing out: {}", visited.len());
         }
     }

@@ -1,6 +1,6 @@
-//! How much memory this process has.
+//! The memory of this process.
 
-/// Bytes of this process that are in memory; nothing where the system does not tell (it does on Linux).
+/// Resident bytes of this process; `None` if the system does not provide them (Linux does).
 pub fn resident() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

@@ -1,7 +1,8 @@
-//! What ticks of a scene cost: timed in rounds, beside a plain loop that does the same work without an engine.
+//! Benchmark of a scene: its ticks are timed in rounds, beside a plain loop that does the same work without an engine.
 //!
-//! Both begin at the same state, the plain loop with springs that hold nothing, and run by turns, round by round, so that what slows the computer for a while slows both. A
-//! round that is not timed goes ahead. Where the time goes is looked at in a run of its own, for looking takes time.
+//! Both begin at the same state, and the springs of the plain loop are slack. They run by turns, round by round, so
+//! that a slow phase of the computer affects both. The first round is not timed. A separate run measures the parts of a
+//! tick, because measuring takes time.
 
 mod cells;
 mod memory;
@@ -24,16 +25,16 @@ use jostle_engine::tick::{Failure, State};
 
 /// Ticks times atoms of a round: a fifth of a second, about.
 const WORK: u64 = 2_000_000;
-/// The same where it has to be quick.
+/// The same for quick measurements.
 const QUICK_WORK: u64 = 100_000;
-/// Ticks of a round at least, unless it has to be quick. A round begins and ends with the state in components: to take it out
-/// and to write it back takes as long as some five ticks of a million discs that hardly touch.
+/// The least ticks of a round, unless it is quick. A round begins and ends with the state in components. To read it and
+/// to write it back takes as long as some five ticks of a million discs that hardly touch.
 const LEAST: u64 = 50;
 
-/// What is to be measured.
+/// The order of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Order {
-    /// Ticks of a round; none: what takes a fifth of a second, but 50 at least, within the duration of the scene.
+    /// Ticks of a round. `None`: a fifth of a second, but at least 50 ticks, within the duration of the scene.
     pub ticks: Option<u64>,
     /// How many rounds are timed.
     pub rounds: u32,
@@ -68,13 +69,13 @@ impl Order {
 pub struct Beside {
     /// Nanoseconds of the plain loop per atom and tick.
     pub ns_per_atom_tick: Spread,
-    /// Time of the engine over that of the plain loop, round by round.
+    /// Time of the engine over that of the plain loop, in each round.
     pub ratio: Spread,
-    /// Kinetic energy of the plain loop in the end over that of the engine.
+    /// Kinetic energy of the plain loop at the end over that of the engine.
     pub kinetic_energy: f64,
 }
 
-/// What was measured of a scene.
+/// The measurement of a scene.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Bodies in the end.
@@ -97,13 +98,13 @@ pub struct Measured {
     pub us_per_tick: Spread,
     /// Nanoseconds per atom and tick.
     pub ns_per_atom_tick: Spread,
-    /// The plain loop, or why there is none.
+    /// The plain loop, or the reason for its absence.
     pub plain: Result<Beside, &'static str>,
     /// Parts of the tick and their shares of it.
     pub stages: Vec<(&'static str, f64)>,
     /// Energy residual in J.
     pub residual: f64,
-    /// The same as a share of the energy that went round.
+    /// The same as a share of the energy turnover.
     pub residual_share: f64,
     /// Hash of the state in the end.
     pub hash: String,
@@ -114,7 +115,7 @@ pub struct Measured {
 pub enum Stopped {
     /// The scene is wrong.
     Scene(SceneErrors),
-    /// The run went wrong.
+    /// The run failed.
     Run(Failure),
     /// The scene ends before anything is measured: after so many seconds.
     Ended(f64),
@@ -132,10 +133,10 @@ impl From<Failure> for Stopped {
     }
 }
 
-/// Measures a scene. `load` reads it, run as a plan says if there is one; `step` is told each time a step is done.
+/// Measures a scene. `load` reads it, and runs it by a plan if one is given. `step` is called after each step.
 ///
 /// # Errors
-/// When the scene is wrong, its run goes wrong, or it ends before anything is measured.
+/// When the scene is wrong, its run fails, or it ends before the measurement.
 pub fn measure(
     load: impl Fn(Option<Plan>) -> Result<Simulation, SceneErrors>,
     order: Order,

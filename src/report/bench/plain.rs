@@ -1,10 +1,12 @@
-//! A plain loop, to measure by: discs, walls, springs with dashpots, friction, velocity Verlet. No ECS, no accounts, no rest, no
-//! vector instructions: what anybody would write in an afternoon. It starts from the same state as the engine and runs beside it.
+//! A plain loop for comparison: discs, walls, springs with dashpots, friction, velocity Verlet. It has no ECS, no
+//! accounts, no rest and no vector instructions, like the work of an afternoon. It starts from the same state as the
+//! engine and runs beside it.
 //!
-//! Arrays of numbers, a grid of cells, a half list of pairs with a skin. Per touching pair, with overlap `d`, parting speed `v` and
-//! elongation `s` of the tangential spring, `N = max(0, k d - c v)` and `T = k_t s`, where `s` follows the sliding of the surfaces
-//! and `|T| <= mu N`. All pairs of a scene have the coefficients of its mean atom: it is the work that is compared, and runs stay
-//! alike only where the scene has one material. Forces see velocities at the middle of the tick.
+//! Arrays of numbers, a grid of cells, a half list of pairs with a skin. A touching pair has overlap `d`, parting speed
+//! `v` and elongation `s` of the tangential spring. Its forces are `N = max(0, k d - c v)` and `T = k_t s`, where `s`
+//! follows the sliding of the surfaces and `|T| <= mu N`. All pairs of a scene have the coefficients of its mean atom.
+//! The comparison is of work, and runs stay alike only if the scene has one material. Forces see velocities at the
+//! middle of the tick.
 
 use glam::DVec2;
 
@@ -16,11 +18,11 @@ use jostle_engine::simulation::Simulation;
 use jostle_engine::tick::State;
 use jostle_engine::world::{Bodies, Materials, PackedWall};
 
-/// The skin, as a share of the smallest radius: pairs are listed that are as near as that, and listed anew when an atom has moved
-/// by half of it.
+/// The skin, as a share of the smallest radius. Nearer pairs are listed, and the list is renewed when an atom has moved
+/// by half of the skin.
 const SKIN: f64 = 0.35;
 
-/// What moves: one number of each kind per body, or per atom.
+/// The moving parts: one number of each kind per body, or per atom.
 #[derive(Default)]
 struct Movers {
     x: Vec<f64>,
@@ -71,7 +73,7 @@ pub struct Plain {
     clumps: Option<Clumps>,
     walls: Vec<PackedWall>,
     skin: f64,
-    /// Where the atoms were when the lists were made; infinitely far away, as long as there are none.
+    /// The positions of atoms when the lists were made; infinite before the first list.
     listed_x: Vec<f64>,
     listed_y: Vec<f64>,
     /// The first pair of each atom, and the number of pairs at the end.
@@ -85,7 +87,7 @@ impl Plain {
     /// The loop at the present state of a scene.
     ///
     /// # Errors
-    /// What the scene has that the loop does not know.
+    /// The error names a property of the scene that the loop does not support.
     pub fn of(simulation: &Simulation) -> Result<Self, &'static str> {
         let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
         if !simulation.header().outline.entries("forces").is_empty() {
@@ -180,7 +182,7 @@ impl Plain {
         })
     }
 
-    /// Lists pairs and atoms near walls anew; what touches keeps its spring.
+    /// Renews the lists of pairs and of atoms near walls. Touching pairs keep their springs.
     fn list(&mut self) {
         self.listed_x.clone_from(&self.atoms.x);
         self.listed_y.clone_from(&self.atoms.y);
@@ -345,7 +347,7 @@ impl Movers {
 
     fn kick(&mut self, dt: f64, gravity: DVec2) {
         for body in 0..self.x.len() {
-            // What is fixed has no inverse mass, and does not fall.
+            // Fixed bodies have no inverse mass, and do not fall.
             if self.inverse_mass[body] > 0.0 {
                 self.vx[body] += (self.fx[body] * self.inverse_mass[body] + gravity.x) * dt;
                 self.vy[body] += (self.fy[body] * self.inverse_mass[body] + gravity.y) * dt;
@@ -412,7 +414,7 @@ fn laws(bodies: &Bodies, penalty: &Penalty, materials: &Materials) -> (Law, Law)
         let damping = match (penalty.normal, penalty.damping, penalty.damping_rate) {
             (NormalLaw::Dashpot, Some(damping), _) => damping.si(),
             (NormalLaw::Dashpot, _, Some(rate)) => rate.si() * mass,
-            // A dashpot that gives this restitution, but for the force at the end of a touch.
+            // A dashpot with this restitution, except for the force at the end of a touch.
             _ => {
                 let log = libm::log(restitution_of(inelasticity).max(0.01));
                 -2.0 * log / (std::f64::consts::PI.powi(2) + log * log).sqrt() * (stiffness * mass).sqrt()
@@ -438,8 +440,9 @@ mod tests {
         (simulation, plain)
     }
 
-    /// Without loss both make the same ticks of the same forces, in another order of sums: the difference is rounding that
-    /// collisions magnify, each by the flight over the radius (ten, here), a handful of them in this time: 1e-16 times 1e6.
+    /// Without loss both make the same ticks of the same forces, in another order of sums. The difference is rounding
+    /// that collisions magnify. Each magnifies by the flight over the radius (ten, here), a handful of times: 1e-16
+    /// times 1e6.
     #[test]
     fn without_loss_it_is_the_engine() {
         let (mut simulation, mut plain) = loaded(
@@ -461,10 +464,11 @@ mod tests {
         assert!(deepest > 1e-4, "nothing collided");
     }
 
-    /// A disc that slides ends up rolling with two thirds of its speed, whatever friction and stiffness are: angular momentum about
-    /// the floor stays. The tangential spring is left with the elongation `mu N / k_t` and swings on, as nothing damps it: by
-    /// that times `sqrt(3 k_t / m)` along the surface, a third of which is the motion of the centre and two thirds the turn. A tenth
-    /// more is for the weight on the floor, which the disc begins to bear a little out of balance.
+    /// A sliding disc ends up rolling with two thirds of its speed for every friction and stiffness. The reason is that
+    /// the angular momentum about the floor is constant. The tangential spring keeps the elongation `mu N / k_t` and
+    /// swings on without damping. The swing is that times `sqrt(3 k_t / m)` along the surface. The motion of the centre
+    /// has a third of it, and the turn two thirds. A tenth more is for the weight, which the disc begins to bear a
+    /// little out of balance.
     #[test]
     fn a_sliding_disc_comes_to_roll() {
         let (_, mut plain) = loaded(
@@ -480,8 +484,9 @@ mod tests {
         assert!((plain.atoms.spin[0] * 0.1 + 2.0).abs() < swing * 2.0 / 3.0, "{} {swing}", plain.atoms.spin[0]);
     }
 
-    /// A spring with a dashpot that never pulls: `e = exp(-b t)` with `t = atan2(2 b w, b^2 - w^2)/w`, Schwager and Poeschel 2007. Forces
-    /// see velocities half a tick old, so the damping is wrong by `c dt/(2 m)`, 0.3 %; a hundredth is allowed.
+    /// A spring with a dashpot that never pulls: `e = exp(-b t)` with `t = atan2(2 b w, b^2 - w^2)/w`, Schwager and
+    /// Poeschel 2007. Forces see velocities half a tick old, so the damping is off by `c dt/(2 m)`, 0.003 of it. A
+    /// hundredth is allowed.
     #[test]
     fn a_dashpot_restitutes_as_it_should() {
         let (_, mut plain) = loaded(

@@ -1,4 +1,4 @@
-//! What several rounds give: the middle of them, and how far they are apart.
+//! The median of several rounds, and their spread.
 
 /// A number that was measured several times.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,5 @@
-//! Estimates against the truth: problems are run, their errors estimated, and compared with a run whose error is far smaller.
+//! Estimates against reference solutions: problems are run, their errors estimated, and compared with a run of far
+//! smaller error.
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -13,13 +14,13 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 
 /// Methods whose estimates are compared.
 pub const METHODS: [&str; 3] = ["VelocityVerlet", "RungeKutta4", "Dop853"];
-/// Ticks that are tried, over that of the problem.
+/// Tried ticks, over that of the problem.
 const LADDER: [f64; 10] = [64.0, 32.0, 16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
-/// So many of them count for each problem and method, the longest first...
+/// At most this many of them count for each problem and method, the longest first...
 const STEPS: usize = 3;
-/// ... whose errors, as shares of the motion, lie between what is useless and what is rounding or the reference's own error.
+/// ... if their errors, as shares of the motion, are neither useless, nor rounding, nor the reference's own error.
 const USEFUL: (f64, f64) = (1e-10, 3e-2);
-/// The error falls by at least this when the tick is halved, if it falls with its order: less is too coarse to tell.
+/// The least factor by which the error falls when the tick is halved. With less the tick is too coarse.
 const FALLS: f64 = 1.4;
 /// Moments at which runs are compared.
 const MOMENTS: u64 = 64;
@@ -33,7 +34,7 @@ pub struct Checked {
     pub method: &'static str,
     /// Seconds of a tick.
     pub tick: f64,
-    /// What the run says of itself.
+    /// The estimate of the run.
     pub estimated: f64,
     /// How far it is from the reference run.
     pub truth: f64,
@@ -46,7 +47,7 @@ impl Checked {
     }
 }
 
-/// What a run says of the error of its places in m, and until when in s.
+/// The estimate of a run: the error of its positions in m, and the time in s until which it holds.
 struct Told {
     error: f64,
     until: f64,
@@ -77,8 +78,8 @@ fn run(
     Ok((trajectory, error))
 }
 
-/// Compares estimates of a problem with the truth, for each of [`METHODS`] at the three longest ticks at which errors are useful
-/// and fall with the tick. Methods that are exact have none.
+/// Compares estimates of a problem with the reference, for each of [`METHODS`]. It takes the three longest ticks at
+/// which errors are useful and fall with the tick. Exact methods have none.
 ///
 /// # Errors
 /// When the reference run of the problem does not run.

@@ -1,12 +1,12 @@
-//! How the difference of two runs grows.
+//! The growth of the difference of two runs.
 
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 
-/// Runs that differ by more than this share of the motion tell no places.
+/// If runs differ by more than this share of the motion, their positions are meaningless.
 const USELESS: f64 = 0.1;
 /// Differences of smooth motion grow with no higher power of time, for long: faster is exponential growth.
 const HIGHEST_POWER: f64 = 3.0;
-/// Differences below this share of the motion are rounding, and tell no order.
+/// Differences below this share of the motion are rounding, and show no order.
 const ROUNDING: f64 = 1e-13;
 
 /// Time in s, difference of places in m and of velocities in m/s at each moment.
@@ -28,15 +28,15 @@ pub(super) struct Growth {
     pub distance: f64,
     /// Root of the mean square over time of the greatest difference of velocities until the horizon, in m/s.
     pub speed: f64,
-    /// The last moment in s before the two runs tell no places any more; nothing, if they always do.
+    /// The last moment in s at which the positions of both runs are meaningful. `None` if they always are.
     pub horizon: Option<f64>,
 }
 
 impl Growth {
-    /// What two runs showed, of bodies that go as far as `motion` metres.
+    /// The results of two runs whose bodies go as far as `motion` metres.
     pub fn of(seen: Seen, motion: f64) -> Self {
         let Seen(seen) = seen;
-        // What is no number is useless too.
+        // NaN is useless too.
         let lost = seen.iter().position(|(_, far, _)| !(*far <= USELESS * motion || motion == 0.0));
         let horizon = lost.map(|place| place.checked_sub(1).map_or(0.0, |before| seen[before].0));
         let told = &seen[..lost.unwrap_or(seen.len())];
@@ -44,22 +44,22 @@ impl Growth {
         Self { motion, distance, speed: mean(told), horizon, seen }
     }
 
-    /// The difference of places as a share of how far bodies go; one, where they tell no places.
+    /// The difference of positions as a share of the ways of bodies. One if positions are meaningless.
     pub fn share(&self) -> Option<f64> {
         let share = if self.motion > 0.0 { self.distance / self.motion } else { 0.0 };
         Some(if self.horizon.is_some() { 1.0 } else { share })
     }
 
-    /// The power with which differences fall with the tick, from two runs and a pair twice as fine; nothing where they are
-    /// rounding, or do not fall.
+    /// The power with which differences fall with the tick, from two runs and a pair twice as fine. `None` if the
+    /// differences are rounding, or do not fall.
     pub fn order_against(&self, finer: &Self) -> Option<f64> {
         let order = libm::log2(self.distance / finer.distance);
         let told = finer.distance > ROUNDING * self.motion && self.horizon.is_none();
         (told && order.is_finite() && order > 0.0).then_some(order)
     }
 
-    /// Whether places are lost because differences grew exponentially: from when they were seen first they grew more in the later
-    /// half of the time than any power lets them.
+    /// Whether positions are lost because differences grew exponentially. They grew more in the later half of their
+    /// visible time than by any power.
     pub fn is_exponential(&self) -> bool {
         let Some(end) = self.horizon else { return false };
         let seen = |(_, far, _): &&(f64, f64, f64)| *far > ROUNDING * self.motion;
@@ -92,7 +92,7 @@ mod tests {
         Growth::of(Seen(seen.collect()), 1.0)
     }
 
-    /// The last moment at which runs agree counts, and what is larger later does not.
+    /// Only the last moment of agreement counts, and not later, larger differences.
     #[test]
     fn a_horizon_that_was_seen_ends_what_is_told() {
         let growth = grown(|time| 0.01 * time, 50);

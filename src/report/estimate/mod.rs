@@ -1,8 +1,9 @@
-//! The error of a run, estimated by the engine itself: the run is made again with finer steps (`twins.rs`), and the difference
-//! tells how far the first is from the exact solution (Richardson 1911; Hairer, Norsett, Wanner, *Solving Ordinary Differential
-//! Equations I*, 1993, II.4). Where that is dear only the beginning is made again, and nothing is said of the rest.
+//! Error estimation by Richardson extrapolation: the run is repeated with finer steps (`twins.rs`). The difference
+//! gives the distance of the first run from the exact solution. Sources: Richardson 1911; Hairer, Norsett, Wanner,
+//! *Solving Ordinary Differential Equations I*, 1993, II.4. If that is expensive, only the beginning is repeated, and
+//! the rest has no estimate.
 //!
-//! Rounding is estimated by runs whose last bits are wrong, the error of soft contacts by a run with stiffer ones.
+//! Rounding is estimated by runs with disturbed last bits, and the error of soft contacts by a run with stiffer ones.
 
 pub mod check;
 mod growth;
@@ -26,11 +27,12 @@ use jostle_engine::tick::{State, stands};
 use jostle_language::numbers::number;
 use twins::{Finer, Told};
 
-/// Work that an estimate may take where nothing more is asked for: this share of that of the run.
+/// The share of the run's work that an estimate may take by default.
 const SHARE: f64 = 0.03;
-/// ... or this many evaluations of the forces of a world without atoms, about a tenth of a second, if that is more...
+/// ... or this many evaluations of the forces of a world without atoms, if that is more. It is about a tenth of a
+/// second...
 const FREE: f64 = 2e5;
-/// ... or four times as many, where that suffices for the whole run.
+/// ... or four times as many, if that suffices for the whole run.
 const WHOLE: f64 = 8e5;
 /// Work of an evaluation for each atom, over what each evaluation takes whatever there is, and of reading a scene.
 const PER_ATOM: f64 = 0.04;
@@ -40,27 +42,27 @@ const EVEN: u64 = 4096;
 const MOST_NUMBERS: u64 = 6_000_000;
 /// Its multiples are spread evenly over whatever they are taken modulo.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// Share of the motion from which on places count as wrong.
+/// Share of the motion from which positions count as wrong.
 const PARTED: f64 = 1e-2;
 /// Parts of a run between which it is seen whether it takes too long.
 const CHUNKS: u64 = 64;
-/// Fewer tell no growth.
+/// Fewer moments show no growth.
 const FEWEST_MOMENTS: usize = 4;
 
 /// How much work an estimate may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Effort {
-    /// None: nothing is estimated.
+    /// None: no estimate.
     None,
-    /// Three hundredths of the work of the run; about a tenth of a second if that is more, and four times as much if that
-    /// suffices for the whole run.
+    /// Three hundredths of the work of the run, or about a tenth of a second if that is more. Four times as much is
+    /// allowed if it suffices for the whole run.
     #[default]
     Little,
-    /// All that helps: runs with half and with a quarter of the tick, which tell the order too.
+    /// All useful runs: with half and with a quarter of the tick, which show the order too.
     Full,
 }
 
-/// What is to be estimated of a run.
+/// The requested estimate of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// Work for the error that the finite tick makes.
@@ -71,10 +73,10 @@ pub struct Wanted {
     pub model: bool,
 }
 
-/// What the engine estimated of the error of a run whose steps were chosen otherwise.
+/// The estimated error of a run whose steps were chosen otherwise.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct EstimatedError {
-    /// The error; nothing, if it could not be estimated.
+    /// The error; `None` if it could not be estimated.
     pub estimate: Option<ErrorEstimate>,
     /// The same as a share of how far bodies go.
     pub share: Option<f64>,
@@ -82,18 +84,18 @@ pub struct EstimatedError {
     pub began: Option<(String, f64)>,
     /// Whether the error grew exponentially.
     pub chaotic: bool,
-    /// Until when the run was made again, in s, if not to its end: nothing is known of the rest.
+    /// The time in s until which the run was repeated, if not to its end. The rest is unknown.
     pub known_until: Option<f64>,
-    /// What else is to be known of it.
+    /// Further notes on it.
     pub notes: Vec<String>,
 }
 
-/// An error, as a share of how far bodies go, with which nothing is wrong with a tick whose events are located.
+/// An error, as a share of the ways of bodies, at which a tick with located events is good.
 const SMALL: f64 = 1e-2;
 
 impl EstimatedError {
-    /// Whether events are located and the error of the whole run is known to be small: then no rule of thumb says that its tick is
-    /// too long.
+    /// Whether events are located and the error of the whole run is known to be small. Then no rule of thumb calls its
+    /// tick too long.
     pub fn is_small(world: &World) -> bool {
         let located = world.get_resource::<ChosenMethod>().is_some_and(|method| method.located);
         let small = |found: &Self| found.known_until.is_none() && found.share.is_some_and(|share| share < SMALL);
@@ -103,7 +105,7 @@ impl EstimatedError {
 
 /// A scene that can be run again.
 pub struct Repeated<'a> {
-    /// What was asked of its first run beside the scene.
+    /// The overrides of its first run.
     pub overrides: &'a Overrides,
     /// Gives it at its beginning.
     pub load: &'a dyn Fn(&Overrides) -> Result<Simulation, SceneErrors>,
@@ -112,7 +114,8 @@ pub struct Repeated<'a> {
 }
 
 impl Repeated<'_> {
-    /// The scene at its beginning, to be run by another plan for as long as `first`, with contacts so many times as stiff.
+    /// The scene at its beginning, to be run by another plan for as long as `first`. Contacts are stiffer by the factor
+    /// `stiffness`.
     fn again(&self, first: &Simulation, plan: Plan, stiffness: f64, what: &str) -> Result<Simulation, SceneErrors> {
         if let Some(tell) = self.tell {
             tell(what);
@@ -135,9 +138,9 @@ pub fn watch(simulation: &mut Simulation, wanted: Wanted) {
     }
 }
 
-/// Ticks at which runs are compared: half of them spread over the whole run, a quarter over the part that a share of the work
-/// suffices for, and a quarter at equal ratios, of which the first are early. Their distances differ, so that no swing looks the
-/// same at all of them.
+/// Ticks at which runs are compared. Half of them are spread over the whole run. A quarter are in the part for which a
+/// share of the work suffices. A quarter are at equal ratios, of which the first are early. Their distances differ, so
+/// that no swing looks the same at all of them.
 fn moments(simulation: &Simulation) -> Vec<u64> {
     let cycles = twins::cycles_of(simulation).map(u64::from);
     moments_of(simulation.ticks(), simulation.bodies().len() as u64, cycles)
@@ -193,7 +196,7 @@ fn work(simulation: &Simulation) -> f64 {
     evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
 }
 
-/// The part of a run that can be run again for little work, where twins take `times` the work of the run.
+/// The part of a run that can be repeated for little work, if twins take `times` the work of the run.
 fn affordable(simulation: &Simulation, times: f64) -> f64 {
     let (work, reading) = (work(simulation), READING * simulation.bodies().atom_count() as f64);
     let whole = times * work;
@@ -264,7 +267,7 @@ fn discretisation(
         told.add(finer, order, Seen::between(run, &twin), motion);
     }
     if stands(simulation.resource::<State>()) {
-        // What differs is rounding, however little the motion is that it is compared with.
+        // The differences are rounding, however small the motion.
         (told.share, told.chaotic, told.horizon, found.began) = (None, false, None, None);
     }
     let known = |error: f64| ErrorParts {
@@ -281,7 +284,7 @@ fn discretisation(
     Ok(())
 }
 
-/// Notes of a run whose beginning alone was made again, as a twin of it is at its end.
+/// Notes of a run whose beginning alone was repeated, for its twin at its end.
 fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &mut EstimatedError) {
     let last = moments(simulation).into_iter().rfind(|tick| *tick <= until).unwrap_or_default();
     let known = simulation.clock().time_of(last);
@@ -294,7 +297,7 @@ fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &m
     ));
 }
 
-/// The order with which the error falls, seen with a half and a quarter of the tick; nothing where it does not.
+/// The order with which the error falls, from a half and a quarter of the tick; `None` if it does not fall.
 fn observed_order(
     simulation: &Simulation,
     run: &Trajectory,

@@ -1,9 +1,9 @@
-//! Soft contacts as a model of hard ones: the run with contacts four times as stiff, and half the tick, for they are twice as
-//! fast.
+//! The model error of soft contacts. The run is repeated with contacts four times as stiff and half the tick, because
+//! these are twice as fast.
 //!
-//! What a spring does in place of a hard surface falls with one over the stiffness where bodies rest on each other, and with one
-//! over its root where they meet: overlap and duration of a contact (numbers of an impact follow from `v sqrt(m/k)`). The
-//! slower fall counts, for it leaves the larger error: twice the difference of the two runs.
+//! The deviation of a spring from a hard surface falls with one over the stiffness for bodies that rest on each other.
+//! It falls with one over its root for impacts: overlap and duration of a contact (numbers of an impact follow from `v
+//! sqrt(m/k)`). The slower fall counts, because it leaves the larger error: twice the difference of the two runs.
 
 use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};

@@ -1,8 +1,8 @@
-//! Rounding: runs whose last bits are wrong at every tick, some up, some down.
+//! The effect of rounding: runs with disturbed last bits at every tick, some up, some down.
 //!
-//! Each tick rounds places and velocities by up to half a unit in the last place, here they are moved by a whole one. What
-//! comes of that shows how the motion makes rounding grow (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.
-//! 2002, 1.18: beware, the true errors of rounding are no random numbers).
+//! Each tick rounds positions and velocities by up to half a unit in the last place. Here they are moved by a whole
+//! one. The result shows how the motion magnifies rounding. True rounding errors are not random numbers (Higham,
+//! *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, 1.18).
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -18,10 +18,10 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::simulation::error::ErrorEstimate;
 use jostle_engine::tick::{State, add_packed_observer};
 
-/// Runs with wrong last bits.
+/// Runs with disturbed last bits.
 const SAMPLES: u64 = 3;
 
-/// Where the wrong bits come from.
+/// The source of the disturbed bits.
 #[derive(Resource)]
 struct LastBits(ChaCha8Rng);
 
@@ -29,7 +29,7 @@ struct LastBits(ChaCha8Rng);
 fn disturb(mut state: ResMut<State>, mut bits: ResMut<LastBits>) {
     let bodies = state.bodies_mut();
     for body in 0..bodies.len() {
-        // Whoever is at rest stands still to the last bit.
+        // Bodies at rest do not move by a bit.
         let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
         if still || !bodies.dynamic[body] {
             continue;
@@ -87,7 +87,8 @@ mod tests {
     use super::*;
     use jostle_engine::scene::Source;
 
-    /// Promise: last bits are those of bodies in motion. A ball that rests is left alone, whoever else is there.
+    /// Promise: disturbed bits are those of bodies in motion. A ball at rest is not disturbed, whatever other bodies
+    /// there are.
     #[test]
     fn who_rests_is_not_disturbed() {
         let text = "Scene(format: 1, clock: (duration: 2, tick: 0.001, method: VelocityVerlet), gravity: (0, -9.81),

@@ -1,9 +1,10 @@
-//! Twins: runs of the same scene that have no step in common with the first, and smaller errors.
+//! Twins: finer runs of the same scene that share no step with the first run.
 //!
-//! Two runs differ by the error of the coarser one, unless both are wrong alike. Where motion is smooth one twin with half the tick
-//! tells it. Where forces jump the error depends on where in its ticks or steps a run meets the jumps, and two runs may meet
-//! them alike by chance: there two twins are made, and the larger difference counts. A twin with half the tick sees every second
-//! jump at the end of the same tick as the first run; so ticks of twins end elsewhere, but for one in ten of the first run.
+//! Two runs differ by the error of the coarser one, unless their errors are equal. If motion is smooth, one twin with
+//! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may
+//! meet the jumps at the same phase by chance. So two twins are made, and the larger difference counts. A twin with
+//! half the tick meets every second jump at the end of the same tick as the first run. So ticks of twins end elsewhere,
+//! except for one in ten of the first run.
 
 use std::time::{Duration, Instant};
 
@@ -18,14 +19,14 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// Ticks of the first run between two that end with ticks of its twins, at most, and how many such there are at least.
+/// Upper bound of the first run's ticks between two common ends with its twins, and the least number of common ends.
 const LONGEST_CYCLE: u64 = 10;
 const FEWEST_CYCLES: u64 = 10;
 
 /// How much finer a twin is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Finer {
-    /// So many of its ticks...
+    /// This many of its ticks...
     pub ticks: u32,
     /// ... are as long as so many of the first run. They have no factor in common.
     pub of: u32,
@@ -54,7 +55,7 @@ impl Finer {
         tick / u64::from(self.of) * u64::from(self.ticks)
     }
 
-    /// What is left of an error that falls with the power `order` of the step, as a multiple of the difference.
+    /// The remaining error, as a multiple of the difference, if errors fall with the power `order` of the step.
     pub fn left(self, order: f64) -> f64 {
         1.0 / (1.0 - libm::pow(self.steps(), -order))
     }
@@ -72,15 +73,15 @@ impl Finer {
     }
 }
 
-/// Ticks after which all ticks of twins end with one of a run of so many where forces jump at the ends of ticks.
+/// The ticks between common ends of a twin and a run of `ticks` ticks. Forces jump at the ends of ticks.
 fn cycle(ticks: u64) -> u32 {
     let longest = (ticks / FEWEST_CYCLES).clamp(1, LONGEST_CYCLE);
     let divides = (longest.div_ceil(2)..=longest).rev().find(|cycle| ticks.is_multiple_of(*cycle));
     divides.unwrap_or(longest) as u32
 }
 
-/// Ticks after which ticks of the twins that a run may need end with one of it. The two numbers have no factor in common, so that
-/// hardly a tick of the run ends with one of both.
+/// The ticks between common ends of a run and of the twins that it may need. The two numbers have no common factor, so
+/// that few ticks of the run end with one of both.
 pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
     let world = simulation.unpublished_world();
     let touches = world.resource::<State>().contact_law().is_some() && !ChosenMethod::locates(world);
@@ -92,15 +93,15 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
     }
 }
 
-/// Whether something else than contacts may change at the end of a tick: a limit that is hit, a rope that becomes taut, a joint that breaks,
-/// friction that sticks.
+/// Whether another event than a contact may occur at the end of a tick. Examples are a limit that is hit, a rope that
+/// becomes taut, a joint that breaks, and friction that sticks.
 fn switches_at_ticks(simulation: &Simulation) -> bool {
     let world = simulation.unpublished_world();
     let mut models = world.resource::<State>().models();
     !ChosenMethod::locates(world) && models.any(|model| model.has_modes() && model.contact_law().is_none())
 }
 
-/// The twins that tell the error of a run that is over.
+/// The twins that give the error of a finished run.
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.unpublished_world();
     let located = ChosenMethod::locates(world);
@@ -132,7 +133,7 @@ pub(super) fn watch_beside(other: &mut Simulation, first: &Simulation, finer: Fi
     Trajectory::watch(other, common.map(|tick| finer.tick(tick)).collect());
 }
 
-/// Runs a twin until the end of tick `until` of the first; nothing, if it has no such tick or takes longer than there is patience.
+/// Runs a twin until the end of tick `until` of the first. `None` if it has no such tick or takes too long.
 pub(super) fn run(
     first: &Simulation,
     (finer, until): (Finer, u64),
@@ -156,7 +157,7 @@ pub(super) fn run(
     Ok(Some((Trajectory::watched(&mut twin, failure), twin)))
 }
 
-/// What twins say of the error of a run.
+/// The results of twins on the error of a run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Told {
     /// Greatest error of a place in m, and of velocities in m/s.
@@ -164,14 +165,14 @@ pub(super) struct Told {
     pub speed: f64,
     /// The greatest error as a share of how far bodies go.
     pub share: Option<f64>,
-    /// The last moment in s before a twin tells no places any more.
+    /// The last moment in s at which the positions of a twin are meaningful.
     pub horizon: Option<f64>,
     /// Whether that came of exponential growth.
     pub chaotic: bool,
 }
 
 impl Told {
-    /// Takes up what a twin says, where errors fall with the power `order` of the step.
+    /// Adds the result of a twin, if errors fall with the power `order` of the step.
     pub fn add(&mut self, finer: Finer, order: f64, seen: Seen, motion: f64) {
         let (growth, left) = (Growth::of(seen, motion), finer.left(order));
         self.distance = self.distance.max(left * growth.distance);

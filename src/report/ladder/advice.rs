@@ -1,4 +1,4 @@
-//! Which setting to take: the cheapest for each wanted error, among those that nothing else beats.
+//! The choice of a setting: the cheapest for each wanted error, from the Pareto front of cost and error.
 
 use super::{Setting, Settings};
 
@@ -7,17 +7,17 @@ pub const TARGETS: [(&str, f64); 3] = [("bronze", 1e-2), ("silver", 1e-4), ("gol
 
 /// Errors beyond this share of the motion are of no use.
 pub(crate) const USELESS: f64 = 1.0;
-/// ... and nobody is advised to take a larger one than this.
+/// ... and no larger error is advised.
 const ADVISED: f64 = 0.1;
 
-/// What to take for a wanted error.
+/// The setting for a wanted error.
 #[derive(Clone, Copy, Debug)]
 pub struct Advice<'a> {
     /// The error that is wanted.
     pub target: f64,
     /// The cheapest setting that reaches it.
     pub reached: Option<&'a Setting>,
-    /// The most exact setting of all, where none does and it is of any use.
+    /// The most exact setting of all, if none reaches the error and it is useful.
     pub nearest: Option<&'a Setting>,
 }
 
@@ -27,7 +27,7 @@ impl Settings {
         self.all.iter().filter_map(|setting| Some((setting, self.claimed(setting)?, setting.cost(self.cost)?)))
     }
 
-    /// What to take for each of [`TARGETS`].
+    /// The settings for each of [`TARGETS`].
     pub fn advice(&self) -> Vec<Advice<'_>> {
         TARGETS.into_iter().map(|(_, target)| self.advice_for(target)).collect()
     }
@@ -40,7 +40,7 @@ impl Settings {
         Advice { target, reached, nearest: nearest.map(|(setting, ..)| setting).filter(|_| reached.is_none()) }
     }
 
-    /// Whether a setting is beaten by no other: none is as exact for less, or more exact for as little.
+    /// Whether no other setting dominates it: none is as exact for less, or more exact for the same cost.
     pub fn is_best(&self, setting: &Setting) -> bool {
         let Some((error, cost)) = self.claimed(setting).zip(setting.cost(self.cost)) else { return false };
         let beats = |(_, other, price): (&Setting, f64, f64)| {

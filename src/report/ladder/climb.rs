@@ -1,5 +1,5 @@
-//! Going up: every course with ticks from coarse to fine, the cheapest tick of all courses next, until errors are no larger than what is known of them,
-//! or time is up.
+//! The climb of the ladder: every course has ticks from coarse to fine, and the cheapest tick of all courses is next.
+//! It ends when errors reach the floor of the reference, or time is up.
 
 use super::{Budget, Course, Outcome, Setting, USELESS};
 use jostle_language::numbers::number;
@@ -8,10 +8,10 @@ use jostle_language::numbers::number;
 const MOST_FAILURES: u32 = 12;
 /// Errors below this that fall no more are rounding.
 const ROUNDING: f64 = 1e-7;
-/// A course is left behind where another one has no more than its error for this share of its evaluations.
+/// A course is abandoned if another one has no larger error for this share of its evaluations.
 const BEHIND: f64 = 1.0 / 64.0;
-/// ... but not before so many of its settings are measured, not while its errors are above this, nor while the last one is so many
-/// times below the one before: that of order 3 with half the tick.
+/// ... but not before this many of its settings are measured. Nor is it abandoned while its errors are above the next
+/// number, or fall by the factor behind it. That is the factor of order 3 with half the tick.
 const SEEN: usize = 4;
 const TELLS: f64 = 0.1;
 const STEEP: f64 = 8.0;
@@ -20,8 +20,8 @@ const STEEP: f64 = 8.0;
 pub(crate) struct Rungs<I: Iterator<Item = f64>> {
     /// From coarse to fine.
     pub ticks: I,
-    /// Longer ones, from fine to coarse: they are tried, after the first of the others, as long as each is of use and takes no more
-    /// evaluations than the one before.
+    /// Longer ticks, from fine to coarse. They are tried after the first of the others. Each must be useful and take no
+    /// more evaluations than the one before.
     pub trials: Vec<f64>,
 }
 
@@ -31,7 +31,7 @@ impl<I: Iterator<Item = f64>> From<I> for Rungs<I> {
     }
 }
 
-/// What is run on the ladder.
+/// The object that runs on the ladder.
 pub(crate) trait Subject {
     /// Why it cannot go on.
     type Wrong;
@@ -39,7 +39,7 @@ pub(crate) trait Subject {
     /// Runs it with a tick; the setting, with its time if that is known, and the seconds that it took.
     fn run(&self, course: Course, tick: f64) -> Result<(Setting, f64), Self::Wrong>;
 
-    /// Why an error so small, at a tick, tells nothing more, if so.
+    /// The reason why smaller errors than this have no meaning at a tick, if there is one.
     fn is_floor(&self, error: f64, tick: f64) -> Option<String>;
 }
 
@@ -62,11 +62,11 @@ struct Climber<I: Iterator<Item = f64>> {
     /// Seconds and tick of the last one.
     last: Option<(f64, f64)>,
     failures: u32,
-    /// Why it goes no further.
+    /// The reason why it ends.
     end: Option<String>,
 }
 
-/// Climbs; returns what came out, and why courses went no further. Each comes with its rungs.
+/// Climbs; returns the settings, and the reasons why courses ended. Each comes with its rungs.
 #[expect(clippy::type_complexity, reason = "two lists")]
 pub(crate) fn climb<S: Subject, I: Iterator<Item = f64>>(
     subject: &S,
@@ -116,13 +116,13 @@ fn behind<I: Iterator<Item = f64>>(climbers: &[Climber<I>], place: usize) -> boo
     let better = |other: &Setting| {
         other.error().is_some_and(|share| share <= error) && other.evaluations <= BEHIND * last.evaluations
     };
-    // Whose errors are useless still, or fall steeply, may overtake all others.
+    // A course whose errors are still useless, or fall steeply, may overtake all others.
     let before = own.iter().rev().skip(1).find_map(Setting::error).unwrap_or(f64::INFINITY);
     measured >= SEEN && error < TELLS && before < STEEP * error && others.into_iter().any(better)
 }
 
 impl<I: Iterator<Item = f64>> Climber<I> {
-    /// Evaluations of all forces per second of physics that the next tick takes, about; none, if nothing was run.
+    /// The predicted evaluations of all forces per second of physics for the next tick; zero before the first run.
     fn foreseen(&mut self) -> f64 {
         let last = self.settings.last().map(|last| (last.evaluations, last.tick));
         last.zip(self.ticks.peek()).map_or(0.0, |((evaluations, tick), next)| evaluations * tick / next)
@@ -139,7 +139,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         self.last = Some((spent, tick));
         self.settings.push(setting);
         for tick in std::mem::take(&mut self.trials) {
-            // Not by time: what is tried, and told, would be another thing in each run.
+            // The measure is not time, because then each run would try and report other settings.
             let cost =
                 |setting: &Setting| setting.error().filter(|error| *error < USELESS).map(|_| setting.evaluations);
             let Some(before) = cost(&self.settings[0]) else { break };
@@ -191,7 +191,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
     }
 }
 
-/// Two digits are enough of what is foretold.
+/// Two digits are enough for a prediction.
 fn rounded(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }

@@ -1,21 +1,22 @@
-//! Settings as a work-precision diagram: error to the right, cost upwards, both by powers of ten, a curve for each course.
+//! Settings as a work-precision diagram: error to the right, cost upwards, both logarithmic, a curve for each course.
 
 use super::{Cost, Course, Outcome, Setting, Settings};
 use jostle_engine::record::plot::{Axis, Content, Curve, Plot, Sample};
 use jostle_film::raster::{Diagram, Look, Sign, Spot};
 
-/// The axis begins no farther than this from the smallest error, so that a floor far below does not push curves aside.
+/// The greatest distance of the axis' beginning from the smallest error, so that a floor far below does not push curves
+/// aside.
 const MARGIN: f64 = 1e-2;
 
-/// What a diagram says in words.
+/// The words of a diagram.
 pub struct Legend {
     /// The title.
     pub title: String,
-    /// What the error is.
+    /// The meaning of the error.
     pub error: String,
-    /// What leaves errors below the claim unknown.
+    /// The reason why smaller errors are unknown.
     pub floor: String,
-    /// Errors from here on are of no use, and what is said of them. What failed stands in the decade above.
+    /// The error from which results are useless, and its label. Failed settings are in the decade above.
     pub useless: (f64, String),
 }
 
@@ -43,7 +44,7 @@ pub fn diagram(settings: &Settings, legend: Legend, peers: &[Peer]) -> Diagram {
         let own = || settings.of(*course);
         let points: Vec<_> = own().filter_map(|setting| point(settings, setting, failed, useless)).collect();
         spots.extend(points.iter().map(|&(x, y, sign)| Spot { curve, x, y, sign }));
-        // What failed has no place on the curve.
+        // Failed settings have no point on the curve.
         let samples = points.into_iter().filter(|(.., sign)| *sign != Sign::Cross);
         let samples = samples.enumerate().map(|(place, (x, y, _))| Sample { time: place as f64, x, y }).collect();
         let refused = own().any(|setting| matches!(setting.outcome, Outcome::Refused(_)));
@@ -107,7 +108,7 @@ fn looks(courses: &[Course]) -> Vec<Look> {
     courses.iter().map(&mut look).collect()
 }
 
-/// Where a setting stands; one that is of no use stands at `failed`.
+/// The point of a setting; a useless one has the error `failed`.
 fn point(settings: &Settings, setting: &Setting, failed: f64, useless: f64) -> Option<(f64, f64, Sign)> {
     let cost = setting.cost(settings.cost).filter(|cost| *cost > 0.0)?;
     match setting.outcome {

@@ -1,8 +1,9 @@
-//! The ladder: methods with ticks from coarse to fine, what each costs and how wrong it is. `jostle measure` climbs it with a scene and
-//! a reference run (`report/measure`), `jostle report` with problems whose answer is known (`report/survey`).
+//! The work-precision ladder: methods with ticks from coarse to fine, and the cost and error of each. `jostle measure`
+//! climbs it with a scene and a reference run (`report/measure`). `jostle report` climbs it with problems of known
+//! answers (`report/survey`).
 //!
-//! `climb.rs` goes up and says where it ends; `timing.rs` times what is measured, in runs that do nothing else; `advice.rs` finds what
-//! nothing else beats, and the cheapest for a wanted error; `diagram.rs` draws it.
+//! `climb.rs` climbs it and decides the end. `timing.rs` times the settings in separate runs. `advice.rs` finds the
+//! settings that no other dominates, and the cheapest for a wanted error. `diagram.rs` draws it.
 
 mod advice;
 mod climb;
@@ -20,7 +21,7 @@ pub(super) use timing::least;
 use jostle_engine::integrate::clock::EventTiming;
 use jostle_engine::tick::Failure;
 
-/// A method, and how it goes through events.
+/// A method, and its treatment of events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Course {
     /// Name of the method; `Auto`: the engine chooses.
@@ -35,7 +36,8 @@ impl Course {
         Self { method, events: EventTiming::Auto }
     }
 
-    /// In words: `located` where events are, else they happen at the ends of ticks, or as the scene or the engine chooses.
+    /// In words: `located` for located events. Otherwise they happen at the ends of ticks, or as the scene or the
+    /// engine chooses.
     pub fn name(&self) -> String {
         match self.events {
             EventTiming::Auto | EventTiming::PerTick => self.method.to_owned(),
@@ -44,7 +46,7 @@ impl Course {
     }
 }
 
-/// What a setting costs.
+/// The kind of cost of a setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cost {
     /// Seconds of this computer.
@@ -59,9 +61,9 @@ pub enum Cost {
 pub enum Outcome {
     /// Its error.
     Measured(Deviation),
-    /// It reaches its end, and nothing tells its error.
+    /// It reaches its end, and its error is unknown.
     Unknown,
-    /// It went wrong.
+    /// It failed.
     Failed(Failure),
     /// The method cannot run the scene, and why.
     Refused(String),
@@ -69,13 +71,13 @@ pub enum Outcome {
     Stopped(f64),
 }
 
-/// How wrong a run is.
+/// The error of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// The error, in the norm of the scene or problem.
     pub error: f64,
-    /// Where runs are compared: greatest distance of places in m, and difference of velocities in m/s, a root mean square over the
-    /// moments.
+    /// The distance at the compared moments: greatest distance of positions in m, and difference of velocities in m/s.
+    /// It is the root mean square over the moments.
     pub apart: Option<(f64, f64)>,
 }
 
@@ -88,13 +90,13 @@ pub struct Setting {
     pub tick: f64,
     /// Whether events are located inside ticks.
     pub located: bool,
-    /// What came out.
+    /// The result.
     pub outcome: Outcome,
     /// Evaluations of all forces per second of physics.
     pub evaluations: f64,
     /// Seconds per second of physics.
     pub seconds: Option<f64>,
-    /// What else is to be known.
+    /// Further notes.
     pub notes: Vec<String>,
 }
 
@@ -126,7 +128,7 @@ pub struct Settings {
     pub all: Vec<Setting>,
     /// Why courses did not go on to finer ticks.
     pub ends: Vec<(Course, String)>,
-    /// What counts as cost.
+    /// The kind of cost.
     pub cost: Cost,
     /// No error below it is claimed; nothing: nothing is known of errors.
     pub claim: Option<f64>,
@@ -149,7 +151,7 @@ impl Settings {
         self.all.iter().filter(move |setting| setting.course == course)
     }
 
-    /// The error that may be claimed of a setting: none below what is known of errors.
+    /// The error that can be claimed of a setting, which is at least the floor.
     pub fn claimed(&self, setting: &Setting) -> Option<f64> {
         Some(setting.error()?.max(self.claim?))
     }
@@ -178,7 +180,7 @@ impl Budget<'_> {
         self.whole - self.used()
     }
 
-    /// Whether less than a share of it is used; says so.
+    /// Whether less than a share of it is used. Reports the used share.
     pub fn within(&self, share: f64) -> bool {
         (self.tell)((self.used() / self.whole).min(1.0));
         self.used() < share * self.whole

@@ -1,4 +1,4 @@
-//! What a run costs: the least of several that do nothing else.
+//! The cost of a run: the least time of several runs.
 
 use super::timed;
 use jostle_engine::Simulation;
@@ -6,11 +6,11 @@ use jostle_engine::Simulation;
 /// Runs of which the fastest counts: what else the computer does only makes them slower. Short ones are repeated more often.
 const RUNS: u32 = 3;
 const MOST_RUNS: u32 = 9;
-/// Seconds after which there are no more than [`RUNS`].
+/// After this many seconds there are at most [`RUNS`] runs.
 const PATIENCE: f64 = 0.05;
 
-/// Seconds of the fastest run to the end; nothing where `left` seconds leave no time for one, which takes about `expected` seconds, or
-/// where none reaches its end.
+/// Seconds of the fastest run to the end. `None` if the `left` seconds do not suffice for one of about `expected`
+/// seconds, or if no run reaches its end.
 pub(crate) fn least<E>(load: impl Fn() -> Result<Simulation, E>, left: f64, expected: f64) -> Result<Option<f64>, E> {
     let mut least: Option<f64> = None;
     let (mut spent, mut runs) = (0.0, 0);

@@ -1,7 +1,8 @@
-//! Beyond the time until which places are known: means over the rest of the run and over all bodies, which chaos leaves as they are.
+//! Statistics beyond the time until which positions are known. They are means over the rest of the run and over all
+//! bodies, which chaos does not change.
 //!
-//! What reference runs differ by there is the scatter of one run; a setting within it is as good as they are, for all that a
-//! single run can tell (ensembles tell more: `jostle sweep`).
+//! The differences of reference runs there are the scatter of one run. A setting within it is as good as they are, as
+//! far as a single run can show (ensembles show more: `jostle sweep`).
 
 use glam::DVec2;
 
@@ -16,10 +17,11 @@ struct Means {
     place: DVec2,
 }
 
-/// How far means are from those of the reference: of speeds as a share of them, of places as a share of how far bodies go.
+/// The distance of means from those of the reference. Speeds are a share of themselves, and positions a share of the
+/// ways of bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Apart {
-    /// Root of the mean square of speeds, over that of the reference, less one.
+    /// Root mean square of speeds, over that of the reference, minus one.
     pub speed: f64,
     /// Distance of the mean places, over how far bodies go.
     pub place: f64,
@@ -41,7 +43,7 @@ impl Apart {
     }
 }
 
-/// What reference runs say of the time beyond.
+/// The means of reference runs in the time beyond.
 pub(super) struct Beyond {
     from: f64,
     means: Means,
@@ -62,7 +64,7 @@ fn means(run: &Trajectory, from: f64) -> Option<Means> {
 }
 
 impl Beyond {
-    /// What these runs have in common after `from` seconds; the first is the one that settings are compared with.
+    /// The common means of these runs after `from` seconds. Settings are compared with the first run.
     pub fn of(runs: &[&Trajectory], from: f64) -> Option<Self> {
         let first = runs.first()?;
         let beyond = Self { from, means: means(first, from)?, motion: first.sizes().0, scatter: Apart::default() };

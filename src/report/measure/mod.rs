@@ -1,7 +1,8 @@
-//! What a run of a scene costs and how wrong it is, method by method and tick by tick, on this very scene.
+//! Measurement of a scene: the cost and error of a run, method by method and tick by tick.
 //!
-//! A run whose error is far smaller is the truth (`reference.rs`); every method climbs a ladder of ticks from coarse to fine
-//! (`report/ladder`), and `scene.rs` says which ticks, and compares; `refine.rs` looks between those that are advised and the next coarser.
+//! A run of far smaller error is the reference (`reference.rs`). Every method climbs a ladder of ticks from coarse to
+//! fine (`report/ladder`). `scene.rs` chooses the ticks and compares. `refine.rs` tries ticks between the advised ones
+//! and the next coarser.
 
 mod beyond;
 mod reference;
@@ -25,16 +26,16 @@ use scene::{Compared, Scene};
 pub const NORM: &str = "the greater of two shares: how far any point of a body is from the reference, at the worst of all moments, \
      over how far the body goes; and how much its velocity differs, as a root mean square over the moments, over how fast it is";
 
-/// What is to be measured.
+/// The order of a measurement.
 #[derive(Clone, Debug)]
 pub struct Order {
     /// Seconds that it may take in all, about.
     pub budget: f64,
     /// Ticks that each method tries at the most.
     pub rungs: usize,
-    /// Methods; none: all.
+    /// Methods; empty: all.
     pub methods: Vec<String>,
-    /// What counts as cost.
+    /// The kind of cost.
     pub cost: Cost,
 }
 
@@ -50,12 +51,12 @@ pub enum Way<'a> {
 /// Makes the scene at its beginning.
 pub type Load<'a> = &'a dyn Fn(Way) -> Result<Simulation, SceneErrors>;
 
-/// What was measured of a scene.
+/// The measurement of a scene.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Seconds of physics.
     pub duration: f64,
-    /// The reference run; or why there is none: then settings tell only whether they reach the end.
+    /// The reference run, or the reason for its absence. Without it settings only show whether they reach the end.
     pub reference: Result<Reference, NoReference>,
     /// All settings, method by method, from coarse to fine.
     pub settings: Settings,
@@ -88,7 +89,7 @@ impl Measured {
 
 /// A plan with equal ticks, or steps as long as their error allows.
 fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
-    // What is known of its error, nothing, keeps others from looking for it.
+    // An empty estimate, which keeps others from estimating.
     let error = Some(jostle_engine::simulation::error::ErrorEstimate::default());
     Plan {
         method: method.to_owned(),
@@ -102,10 +103,10 @@ fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
     }
 }
 
-/// Measures a scene. `tell` hears from time to time which share of the budget is used.
+/// Measures a scene. `tell` receives the used share of the budget from time to time.
 ///
 /// # Errors
-/// When the scene is wrong, nothing in it moves, or the budget is too short to know the truth.
+/// When the scene is wrong, no body moves, or the budget is too short for a reference.
 pub fn measure(load: Load, order: &Order, tell: &dyn Fn(f64)) -> Result<Measured, NoReference> {
     let budget = Budget { start: Instant::now(), whole: order.budget, tell };
     let scene = Scene::look(load)?;

@@ -1,9 +1,9 @@
-//! The truth that settings are compared with: a run whose error is known to be small, and until when it is.
+//! The reference for settings: a run with a known small error, and the time until which it holds.
 //!
-//! Two runs of Dop853 with located events, whose steps may err by 1e-12 and 1e-14 of the motion, differ by about the error of the
-//! coarser one; that is the floor, a bound of what the finer one errs by. A third run begins a hair beside: how fast that grows tells
-//! chaos. Where contacts are too many to be located one by one, or that takes too long, runs of velocity Verlet with finer and
-//! finer ticks take their place.
+//! Two runs of Dop853 with located events may err by 1e-12 and 1e-14 of the motion per step. They differ by about the
+//! error of the coarser one. That is the floor, a bound of the error of the finer one. A third run begins very near to
+//! them, and its growing distance shows chaos. If locating contacts one by one takes too long, runs of velocity Verlet
+//! with finer and finer ticks replace them.
 
 use super::beyond::{Apart, Beyond};
 use super::scene::Scene;
@@ -18,35 +18,36 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::tick::Failure;
 use jostle_language::numbers::number;
 
-/// Shares of the budget by which the located runs have to be done, and those by ticks that may take their place.
+/// The share of the budget for the located runs, and that for the runs by ticks that may replace them.
 const LOCATED_BY: f64 = 0.4;
 const TICKS_BY: f64 = 0.6;
-/// Of the time until rounding is seen, runs are compared for this share: then rounding has grown to less than a millionth.
+/// Runs are compared for this share of the time until rounding becomes visible. By then rounding has grown to less than
+/// a millionth.
 const BEFORE_HORIZON: f64 = 0.7;
-/// Two reference runs that differ by this share of the motion no longer tell the truth.
+/// If two reference runs differ by this share of the motion, they are not a reference.
 const PARTED: f64 = 1e-2;
 /// No error below so many times the floor is claimed.
 const CLAIMED: f64 = 3.0;
-/// Ticks of a radian of the fastest contact in the coarsest reference run by ticks, and how often it is made finer at the most.
+/// Ticks of a radian of the fastest contact in the coarsest reference run by ticks, and the most refinements.
 const TICKS_PER_RADIAN: f64 = 4.0;
 const MOST_DOUBLINGS: u32 = 12;
 
-/// What is known of the reference run.
+/// The properties of the reference run.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// How it was made.
     pub words: String,
     /// Its own error is no larger, in the norm of the settings.
     pub floor: f64,
-    /// When rounding alone is seen, in s, if the motion is chaotic.
+    /// The time in s at which rounding alone becomes visible, if the motion is chaotic.
     pub horizon: Option<f64>,
     /// Until when settings are compared with it, in s.
     pub until: f64,
     /// Why that is not the whole run.
     pub why_until: Option<String>,
-    /// How far means over the rest of the run differ between reference runs, where there is a rest.
+    /// The difference of means over the rest of the run between reference runs, if there is a rest.
     pub scatter: Option<Apart>,
-    /// What weakens it.
+    /// A weakness of the reference.
     pub warning: Option<String>,
 }
 
@@ -64,9 +65,9 @@ pub enum NoReference {
     Scene(SceneErrors),
     /// The budget is too short; about so many seconds are needed.
     Short(f64),
-    /// It went wrong.
+    /// It failed.
     Failed(Failure),
-    /// Nothing moves.
+    /// No body moves.
     Still,
     /// Reference runs part at once.
     Parts,
@@ -78,17 +79,17 @@ impl From<SceneErrors> for NoReference {
     }
 }
 
-/// The reference run, and what is known of it.
+/// The reference run and its properties.
 pub(super) struct Truth {
     pub run: Trajectory,
-    /// How far and how fast each body goes in it.
+    /// The greatest distance and speed of each body in it.
     pub measures: Vec<(f64, f64)>,
     pub about: Reference,
-    /// What is known of the time after it.
+    /// The statistics of the time after it.
     pub beyond: Option<Beyond>,
 }
 
-/// The plan of a run of `duration` seconds with located events, whose steps may err by a share of the motion.
+/// The plan of a run of `duration` seconds with located events, whose steps may err by `share` of the motion.
 pub(super) fn located(tick: f64, share: f64, duration: f64) -> Plan {
     plan(
         "Dop853",
@@ -122,7 +123,7 @@ pub(super) fn find(load: Load, scene: &Scene, budget: &Budget) -> Result<Truth, 
             Unfit::Slow(located) => Err(NoReference::Short(needed.min(located))),
             Unfit::Crowded | Unfit::Failed(_) => Err(NoReference::Short(needed)),
         },
-        // A method by whole ticks may be none for this scene.
+        // The scene may not allow a method by whole ticks.
         Err(NoReference::Scene(errors)) => Err(match unfit {
             Unfit::Slow(needed) => NoReference::Short(needed),
             Unfit::Failed(failure) => NoReference::Failed(failure),
@@ -249,7 +250,8 @@ fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Tru
     compared((&coarse, None), fine, about, scene.duration, &|_| 1.0)
 }
 
-/// Compares two reference runs, and one that begins beside them, as long as they tell the truth. `growth` says by how much a disturbance has grown until a time.
+/// Compares two reference runs, and one that begins beside them, as long as they agree. `growth` gives the growth of a
+/// disturbance until a time.
 fn compared(
     (coarse, beside): (&Trajectory, Option<&Trajectory>),
     fine: Trajectory,

@@ -1,17 +1,18 @@
-//! Between two ticks of a ladder that goes by twos: the cheapest setting that is exact enough may be nearly twice as fine as it need be.
+//! Refinement between two ticks of a ladder with steps of two. The cheapest setting that is exact enough may be nearly
+//! twice as fine as needed.
 
 use super::scene::Compared;
 use crate::ladder::{Course, Setting, Settings, Subject, TARGETS};
 use jostle_engine::scene::SceneErrors;
 
-/// So often a tick between two is tried for each error.
+/// The tries between two ticks for each error.
 const TIMES: usize = 2;
-/// Errors between two ticks are no better known than to this factor: the tick that is tried aims as much lower.
+/// Errors between two ticks are only known to this factor, so the tried tick aims at a smaller error by this factor.
 const AIM: f64 = 0.7;
 /// Ticks that are not longer by this factor are not worth a run.
 const LONGER: f64 = 1.1;
 
-/// Tries ticks between the one that is advised for each error and the next longer, where errors between the two tell of one.
+/// Tries ticks between the advised one for each error and the next longer, if the errors of both suggest one.
 ///
 /// # Errors
 /// When the scene is wrong.
@@ -28,7 +29,7 @@ pub(super) fn refine(settings: &mut Settings, subject: &Compared) -> Result<(), 
     Ok(())
 }
 
-/// The ticks of a run whose error may just be the one that is wanted, and where it belongs; nothing if there is none to be tried.
+/// The ticks of a run whose error may just be the wanted one, and its position in the list. `None` if there is none.
 fn between(
     settings: &Settings,
     subject: &Compared,
@@ -41,7 +42,7 @@ fn between(
     if high <= target {
         return None;
     }
-    // As a power of the tick: exact where both are small.
+    // As a power of the tick, which is exact for small errors.
     let part = ((AIM * target / low).ln() / (high / low).ln()).clamp(0.0, 1.0);
     let longer = tick * (coarser.tick / tick).powf(part);
     let duration = subject.scene.duration;

@@ -1,4 +1,4 @@
-//! A scene on the ladder: what is known of it before anything runs, its ticks, and how a run of it is compared with the reference.
+//! A scene on the ladder: its properties before any run, its ticks, and the comparison of a run with the reference.
 
 use crate::SimulationExt;
 use std::f64::consts::PI;
@@ -13,10 +13,10 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// The ladder begins at so many times the critical tick, where there is one: what lies beyond is seen to fail. Where it does not, as
-/// contacts are brief or their forces hardly change, longer ones are tried.
+/// The ladder begins at this multiple of the critical tick, if there is one. Longer ticks are expected to fail. If they
+/// do not, because contacts are brief or their forces hardly change, longer ones are tried.
 const BEYOND_CRITICAL: f64 = 2.0;
-/// What stands for the limit of methods that have none, or are never stable without losses.
+/// The replacement for the limit of methods that have none, or are never stable without losses.
 const USUAL_LIMIT: f64 = 2.0;
 /// The run has at least so many ticks.
 const FEWEST_TICKS: f64 = 5.0;
@@ -24,7 +24,7 @@ const FEWEST_TICKS: f64 = 5.0;
 const COARSE: [u64; 6] = [1, 2, 5, 10, 20, 50];
 /// How often ticks are halved at the most.
 const HALVINGS: u32 = 40;
-/// Runs are compared at so many times as many moments, at least and at most: a power of two.
+/// Bounds of the exponent: a run has the compared moments times two to this power.
 const FEWEST_MOMENTS: u32 = 4;
 const MOST_MOMENTS: u32 = 8;
 /// Moments in half a swing of the fastest contact, spring or drive.
@@ -34,15 +34,15 @@ const MOST_NUMBERS: u64 = 4_000_000;
 /// Beyond so many bodies fewer moments are kept.
 const MANY_BODIES: usize = 6000;
 
-/// What is known of the scene before anything runs.
+/// The properties of the scene before any run.
 pub(super) struct Scene {
     pub duration: f64,
-    /// The fastest of contacts and springs in rad/s, if there are any.
+    /// The fastest frequency of contacts and springs in rad/s, if there are any.
     pub fastest: Option<f64>,
     /// Ticks of the coarsest ladder that runs have in common.
     pub moments: u64,
-    /// Moments at which runs are compared, as far as they have them: a power of two for each of those, so that no swing looks as
-    /// if nothing moved.
+    /// Moments at which runs are compared, as far as they have them. Each of the others has a power of two of them, so
+    /// that no swing looks like rest.
     pub seen: u64,
     pub methods: Methods,
 }
@@ -71,7 +71,7 @@ impl Scene {
         })
     }
 
-    /// The ticks of a method: the run over a part or a multiple by a power of two of the moments.
+    /// The ticks of a method: the run over the moments times or divided by a power of two.
     pub fn rungs(&self, method: &Description, truth: Option<&Truth>) -> Rungs<impl Iterator<Item = f64> + use<>> {
         let limit = method.stability_limit;
         let limit = if limit.is_finite() && limit > 0.0 { limit } else { USUAL_LIMIT };
@@ -87,7 +87,7 @@ impl Scene {
         let counts = coarse.chain(fine);
         let trials =
             counts.clone().filter(|count| *count as f64 >= fewest).take_while(|count| (*count as f64) < stable);
-        // Without a reference nothing tells whether they are of use.
+        // Without a reference their use cannot be decided.
         let mut trials: Vec<f64> = trials.filter(|_| truth.is_some()).map(tick).collect();
         trials.reverse();
         Rungs { ticks: counts.skip_while(move |count| (*count as f64) < stable).map(tick), trials }

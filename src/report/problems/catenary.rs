@@ -1,7 +1,7 @@
-//! A chain of twenty links between two pins of one height stays in the shape whose links point along the forces in it, `tan phi = V/H`.
-//! SI units.
+//! A chain of twenty links between two pins of one height. It keeps the shape whose links point along their forces,
+//! `tan phi = V/H`. SI units.
 //!
-//! It is a loop of forces. What is in balance stays under every method.
+//! It is a loop of forces. A chain in balance stays at rest under every method.
 
 use std::fmt::Write;
 
@@ -25,9 +25,9 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: &[],
-    // Places are known to 1.2e-15 m, so directions of links to 1.2e-14, and the pull of 5.4 N to 6.5e-14 N across. The slowest swing of
-    // the chain of 1 kg, at 3 rad/s, goes as far as `2 F/(m w^2)`. Explicit Euler lets the fastest, at 114 rad/s, grow by
-    // `exp(w^2 dt t/2)`.
+    // Positions are known to 1.2e-15 m, so directions of links to 1.2e-14, and the pull of 5.4 N to 6.5e-14 N across.
+    // The slowest swing of the chain of 1 kg, at 3 rad/s, goes as far as `2 F/(m w^2)`. Under explicit Euler the
+    // fastest, at 114 rad/s, grows by `exp(w^2 dt t/2)`.
     rounding: |tick| 2.0 * 6.5e-14 / 9.0 * libm::exp(0.5 * 114.0 * 114.0 * tick * 0.25),
 };
 
@@ -42,7 +42,7 @@ const MASS: f64 = 0.05;
 /// Distance of both pins in m.
 const SPAN: f64 = 1.4;
 
-/// Where links meet, in m.
+/// The joints of links, in m.
 fn nodes() -> Vec<DVec2> {
     let numbers = Truth::read(TRUTH).numbers("node positions");
     numbers.chunks_exact(2).map(|place| DVec2::new(place[0], place[1])).collect()

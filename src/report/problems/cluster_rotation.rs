@@ -1,7 +1,7 @@
-//! A rigid cluster of three atoms that nothing acts on, at 1e4 rad/s: its centre moves evenly, it turns evenly, and
-//! it neither grows nor shrinks. SI units.
+//! A free rigid cluster of three atoms at 1e4 rad/s. Its centre moves uniformly, its rotation is uniform, and its size
+//! is constant. SI units.
 //!
-//! A relative error `eps` of `omega t` moves an atom by `r omega t eps`: less than that cannot be asked for.
+//! A relative error `eps` of `omega t` moves an atom by `r omega t eps`. No smaller error is possible.
 
 use glam::DVec2;
 
@@ -64,7 +64,7 @@ fn scene(setting: &Setting, duration: f64) -> String {
     )
 }
 
-/// The greatest distance of an atom from where it should be, in m.
+/// The greatest distance of an atom from its exact position, in m.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     let found = |atom: usize| simulation.bodies().atom_place(atom);
     atoms(time).iter().enumerate().map(|(atom, exact)| (*exact - found(atom)).length()).fold(0.0, f64::max)

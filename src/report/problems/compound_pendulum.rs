@@ -20,7 +20,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // A wrong amplitude makes a wrong period: errors grow by the angle that passes, at up to 5 rad/s.
+    // A wrong amplitude gives a wrong period. So errors grow by the passed angle, at up to 5 rad/s.
     rounding: |tick| rounding_of(6.0 / tick, 6.0 * 5.0),
 };
 

@@ -1,7 +1,7 @@
-//! Constant acceleration from rest in ticks of a second: the table that tells integrators apart.
+//! Constant acceleration from rest in ticks of a second: the table that distinguishes integrators.
 //!
-//! `x = a t^2/2`. In `n` ticks semi-implicit Euler arrives at `a dt^2 n (n + 1)/2`, explicit Euler at
-//! `a dt^2 n (n - 1)/2`, methods of order 2 and more at the exact value. SI units.
+//! `x = a t^2/2`. In `n` ticks semi-implicit Euler arrives at `a dt^2 n (n + 1)/2`, and explicit Euler at `a dt^2 n
+//! (n - 1)/2`. Methods of order 2 and more arrive at the exact value. SI units.
 
 use super::{Class, Constant, Problem, Setting, rounding_of};
 use jostle_engine::Simulation;

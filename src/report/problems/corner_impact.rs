@@ -2,8 +2,8 @@
 //! distance of the corner from the centre along the floor. The impulse of a hard impact is `(1 + e) v` times that mass. SI units, no
 //! gravity.
 //!
-//! With a contact of stiffness `k` the box turns while it touches, and the error of the ideal falls as `1/sqrt(k)`. The force jumps
-//! where the corner is deepest.
+//! With a contact of stiffness `k` the box turns during the contact, and the error of the ideal falls as `1/sqrt(k)`.
+//! The force jumps at the deepest overlap.
 
 use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use jostle_engine::Simulation;
@@ -77,8 +77,8 @@ pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
     )
 }
 
-/// How far a box is from a velocity upwards in m/s and a spin in rad/s, over the speed before. The spin counts at the end of half
-/// the longer side.
+/// The deviation of a box from a velocity upwards in m/s and a spin in rad/s, over the speed before. The spin counts at
+/// the end of half the longer side.
 pub fn off(simulation: &Simulation, after: &[f64]) -> f64 {
     let bodies = simulation.bodies();
     let rim = 0.5 * SIDES[0] * (bodies.spin[0] - after[1]);
@@ -89,7 +89,7 @@ fn error(simulation: &Simulation, _: f64, _: f64) -> f64 {
     off(simulation, &Truth::read(SOFT).numbers("v_y, omega after"))
 }
 
-/// Of states in so many ticks, and of an overlap near 1 mm as a difference of places near 0.3 m.
+/// Of states in this many ticks, and of an overlap near 1 mm as a difference of positions near 0.3 m.
 fn rounding(tick: f64) -> f64 {
     rounding_of(6.0 / 1024.0 / tick, 4.0) + f64::EPSILON * 0.3 / 1e-3
 }

@@ -1,10 +1,10 @@
-//! A sled on a spring against dry friction: half swings about centres that change sides, each shorter by the same length,
-//! until one ends where friction can hold it (Coulomb 1785). SI units.
+//! A sled on a spring with dry friction (Coulomb 1785). Its half swings have centres on alternating sides. Each is
+//! shorter by the same length, until one ends where friction can hold it. SI units.
 //!
-//! With `w = sqrt(k/m)` and `a = mu m g/k` a half swing goes about `+a` or `-a`, on the side it comes from, and turns `2 a`
-//! nearer to the middle than it began; the first turn within `a` is the last, after a finite time. Friction jumps at each turn:
-//! without locating that, a method has order 1. The sled sticks without any give, so events are always located; it is kept
-//! from turning by its inertia.
+//! Let `w = sqrt(k/m)` and `a = mu m g/k`. A half swing has its centre at `+a` or `-a`, on its starting side, and turns
+//! `2 a` nearer to the middle. The first turn within `a` is the last, after a finite time. Friction jumps at each turn,
+//! so a method that does not locate it has order 1. The sled sticks without compliance, so events are always located.
+//! Its inertia keeps it from turning.
 
 use std::f64::consts::PI;
 
@@ -44,7 +44,7 @@ pub const TRUTH: &str = include_str!("../../../assets/truths/F03_spring_coulomb.
 pub const FRICTION: f64 = 0.1;
 /// In m/s2.
 pub const GRAVITY: f64 = 9.81;
-/// Where it is let go, in m.
+/// The position of its release, in m.
 pub const BEGIN: f64 = 0.115;
 /// Stiffness of the spring in N/m; the mass is 1 kg.
 pub const STIFFNESS: f64 = 100.0;
@@ -84,14 +84,15 @@ fn scene(setting: &Setting, duration: f64) -> String {
     )
 }
 
-/// Over where it was let go.
+/// Over the position of its release.
 fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     (simulation.bodies().position[0].x - state(time + shift).0).abs() / BEGIN
 }
 
-/// Order 2: the frequency of velocity Verlet is off by a share `(w dt)^2/24`, the place at most by as much times `w t` for the
-/// 1.9 s in which it moves; each of six turns, located by steps of another length, by `(w dt)^2/8` of the swing. Order 1:
-/// the energy of semi-implicit Euler swings by a share `w dt/2`, so each turn is off by as much.
+/// Order 2: the frequency of velocity Verlet is off by a share `(w dt)^2/24`. The position is off by at most that times
+/// `w t` for the 1.9 s in which it moves. Steps of another length locate each of six turns, which are off by `(w
+/// dt)^2/8` of the swing. Order 1: the energy of semi-implicit Euler swings by a share `w dt/2`, so each turn is off by
+/// that.
 pub fn leading_error(order: u32, tick: f64) -> f64 {
     let step = STIFFNESS.sqrt() * tick;
     if order >= 2 { step * step * (STIFFNESS.sqrt() * 1.9 / 24.0 + 6.0 / 8.0) } else { 6.0 * step / 2.0 }

@@ -1,6 +1,6 @@
-//! Newton's cradle of five touching soft discs: the first comes in, and not only the last goes out. SI units.
+//! Newton's cradle of five touching soft discs: the first comes in, and more than the last one goes out. SI units.
 //!
-//! A row of equal masses on linear springs without tension, `m u'' = k (overlap differences)`: the pulse disperses, so
+//! A row of equal masses on linear springs without tension, `m u'' = k (overlap differences)`. The pulse disperses, so
 //! the outcome depends on the contact law, not on the tick (Herrmann and Seitz 1982).
 
 use std::fmt::Write;

@@ -1,5 +1,5 @@
-//! A mass on a spring and a damper, let go at rest: `m x'' + c x' + k x = 0` with damping ratios `zeta = c/(2 sqrt(k m))` from
-//! far below to far above 1 (textbook). SI units.
+//! A mass on a spring and a damper, released at rest: `m x'' + c x' + k x = 0`. Damping ratios `zeta = c/(2 sqrt(k m))`
+//! run from far below to far above 1 (textbook). SI units.
 //!
 //! The springs have a length of 1 m: the force is that of the lengthening.
 
@@ -74,15 +74,16 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     RATIOS.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })
 }
 
-/// A tick of velocity Verlet misses the place by `dt^3/6 x'''`, and the velocity by `dt^3/12 x''''` of the trapezoidal rule and
-/// `c/(4 m) dt^3 x'''` of the estimate of velocities. A miss of the place stays at most, one of the velocity becomes at most
-/// `1/w` of it as a place; so all misses together make the integrals of `|x'''|` and `|x''''|` times that.
+/// A tick of velocity Verlet has the error `dt^3/6 x'''` in the position. In the velocity it has `dt^3/12 x''''` of the
+/// trapezoidal rule and `c/(4 m) dt^3 x'''` of the velocity estimate. An error of the position at most persists. An
+/// error of the velocity becomes at most `1/w` of it as a position. So all errors together are the integrals of
+/// `|x'''|` and `|x''''|` times these factors.
 ///
-/// The derivatives begin with `w^3 (1 + 2 zeta)` and `w^4 (1 + 2 zeta)^2` at most, in units of the start, and go on for
-/// `1/(zeta w)` seconds or to the end of the run; from `zeta = 1` on, where nothing swings, their integrals are at most twice
-/// what the derivative one lower begins with, `w^2` and `2 zeta w^3`. Semi-implicit Euler misses `dt^2/2 x''` and
-/// `dt^2/2 x'''`. Methods of higher orders have constants of their own, which are not known here: they are held to the bound of
-/// order 2.
+/// The derivatives begin with at most `w^3 (1 + 2 zeta)` and `w^4 (1 + 2 zeta)^2`, in units of the start. They last
+/// `1/(zeta w)` seconds or to the end of the run. For `zeta` of 1 and more there is no swing. Then their integrals are
+/// at most twice the initial derivative of one order less, `w^2` and `2 zeta w^3`. Semi-implicit Euler has errors
+/// `dt^2/2 x''` and `dt^2/2 x'''`. The constants of higher orders are not known here, so these methods are held to the
+/// bound of order 2.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let of = |(ratio, _): (f64, &str)| {
         let lasts = PROBLEM.duration().min(1.0 / (ratio * OMEGA));

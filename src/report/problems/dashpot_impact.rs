@@ -1,9 +1,10 @@
-//! Four balls meet a wall with springs and dashpots that never pull, `N = max(0, k d - c v_n)`, with damping ratios
-//! `zeta = c/(2 sqrt(k m))` from small to nearly critical. SI units, no gravity.
+//! Four balls meet a wall with springs and dashpots that never pull, `N = max(0, k d - c v_n)`. Damping ratios `zeta =
+//! c/(2 sqrt(k m))` run from small to nearly critical. SI units, no gravity.
 //!
-//! In touch `d = (v/w) e^(-b t) sin(w t)`, with `b = zeta w0`, `w^2 = w0^2 - b^2`. A contact that does not pull ends when its force
-//! does, at `w t = atan2(2 b w, b^2 - w^2)` with `e = exp(-b t)`, before its overlap is gone (Schwager and Poeschel 2007); one that
-//! pulls would last `pi/w`. The force jumps to `c v` at the first touch: without locating that, a method has order 1.
+//! During contact `d = (v/w) e^(-b t) sin(w t)`, with `b = zeta w0`, `w^2 = w0^2 - b^2`. A contact that does not pull
+//! ends with its force, before its overlap is gone (Schwager and Poeschel 2007). That is at `w t = atan2(2 b w, b^2 -
+//! w^2)`, with `e = exp(-b t)`. A contact that pulls would last `pi/w`. The force jumps to `c v` at the first touch, so
+//! a method that does not locate it has order 1.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -53,7 +54,8 @@ pub const OMEGA: f64 = 100.0;
 /// In m.
 const RADIUS: f64 = 0.1;
 
-/// How long a contact lasts in s, and its restitution: `pulls` until the overlap is gone, or ends with its force.
+/// The duration of a contact in s, and its restitution. If it `pulls`, it lasts until the overlap is gone, otherwise
+/// until its force is zero.
 pub fn contact(ratio: f64, pulls: bool) -> (f64, f64) {
     let decay = ratio * OMEGA;
     let rate = (OMEGA * OMEGA - decay * decay).sqrt();
@@ -104,10 +106,10 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     RATIOS.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })
 }
 
-/// The jump to `c v` comes up to half a tick too early or too late: the speed is off by a share `zeta w0 dt` in touch, and so is
-/// the ball's way in as many seconds as it flies after it; kicks of whole ticks see the velocity of half a tick before,
-/// which is as much again. What is of order 2 (see the law of dashpots): `(1/2 + zeta + 6.5 zeta^2)(w0 dt)^2`, twice where kicks are
-/// of whole ticks; half a tick of the way is what semi-implicit Euler is ahead by.
+/// The jump to `c v` comes up to half a tick too early or too late. So the speed is off by a share `zeta w0 dt` in
+/// touch. The ball's way is off by that in as many seconds as it flies after it. Kicks of whole ticks use the velocity
+/// of half a tick before, which doubles it. Terms of order 2 (see the law of dashpots) are `(1/2 + zeta + 6.5
+/// zeta^2)(w0 dt)^2`, and twice that for kicks of whole ticks. Semi-implicit Euler is ahead by half a tick of the way.
 fn leading_error(_: u32, tick: f64) -> f64 {
     let step = OMEGA * tick;
     let of = |ratio: f64| 2.0 * ratio * step + 2.0 * (0.5 + ratio + 6.5 * ratio * ratio) * step * step;

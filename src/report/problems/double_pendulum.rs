@@ -1,5 +1,5 @@
-//! Two masses on rods without mass, one hung on the other, let go level. Lagrange's equations, solved by extrapolation with 64 bits
-//! of mantissa. SI units.
+//! Two masses on massless rods, one hung on the other, released level. The reference solves Lagrange's equations by
+//! extrapolation with 64 bits of mantissa. SI units.
 //!
 //! The motion is chaotic: errors grow by `e` in 1.16 s on average. The problem ends after 5 s, long before the horizon of 34 s at
 //! which rounding has grown to 1e-3.

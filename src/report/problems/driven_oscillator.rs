@@ -1,7 +1,7 @@
-//! A damped mass on a spring that is driven from rest: `m x'' + c x' + k x = F cos(W t)`, at resonance, at half and at twice
-//! the natural frequency (textbook). SI units.
+//! A damped mass on a spring that is driven from rest: `m x'' + c x' + k x = F cos(W t)`. The drive is at resonance, at
+//! half and at twice the natural frequency (textbook). SI units.
 //!
-//! The drive has to be sampled where an integrator has its stages, or every method falls to order 1.
+//! The drive has to be sampled at the stages of an integrator, or every method falls to order 1.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
@@ -23,8 +23,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: Some(leading_error),
     constants: CONSTANTS,
-    // Transient and steady swing together are up to four amplitudes; off resonance forces are up to eight times what moves
-    // the mass.
+    // Transient and steady swing together are up to four amplitudes. Off resonance forces are up to eight times the
+    // force that moves the mass.
     rounding: |tick| rounding_of(60.0 / tick, 32.0),
 };
 
@@ -79,10 +79,11 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     DRIVES.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })
 }
 
-/// As for the damped oscillator: misses of `dt^3/6 x'''` of the place, and of `dt^3/12 x''''` and `c/(4 m) dt^3 x'''` of the
-/// velocity, which become `1/w` of that, and are forgotten after `2 m/c` seconds. In units of the steady amplitude the `n`-th
-/// derivative is at most `W^n` of the steady swing and `(1 + W/w) w^n` of the transient that begins at rest. Methods of higher
-/// orders have constants of their own, which are not known here: they are held to the bound of order 2.
+/// As for the damped oscillator, errors are `dt^3/6 x'''` of the position, and `dt^3/12 x''''` and `c/(4 m) dt^3 x'''`
+/// of the velocity. The latter become `1/w` of that as a position, and decay after `2 m/c` seconds. The units are the
+/// steady amplitude. There the `n`-th derivative is at most `W^n` of the steady swing and `(1 + W/w) w^n` of the
+/// transient from rest. The constants of higher orders are not known here, so these methods are held to the bound of
+/// order 2.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let lasts = 2.0 / DAMPING;
     let of = |(frequency, ..): (f64, &str, &str)| {

@@ -1,8 +1,9 @@
-//! A ball falls on an elastic floor and bounces for ever: free flight, then half a period (and a bit) of a shifted
-//! oscillator, `m d'' = m g - k d` while the overlap `d` is positive (Cundall and Strack 1979). SI units.
+//! A ball falls on an elastic floor and bounces forever (Cundall and Strack 1979). Free flight alternates with half a
+//! period (and a bit) of a shifted oscillator. Its equation is `m d'' = m g - k d` while the overlap `d` is positive.
+//! SI units.
 //!
-//! With `w = sqrt(k/m)` and the impact speed `v = sqrt(2 g h)` contact lasts `(2/w) (pi - atan(v w/g))`. The force has a
-//! kink where contact begins and ends: methods that do not locate it show order 2 at most.
+//! With `w = sqrt(k/m)` and the impact speed `v = sqrt(2 g h)` contact lasts `(2/w) (pi - atan(v w/g))`. The force has
+//! kinks at the beginning and end of contact. Methods that do not locate them show at most order 2.
 
 use super::{Class, Constant, Problem, Setting, rounding_of};
 use jostle_engine::Simulation;
@@ -83,9 +84,9 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     (simulation.bodies().position[0].y - RADIUS - state(time + shift).0).abs() / HEIGHT
 }
 
-/// Order 2: a kink somewhere inside a tick changes the velocity by up to a share `(w dt)^2/4`. A ball that is faster
-/// by a share `s` comes back later by `2 v s/g` and is then off by `4 h s`. Order 1: the force of one end of a tick in
-/// place of its mean changes the velocity in a contact, of half a period, by up to a share `(pi/2) w dt`.
+/// Order 2: a kink inside a tick changes the velocity by up to a share `(w dt)^2/4`. A ball that is faster by a share
+/// `s` comes back later by `2 v s/g` and is then off by `4 h s`. Order 1: the force of one end of a tick replaces its
+/// mean. In a contact of half a period it changes the velocity by up to a share `(pi/2) w dt`.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let step = OMEGA * tick;
     let share = if order >= 2 { step * step / 4.0 } else { std::f64::consts::FRAC_PI_2 * step };

@@ -1,5 +1,5 @@
-//! A chain of six uniform links hangs in one end and is let go level. Lagrange's equations, and independently the equations of bodies
-//! with multipliers. SI units.
+//! A chain of six uniform links hangs by one end and is released level. The reference solves Lagrange's equations, and
+//! independently the equations of bodies with multipliers. SI units.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,7 +21,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // Links swing with up to 30 rad/s: errors of angles grow by about ten each quarter of such a swing in which they fall.
+    // Links swing with up to 30 rad/s. Errors of angles grow by about ten in each quarter of such a swing in which they
+    // fall.
     rounding: |tick| rounding_of(0.7 / tick, 100.0),
 };
 

@@ -1,7 +1,8 @@
 //! A ladder slides down between a wall and a floor without friction. It leaves the wall at `sin a = (2/3) sin a0`. SI units.
 //!
-//! The ladder is a capsule. Forces on its round ends go through their centres: it moves as a thin rod at the distance of its
-//! radius. It starts at rest with those overlaps that carry the forces of a rigid ladder. Its contacts then hardly swing.
+//! The ladder is a capsule. Forces on its round ends go through their centres, so it moves as a thin rod at the
+//! distance of its radius. It starts at rest with those overlaps that carry the forces of a rigid ladder. Its contacts
+//! then hardly swing.
 //!
 //! Off the wall no force acts along the floor, and the middle keeps its velocity. With contacts of stiffness `k` the error of
 //! the ideal falls as `1/k`.
@@ -76,7 +77,7 @@ pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
     )
 }
 
-/// The place of the soft ladder's middle along the floor in m, at a `time` when the ladder has left the wall.
+/// The position of the soft ladder's middle along the floor in m, at a `time` after the ladder has left the wall.
 fn way(time: f64) -> f64 {
     let truth = Truth::read(SOFT);
     let left = truth.number("detach time");

@@ -1,5 +1,5 @@
-//! A uniform rod falls over its hinge, let go at 5 degrees beside the upward vertical: `I theta'' = m g (l/2) sin theta`. Its angle where
-//! the time comes at which it is level (elliptic integral). SI units.
+//! A uniform rod falls over its hinge, released at 5 degrees beside the upward vertical: `I theta'' = m g (l/2) sin
+//! theta`. Its angle is compared at the time at which it is level (elliptic integral). SI units.
 
 use glam::DVec2;
 

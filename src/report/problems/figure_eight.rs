@@ -1,7 +1,7 @@
 //! Three equal masses chase each other along a figure of eight (Moore 1993; Chenciner and Montgomery 2000), `G = m = 1`. SI
 //! units.
 //!
-//! The orbit is stable to first order, so errors grow with time and not faster: a wrong energy makes a wrong period.
+//! The orbit is stable to first order, so errors grow linearly with time: a wrong energy gives a wrong period.
 
 use std::fmt::Write;
 
@@ -24,8 +24,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: Some(leading_error),
     constants: CONSTANTS,
-    // A rounding error of the energy makes a phase error that grows with time: see below. The truth is known to 1e-13 in the
-    // first period: so far the state after it is from the one at its beginning.
+    // A rounding error of the energy makes a phase error that grows with time: see below. The reference closes to 1e-13
+    // after the first period.
     rounding: |tick| rounding_of(PERIOD / tick, PHASE_GROWTH) + 1e-13,
 };
 
@@ -45,10 +45,10 @@ const CONSTANTS: &[Constant] = &[
 pub const TRUTH: &str = include_str!("../../../assets/truths/P08_figure_eight.json");
 /// In s.
 pub const PERIOD: f64 = 6.325_913_982_926_218_5;
-/// `delta E/E` makes the masses late by `1.5 t delta E/E` (third law, as for any force that falls with the square), at up to
-/// 1.27 m/s.
+/// `delta E/E` delays the masses by `1.5 t delta E/E`, at up to 1.27 m/s. That is the third law, as for any force that
+/// falls with the square.
 const PHASE_GROWTH: f64 = 1.5 * PERIOD * 1.27;
-/// The least distance of two masses in m, where all three stand in an isosceles triangle: 0.69.
+/// The least distance of two masses in m, at an isosceles triangle of all three: 0.69.
 const NEAREST: f64 = 0.69;
 
 fn scene(setting: &Setting, duration: f64) -> String {
@@ -67,15 +67,15 @@ fn scene(setting: &Setting, duration: f64) -> String {
     format!("Scene({clock}, forces: [Attraction(constant: 1)], bodies: [{bodies}])")
 }
 
-/// The greatest distance of a mass from where it should be, in m.
+/// The greatest distance of a mass from its exact position, in m.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     let Some(row) = Truth::read(TRUTH).row("state at samples", time) else { return f64::NAN };
     let off = simulation.bodies().position.iter().zip(row.chunks(2));
     off.map(|(found, exact)| (*found - DVec2::new(exact[0], exact[1])).length()).fold(0.0, f64::max)
 }
 
-/// Two masses at the least distance `r` pull each other with the rate `sqrt(4 G m/r^3)`; kinetic energy is at most as large as
-/// the total. So the energy is wrong by a share of `(rate dt)^p`, and the phase as said above.
+/// Two masses at the least distance `r` attract each other with the rate `sqrt(4 G m/r^3)`. Kinetic energy is at most
+/// the total. So the energy is off by a share of `(rate dt)^p`, and the phase by the delay above.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let rate = (4.0 / NEAREST.powi(3)).sqrt();
     PHASE_GROWTH * (rate * tick).powi(order as i32)

@@ -1,7 +1,7 @@
-//! Four balls are aimed at one place, on the low and on the high arc, without drag and with linear drag: the velocities that
-//! the aim finds are those of the firing angles to 22 digits (external ballistics, any textbook). SI units.
+//! Four balls are aimed at one target, on the low and on the high arc, without drag and with linear drag. The
+//! velocities of the aim agree with the firing angles to 22 digits (external ballistics, any textbook). SI units.
 //!
-//! The whole way is compared with the closed form for the angle of the truth file; it ends in the aim.
+//! The whole way is compared with the closed form for the angle of the truth file. It ends at the target.
 
 use std::fmt::Write;
 
@@ -90,8 +90,8 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     off.fold(0.0, |most, error| if error <= most { most } else { error })
 }
 
-/// As for linear drag: `a t r^(p-1) (1 + r t) dt^p`, with the acceleration at the start, at most `g + r v`; order 1 errs
-/// without drag too, by `g t dt/2`.
+/// As for linear drag: `a t r^(p-1) (1 + r t) dt^p`, with the acceleration at the start, at most `g + r v`. Order 1
+/// errs without drag too, by `g t dt/2`.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let (time, acceleration) = (PROBLEM.duration(), GRAVITY.length() + RATE * SPEED);
     let power = RATE.powi(order as i32 - 1) * tick.powi(order as i32);

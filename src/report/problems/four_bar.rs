@@ -1,5 +1,5 @@
-//! Four bars in a loop, the crank turned by a motor at 10 rad/s: the angles of coupler and rocker follow from the loop (Freudenstein
-//! 1955), the torque from the power balance. SI units.
+//! Four bars in a loop, whose crank a motor turns at 10 rad/s. The angles of coupler and rocker follow from the loop
+//! (Freudenstein 1955), and the torque from the power balance. SI units.
 
 use glam::DVec2;
 

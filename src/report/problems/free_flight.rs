@@ -22,7 +22,7 @@ pub const PROBLEM: Problem = Problem {
     // The exact discrete solution of a method of order 1: g t dt/2.
     leading_error: Some(|_, tick| GRAVITY * 3.0 * tick / 2.0),
     constants: CONSTANTS,
-    // Velocities round at every tick (not compensated): that adds up over the flight of 3 s at up to 20 m/s.
+    // Velocities round at every tick without compensation. That adds up over the flight of 3 s at up to 20 m/s.
     rounding: |tick| rounding_of(3.0 / tick, 60.0),
 };
 

@@ -1,13 +1,13 @@
-//! Discs strike a wall, and each other, with Coulomb friction and without any give along the surface: they slip until the
-//! points of contact move as one, if the impact lasts long enough, and then stick without a force (Walton 1993; Foerster et
-//! al. 1994). SI units, no gravity.
+//! Discs strike a wall, and each other, with Coulomb friction and without compliance along the surface. They slip until
+//! the points of contact move together, if the impact lasts long enough. Then they stick without a force (Walton 1993;
+//! Foerster et al. 1994). SI units, no gravity.
 //!
-//! An impact has the normal impulse `J = (1 + e) m v_n`. It sticks if `mu J` is as much as it takes to stop the slip
-//! `u`, `u/(1/m + r^2/I)` (summed over both discs); otherwise the impulse along the surface is `mu J`. The normal force follows the law of
-//! inelasticity: it jumps where the disc turns, and friction where it sticks.
+//! An impact has the normal impulse `J = (1 + e) m v_n`. It sticks if `mu J` reaches the impulse that stops the slip
+//! `u`, `u/(1/m + r^2/I)` (summed over both discs). Otherwise the impulse along the surface is `mu J`. The normal force
+//! follows the law of inelasticity. It jumps at the turn of the disc, and friction jumps when it sticks.
 //!
-//! The discs are so slow that they sink in by 1e-8 of their radius: as the truth has it, the arm of friction is the radius, and
-//! the normal does not turn.
+//! The discs are so slow that their overlap is 1e-8 of their radius. As in the reference, the arm of friction is the
+//! radius, and the normal does not turn.
 
 use std::fmt::Write;
 
@@ -50,7 +50,7 @@ pub const PAIRS: [(u32, [i32; 2]); 3] = [(20, [0, 0]), (60, [0, 0]), (40, [15, -
 pub const SPEED: f64 = 3e-7;
 /// Speed of the truth file over this one.
 const SCALE: f64 = 3.0 / SPEED;
-/// Radii in m; the second is that of the disc that is struck.
+/// Radii in m; the second is that of the struck disc.
 const RADII: [f64; 2] = [0.1, 0.15];
 const STIFFNESS: f64 = 1e5;
 const FRICTION: f64 = 0.3;
@@ -126,8 +126,8 @@ fn error(simulation: &Simulation, _: f64, _: f64) -> f64 {
     after().into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })
 }
 
-/// Rounding: an overlap is a difference of coordinates of up to 1 m; and what arms that are shorter by the overlap change, and the
-/// normal while it turns by the way along the surface over the distance.
+/// Rounding: an overlap is a difference of coordinates of up to 1 m. Arms are shorter by the overlap, and the normal
+/// turns by the way along the surface over the distance.
 fn rounding(tick: f64) -> f64 {
     let overlap = SPEED / STIFFNESS.sqrt();
     rounding_of(1.5 * CONTACT_TIME / tick, 4.0)

@@ -1,9 +1,9 @@
-//! Blocks on inclines: below the angle of friction they stay, above it they slide with `g (sin a - mu cos a)`, and one that
-//! is thrown uphill turns and comes back slower (Coulomb 1785). SI units.
+//! Blocks on inclines (Coulomb 1785). Below the angle of friction they stay, and above it they slide with `g (sin a -
+//! mu cos a)`. A block that is thrown uphill turns and comes back slower. SI units.
 //!
-//! Each block has its own incline: it stands on a level floor and its weight is tilted, `m g (sin a, -cos a)`. It is kept from
-//! turning by its inertia and stands as deep as its weight presses it; friction sticks without any give. Between the events accelerations
-//! are constant, so that methods of order 2 are exact.
+//! Each block has a separate incline: a level floor and a tilted weight, `m g (sin a, -cos a)`. Its inertia keeps it
+//! from turning, and its overlap is that of its weight. Friction sticks without compliance. Between the events
+//! accelerations are constant, so that methods of order 2 are exact.
 
 use std::fmt::Write;
 
@@ -24,7 +24,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // The uphill block's turn is known to an ulp of time, and its speed changes by 11.8 m/s2 before it.
+    // The uphill block's turn is known to an ulp of time. Its speed changes by 11.8 m/s2 before it.
     rounding: |tick| rounding_of(2.0 / tick, 16.0),
 };
 

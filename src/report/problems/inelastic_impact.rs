@@ -1,9 +1,9 @@
-//! A disc meets a wall that takes energy: `N = k d (1 + mu)` while it approaches, `N = k d (1 - mu)` while it parts
-//! (the idea of Walton and Braun 1986). SI units, no gravity.
+//! A disc meets a wall that dissipates: `N = k d (1 + mu)` while it approaches, `N = k d (1 - mu)` while it parts (the
+//! idea of Walton and Braun 1986). SI units, no gravity.
 //!
-//! Loading is a quarter period of `w1 = sqrt(k (1 + mu)/m)`, unloading one of `w2 = sqrt(k (1 - mu)/m)`, the deepest
-//! overlap is `v/w1`, and the disc leaves with `e v`, `e = sqrt((1 - mu)/(1 + mu))`. Where it turns the force jumps:
-//! without locating that, a method has order 1. With `mu = 0` this is the elastic impact of `pi sqrt(m/k)`.
+//! Loading is a quarter period of `w1 = sqrt(k (1 + mu)/m)`, and unloading one of `w2 = sqrt(k (1 - mu)/m)`. The
+//! deepest overlap is `v/w1`. The disc leaves with `e v`, `e = sqrt((1 - mu)/(1 + mu))`. The force jumps at its turn,
+//! so a method that does not locate it has order 1. With `mu = 0` this is the elastic impact of `pi sqrt(m/k)`.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -102,8 +102,8 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     (simulation.bodies().position[0].y - RADIUS - exact).abs() / (SPEED * contact_time(INELASTICITY))
 }
 
-/// The force changes up to one tick late. In that tick it is wrong by `2 mu k d`, which shifts the phase of unloading
-/// by `2 mu/(1 - mu)` ticks: with the tick itself, the disc leaves up to `1 + 2 mu/(1 - mu)` ticks off.
+/// The force changes up to one tick late. In that tick it is off by `2 mu k d`, which shifts the phase of unloading by
+/// `2 mu/(1 - mu)` ticks. Together with the tick itself, the disc leaves up to `1 + 2 mu/(1 - mu)` ticks off.
 fn leading_error(_: u32, tick: f64) -> f64 {
     let late = tick * (1.0 + 2.0 * INELASTICITY / (1.0 - INELASTICITY));
     restitution(INELASTICITY) * late / contact_time(INELASTICITY)

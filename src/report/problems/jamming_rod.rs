@@ -1,6 +1,7 @@
-//! A rod slides on its leading tip. It is so steep and rough that friction presses the tip into the floor: no acceleration fits a
-//! rigid rod (Painleve 1895). With a contact that gives way the force grows as `exp(sqrt(-A k) t)` until the tip stops. Here
-//! `A = (1 + 3 cos^2 a - 3 mu sin a cos a)/m` is below zero (Champneys and Varkonyi 2016). SI units.
+//! A rod slides on its leading tip. It is so steep and rough that friction presses the tip into the floor: no
+//! acceleration fits a rigid rod (Painleve 1895). With a compliant contact the force grows as `exp(sqrt(-A k) t)` until
+//! the tip stops. Here `A = (1 + 3 cos^2 a - 3 mu sin a cos a)/m` is below zero (Champneys and Varkonyi 2016). SI
+//! units.
 //!
 //! The rod is a thin rhombus with sharp ends. Friction acts on the surface of the floor: its arm is the height of the centre. The
 //! tip starts with an overlap of the size that bears the weight.
@@ -22,7 +23,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // The rounding of each tick grows with `exp(518 t)`, by 22 until the end: their sum is that over the growth in a tick.
+    // The rounding of each tick grows with `exp(518 t)`, by 22 until the end. Their sum is that over the growth in a
+    // tick.
     rounding: |tick| 0.5 * f64::EPSILON * 22.0 / (518.0 * tick),
 };
 

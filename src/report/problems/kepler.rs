@@ -1,8 +1,8 @@
 //! A planet on an ellipse of eccentricity 0.9 about a fixed sun (Kepler 1609). SI units, `G M = 1`, `a = 1`.
 //!
-//! With the eccentric anomaly `E` of `E - e sin E = M` (Kepler's equation): `x = cos E - e`,
-//! `y = sqrt(1 - e^2) sin E`. It starts at the farthest point, where `M = pi`, and hurries past the sun at a tenth of
-//! the mean distance: smooth, but with two very different rates.
+//! With the eccentric anomaly `E` of `E - e sin E = M` (Kepler's equation): `x = cos E - e`, `y = sqrt(1 - e^2) sin E`.
+//! It starts at the farthest point, `M = pi`, and passes the sun at a tenth of the mean distance. So the motion is
+//! smooth, but with two very different rates.
 
 use std::f64::consts::{PI, TAU};
 
@@ -82,8 +82,8 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     (simulation.bodies().position[1] - state(time).0).length()
 }
 
-/// Passing the sun at `r = 0.1` the rate is `r^-1.5` and the kinetic energy 19 times the total: the energy may be wrong
-/// by that times `(rate dt)^p`, and the phase as said above.
+/// At its passage of the sun, `r = 0.1`, the rate is `r^-1.5` and the kinetic energy 19 times the total. The energy may
+/// be off by that times `(rate dt)^p`, and the phase by the delay above.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let rate = (1.0 - ECCENTRICITY).powf(-1.5);
     19.0 * PHASE_GROWTH * (rate * tick).powi(order as i32)

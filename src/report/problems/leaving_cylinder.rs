@@ -1,5 +1,5 @@
-//! A disc slides without friction from the top of a fixed cylinder. It leaves the cylinder at `cos a = (v0^2/s + 2 g)/(3 g)`,
-//! `s = R + r`: there its weight no longer holds it on its circle. SI units.
+//! A disc slides without friction from the top of a fixed cylinder. It leaves the cylinder at `cos a = (v0^2/s + 2
+//! g)/(3 g)`, `s = R + r`. There its weight is too small for its circle. SI units.
 //!
 //! The disc starts with the overlap that carries the force of a rigid contact. With a contact of stiffness `k` the error of the ideal
 //! falls as `1/k`. In the air the way is a parabola.
@@ -66,7 +66,7 @@ pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
     )
 }
 
-/// The place in m at `time` of a body that flew off at `left` seconds, from a place in m with a velocity in m/s.
+/// The position in m at `time` of a body that flew off at `left` seconds. It had a position in m and a velocity in m/s.
 pub fn parabola(left: f64, from: DVec2, velocity: DVec2, time: f64) -> DVec2 {
     let flies = time - left;
     from + velocity * flies - DVec2::new(0.0, 0.5 * GRAVITY * flies * flies)

@@ -62,9 +62,9 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     (simulation.bodies().position[0] - exact).length() / exact.length()
 }
 
-/// A tick misses at most `dt^(p+1)` times the next derivative of the velocity, `a r^p` with `a` the acceleration at
-/// the start; over `t` that makes velocities wrong by `a t r^p dt^p` and positions by what that and the same one
-/// derivative lower add up to: `a t r^(p-1) (1 + r t) dt^p`.
+/// The error of a tick is at most `dt^(p+1)` times the next derivative of the velocity. That is `a r^p` with `a` the
+/// acceleration at the start. Over `t` velocities are off by `a t r^p dt^p`. Positions are off by the sum of that and
+/// of the same one derivative lower: `a t r^(p-1) (1 + r t) dt^p`.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let acceleration = DVec2::new(10.0 * RATE, 9.81 + 20.0 * RATE).length();
     let missed = |&time: &f64| time * (1.0 + RATE * time) / state(time).0.length();

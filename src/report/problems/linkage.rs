@@ -47,7 +47,7 @@ pub struct Chain {
     pub bodies: String,
     /// Its joints, `<name>_pin0` and so on. Each pin holds the upper end of the link of its number.
     pub joints: String,
-    /// Where its last link ends, in m.
+    /// The end of its last link, in m.
     pub end: DVec2,
 }
 

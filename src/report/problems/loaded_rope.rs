@@ -1,5 +1,6 @@
-//! A straight rope of ten uniform links of 10 g, let go at 30 degrees with a load of 100 kg at its end: a pendulum whose light links tremble
-//! under tension with up to 2340 rad/s. Lagrange's equations, and independently the equations of bodies with multipliers. SI units.
+//! A straight rope of ten uniform links of 10 g, released at 30 degrees with a load of 100 kg at its end. It is a
+//! pendulum whose light links vibrate under tension with up to 2340 rad/s. The reference solves Lagrange's equations,
+//! and independently the equations of bodies with multipliers. SI units.
 
 use super::linkage::{Chain, Link, chain, turned_off};
 use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
@@ -11,9 +12,9 @@ pub const PROBLEM: Problem = Problem {
     law: "a light rope bears a load of ten thousand links",
     source: "Lagrange's equations against bodies with multipliers; truth file S06",
     class: Class::Smooth,
-    // The fastest mode has `w dt` = 0.23. Semi-implicit Euler with located events lets it grow, by `e` in about a tenth of a second: the
-    // problem ends before that counts. Other methods run on in the hard case `heavy_load`. No multiple of eight ticks ends with the run:
-    // with `w dt` = 1.8 a tick is not small.
+    // The fastest mode has `w dt` = 0.23. Under semi-implicit Euler with located events it grows by `e` in about a
+    // tenth of a second. The problem ends before that counts. Other methods run on in the hard case `heavy_load`. No
+    // multiple of eight ticks ends with the run, because with `w dt` = 1.8 a tick is not small.
     tick: 0.2 / 2044.0,
     samples: &[0.2],
     unit: "1",
@@ -45,7 +46,7 @@ pub const COUNT: usize = 10;
 /// At the start, in degrees from the downward vertical.
 const START: f64 = 30.0;
 
-/// The scene with other masses of a link and of the load in kg, begun at an angle in degrees from the vertical.
+/// The scene with other masses of a link and of the load in kg. It begins at an angle in degrees from the vertical.
 pub fn scene_of(clock: &str, (link, load): (f64, f64), start: f64) -> String {
     let links = [Link { mass: link, length: 0.2, angle: start.to_radians() }; COUNT];
     let Chain { bodies, joints, end } = chain("link", &links);

@@ -1,7 +1,7 @@
-//! Problems whose answer is known: one law per file, with its scene, its exact answer and its error norm.
+//! Problems with known answers: one law per file, with its scene, its exact answer and its error norm.
 //!
-//! Tests, the report of speed against error and the gallery draw from this one list. Adding a problem is one file plus
-//! its line in [`ALL`]: it becomes at once a test at a stated tick and a line in the convergence test.
+//! Tests, the report of speed against error and the gallery draw from this one list. A new problem is one file plus its
+//! line in [`ALL`]. It becomes at once a test at a stated tick and a line in the convergence test.
 //!
 //! ```
 //! use jostle_report::problems::{Setting, linear_drag};
@@ -134,20 +134,20 @@ pub const ALL: &[Problem] = &[
 pub enum Class {
     /// No force, or forces in balance in the end: the error of every method is rounding.
     Free,
-    /// Constant acceleration: methods of order 2 and more are exact but for rounding.
+    /// Constant acceleration: methods of order 2 and more are exact up to rounding.
     ConstantAcceleration,
     /// Forces are smooth functions of positions: order p.
     Smooth,
     /// Forces are smooth functions of velocities too: order p.
     VelocityDependent,
-    /// Forces are continuous with a kink: at most order 2 where the kink is not located inside the tick. Errors depend
-    /// on where in a tick it falls: averages over many phases count.
+    /// Forces are continuous with a kink: at most order 2 if the kink is not located inside the tick. Errors depend on
+    /// the phase of the kink in the tick, so averages over many phases count.
     Kink,
-    /// Forces jump: order 1 where the jump is not located inside the tick, averaged over phases.
+    /// Forces jump: order 1 if the jump is not located inside the tick, averaged over phases.
     Jump,
 }
 
-/// What is to be expected of a method.
+/// The expected order of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
     /// The error is rounding.
@@ -157,12 +157,12 @@ pub enum Expected {
 }
 
 impl Class {
-    /// What a method of order `order` that does not locate events can show.
+    /// The possible result of a method of order `order` that does not locate events.
     pub fn expected(self, order: u32) -> Expected {
         self.expected_located(order, false)
     }
 
-    /// What a method of order `order` can show, where events are `located` or not.
+    /// The possible result of a method of order `order`, for `located` events or not.
     pub fn expected_located(self, order: u32, located: bool) -> Expected {
         match self {
             Self::Free => Expected::Exact,
@@ -208,27 +208,27 @@ impl Setting<'_> {
     }
 }
 
-/// What a method errs by on a problem: `constant dt^order` for small ticks `dt`, as a root mean square over phases where the class
-/// depends on them.
+/// The error of a method on a problem: `constant dt^order` for small ticks `dt`. If the class depends on phases, it is
+/// a root mean square over them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant {
     /// Name of the method.
     pub method: &'static str,
     /// When jumps of the forces take place.
     pub events: EventTiming,
-    /// The order that the method shows: at least what the class leaves of its own.
+    /// The order that the method shows, which the class may limit.
     pub order: u32,
     /// In units of the error over seconds to the power of the order.
     pub constant: f64,
 }
 
 impl Constant {
-    /// Where events take place at the ends of ticks.
+    /// For events at the ends of ticks.
     pub const fn per_tick(method: &'static str, order: u32, constant: f64) -> Self {
         Self { method, events: EventTiming::PerTick, order, constant }
     }
 
-    /// Where events are located.
+    /// For located events.
     pub const fn located(method: &'static str, order: u32, constant: f64) -> Self {
         Self { method, events: EventTiming::Located, order, constant }
     }
@@ -237,16 +237,16 @@ impl Constant {
 /// A scene whose answer is known.
 #[derive(Clone, Copy)]
 pub struct Problem {
-    /// Name, as the file.
+    /// Name, like that of the file.
     pub name: &'static str,
     /// The law in words.
     pub law: &'static str,
-    /// Where the law is to be found.
+    /// The source of the law.
     pub source: &'static str,
     /// How smooth the forces are.
     pub class: Class,
-    /// A tick in seconds from which on the error falls as expected. Samples are whole multiples of it, except where
-    /// the class depends on the phase: there any tick will do, and the state nearest to the sample is compared.
+    /// A tick in seconds from which on the error falls as expected. Samples are whole multiples of it, unless the class
+    /// depends on the phase. Then any tick will do, and the state nearest to the sample is compared.
     pub tick: f64,
     /// Times in seconds at which the state is compared. The last is the length of the run.
     pub samples: &'static [f64],
@@ -258,7 +258,8 @@ pub struct Problem {
     pub scene: fn(&Setting, f64) -> String,
     /// The error of a state, given time and shift in seconds.
     pub error: fn(&Simulation, f64, f64) -> f64,
-    /// Bound of the leading error term of a method that goes by whole ticks and shows an order at a tick, where one is derived.
+    /// Bound of the leading error term at a tick, for a method by whole ticks that shows an order. `None` if no bound
+    /// is derived.
     pub leading_error: Option<fn(u32, f64) -> f64>,
     /// Leading error constants of the methods.
     pub constants: &'static [Constant],
@@ -310,7 +311,7 @@ impl Problem {
         let mut greatest = 0.0_f64;
         for &time in self.samples {
             simulation.run_to_tick((time / setting.tick).round() as u64)?;
-            // Where a sample is not a whole number of ticks, the tick nearest to it counts.
+            // If a sample is not a whole number of ticks, the nearest tick counts.
             let reached = simulation.clock().time();
             let time = if (reached - time).abs() > 1e-9 * time { reached } else { time };
             let error = (self.error)(simulation, time, setting.shift);
@@ -319,13 +320,13 @@ impl Problem {
         Ok(greatest)
     }
 
-    /// The leading error constant of a method, if one is tabulated: otherwise its errors are rounding.
+    /// The leading error constant of a method, if it is tabulated. Otherwise its errors are rounding.
     pub fn constant(&self, method: &str, events: EventTiming) -> Option<&Constant> {
         self.constants.iter().find(|constant| constant.method == method && constant.events == events)
     }
 
-    /// The error that a method of order `order` that goes by whole ticks may have at a tick: leading error term and rounding. `None`:
-    /// there is no derived bound.
+    /// The allowed error at a tick of a method of order `order` by whole ticks: leading error term and rounding.
+    /// `None`: no bound is derived.
     pub fn bound(&self, order: u32, tick: f64) -> Option<f64> {
         let leading = match self.class.expected(order) {
             Expected::Exact => 0.0,
@@ -345,7 +346,7 @@ pub fn methods() -> Vec<Description> {
     simulation.resource::<Methods>().0.clone()
 }
 
-/// Worst case of rounding in `ticks` additions to a number of size `scale`: half a unit in the last place each.
+/// Worst case of rounding in `ticks` additions to a number of size `scale`, each of half a unit in the last place.
 pub fn rounding_of(ticks: f64, scale: f64) -> f64 {
     (ticks + 8.0) * f64::EPSILON * scale
 }

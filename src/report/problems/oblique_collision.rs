@@ -1,5 +1,5 @@
-//! Two discs of different mass, size and stiffness meet off centre without friction: a central force
-//! `k (R1 + R2 - r)` with the stiffnesses in series, while the normal turns. SI units.
+//! Two discs of different mass, size and stiffness meet off centre without friction. The force is central, `k (R1 +
+//! R2 - r)` with the stiffnesses in series, while the normal turns. SI units.
 //!
 //! The velocities after the collision are those of the scattering integral; the truth file has them to 15 digits.
 //! A shift lets the first disc start that much earlier on its straight way.
@@ -71,8 +71,8 @@ fn error(simulation: &Simulation, _: f64, _: f64) -> f64 {
     after().iter().zip(found).map(|(exact, found)| (*exact - *found).length() / SPEED).fold(0.0, f64::max)
 }
 
-/// With `w = sqrt(k/m)` of series stiffness and reduced mass, a kink inside a tick changes the relative velocity by up
-/// to a share `(w dt)^2`, and forces of one end of a tick by up to `w dt` (see the elastic bounce).
+/// Let `w = sqrt(k/m)` of series stiffness and reduced mass. A kink inside a tick changes the relative velocity by up
+/// to a share `(w dt)^2`. Forces of one end of a tick change it by up to `w dt` (see the elastic bounce).
 fn leading_error(order: u32, tick: f64) -> f64 {
     let omega = (7500.0_f64 / (2.0 / 3.0)).sqrt();
     (omega * tick).powi(order as i32)

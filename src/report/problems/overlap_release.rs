@@ -1,7 +1,7 @@
-//! Two discs that overlap at the start and stand still push each other apart: a quarter of a period of unloading,
-//! `N = k (1 - mu) d`. SI units, no gravity.
+//! Two discs that overlap at rest at the start push each other apart. That is a quarter of a period of unloading, `N =
+//! k (1 - mu) d`. SI units, no gravity.
 //!
-//! No energy appears that the springs did not hold: `m v^2 = k (1 - mu) d^2` with the reduced mass.
+//! The energy is that of the springs alone: `m v^2 = k (1 - mu) d^2` with the reduced mass.
 
 use glam::DVec2;
 
@@ -67,7 +67,7 @@ pub fn distance(time: f64) -> (f64, f64) {
     (2.0 * RADIUS - OVERLAP * cos, speed * sin)
 }
 
-/// Positions in m and velocities in m/s of both; their centre of mass stands at the origin.
+/// Positions in m and velocities in m/s of both; their centre of mass is at the origin.
 pub fn state(time: f64) -> [(DVec2, DVec2); 2] {
     let (distance, speed) = distance(time);
     let total = MASSES[0] + MASSES[1];
@@ -106,8 +106,9 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     state(time + shift).into_iter().enumerate().map(of).fold(0.0, f64::max)
 }
 
-/// The kink where they part changes the speed by up to a share `(w dt)^2/4`; the rate itself is off by `(w dt)^2/24` over
-/// a quarter of a period and later the way by 1.5 times the share. Order 1: forces of one end of a tick, up to `w dt`.
+/// The kink at the parting changes the speed by up to a share `(w dt)^2/4`. The rate itself is off by `(w dt)^2/24`
+/// over a quarter of a period, and later the way by 1.5 times the share. Order 1: forces of one end of a tick, up to `w
+/// dt`.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let step = rate() * tick;
     if order >= 2 { step * step } else { step * std::f64::consts::FRAC_PI_2 }

@@ -1,5 +1,5 @@
-//! A bar on parallel cranks moves on a circle without turning: all swings as one pendulum of length `l (m_cranks/3 + M)/(m_cranks/2 + M)`,
-//! solved by elliptic functions. SI units.
+//! A bar on parallel cranks moves on a circle without turning. All parts swing as one pendulum of length `l
+//! (m_cranks/3 + M)/(m_cranks/2 + M)`, solved by elliptic functions. SI units.
 //!
 //! Two of them: on two cranks, and on three, of which one is redundant. Its rows follow from those of the others.
 
@@ -25,7 +25,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // A wrong amplitude makes a wrong period: errors grow by the angle that passes, at up to 3.3 rad/s.
+    // A wrong amplitude gives a wrong period. So errors grow by the passed angle, at up to 3.3 rad/s.
     rounding: |tick| rounding_of(4.0 / tick, 4.0 * 3.3),
 };
 

@@ -1,6 +1,7 @@
-//! A mass on a rod without mass: `theta'' = -(g/l) sin theta`, solved by Jacobi's elliptic functions. SI units.
+//! A mass on a massless rod: `theta'' = -(g/l) sin theta`, solved by Jacobi's elliptic functions. SI units.
 //!
-//! Two of them are let go at 10 and 90 degrees. One that begins near its upper equilibrium is a hard case, `upright_pendulum`.
+//! Two of them are released at 10 and 90 degrees. One that begins near its upper equilibrium is a hard case,
+//! `upright_pendulum`.
 
 use std::fmt::Write;
 
@@ -22,8 +23,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // From 90 degrees the period grows by 0.54 s with the amplitude: an error of that counts `0.54/2.37 t` times 4.4 rad/s. A tick rounds
-    // by half a unit in the last place, and half of the time is left on average.
+    // From 90 degrees the period grows by 0.54 s with the amplitude. So an error of the amplitude counts `0.54/2.37 t`
+    // times 4.4 rad/s. A tick rounds by half a unit in the last place, and on average half of the time remains.
     rounding: |tick| rounding_of(5.0 / tick, 5.0 * 0.54 / 2.37 * 4.4 / 4.0),
 };
 

@@ -1,5 +1,5 @@
-//! A plank stands with five feet on posts. Statics alone does not tell five forces; the stiffness of the feet does. A foot at `x` bears
-//! `k (d + t x)`. The balance of forces and that of torques give `d` and `t`. SI units.
+//! A plank with five feet on posts. Statics alone does not determine five forces; the stiffness of the feet does. A
+//! foot at `x` bears `k (d + t x)`. The balance of forces and that of torques give `d` and `t`. SI units.
 //!
 //! The feet touch the posts at the start, and the plank sinks. Dashpots take its swing. All methods end at the same forces.
 
@@ -23,7 +23,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: &[],
-    // An overlap is a difference of heights up to 0.55 m, as is the one that the error is read from.
+    // An overlap is a difference of heights up to 0.55 m, and so is the one from which the error is read.
     rounding: |_| 4.0 * f64::EPSILON * 0.55 * STIFFNESS / WEIGHT,
 };
 

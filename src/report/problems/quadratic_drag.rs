@@ -1,8 +1,8 @@
 //! A fall and an oblique shot through air: `m v' = m g - c |v| v` (Newton 1687). SI units.
 //!
-//! The fall from rest has a closed form: with the terminal speed `u = sqrt(m g/c)`, `v = u tanh(g t/u)` and
-//! `depth = (u^2/g) ln cosh(g t/u)`. The oblique shot has none: its positions come from the truth file, where two
-//! independent methods agree to 2e-15.
+//! The fall from rest has a closed form: with the terminal speed `u = sqrt(m g/c)`, `v = u tanh(g t/u)` and `depth =
+//! (u^2/g) ln cosh(g t/u)`. The oblique shot has none. Its positions come from the truth file, in which two independent
+//! methods agree to 2e-15.
 
 use glam::DVec2;
 
@@ -80,7 +80,8 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     oblique(time).map_or(fallen, |exact| fallen.max((position[1] - exact).length() / exact.length()))
 }
 
-/// As for linear drag, with the rate `2 c v/m` and the acceleration at the start of the shot, where both are greatest.
+/// As for linear drag, with the rate `2 c v/m` and the acceleration at the start of the shot, at which both are
+/// greatest.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let (rate, acceleration) = (2.0 * COEFFICIENT * 30.0, GRAVITY + COEFFICIENT * 900.0);
     let shot = |&time: &f64| {

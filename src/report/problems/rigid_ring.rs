@@ -1,5 +1,5 @@
-//! A ring of twelve masses on rods without mass turns steadily while it falls: the rods keep the radius `l/(2 sin(pi/N))` and bear
-//! `m w^2 R/(2 sin(pi/N))`. SI units.
+//! A ring of twelve masses on massless rods turns steadily while it falls. The rods keep the radius `l/(2 sin(pi/N))`
+//! and bear `m w^2 R/(2 sin(pi/N))`. SI units.
 //!
 //! The ring is a loop that could fold in nine ways; the pull in its rods keeps it round.
 
@@ -26,7 +26,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: Some(leading_error),
     constants: CONSTANTS,
-    // A tick rounds the spin by half a unit in the last place, which counts for the half of a turn that is left on average.
+    // A tick rounds the spin by half a unit in the last place. That counts for half a turn, which remains on average.
     rounding: |tick| rounding_of(TURN / tick, 0.5 * PI),
 };
 
@@ -65,7 +65,7 @@ pub fn tension() -> f64 {
     0.5 * MASS * SPIN * SPIN * radius() / libm::sin(PI / COUNT as f64)
 }
 
-/// Where a mass is at `time`, in m.
+/// The position of a mass at `time`, in m.
 fn place(mass: usize, time: f64) -> DVec2 {
     let (sin, cos) = libm::sincos(2.0 * PI * mass as f64 / COUNT as f64 + SPIN * time);
     DVec2::new(cos, sin) * radius() + DVec2::new(0.0, -0.5 * GRAVITY * time * time)
@@ -94,9 +94,9 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     greatest(found.map(|(mass, found)| found.distance(place(mass, time)) / radius()))
 }
 
-/// Under RATTLE a mass goes on by `asin(w dt)` in a tick, and not by `w dt`: its way across the radius is that of its velocity. So it
-/// is ahead by `(w dt)^2/6` of the angle that passed, and a share `(w dt)^2` more for the next term. Semi-implicit Euler falls by
-/// `g t dt/2` further besides. Methods of higher orders are held to the bound of order 2.
+/// Under RATTLE a mass advances by `asin(w dt)` in a tick, and not by `w dt`. Its way across the radius is that of its
+/// velocity. So it is ahead by `(w dt)^2/6` of the passed angle, and a share `(w dt)^2` more for the next term.
+/// Semi-implicit Euler also falls by `g t dt/2` further. Methods of higher orders are held to the bound of order 2.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let (z, time) = (SPIN * tick, TURN);
     let ahead = SPIN * time * z * z / 6.0 * (1.0 + z * z);

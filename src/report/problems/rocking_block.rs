@@ -1,5 +1,5 @@
-//! A slender block rocks back from its corner, which does not slip, as an inverted pendulum: `I_o a'' = -m g R sin(b - a)`. Here `a` is
-//! its tilt, `b` that at which it would tip over, `R` half the diagonal (Housner 1963). SI units.
+//! A slender block rocks back from its corner, which does not slip, as an inverted pendulum: `I_o a'' = -m g R sin(b -
+//! a)`. Here `a` is its tilt, `b` that of tipping over, `R` half the diagonal (Housner 1963). SI units.
 //!
 //! The block starts at rest with the depth of its corner that bears the force of a rigid block. With a contact of stiffness `k` the
 //! error of the ideal falls as `1/k`. The run ends before the other corner strikes. Friction acts on the surface of the floor.
@@ -47,7 +47,7 @@ const MASS: f64 = 5.0;
 /// In m/s2.
 const GRAVITY: f64 = 9.81;
 
-/// The block on its right corner, tilted half as far as it would tip over, with a contact of a stiffness in N/m.
+/// The block on its right corner, at half the tilt of tipping over, with a contact of a stiffness in N/m.
 pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
     let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
     let angle = -0.5 * libm::atan(HALVES[0] / HALVES[1]);

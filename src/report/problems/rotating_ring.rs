@@ -1,5 +1,5 @@
-//! A ring of twelve masses on springs that turns steadily: `m w^2 R = 2 k (l - l0) sin(pi/N)` with `l = 2 R sin(pi/N)`, so the
-//! ring is wider than at rest (statics in the turning frame). SI units.
+//! A ring of twelve masses on springs that turns steadily: `m w^2 R = 2 k (l - l0) sin(pi/N)` with `l = 2 R sin(pi/N)`.
+//! So the ring is wider than at rest (statics in the turning frame). SI units.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -93,11 +93,12 @@ fn error(simulation: &Simulation, _: f64, _: f64) -> f64 {
     off.fold(0.0, |most, error| if error <= most { most } else { error })
 }
 
-/// With `z = w dt`, the first tick of velocity Verlet ends `R z^4/8` too far out, as if `R w^2 z^2/4` pulled outwards: the ring
-/// swings about a radius that is larger by that over the square of the breathing frequency `b`, by as much again to each
-/// side: `z^2/2 (w/b)^2` in all, and a share `(b dt)^2` more for the next term. Semi-implicit Euler is velocity Verlet with a
-/// velocity that points inwards by `R w z/2`: an amplitude of `z/2 (w/b)`, and the second order beside it. Methods of higher
-/// orders have constants of their own, which are not known here: they are held to the bound of order 2.
+/// Let `z = w dt`. The first tick of velocity Verlet ends `R z^4/8` too far out, as if `R w^2 z^2/4` pulled outwards.
+/// So the ring swings about a radius that is larger by that over the square of the breathing frequency `b`. The
+/// amplitude has the same size. In all that is `z^2/2 (w/b)^2`, and a share `(b dt)^2` more for the next term.
+/// Semi-implicit Euler is velocity Verlet with a velocity that points inwards by `R w z/2`. That is an amplitude of
+/// `z/2 (w/b)`, and the second order beside it. The constants of higher orders are not known here, so these methods are
+/// held to the bound of order 2.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let (z, share) = (SPIN * tick, SPIN / breathing());
     let second = 0.5 * z * z * share * share * (1.0 + (breathing() * tick).powi(2));

@@ -1,8 +1,8 @@
-//! A ball falls on a floor that takes energy, bounces a dozen times and stays: free flight, then loading and unloading
-//! each a part of a period of a shifted oscillator, `m d'' = m g - k (1 +- mu) d`. SI units.
+//! A ball falls on a floor that dissipates, bounces a dozen times and stays. Free flight alternates with loading and
+//! unloading. Each is a part of a period of a shifted oscillator, `m d'' = m g - k (1 +- mu) d`. SI units.
 //!
-//! Where the ball turns at an overlap between `m g/(k (1 + mu))` and `m g/(k (1 - mu))` the law, set-valued there, holds
-//! it for ever. The force jumps at each turn: without locating that, a method has order 1.
+//! At a turn with an overlap between `m g/(k (1 + mu))` and `m g/(k (1 - mu))` the law, set-valued there, holds the
+//! ball forever. The force jumps at each turn, so a method that does not locate it has order 1.
 
 use std::f64::consts::PI;
 
@@ -24,7 +24,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: Some(leading_error),
     constants: CONSTANTS,
-    // An ulp of the impact speed grows as the tick's own error does: by the length of the flights after it.
+    // An ulp of the impact speed grows like the tick's own error: by the length of the flights after it.
     rounding: |tick| rounding_of(1.4 / tick, 20.0),
 };
 
@@ -150,10 +150,10 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     (simulation.bodies().position[0].y - RADIUS - state(time + shift).0).abs() / HEIGHT
 }
 
-/// As for the inelastic impact, each of two impacts delays the ball by up to `1 + 2 mu/(1 - mu)` ticks at up to the speed
-/// `v` after the first impact, and changes restitution by up to `2 mu (w dt)^2/e`, which the flights of up to 0.7 s after
-/// it turn into a way of as much of `v` times 0.7 s each. Semi-implicit Euler falls by `g t dt/2` more in each of three
-/// flights.
+/// As for the inelastic impact, each of two impacts delays the ball by up to `1 + 2 mu/(1 - mu)` ticks. Its speed is
+/// then at most `v` after the first impact. Each also changes restitution by up to `2 mu (w dt)^2/e`. The flights of up
+/// to 0.7 s after it turn that into a way of that share of `v` times 0.7 s each. Semi-implicit Euler falls by `g t
+/// dt/2` more in each of three flights.
 fn leading_error(_: u32, tick: f64) -> f64 {
     let restitution = ((1.0 - INELASTICITY) / (1.0 + INELASTICITY)).sqrt();
     let speed = restitution * (2.0 * GRAVITY * HEIGHT).sqrt();

@@ -1,8 +1,9 @@
 //! A disc that is set down sliding begins to roll, and keeps about two thirds of its speed. SI units.
 //!
-//! The point of contact moves by `q`, with `q'' = -T (1/m + b^2/I)`, where `b` is the radius less the overlap. At first
-//! the tangential spring is drawn out, `T = k_t q`; then it slips with `T = mu m g` until the point of contact stands
-//! still; then the spring, full, swings for ever, since nothing damps it: the disc rolls and sways. All three are closed.
+//! The point of contact moves by `q`, with `q'' = -T (1/m + b^2/I)`, where `b` is the radius minus the overlap. At
+//! first the tangential spring is stretched, `T = k_t q`. Then it slips with `T = mu m g` until the point of contact is
+//! at rest. Then the full spring swings forever without damping, so the disc rolls and sways. All three phases have
+//! closed forms.
 
 use super::{Class, Constant, Problem, Setting, rounding_of};
 use jostle_engine::Simulation;
@@ -46,7 +47,7 @@ const RADIUS: f64 = 0.1;
 const ARM: f64 = RADIUS - GRAVITY / STIFFNESS;
 const INERTIA: f64 = RADIUS * RADIUS / 2.0;
 
-/// What friction has done until some time: impulse in N s and its integral in N s2.
+/// The effect of friction until some time: impulse in N s and its integral in N s2.
 fn friction(time: f64) -> (f64, f64) {
     let mobility = 1.0 + ARM * ARM / INERTIA;
     let rate = (TANGENTIAL * mobility).sqrt();
@@ -86,17 +87,17 @@ fn scene(setting: &Setting, duration: f64) -> String {
     )
 }
 
-/// The greater of the error of the way and of that of a point of the rim. The problem has no shift: its events fall on
-/// other places of other ticks anyway.
+/// The greater of the error of the way and of that of a point of the rim. The problem has no shift, because its events
+/// have different phases in other ticks anyway.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     let bodies = simulation.bodies();
     let (way, angle) = state(time);
     (bodies.position[0].x - way).abs().max(RADIUS * (bodies.angle[0] - angle).abs())
 }
 
-/// Order 2: the spring is drawn out at the speed `v` at most, so that where it is full the trapezium of a tick is off by up
-/// to `k_t v dt^2/8`; the oscillator before that, and the kink where slipping ends, are off by less than as much again.
-/// The velocity of the disc, or of the rim by `m R b/I`, is wrong by that for 0.4 s. Order 1: half a tick of friction.
+/// Order 2: the spring is stretched at most at the speed `v`. So when it is full, the trapezium of a tick is off by up
+/// to `k_t v dt^2/8`. The oscillator before that, and the kink at the end of slipping, are off by less than that again.
+/// The velocity of the disc, or of the rim by `m R b/I`, is off by that for 0.4 s. Order 1: half a tick of friction.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let rim = RADIUS * ARM / INERTIA;
     if order >= 2 { rim * TANGENTIAL * SPEED / 4.0 * tick * tick * 0.4 } else { rim * FRICTION * GRAVITY * tick * 0.4 }

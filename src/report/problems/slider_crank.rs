@@ -1,5 +1,5 @@
-//! Crank, rod and piston, the crank turned by a motor at 100 rad/s: `x = r cos wt + sqrt(l^2 - r^2 sin^2 wt)`, the torque from the
-//! power balance. SI units.
+//! Crank, rod and piston, whose crank a motor turns at 100 rad/s: `x = r cos wt + sqrt(l^2 - r^2 sin^2 wt)`. The torque
+//! follows from the power balance. SI units.
 
 use glam::DVec2;
 

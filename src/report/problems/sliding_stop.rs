@@ -1,9 +1,9 @@
-//! A body that cannot turn slides on the floor, is slowed by `mu g`, stops and stays. SI units.
+//! A body that cannot turn slides on the floor, is decelerated by `mu g`, stops and stays. SI units.
 //!
-//! At first the tangential spring is drawn out, `x = (v/w) sin(w t)` with `w^2 = k_t/m`, until it pulls with `mu m g`;
-//! then friction is constant (Coulomb 1785) until the velocity is zero, and there it is whatever keeps it zero. The spring
-//! is soft, so that the beginning is resolved by the tick. The force has a kink at its end; at the stop the velocity is
-//! taken to zero exactly, so that the way is off by no more than a tick of the last velocity.
+//! At first the tangential spring is stretched, `x = (v/w) sin(w t)` with `w^2 = k_t/m`, until it pulls with `mu m g`.
+//! Then friction is constant (Coulomb 1785) until the velocity is zero. From then on friction keeps the velocity zero.
+//! The spring is soft, so that the tick resolves the beginning. The force has a kink at its end. At the stop the
+//! velocity becomes exactly zero. So the way is off by at most a tick of the last velocity.
 
 use super::{Class, Constant, Problem, Setting, rounding_of};
 use jostle_engine::Simulation;
@@ -81,9 +81,9 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     (simulation.bodies().position[0].x - state(time).0).abs()
 }
 
-/// Order 2: the spring is drawn out at the speed `v` at most, so that where it is full the trapezium of a tick is off by up
-/// to `k_t v dt^2/8`; the oscillator before that is off by less than as much again. The velocity then is wrong for the
-/// 0.8 s to the stop, where the last tick is off by up to `mu g dt^2`. Order 1: `mu g dt/2` for as long, and the last tick.
+/// Order 2: the spring is stretched at most at the speed `v`. So when it is full, the trapezium of a tick is off by up
+/// to `k_t v dt^2/8`. The oscillator before that is off by less than that again. The velocity is then off for the 0.8 s
+/// to the stop. The last tick is off by up to `mu g dt^2`. Order 1: `mu g dt/2` for that time, and the last tick.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let (friction, lasts) = (FRICTION * GRAVITY, 0.8);
     if order >= 2 { tick * tick * (TANGENTIAL * SPEED / 4.0 * lasts + friction) } else { friction * tick * lasts }

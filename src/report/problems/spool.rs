@@ -1,8 +1,8 @@
 //! Spools roll on a floor without slipping. A string pulls each one from the bottom of its drum, at an angle `a` above the floor. The
 //! acceleration is `F R (R cos a - r)/(I + m R^2)`: forwards up to `cos a = r/R`, backwards above. SI units.
 //!
-//! `R` is the height of the centre above the floor: the radius less the overlap that bears the load. The string's direction does
-//! not change. So its pull is a force in the centre and a torque `F r`.
+//! `R` is the height of the centre above the floor: the radius minus the overlap that bears the load. The string's
+//! direction does not change. So its pull is a force in the centre and a torque `F r`.
 
 use std::fmt::Write;
 
@@ -60,7 +60,7 @@ fn height(angle: f64) -> f64 {
     RADII[0] - (MASS * GRAVITY - PULL * libm::sin(angle)) / STIFFNESS
 }
 
-/// The acceleration in m/s2 of a spool whose centre is at a height in m and that is pulled at an angle in rad.
+/// The acceleration in m/s2 of a spool whose centre has a height in m, under a pull at an angle in rad.
 pub fn acceleration(height: f64, angle: f64) -> f64 {
     PULL * height * (height * libm::cos(angle) - RADII[1]) / (INERTIA + MASS * height * height)
 }

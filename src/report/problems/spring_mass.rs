@@ -1,6 +1,6 @@
 //! A mass on a spring: `m x'' = -k x`, so `x = x0 cos(w t) + v0/w sin(w t)` with `w = sqrt(k/m)` (Hooke 1678). SI units.
 //!
-//! The spring has no length of its own, so it is linear through its middle.
+//! The spring has zero length, so it is linear through its middle.
 
 use super::{Class, Constant, Problem, Setting, rounding_of};
 use jostle_engine::Simulation;
@@ -19,7 +19,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: Some(leading_error),
     constants: CONSTANTS,
-    // Each tick rounds the velocity, by an ulp of at most `A w`: that is an ulp of the amplitude in the place.
+    // Each tick rounds the velocity by an ulp of at most `A w`. That is an ulp of the amplitude in the position.
     rounding: |tick| rounding_of(20.0 / tick, 2.0),
 };
 
@@ -62,10 +62,10 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     (simulation.bodies().position[0].x - state(time).0).abs() / START.hypot(SPEED / OMEGA)
 }
 
-/// With `z = w dt` velocity Verlet swings with the frequency `(2/dt) asin(z/2) = w (1 + z^2/24)` and, for a start with a
-/// velocity, too far by `1/sqrt(1 - z^2/4) = 1 + z^2/8`. Semi-implicit Euler swings with the same frequency on an ellipse that
-/// is sheared by `z/2`, once for the start and once for the sample. Methods of higher orders have constants of their own, which
-/// are not known here: they are held to the bound of order 2.
+/// Let `z = w dt`. Velocity Verlet swings with the frequency `(2/dt) asin(z/2) = w (1 + z^2/24)`. From a start with a
+/// velocity it swings too far by `1/sqrt(1 - z^2/4) = 1 + z^2/8`. Semi-implicit Euler swings with the same frequency on
+/// an ellipse that is sheared by `z/2`. The shear counts for the start and for the sample. The constants of higher
+/// orders are not known here, so these methods are held to the bound of order 2.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let z = OMEGA * tick;
     let late = z * z / 24.0 * OMEGA * 20.0 + z * z / 8.0;

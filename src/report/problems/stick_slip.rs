@@ -1,11 +1,11 @@
-//! Blocks on a belt, each held by a spring: carried until the spring pulls with the static friction, they slip as
-//! oscillators about where it pulls with the dynamic one, until they have the belt's velocity again (den Hartog, *Mechanical
-//! Vibrations*, 1956, 7). SI units.
+//! Blocks on a belt, each held by a spring (den Hartog, *Mechanical Vibrations*, 1956, 7). The belt carries them until
+//! the spring pulls with the static friction. Then they slip as oscillators about the point of the dynamic friction,
+//! until they have the belt's velocity again. SI units.
 //!
-//! With `x_s`, `x_k` the places of static and dynamic friction and `tan phi = (x_s - x_k) w/V` a round lasts
-//! `2 (pi - phi)/w + 2 (x_s - x_k)/V`. Where both coefficients are the same the block slips for ever, and touches the velocity of
-//! the belt once in a period without crossing it. Friction jumps where slip begins (if the static one is greater) and turns there and
-//! where it ends.
+//! Let `x_s`, `x_k` be the points of static and dynamic friction, and `tan phi = (x_s - x_k) w/V`. A round lasts `2
+//! (pi - phi)/w + 2 (x_s - x_k)/V`. If both coefficients are equal, the block slips forever. Once in a period it
+//! touches the velocity of the belt without crossing it. Friction jumps at the beginning of slip (if the static one is
+//! greater) and reverses there and at its end.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -60,7 +60,7 @@ pub fn round(friction: f64) -> (f64, f64, f64) {
     (2.0 * (PI - phase) / rate, 2.0 * away / BELT, highest)
 }
 
-/// Place in m and velocity in m/s at `time`; at the start the spring is slack and the block has the belt's velocity.
+/// Position in m and velocity in m/s at `time`. At the start the spring is slack and the block has the belt's velocity.
 pub fn state(friction: f64, time: f64) -> (f64, f64) {
     let to_slip = friction * GRAVITY / STIFFNESS;
     let (slips, sticks, _) = round(friction);

@@ -1,10 +1,10 @@
-//! A disc strikes an elastic wall at a slant and grips it by a tangential spring with a Coulomb limit (Maw, Barber and
+//! A disc strikes an elastic wall at a slant. A tangential spring with a Coulomb limit grips the wall (Maw, Barber and
 //! Fawcett 1976; Schaefer, Dippel and Wolf 1996). SI units, no gravity.
 //!
 //! `psi1` is the tangential speed of the point of contact over the normal speed before, `psi2` after the impact. At small
 //! `psi1` the contact sticks first and rebounds backwards; at large ones it slips throughout and `psi2 = psi1 - 3 mu (1 + e)`.
 //!
-//! The disc is so slow that it sinks in by 1e-8 of its radius: as the truth has it, the arm of friction is the radius.
+//! The disc is so slow that its overlap is 1e-8 of its radius. As in the reference, the arm of friction is the radius.
 
 use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use jostle_engine::Simulation;
@@ -50,7 +50,7 @@ pub const STIFFNESS: f64 = 1e5;
 pub const RATIO: f64 = 0.5;
 /// Friction coefficient.
 pub const FRICTION: f64 = 0.3;
-/// The contact lasts that share of its length longer than half a period at the start of the run: a way to it.
+/// The contact begins this share of half a period after the start of the run.
 const LEAD: f64 = 0.1;
 
 /// `psi1` and `psi2` of the truth file.
@@ -88,9 +88,9 @@ pub fn error_of(simulation: &Simulation, psi1: f64) -> f64 {
     (found - psi2).abs().max((along - psi1 + (psi1 - psi2) / 3.0).abs())
 }
 
-/// Four kinks (touch, slip, stick, parting): inside a tick each changes velocities by up to a share `(w dt)^2/4` (see
-/// the elastic bounce), with the faster of the two rates, of a speed of up to `psi1` and 1; forces of one end of a tick
-/// by up to `(pi/2) w dt` in the whole contact.
+/// Four kinks (touch, slip, stick, parting). Inside a tick each changes velocities by up to a share `(w dt)^2/4` (see
+/// the elastic bounce). The rate is the faster of the two. The speeds are up to `psi1` and 1. Forces of one end of a
+/// tick change them by up to `(pi/2) w dt` in the whole contact.
 pub fn leading_error(order: u32, tick: f64) -> f64 {
     let step = (3.0 * RATIO * STIFFNESS).sqrt() * tick;
     if order >= 2 { step * step } else { std::f64::consts::FRAC_PI_2 * step }

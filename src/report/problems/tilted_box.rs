@@ -1,8 +1,9 @@
-//! A box slides down an incline with `g (sin a - mu cos a)`. The incline is steeper than the angle of friction, and too flat to topple
-//! the box: friction loads the lower edge of the base more, but only from `tan a = w/h` on the upper one is free. SI units.
+//! A box slides down an incline with `g (sin a - mu cos a)`. The incline is steeper than the angle of friction, and too
+//! flat to topple the box. Friction loads the lower edge of the base more, but the upper one becomes free only at `tan
+//! a = w/h`. SI units.
 //!
-//! The floor is level and the weight tilted. The box starts with the overlaps and the tilt that its forces ask for. It keeps them, and
-//! its acceleration is constant.
+//! The floor is level and the weight tilted. The box starts with the overlaps and the tilt that balance its forces. It
+//! keeps them, and its acceleration is constant.
 
 use super::linkage::greatest;
 use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};

@@ -1,7 +1,7 @@
 //! Three uniform rods, each hung on the end of the one before. Lagrange's equations, and independently the equations of bodies with
 //! multipliers. SI units.
 //!
-//! The motion is chaotic; the problem ends after 3 s, where rounding has grown by a few hundred.
+//! The motion is chaotic. The problem ends after 3 s, at which rounding has grown by a few hundred.
 
 use std::f64::consts::PI;
 

@@ -1,5 +1,5 @@
-//! Two arms of two uniform rods, 0.5 and 0.4 m long: one swings freely, one is moved by controllers on both joints, each with the torque
-//! `kp (target - angle) - kd rate`. Full equations of both links. SI units.
+//! Two arms of two uniform rods, 0.5 and 0.4 m long. One swings freely. Controllers on both joints move the other, each
+//! with the torque `kp (target - angle) - kd rate`. Full equations of both links. SI units.
 
 use super::linkage::{Chain, Link, chain, greatest, turned_off};
 use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
@@ -19,8 +19,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // The free arm is sensitive as a double pendulum is; its links swing twice as fast as those of 1 m. The reference is known to
-    // 1e-13.
+    // The free arm is as sensitive as a double pendulum; its links swing twice as fast as those of 1 m. The reference
+    // is known to 1e-13.
     rounding: |tick| rounding_of(2.0 / tick, 100.0) + 1e-13,
 };
 

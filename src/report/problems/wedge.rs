@@ -1,7 +1,7 @@
 //! Discs lie in grooves between two wedges. At half an opening angle `a` each side bears `m g/(2 sin a)`. A disc swings
 //! vertically with `sqrt(2 k/m) sin a` and sideways with `sqrt(2 k/m) cos a`, whatever the amplitude. SI units, no friction.
 //!
-//! Each disc starts at rest off its place by less than would part it from a side. The wedges are polygons that do not give way.
+//! Each disc starts at rest off its equilibrium by less than would part it from a side. The wedges are fixed polygons.
 
 use std::fmt::Write;
 
@@ -25,8 +25,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // A place of up to 1.5 m counts as a share of the least sinking, 9.81e-5 m: for itself, for the overlaps on both sides, and in the
-    // reference.
+    // A position of up to 1.5 m counts as a share of the least sinking, 9.81e-5 m. It counts for itself, for the
+    // overlaps on both sides, and in the reference.
     rounding: |_| 4.0 * f64::EPSILON * 1.5 / 9.81e-5,
 };
 
@@ -51,7 +51,8 @@ const STIFFNESS: f64 = 1e5;
 const RADIUS: f64 = 0.1;
 /// In m/s2.
 const GRAVITY: f64 = 9.81;
-/// A disc starts off its place by this share of the way that would part it from a side, upwards and to the right.
+/// A disc starts off its equilibrium upwards and to the right. This is its share of the way that would part it from a
+/// side.
 const OFF: f64 = 0.4;
 
 /// The force of a side in N, overlap and sinking in m, and the frequency of the vertical swing in rad/s. The angle is half of the

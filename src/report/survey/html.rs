@@ -1,4 +1,4 @@
-//! The report as one HTML page that needs nothing beside itself: pictures are part of it.
+//! The report as one self-contained HTML page, with its pictures inside.
 
 use super::page::{Block, Cell};
 
@@ -47,12 +47,12 @@ fn cell(cell: &Cell) -> String {
     }
 }
 
-/// Text with what stands between backquotes as code, and between stars in italics.
+/// Text with code between backquotes, and italics between stars.
 fn marked(text: &str) -> String {
     let mut found = escaped(text);
     for (mark, name) in [('`', "code"), ('*', "em")] {
         let parts: Vec<&str> = found.split(mark).collect();
-        // What has no end is no mark.
+        // A mark without an end is no mark.
         if parts.len() % 2 == 1 {
             let tagged = |(place, part): (usize, &&str)| {
                 if place % 2 == 1 { format!("<{name}>{part}</{name}>") } else { (*part).to_owned() }

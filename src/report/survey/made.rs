@@ -1,4 +1,4 @@
-//! What a report was made with.
+//! The program and computer that made a report.
 
 /// Program, compiler, computer.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -8,7 +8,7 @@ pub struct Made {
 }
 
 impl Made {
-    /// By this program, on this computer. A program that knows no commit passes `None`.
+    /// Those of this program and this computer. A program without a commit passes `None`.
     pub fn here(commit: Option<&str>) -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let system = format!("{} {}", std::env::consts::OS, std::env::consts::ARCH);
@@ -24,7 +24,7 @@ impl Made {
     }
 }
 
-/// The name of the processor, where the system tells it in a file.
+/// The name of the processor, if the system has it in a file.
 fn processor() -> Option<String> {
     let told = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = told.lines().find(|line| line.starts_with("model name"))?;

@@ -1,8 +1,10 @@
-//! The report of speed against error: problems whose answer is known, run by each method at a ladder of ticks, and hard cases.
+//! The report of speed against error: problems with known answers, run by each method at a ladder of ticks, and hard
+//! cases.
 //!
-//! Errors and times come from runs of their own: errors first, on all cores, then times, one after the other with nothing else going
-//! on. The error is the greatest at the samples of a [`Problem`], against its exact
-//! answer and in its unit; where it depends on where in a tick an event falls, the greatest of several such phases. A setting that does not run is kept, with its reason; so is what a hard case fails.
+//! Errors and times come from separate runs. Errors come first, on all cores. Then come times, one after the other
+//! without other work. The error is the greatest at the samples of a [`Problem`], against its exact answer and in its
+//! unit. If it depends on the phase of an event in a tick, it is the greatest of several such phases. A setting that
+//! fails is kept, with its reason, and so is a failed reading of a hard case.
 
 mod html;
 mod made;
@@ -32,7 +34,7 @@ use subject::Asked;
 /// Ticks of the ladder over that of the problem.
 const LADDER: [f64; 8] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
 const QUICK_LADDER: [f64; 3] = [4.0, 1.0, 0.25];
-/// Methods where it has to be quick.
+/// Methods of a quick report.
 const QUICK: [&str; 4] = [ClockSection::AUTO, "VelocityVerlet", "RungeKutta4", "Dop853"];
 /// Ticks of a run, at most.
 const MOST_TICKS: f64 = 1e6;
@@ -40,14 +42,14 @@ const QUICK_MOST_TICKS: f64 = 3e4;
 /// Errors below this count as this: rounding, and exact zeros.
 const LEAST_ERROR: f64 = 1e-16;
 
-/// What is to be measured.
+/// The order of a report.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Order {
     /// Fewer methods, ticks and hard cases: a first look.
     pub quick: bool,
 }
 
-/// What was measured of a problem.
+/// The measurement of a problem.
 #[derive(Clone)]
 pub struct Sheet {
     /// The problem.
@@ -56,11 +58,11 @@ pub struct Sheet {
     pub settings: Settings,
     /// State hash of the run that the engine chooses at the tick of the problem.
     pub hash: Option<String>,
-    /// What runs say of their own error, beside the truth.
+    /// The runs' estimates of their errors, beside the true ones.
     pub estimates: Vec<Checked>,
 }
 
-/// What was measured of a hard case.
+/// The measurement of a hard case.
 #[derive(Clone)]
 pub struct Judged {
     /// The case.
@@ -82,7 +84,7 @@ enum Job {
     Problem(Problem),
 }
 
-/// What came of it.
+/// Its result.
 enum Done {
     Case(Judged),
     Problem(Box<Sheet>),
@@ -105,7 +107,7 @@ impl Order {
         std::iter::once(Course::of(ClockSection::AUTO)).chain(all).collect()
     }
 
-    /// Errors of problems, and hard cases, on all cores; `step` is told each time one is done. Costs are not known yet.
+    /// Errors of problems, and hard cases, on all cores; `step` is called after each. Costs are not known yet.
     pub fn errors(&self, problems: &[Problem], cases: &[Case], step: &(dyn Fn() + Sync)) -> (Vec<Sheet>, Vec<Judged>) {
         let jobs: Vec<Job> =
             cases.iter().copied().map(Job::Case).chain(problems.iter().copied().map(Job::Problem)).collect();
@@ -160,7 +162,7 @@ impl Order {
 }
 
 impl Sheet {
-    /// Times what was measured, one run after the other.
+    /// Times the measured settings, one run after the other.
     pub fn time(&mut self) {
         let problem = self.problem;
         for setting in &mut self.settings.all {
@@ -173,7 +175,7 @@ impl Sheet {
         }
     }
 
-    /// What rounding, or how well the answer is known, leaves open at the longest tick.
+    /// The uncertainty by rounding, or by the known answer, at the longest tick.
     pub fn floor(&self) -> f64 {
         self.settings.claim.unwrap_or(LEAST_ERROR)
     }
@@ -198,7 +200,7 @@ impl Sheet {
     pub fn diagram(&self, peers: &[Peer]) -> Diagram {
         let problem = &self.problem;
         let unit = if problem.unit == "1" { String::new() } else { format!(" in {}", problem.unit) };
-        // Where errors have a unit, what is useless depends on the scene: then only what failed stands aside.
+        // If errors have a unit, the useless range depends on the scene. Then only failed settings are apart.
         let errors = self.settings.all.iter().filter_map(Setting::error);
         let errors = errors.chain(peers.iter().flat_map(|peer| peer.points.iter().map(|(error, _)| *error)));
         let greatest = errors.filter(|error| error.is_finite()).fold(1.0, f64::max);

@@ -1,4 +1,4 @@
-//! The report as a list of blocks, which [`super::markdown`] and [`super::html`] write down.
+//! The report as a list of blocks, which [`super::markdown`] and [`super::html`] write.
 
 use super::{Judged, Made, Peers, Sheet, failure, rounded, word};
 use crate::estimate::check::Checked;
@@ -19,7 +19,7 @@ pub enum Block {
     Table(Vec<String>, Vec<Vec<Cell>>),
     /// A picture.
     Picture(Picture),
-    /// What is shown on demand, under a name.
+    /// Content that is shown on demand, under a name.
     Folded(String, Vec<Block>),
 }
 
@@ -37,7 +37,7 @@ pub enum Cell {
 pub struct Picture {
     /// The name of its file.
     pub file: String,
-    /// What it shows.
+    /// Its description.
     pub shows: String,
     /// The bytes of the file.
     pub bytes: Vec<u8>,
@@ -117,7 +117,7 @@ fn cheapest(sheets: &[Sheet]) -> Block {
 
 fn grades(sheets: &[Sheet]) -> Block {
     let names = std::iter::once(ClockSection::AUTO).chain(methods().into_iter().map(|method| method.name));
-    // With few methods asked for, the others have no column.
+    // If few methods are requested, the others have no column.
     let asked = |name: &&str| sheets.iter().any(|sheet| sheet.settings.all.iter().any(|s| s.course.method == *name));
     let names: Vec<&str> = names.filter(asked).collect();
     let row = |sheet: &Sheet| {

@@ -2,9 +2,9 @@
 
 use crate::ladder::Peer;
 
-/// What stands in its first line; engine, error and so on are found by these names.
+/// The names in its first line, by which the columns are found.
 const COLUMNS: [&str; 9] = ["problem", "unit", "engine", "version", "settings", "step", "error", "cpu", "failed"];
-/// Problems that the others are asked in the same scene and norm. In all others contacts are those of rigid bodies for them.
+/// Problems that the other engines run in the same scene and norm. In all others they use contacts of rigid bodies.
 const SAME: [&str; 5] = ["free_flight", "constant_acceleration", "linear_drag", "spring_mass", "incline"];
 
 /// A setting of another engine.
@@ -24,7 +24,7 @@ impl Peers {
     /// Reads a table.
     ///
     /// # Errors
-    /// What is wrong with it, with the line.
+    /// The error names the mistake, with its line.
     pub fn read(text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate();
         let head = lines.next().map(|(_, line)| cells(line)).unwrap_or_default();
@@ -53,7 +53,7 @@ impl Peers {
         Ok(Self(rows))
     }
 
-    /// The curves for a problem: of each engine what no other of its settings beats, from coarse to fine.
+    /// The curves for a problem: the Pareto front of each engine, from coarse to fine.
     pub fn curves(&self, problem: &str) -> Vec<Peer> {
         let mut peers: Vec<Peer> = Vec::new();
         for row in self.0.iter().filter(|row| row.problem == problem && row.error.is_finite()) {
@@ -75,7 +75,7 @@ impl Peers {
         peers
     }
 
-    /// What has to be said below a diagram with their curves.
+    /// The caption below a diagram with their curves.
     pub fn caption(problem: &str) -> &'static str {
         if SAME.contains(&problem) {
             "Other engines: the same scene and norm, each with the settings of its own that nothing of it beats; CPU time of one thread."
@@ -85,7 +85,7 @@ impl Peers {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no curves.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

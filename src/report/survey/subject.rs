@@ -1,4 +1,4 @@
-//! A problem on the ladder: how a run of it is compared with its exact answer.
+//! A problem on the ladder: the comparison of a run with its exact answer.
 
 use std::convert::Infallible;
 
@@ -8,7 +8,7 @@ use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// Where in a tick events fall, as shares of it.
+/// The phases of events in a tick, as shares of it.
 const PHASES: [f64; 3] = [0.0, 0.37, 0.71];
 
 /// A problem that is asked.

@@ -1,7 +1,7 @@
-//! A column of twenty discs on a floor: each contact carries what stands above it. SI units.
+//! A column of twenty discs on a floor: each contact carries the weight of all discs above it. SI units.
 //!
-//! Under `Inelasticity` contacts hold with any force that their law allows at rest; elastic discs settle by drag and have
-//! one overlap only, force over stiffness, so nothing but the springs decides there.
+//! Under `Inelasticity` contacts hold with any force that their law allows at rest. Elastic discs settle by drag and
+//! have one overlap only, force over stiffness, so the springs alone decide there.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -32,8 +32,8 @@ pub const ELASTIC: &str = "materials: { \"smooth\": (stiffness: 1) }, forces: [D
 /// A body may be laid to rest with an imbalance of this share of the weight.
 const IMBALANCE: f64 = 1e-9;
 
-/// Frictionless discs on a floor, one above the other between guides that they do not touch: radius in m, mass in kg and stiffness
-/// in N/m of each. `rest` holds the material `smooth` and what else there is.
+/// Frictionless discs on a floor, one above the other between guides that they do not touch. Each has a radius in m, a
+/// mass in kg and a stiffness in N/m. `rest` holds the material `smooth` and all further entries.
 pub fn scene(discs: &[(f64, f64, f64)], rest: &str, tick: f64) -> String {
     let mut bodies = String::new();
     let mut height = 0.0;
@@ -57,8 +57,8 @@ pub fn scene(discs: &[(f64, f64, f64)], rest: &str, tick: f64) -> String {
     )
 }
 
-/// Contact forces in N from the floor up, the floor's own first: each contact between discs carries the contact forces on all
-/// above it.
+/// Contact forces in N from the floor up, that of the floor first. Each contact between discs carries the contact
+/// forces on all above it.
 pub fn carried(simulation: &Simulation) -> Vec<f64> {
     let Some(forces) = simulation.resource::<State>().contact_forces() else { return Vec::new() };
     let mut carried: Vec<f64> = forces
@@ -78,7 +78,7 @@ pub fn carried(simulation: &Simulation) -> Vec<f64> {
 /// Lets a column with losses settle, and compares what each of its contacts carries.
 ///
 /// # Errors
-/// When the run goes wrong.
+/// When the run fails.
 pub fn stands(
     what: &str,
     discs: &[(f64, f64, f64)],
@@ -89,7 +89,7 @@ pub fn stands(
     let mut simulation = load(&scene(discs, CLAY, tick))?;
     readings.rests(what, &mut simulation, 20.0, 1.0)?;
     let carried = carried(&simulation);
-    // The floor bears what the lowest disc does.
+    // The floor bears the force of the lowest disc.
     let exact = exact.first().into_iter().chain(exact);
     let worst = carried.iter().zip(exact).map(|(found, exact)| (found / exact - 1.0).abs()).fold(0.0, f64::max);
     readings.at_most(
@@ -116,7 +116,7 @@ fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     let mut simulation = load(&scene(&[DISC; 20], ELASTIC, 2e-4))?;
     run_to(&mut simulation, 40.0)?;
     let found = overlaps(&simulation, DISC.0);
-    // The floor is infinitely stiff: its contact has the disc's own stiffness, twice that of a pair.
+    // The floor is infinitely stiff. So its contact has the disc's own stiffness, twice that of a pair.
     let exact = std::iter::once(exact[0] / 2.0).chain(exact[1..].iter().copied());
     let worst = found.iter().zip(exact).map(|(found, exact)| (found - exact).abs()).fold(0.0, f64::max);
     readings.at_most(

@@ -1,7 +1,8 @@
 //! A chain of 200 rods with masses between them hangs by both ends; in mid-run its last rod breaks. SI units.
 //!
-//! At rest `tan phi_i = V_i/H`, with `H` from the span. At the moment of the cut nothing moves yet, and the pulls solve
-//! `2 T_i - T_(i-1) cos(phi_i - phi_(i-1)) - T_(i+1) cos(phi_(i+1) - phi_i) = 0`, at the pin `T_1 - T_2 cos(phi_2 - phi_1) = m g sin phi`.
+//! At rest `tan phi_i = V_i/H`, with `H` from the span. At the moment of the cut no mass moves yet, and the pulls solve
+//! `2 T_i - T_(i-1) cos(phi_i - phi_(i-1)) - T_(i+1) cos(phi_(i+1) - phi_i) = 0`. At the pin it is `T_1 - T_2
+//! cos(phi_2 - phi_1) = m g sin phi`.
 
 use crate::SimulationExt;
 use std::error::Error;

@@ -1,8 +1,8 @@
-//! Discs that overlap deeply at the start and stand still: two whose centres all but coincide, and a heap of sixty. They part with the
-//! energy of their springs and no more. SI units, no gravity.
+//! Discs that overlap deeply at rest at the start: two whose centres almost coincide, and a heap of sixty. They part
+//! with the energy of their springs and no more. SI units, no gravity.
 //!
-//! Two part with `m v^2 = k (1 - mu) d^2` (reduced mass `m`, overlap `d`), however deep they begin; an elastic heap flies apart with
-//! the sum of `k d^2/2` over all pairs.
+//! Two part with `m v^2 = k (1 - mu) d^2` (reduced mass `m`, overlap `d`), for every initial depth. An elastic heap
+//! flies apart with the sum of `k d^2/2` over all pairs.
 
 use std::error::Error;
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! A ball that bounces, and a cluster that turns, 1e6 m from the origin. SI units.
 //!
-//! At `X` coordinates are rounded to `ulp(X)`: overlaps are off by half of it, forces by `k ulp(X)/2`, and velocities by that times the
-//! contact time over the mass.
+//! At `X` coordinates are rounded to `ulp(X)`. So overlaps are off by half of it, and forces by `k ulp(X)/2`.
+//! Velocities are off by that times the contact time over the mass.
 
 use std::error::Error;
 
@@ -35,7 +35,8 @@ fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
         }
         let height = here.bodies().position[0].y;
         aside += f64::from(beside.bodies().position[0].y != height);
-        // The start is off by half an ulp of height more. A velocity wrong by u puts the ball off by 4 h u/v a period later.
+        // The start is off by half an ulp of height more. A velocity error u puts the ball off by 4 h u/v a period
+        // later.
         let contacts = (quarter as f64 / 4.0).ceil();
         let speed = elastic_bounce::OMEGA.powi(2) * 0.5 * ulp * 0.032 + 9.81 * ulp / 3.1;
         let allowed = 4.0 * 0.5 / 3.1 * speed * contacts * (contacts + 1.0) / 2.0 + 2.0 * ulp;

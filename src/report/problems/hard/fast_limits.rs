@@ -1,6 +1,6 @@
-//! A wheel between two limits that it hits with 100 rad/s and less, and keeps nine tenths of its rate each time. SI units.
+//! A wheel between two limits that it hits with at most 100 rad/s. Each hit leaves nine tenths of its rate. SI units.
 //!
-//! Between two hits the rate is constant; each takes `I (w^2 - w'^2)/2`.
+//! Between two hits the rate is constant. Each hit takes `I (w^2 - w'^2)/2`.
 
 use crate::SimulationExt;
 use std::error::Error;

@@ -1,18 +1,20 @@
-//! A gas of a thousand elastic discs for 1e5 collisions: it keeps energy and momentum, comes to the speeds of Maxwell and Boltzmann, and
-//! presses on its walls with `p = n k T Z`. SI units.
+//! A gas of a thousand elastic discs for 1e5 collisions. It keeps energy and momentum, reaches the speeds of Maxwell
+//! and Boltzmann, and presses on its walls with `p = n k T Z`. SI units.
 //!
-//! `Z` is Henderson's equation of state of hard discs (Molecular Physics 30, 1975), `(1 + eta^2/8)/(1 - eta)^2` with `eta` the share of
-//! the area; how far that itself is from the virial series (Clisby and McCoy 2006; truth file M02) is allowed.
+//! `Z` is Henderson's equation of state of hard discs (Molecular Physics 30, 1975), `(1 + eta^2/8)/(1 - eta)^2` with
+//! `eta` the share of the area. Its distance from the virial series is allowed (Clisby and McCoy 2006; truth file M02).
 //!
-//! The box is hard, not periodic, so its known correction is applied: near a wall discs are denser than inside, and `N` discs
-//! in a box of area `A` and perimeter `P` have inside the share of area `eta` given by (scaled particle theory: Reiss, Frisch,
-//! Lebowitz 1959, in two dimensions) `N = n A - P Gamma`, `Gamma = (2/(pi s)) eta (1 - eta)/(1 + eta)`, with `s` the diameter and
-//! `n = 4 eta/(pi s^2)`: the derivative of the line tension `k T 2 eta/((1 - eta) pi s)` with respect to the chemical
-//! potential. The box is made so wide that `eta` is the one wanted. That tension `gamma` pulls at the walls, too: moving
-//! one of width `L` out changes the grand potential by `-(p L - 2 gamma)`, so `p = (F + 2 gamma)/L` with `F` the mean force on it.
+//! The box is hard, not periodic, so its known correction is applied (scaled particle theory: Reiss, Frisch, Lebowitz
+//! 1959, in two dimensions). Near a wall discs are denser than inside. `N` discs are in a box of area `A` and perimeter
+//! `P`, and `eta` is the share of area inside. Then `N = n A - P Gamma`, `Gamma = (2/(pi s)) eta (1 - eta)/(1 + eta)`,
+//! with `s` the diameter and `n = 4 eta/(pi s^2)`. `Gamma` is the derivative of the line tension `k T 2 eta/((1 - eta)
+//! pi s)` with respect to the chemical potential. The width of the box gives the wanted `eta`. That tension `gamma`
+//! pulls at the walls, too. To move one of width `L` outwards changes the grand potential by `-(p L - 2 gamma)`. So `p
+//! = (F + 2 gamma)/L` with `F` the mean force on it.
 //!
-//! The discs are soft: in all places their diameter is smaller by `sqrt(pi k T/(2 k))` (Barker and Henderson 1967), 1 % here, for a wall
-//! with the stiffness of one disc. They are made larger by as much; what is left is of second order.
+//! The discs are soft, so everywhere their effective diameter is smaller by `sqrt(pi k T/(2 k))` (Barker and Henderson
+//! 1967). That is a hundredth here, for a wall with the stiffness of one disc. They are made larger by that amount, and
+//! the rest is of second order.
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -98,7 +100,7 @@ fn scene(eta: f64, duration: f64) -> String {
     )
 }
 
-/// What a run has shown.
+/// The results of a run.
 #[derive(Default)]
 struct Shown {
     /// Of the blocks, `p A/(N k T)` of the bulk.

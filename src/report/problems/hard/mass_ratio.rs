@@ -1,7 +1,7 @@
 //! A heavy disc on a light one, and the reverse; and a heavy disc that runs into a light one. Ratios of masses of up to 10 000. SI units.
 //!
-//! Contact forces at rest are those of statics, whatever the ratio. In an elastic collision the light disc leaves with `2 v M/(M + m)`
-//! and the heavy one goes on with `v (M - m)/(M + m)`.
+//! Contact forces at rest are those of statics for every ratio. In an elastic collision the light disc leaves with `2 v
+//! M/(M + m)`, and the heavy one continues with `v (M - m)/(M + m)`.
 
 use std::error::Error;
 

@@ -1,8 +1,9 @@
-//! An oscillator for a million ticks, a hundred a period: as a disc pressed so deep into the floor by gravity that it never parts, and
-//! as a mass on a spring. SI units.
+//! An oscillator for a million ticks, a hundred a period. One is a disc that gravity presses so deep into the floor
+//! that it never parts. The other is a mass on a spring. SI units.
 //!
-//! Rounding errors add up like a random walk, with the square root of the number of ticks (Brouwer 1937); a symplectic method
-//! lets energy swing, not drift. The truth file has the exact solution of both discrete methods after a million ticks.
+//! Rounding errors add up like a random walk, with the square root of the number of ticks (Brouwer 1937). A symplectic
+//! method lets energy swing, not drift. The truth file has the exact solution of both discrete methods after a million
+//! ticks.
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -42,7 +43,7 @@ fn pressed(method: &str, tick: f64) -> String {
     )
 }
 
-/// The same oscillator as a mass on a spring without a length of its own.
+/// The same oscillator as a mass on a spring of zero length.
 fn sprung(method: &str, tick: f64) -> String {
     format!(
         "Scene(format: 1, clock: (duration: {:?}, tick: {tick:?}, method: {method}),
@@ -89,7 +90,7 @@ fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
 /// The largest of the residuals at ten times up to `ticks`.
 fn residuals(method: &str, tick: f64, ticks: u64, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     let mut simulation = load(&pressed(method, tick))?;
-    // What a tick of this length leaves of `v^2/2 + w^2 x^2/2` exactly, for an oscillator.
+    // The exact remainder of `v^2/2 + w^2 x^2/2` of an oscillator after a tick of this length.
     let z = STIFFNESS * tick * tick;
     let euler = method == METHODS[0];
     let invariant = |simulation: &Simulation| {
@@ -106,8 +107,8 @@ fn residuals(method: &str, tick: f64, ticks: u64, readings: &mut Readings) -> Re
         momentum = momentum.max(card.momentum_residual[1].abs());
         swing = swing.max(card.energy.residual.abs() / (0.5 * STIFFNESS * AMPLITUDE * AMPLITUDE));
     }
-    // Two roundings a tick, each of half an ulp at most: six standard deviations of the walk. Speeds up to 3.1 m/s have an ulp of
-    // 2 eps; heights, up to 2 m, of eps, and they enter with w.
+    // Two roundings a tick, each of half an ulp at most: six standard deviations of the walk. Speeds up to 3.1 m/s have
+    // an ulp of 2 eps. Heights, up to 2 m, have one of eps, and they enter with w.
     let walk = 6.0 * (2.0 * ticks as f64 / 12.0).sqrt() * 2.0 * f64::EPSILON;
     let what = |what: &str| format!("floor, {method}, {ticks} ticks: {what}");
     let why = "a walk of two roundings a tick, six standard deviations of sqrt(2 n) ulp/sqrt(12)";

@@ -1,11 +1,12 @@
-//! Hard cases: scenes that break engines, each with what is measured on it and the threshold that physics or numerics
-//! sets, derived and not tuned. Tests and `jostle report` run the same cases.
+//! Hard cases: scenes that break engines, each with its measured quantities and their thresholds. Physics or numerics
+//! sets each threshold; it is derived and not tuned. Tests and `jostle report` run the same cases.
 //!
-//! Adding a case is one file plus its line in [`ALL`]: it becomes at once a test and a part of the report. Nothing is put to sleep,
-//! clamped or damped for a case beyond what the engine does in every scene; what goes wrong is a reading that failed.
+//! A new case is one file plus its line in [`ALL`]. It becomes at once a test and a part of the report. No body is put
+//! to sleep, clamped or damped for a case beyond the general rules of the engine. A failure is a failed reading.
 //!
-//! Hard cases of joints that are tests rather than numbers: a motor against a limit and a break in the midst of a step
-//! (`laws/joint_limits`), a table on four jointed legs (`laws/joints_at_rest`), a loop that cannot close (`wrong_scenes/joints`).
+//! Hard cases of joints that are tests and not numbers. They are a motor against a limit and a break in the midst of a
+//! step (`laws/joint_limits`), a table on four jointed legs (`laws/joints_at_rest`), and a loop that cannot close
+//! (`wrong_scenes/joints`).
 
 pub mod column;
 pub mod cut_chain;
@@ -62,7 +63,7 @@ pub const METHODS: [&str; 2] = ["SemiImplicitEuler", "VelocityVerlet"];
 /// How much of a case is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// What takes a few seconds at most.
+    /// Runs of a few seconds at most.
     Short,
     /// All of it.
     Full,
@@ -78,7 +79,7 @@ impl Extent {
     }
 }
 
-/// What a value has to keep to.
+/// The threshold of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Threshold {
     /// It is not larger.
@@ -110,22 +111,22 @@ pub enum Verdict {
     Passed,
     /// It does not, and the engine said so: it ended the run with a message, or warned.
     Told,
-    /// It does not, and nothing says so; or the value is no number.
+    /// It is not, and the engine did not report it; or the value is NaN.
     Failed,
 }
 
 /// One measured value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What was measured, with its unit.
+    /// The measured quantity, with its unit.
     pub what: String,
     /// The value.
     pub value: f64,
-    /// What it has to keep to.
+    /// Its threshold.
     pub threshold: Threshold,
-    /// Where the threshold comes from.
+    /// The origin of the threshold.
     pub why: &'static str,
-    /// What the engine said of the run, where a value beyond the threshold is to be expected.
+    /// The message of the engine on the run, if it announces a value beyond the threshold.
     pub told: Option<String>,
 }
 
@@ -159,10 +160,10 @@ impl Readings {
         self.0.push(Reading { what: what.into(), value, threshold: Threshold::AtLeast(bound), why, told: None });
     }
 
-    /// Runs to `time`, and on for `still` seconds: by then nothing moves at all, and the state does not change by a bit.
+    /// Runs to `time`, and then for `still` seconds. By then no body moves, and the state does not change by a bit.
     ///
     /// # Errors
-    /// When the run goes wrong.
+    /// When the run fails.
     pub fn rests(
         &mut self,
         what: &str,
@@ -198,22 +199,22 @@ pub type Run = fn(Extent, &mut Readings) -> Result<(), Box<dyn Error>>;
 /// A case.
 #[derive(Clone, Copy)]
 pub struct Case {
-    /// Name, as the file.
+    /// Name, like that of the file.
     pub name: &'static str,
-    /// What is hard about it.
+    /// Its difficulty.
     pub what: &'static str,
-    /// Where its law is to be found.
+    /// The source of its law.
     pub source: &'static str,
     /// Whether it takes less than a second in its short form.
     pub cheap: bool,
-    /// What its short form leaves out; empty: nothing.
+    /// The omissions of its short form; empty if there are none.
     pub short: &'static str,
     /// Runs and measures it.
     pub run: Run,
 }
 
 impl Case {
-    /// All readings; a run that goes wrong where it should not is one that failed.
+    /// All readings; an unexpected failure of a run is a failed reading.
     pub fn measure(&self, extent: Extent) -> Vec<Reading> {
         let mut readings = Readings::default();
         if let Err(error) = (self.run)(extent, &mut readings) {
@@ -235,7 +236,7 @@ pub fn load(text: &str) -> Result<Simulation, Box<dyn Error>> {
 /// Runs on to `time` seconds.
 ///
 /// # Errors
-/// When the run goes wrong.
+/// When the run fails.
 pub fn run_to(simulation: &mut Simulation, time: f64) -> Result<(), Box<dyn Error>> {
     let tick = (time / simulation.clock().dt).round() as u64;
     simulation.run_to_tick(tick).map_err(Into::into)

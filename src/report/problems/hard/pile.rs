@@ -1,7 +1,6 @@
 //! Hundreds of bodies of four shapes and three materials, poured into a bin: they come to rest, and stay. SI units.
 //!
-//! The floor is of gravel: on a smooth one a disc that touches nothing else rolls for ever, as it should, since nothing resists
-//! rolling.
+//! The floor is of gravel. On a smooth one a lone disc rightly rolls forever, because no torque resists rolling.
 
 use std::error::Error;
 use std::fmt::Write;

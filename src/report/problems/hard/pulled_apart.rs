@@ -1,5 +1,5 @@
-//! A mass on two rods between bodies whose motion is prescribed: their distance says where it is, until they are further apart than both
-//! rods. Beyond that there is no motion, and the run has to say so. SI units.
+//! A mass on two rods between bodies whose motion is prescribed. Their distance determines its position, until they are
+//! further apart than both rods. Beyond that no motion exists, and the run has to report it. SI units.
 //!
 //! With half the distance `s` and rods of length `l` the mass is at `y = -sqrt(l^2 - s^2)`, and `y'' = s'^2 l^2/(l^2 - s^2)^(3/2)`.
 
@@ -47,7 +47,7 @@ fn stretch(method: &str, readings: &mut Readings) -> Result<(), Box<dyn Error>> 
     readings.at_most(
         format!("{method}: error of the place at {time} s, m"),
         off,
-        // Near the end of what the rods allow, `y` changes by `s/y` times the distance: 1.3.
+        // Near the end of the possible motion, `y` changes by `s/y` times the distance: 1.3.
         1e-12,
         "joints are closed to rounding, and leave the mass no freedom",
     );

@@ -1,8 +1,8 @@
-//! The same scenes with lengths times `s`, times times `sqrt(s)` and stiffness over `s`, from 1e-6 to 1e6: under the same gravity
-//! everything is the same. SI units.
+//! The same scenes with lengths times `s`, times times `sqrt(s)` and stiffness over `s`, from 1e-6 to 1e6. Under the
+//! same gravity the motion is the same. SI units.
 //!
-//! Scaled by a power of four no number is rounded otherwise, so all bits are the same: an absolute tolerance anywhere in the
-//! contact laws would show.
+//! Scaling by a power of four changes no rounding, so all bits are the same. An absolute tolerance anywhere in the
+//! contact laws would become visible.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -126,7 +126,8 @@ fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
             one.run_to_tick(1000 * quarter)?;
             other.run_to_tick(1000 * quarter)?;
             let (a, b) = (one.bodies().position[0].y, other.bodies().position[0].y / scale);
-            // A share eps of the speed puts the ball off by 4 h eps a period later (see the problem), and all ticks before add up.
+            // A share eps of the speed puts the ball off by 4 h eps a period later (see the problem). The errors of all
+            // ticks before add up.
             let ticks = 1000.0 * quarter as f64;
             let allowed = 2.0 * ticks * f64::EPSILON * 4.0 * (quarter as f64 / 4.0 + 1.0);
             worst = worst.max((a - b).abs() / allowed);

@@ -1,6 +1,6 @@
 //! A rigid cluster of three atoms at 1e4 rad/s for ten seconds, with nothing acting on it. SI units.
 //!
-//! (cos, sin) are worked out from the angle at each tick and never accumulated, so atoms keep their distances.
+//! Cosine and sine are computed from the angle at each tick and never accumulated, so atoms keep their distances.
 
 use std::error::Error;
 

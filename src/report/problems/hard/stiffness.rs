@@ -1,5 +1,5 @@
-//! A ball that bounces ten times on floors from soft to hard, 1e3 to 1e9 N/m: on the hardest a contact lasts 0.1 ms of a period
-//! of 0.6 s. SI units.
+//! A ball that bounces ten times on floors from soft to hard, 1e3 to 1e9 N/m. On the hardest a contact lasts 0.1 ms of
+//! a period of 0.6 s. SI units.
 //!
 //! With `w = sqrt(k/m)` a contact that begins at the speed `v` lasts `(2/w) (pi - atan(v w/g))`, a flight `2 v/g`.
 
@@ -23,19 +23,20 @@ pub const CASE: Case = Case {
 
 /// The reference values, for 1e9 N/m.
 pub const TRUTH: &str = include_str!("../../../../assets/truths/H02_stiff_contact.json");
-/// With which the ball leaves the floor, in m/s.
+/// The speed at which the ball leaves the floor, in m/s.
 pub const SPEED: f64 = 3.0;
 /// In m/s2.
 pub const GRAVITY: f64 = 9.81;
 /// In m.
 pub const RADIUS: f64 = 0.1;
-/// What Dop853 errs by in a contact of five ticks, of the speed: order 8 at omega dt = 0.6 with a constant below 1e-6.
+/// The error of Dop853 in a contact of five ticks, as a share of the speed. It is of order 8 at omega dt = 0.6 with a
+/// constant below 1e-6.
 const EACH: f64 = 1e-8;
 /// `omega dt` of runs with located events, and of those without.
 const LOCATED: f64 = 0.6;
 const PER_TICK: f64 = 0.1;
 
-/// The ball of 1 kg leaves the floor upwards at the beginning, so that a period later it does so again.
+/// The ball of 1 kg leaves the floor upwards at the beginning, and so again a period later.
 pub fn scene(stiffness: f64, method: &str, events: &str, tick: f64) -> String {
     format!(
         "Scene(format: 1, clock: (duration: 10, tick: {tick:?}, method: {method}, events: {events}), gravity: (0, -{GRAVITY:?}),

@@ -1,9 +1,9 @@
-//! Ticks at 0.9, 1.0 and 1.1 of the longest that is stable: below energy stays bounded, at it swings grow in proportion to the number
-//! of ticks, above they explode, and the engine says so. SI units.
+//! Ticks at 0.9, 1.0 and 1.1 of the longest stable one. Below it energy stays bounded. At it swings grow in proportion
+//! to the number of ticks. Above it they explode, and the engine reports it. SI units.
 //!
-//! A mass on a spring bears ticks of `2/omega` under velocity Verlet and semi-implicit Euler and `2.83/omega` under Runge-Kutta 4. A body
-//! of 2 kg and 0.05 kg m2, clamped by three contacts off its centre, of 1e5, 1e5 and 4e4 N/m, has the largest eigenvalue of
-//! `K phi = omega^2 M phi`, 555.3 rad/s: 1.6 times what `sqrt(sum k/m)` says.
+//! A mass on a spring allows ticks of `2/omega` under velocity Verlet and semi-implicit Euler and `2.83/omega` under
+//! Runge-Kutta 4. A body of 2 kg and 0.05 kg m2 is clamped by three contacts off its centre, of 1e5, 1e5 and 4e4 N/m.
+//! Its largest eigenvalue of `K phi = omega^2 M phi` is 555.3 rad/s, 1.6 times `sqrt(sum k/m)`.
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -24,7 +24,7 @@ pub const CASE: Case = Case {
 
 /// The critical tick of the clamped body, in s.
 pub const CRITICAL: f64 = 0.003_601_770_036_134_956;
-/// What `2 sqrt(m/sum k)` says, in s.
+/// The naive limit `2 sqrt(m/sum k)`, in s.
 pub const NAIVE: f64 = 0.005_773_502_691_896_258;
 const RADIUS: f64 = 0.03;
 /// Of the spring, in rad/s, its stretch and its speed at the start.
@@ -78,7 +78,8 @@ fn amplitudes(method: &str, tick: f64, ticks: u64) -> Result<(Vec<f64>, Option<S
     Ok((found, None))
 }
 
-/// Kinetic energy of the clamped body over that of the beginning, the greatest of `ticks` ticks; and what ended the run before.
+/// The greatest kinetic energy of the clamped body in `ticks` ticks, over the initial one; and the failure that ended
+/// the run.
 fn growth(method: &str, tick: f64, ticks: u64) -> Result<(f64, Option<String>), Box<dyn Error>> {
     let mut simulation = load(&clamped(method, tick, ticks))?;
     let start = kinetic(simulation.bodies());
@@ -92,7 +93,7 @@ fn growth(method: &str, tick: f64, ticks: u64) -> Result<(f64, Option<String>), 
     Ok((greatest, None))
 }
 
-/// That the engine speaks of a run, as a reading: of how many it does not.
+/// A reading: the number of runs on which the engine is silent.
 fn told(readings: &mut Readings, what: String, message: Option<String>, why: &'static str) {
     let (value, threshold) = (f64::from(message.is_none()), Threshold::AtMost(0.0));
     readings.0.push(Reading { what, value, threshold, why, told: message });
@@ -177,7 +178,7 @@ fn spring(method: &str, truth: &Truth, readings: &mut Readings) -> Result<(), Bo
     readings.at_most(
         what("1.1", ended_at),
         last,
-        // The largest swing of both methods at 0.9 of the limit bounds what an amplitude says of the energy.
+        // The largest swing of both methods at 0.9 of the limit bounds the energy of an amplitude.
         (1e3 * 19.0_f64).sqrt() * 2.0 * factor,
         "ended beyond a thousandfold energy, which is looked at whenever the way of a tick has doubled",
     );
@@ -239,7 +240,7 @@ fn block(method: &str, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     readings.at_most(
         what("1.0 of the limit, 20 ticks", grown),
         marginal,
-        // The limit is known to a part in a thousand, as turning contacts are a little stiffer.
+        // The limit is known to a part in a thousand, because turning contacts are a little stiffer.
         3.0 * 41.0_f64.powi(2) * libm::exp(2.0 * 20.0 * 2.0 * (2.0 * 1e-3_f64).sqrt()),
         "amplitudes grow by at most twice the first each tick, and exp(2 sqrt(2 x)) where omega dt = 2 (1 + x), x = 1e-3",
     );

@@ -1,8 +1,9 @@
-//! Columns, stacks and a wedge with ticks from 1/30 to 1/960 s, most of them far beyond what their contacts can bear, and with the tick
-//! that the engine chooses: numbers stay finite, and there is never more energy than at the start, or the engine says so. SI units.
+//! Columns, stacks and a wedge with ticks from 1/30 to 1/960 s, and with the tick that the engine chooses. Most of the
+//! ticks are far beyond the limit of their contacts. Numbers stay finite, and the energy never exceeds that of the
+//! start, or the engine reports it. SI units.
 //!
-//! Below the critical tick the energy of a stable spring swings by `z^2/(1 - z^2)` of what goes round, `z` the tick over the critical one
-//! (Hairer, Lubich and Wanner 2006, I.5). Beyond it nothing is promised but a message.
+//! Below the critical tick the energy of a stable spring swings by `z^2/(1 - z^2)` of the turnover. Here `z` is the
+//! tick over the critical one (Hairer, Lubich and Wanner 2006, I.5). Beyond it only a message is promised.
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -25,7 +26,7 @@ pub const CASE: Case = Case {
 const RATES: [u32; 6] = [30, 60, 120, 240, 480, 960];
 /// Moments at which energy is looked at, a second.
 const LOOKS: f64 = 30.0;
-/// What rounding may leave of energies that cancel, of what goes round.
+/// The rounding of energies that cancel, as a share of the turnover.
 const ROUNDING: f64 = 1e-9;
 
 /// Twenty boxes of 1 kg and half a metre, each on two atoms of the one below.
@@ -49,7 +50,7 @@ pub fn stack(tick: f64) -> String {
     )
 }
 
-/// A disc of 1 kg between two walls that stand 2 degrees from upright.
+/// A disc of 1 kg between two walls that are 2 degrees from upright.
 pub fn wedge(tick: f64) -> String {
     let (sin, cos) = libm::sincos(2.0_f64.to_radians());
     let radius = 0.05;
@@ -76,13 +77,13 @@ const SCENES: [Scene; 5] = [
     ("wedge of 2 degrees", wedge),
 ];
 
-/// What a run has shown.
+/// The results of a run.
 struct Shown {
-    /// Greatest energy above that at the start, J; it is no number where numbers were none.
+    /// Greatest energy above that at the start, J; NaN if the state was NaN.
     above: f64,
     /// Greatest kinetic and elastic energy, J.
     round: f64,
-    /// What the engine says of a tick that is too long.
+    /// The message of the engine on a tick that is too long.
     told: Option<String>,
     /// The tick over the critical one.
     share: f64,

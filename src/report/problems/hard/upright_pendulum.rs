@@ -1,7 +1,7 @@
 //! A pendulum that begins at 179 degrees, a degree from its upper equilibrium, beside those of 10 and 90 degrees. SI units.
 //!
-//! The period `T = 4 K/w` depends on the distance `delta` from the equilibrium as `-4/(w delta)` per radian. Rounding of the energy at
-//! the bottom, `2 g l`, counts `2/delta` as much there.
+//! The period `T = 4 K/w` depends on the distance `delta` from the equilibrium as `-4/(w delta)` per radian. Rounding
+//! of the energy at the bottom, `2 g l`, counts `2/delta` times there.
 
 use std::error::Error;
 
