@@ -1,5 +1,5 @@
-//! **Jostle**: a 2D physics engine without a window. A scene is a RON file; out come films, numbers and a statement
-//! of how wrong they are.
+//! **Jostle**: a 2D physics engine without a window. A scene is a RON file. The results are films, numbers and a
+//! statement of their error.
 //!
 //! ```text
 //!  scenes/*.ron                                                *.gif *.png *.csv
@@ -12,9 +12,9 @@
 //!    +------------------------------ next tick <----------------------------+
 //! ```
 //!
-//! Each room of the engine is a crate in `src/`, and this crate hands on what they offer: [`simd`], the language in [`scene`], the
-//! physics, [`raster`] and [`output`], [`problems`] and [`report`]. Nothing points back: [`raster`] and [`output`] know no ECS
-//! type, and a physical model knows nothing of pictures.
+//! Each room of the engine is a crate in `src/`, and this crate re-exports them. They are [`simd`], the language in
+//! [`scene`], the physics, [`raster`] and [`output`], [`problems`] and [`report`]. No dependence points back:
+//! [`raster`] and [`output`] use no ECS type, and a physical model does not use pictures.
 //!
 //! ```
 //! use jostle::prelude::*;

@@ -8,10 +8,10 @@ use jostle::cli::{CommandLine, tell_commit};
 #[global_allocator]
 static LINES: jostle::simd::Lines = jostle::simd::Lines;
 
-/// Digits of a commit that the program tells.
+/// Digits of the commit that the program shows.
 const DIGITS: usize = 12;
 
-/// The commit in the files of Git. Only this file depends on them: the library stays as it is when the commit changes.
+/// The commit in the files of Git. Only this file depends on them, so that a new commit does not change the library.
 const CHECKED_OUT: Option<[u8; DIGITS]> =
     checked_out(include_bytes!(env!("JOSTLE_GIT_HEAD")), include_bytes!(env!("JOSTLE_GIT_LOG")));
 
@@ -23,7 +23,8 @@ fn main() -> ExitCode {
     CommandLine::parse().execute().into()
 }
 
-/// `head` is a commit, or it names a branch; then the last line of its log has the commit before and the one now.
+/// `head` is a commit, or it names a branch. Then the last line of the branch's log has the earlier and the current
+/// commit.
 const fn checked_out(head: &[u8], log: &[u8]) -> Option<[u8; DIGITS]> {
     if !head.is_empty() && head[0] != b'r' {
         return digits_from(head, 0);

@@ -1,4 +1,4 @@
-//! The camera of a film, and the plots beside it: what has to be known of a run before it is drawn.
+//! The camera of a film and the plots beside it, which need a first run before the film is drawn.
 
 use std::sync::Arc;
 
@@ -19,22 +19,22 @@ use crate::simulation::Recorder;
 use crate::simulation::{Missing, Sampler};
 use crate::simulation::{Overrides, Simulation};
 
-/// How large the picture may grow, in its size at the beginning, when the run is known to go wrong: a body that
-/// leaves at enormous speed must not shrink all others to a point.
+/// The growth limit of the picture over its initial size, for a run that will fail. A body that leaves at enormous
+/// speed must not shrink all others to a point.
 const WILDEST_GROWTH: f64 = 100.0;
 
-/// A camera, whom it follows, and what stands beside its picture.
+/// A camera, the body that it follows, and the panel beside its picture.
 pub(super) struct Aim {
     pub camera: Camera,
-    /// None: it stands.
+    /// `None`: the camera is fixed.
     pub follower: Option<Follower>,
     pub panel: Option<Panel>,
 }
 
 impl Order<'_> {
-    /// The camera and the plots that the scene asks for, in a picture `size` pixels large in all; `step` is the time from
-    /// frame to frame in seconds of film. A camera that fits everything has to know the whole motion beforehand, and so
-    /// have the axes of plots, so the scene is run once without being drawn: time is spent, memory is not.
+    /// The camera and the plots of the scene, in a picture whose full size is `size` pixels. `step` is the time between
+    /// frames in seconds of film. A camera that fits everything needs the whole motion beforehand, and so do the axes
+    /// of plots. So the scene is first run without drawing, which costs time but no memory.
     pub(super) fn aim(
         &self,
         simulation: &Simulation,
@@ -79,7 +79,7 @@ impl Order<'_> {
         Ok(Aim { camera, follower, panel })
     }
 
-    /// What reads the channels of plots over the time that the film shows.
+    /// The sampler that reads the channels of plots over the time of the film.
     fn sampler(&self, ahead: &mut Simulation, plots: &[PlotEntry]) -> Result<Sampler, Exit> {
         let end = ahead.ticks() as f64 * ahead.clock().dt;
         let (from, to) = (ahead.film().begin(), ahead.film().end().min(end));
@@ -91,7 +91,7 @@ impl Order<'_> {
         })
     }
 
-    /// Runs, and tells what the frames of a schedule hold and what was plotted.
+    /// Runs ahead, and returns the contents of the frames of a schedule and the plots.
     fn look_ahead(
         &self,
         ahead: &mut Simulation,
@@ -107,7 +107,7 @@ impl Order<'_> {
         for time in schedule.times() {
             let read = sampler.as_mut().map_or(Ok(()), |sampler| sampler.run_to(ahead, time));
             let Ok(frame) = read.and_then(|()| recorder.frame(ahead, time)) else {
-                // What goes wrong is told by the run that is drawn.
+                // The run that is drawn reports the failure.
                 all = tame;
                 wrong = true;
                 break;

@@ -1,4 +1,4 @@
-//! What a program tells the command line when it starts: the plugin of its author, and the commit it is built from.
+//! The facts that a program gives the command line at its start: the plugin of its author, and its commit.
 
 use std::process::ExitCode;
 use std::sync::OnceLock;
@@ -13,7 +13,7 @@ type Plugin = Box<dyn Fn(&mut App) + Send + Sync>;
 /// The plugin of this program, set once when it starts.
 static PLUGIN: OnceLock<Plugin> = OnceLock::new();
 
-/// The commit that this program is built from, if it tells one.
+/// The commit of this program, if it has one.
 static COMMIT: OnceLock<String> = OnceLock::new();
 
 /// The program `jostle` with a plugin: each command reads, runs, draws and explains scenes that name what it registers.
@@ -41,12 +41,12 @@ pub fn tell_commit(commit: String) {
     assert!(COMMIT.set(commit).is_ok(), "`tell_commit` is called once");
 }
 
-/// The commit that the program told.
+/// The commit of the program.
 pub(super) fn commit() -> Option<&'static str> {
     COMMIT.get().map(String::as_str)
 }
 
-/// Registers what the program of an author brings; nothing in `jostle` itself.
+/// Registers the plugin of an author; `jostle` itself has none.
 pub(super) fn plugin(app: &mut App) {
     if let Some(plugin) = PLUGIN.get() {
         plugin(app);

@@ -1,4 +1,4 @@
-//! `jostle check`: reads scenes and says what is wrong with them.
+//! `jostle check`: reads scenes and reports their mistakes.
 
 use clap::Args;
 
@@ -138,7 +138,7 @@ fn refused_by_render(request: Request, source: &Source, simulation: &Simulation)
     theme.or_else(|| Misfit::of(simulation).map(|misfit| misfit.refuse(request, Exit::SceneWrong)))
 }
 
-/// What is in a scene.
+/// The contents of a scene.
 fn contents(simulation: &Simulation) -> String {
     let bodies = simulation.bodies();
     let atoms = count(bodies.atom_count(), "atom", "atoms");

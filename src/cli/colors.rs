@@ -13,19 +13,20 @@ use crate::simulation::Simulation;
 /// A file with the colours of a film.
 const THEME: Wanted = Wanted { most: 1 << 20, noun: "a theme", smaller: "a theme is a short text" };
 
-/// What the scene says.
+/// The theme in the scene.
 fn of_scene(simulation: &Simulation) -> Option<&str> {
     simulation.get_resource::<LookSection>().and_then(|look| look.theme.as_deref())
 }
 
-/// The file in which the theme stands, if it is not one that comes with the program.
+/// The file of the theme, if it does not come with the program.
 pub(super) fn file(source: &Source, simulation: &Simulation, asked: Option<&str>) -> Option<PathBuf> {
     let name = asked.or(of_scene(simulation)).filter(|name| LookSection::is_file(name))?;
     let folder = source.folder.as_deref().filter(|_| asked.is_none());
     Some(folder.unwrap_or(Path::new("")).join(name))
 }
 
-/// The colours. A file that the command line names (`asked`) lies where it says, one that the scene names beside the scene.
+/// The colours. A file from the command line (`asked`) is relative to the current directory. One from the scene lies
+/// beside the scene.
 pub(super) fn theme(
     request: Request,
     source: &Source,

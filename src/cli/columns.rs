@@ -26,7 +26,7 @@ pub(super) fn aligned(head: &[&str], rows: impl Iterator<Item = Vec<String>>) ->
     text
 }
 
-/// A cell of comma-separated values; quoted where it has to be (RFC 4180). Line breaks become blanks.
+/// A cell of comma-separated values, quoted if necessary (RFC 4180). Line breaks become blanks.
 pub(super) fn quoted(cell: &str) -> String {
     let line: String = cell.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect();
     if line.contains([',', '"']) { format!("\"{}\"", line.replace('"', "\"\"")) } else { line }

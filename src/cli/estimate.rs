@@ -1,4 +1,4 @@
-//! The flags that ask for the error of a run, and the runs that tell it.
+//! The flags for the error of a run, and the runs that estimate it.
 
 use std::io::IsTerminal;
 
@@ -45,7 +45,7 @@ impl EstimateFlags {
         estimate::watch(simulation, self.wanted());
     }
 
-    /// Estimates the error of the run, which is over and went well.
+    /// Estimates the error of the run, which has ended well.
     pub fn estimate(
         self,
         simulation: &mut Simulation,
@@ -58,7 +58,7 @@ impl EstimateFlags {
     }
 }
 
-/// Says which run is under way, where somebody looks.
+/// Reports the current run on a terminal.
 fn tell(what: &str) {
     if std::io::stderr().is_terminal() {
         say(&format!("estimating the error: {what}"));

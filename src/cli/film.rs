@@ -23,15 +23,16 @@ use crate::simulation::Recorder;
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::Failure;
 
-/// What the threads that draw may take together, in bytes.
+/// The memory of all drawing threads together, in bytes.
 const MEMORY: usize = 2 << 30;
-/// What one of them takes for each pixel: a picture, those of its group, and what packing needs. Measured generously.
+/// The bytes of one thread for each pixel: a picture, those of its group, and the buffers of packing. It is a generous
+/// measure.
 const BYTES_PER_PIXEL: usize = 32;
 
-/// A sheet without a size of its own is at most so wide, in pixels.
+/// The greatest width in pixels of a sheet without a given size.
 const SHEET_WIDTH: u64 = 1920;
 
-/// What is drawn.
+/// The kind of output.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shot {
     /// The film.
@@ -60,7 +61,7 @@ impl Shot {
     }
 }
 
-/// What is to be filmed.
+/// The order of a film.
 pub(super) struct Order<'a> {
     pub request: Request<'a>,
     pub source: &'a Source,
@@ -78,13 +79,13 @@ pub(super) struct Order<'a> {
     pub pace: bool,
     /// No progress bar.
     pub silent: bool,
-    /// Messages only if something is wrong.
+    /// Messages only if there is a mistake.
     pub quiet: bool,
 }
 
-/// A film, and how the run went.
+/// A film, and the result of the run.
 pub(super) struct Made {
-    /// What was written; nothing if the run went wrong before the first frame.
+    /// The report of the written film; `None` if the run failed before the first frame.
     pub written: Option<Written>,
     pub failure: Option<Failure>,
 }
@@ -95,7 +96,7 @@ pub(super) enum Trouble {
     Output(OutputError),
     /// The frames could not be kept aside.
     Spool(io::Error),
-    /// It was told already.
+    /// The mistake was reported.
     Told,
 }
 
@@ -113,7 +114,7 @@ struct Set<'a> {
 }
 
 impl Order<'_> {
-    /// Runs and draws. A run that goes wrong still yields the film so far.
+    /// Runs and draws. A failing run still yields the film so far.
     pub fn make(&self, simulation: &mut Simulation) -> Result<Made, Exit> {
         let film = simulation.film();
         let frames_per_second = self.frames_per_second.unwrap_or_else(|| film.frames_per_second());
@@ -136,8 +137,8 @@ impl Order<'_> {
         }
         set.open().map_err(|error| self.refuse(&error))?;
         let (schedule, step) = self.moments(simulation, frames_per_second)?;
-        // A still shows what the film shows at that moment, so its camera looks at the whole run too; and at what it
-        // shows between two frames of the film.
+        // A still shows the film at that moment, so its camera includes the whole run. It also includes the moments
+        // between two frames of the film.
         let whole = whole_run(simulation, film_step(simulation, frames_per_second));
         let whole = schedule.times().fold(
             whole,
@@ -162,7 +163,7 @@ impl Order<'_> {
         set.shoot(simulation, &schedule, follower)
     }
 
-    /// The size of a frame when only the scene says one: a sheet of many is not to become larger than a screen.
+    /// The size of a frame if only the scene gives one. A sheet of many frames must not exceed a screen.
     fn size_within(&self, (width, height): (u32, u32)) -> (u32, u32) {
         let Some((columns, _)) = self.shot.places() else { return (width, height) };
         let narrow = (SHEET_WIDTH / u64::from(columns)) as u32;
@@ -233,7 +234,7 @@ impl Set<'_> {
             Err(Trouble::Spool(error)) => return Err(order.refuse_spool(&error)),
             Err(Trouble::Told) => return Err(Exit::Usage),
             Err(Trouble::Run(failure)) => Some(failure),
-            // What follows the last frame still counts for the card.
+            // The rest of the run behind the last frame still counts for the card.
             Ok(()) if order.shot.is_film() => simulation.run_to_end().err(),
             Ok(()) => None,
         };
@@ -268,7 +269,7 @@ impl Set<'_> {
     }
 }
 
-/// Frames of the whole run, `step` seconds apart or so many that nobody waits for them.
+/// Frames of the whole run, `step` seconds apart, or a bounded number of them.
 fn whole_run(simulation: &Simulation, step: f64) -> Schedule {
     const ENOUGH: f64 = 10_000.0;
     let end = simulation.ticks() as f64 * simulation.clock().dt;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// The ending of scenes.
 const ENDING: &str = "ron";
-/// Folders that hold this file can be made anew by a program: what lies in them is nobody's scene
+/// A program can restore folders with this file, so their contents are not scenes of a user
 /// (<https://bford.info/cachedir/>). Cargo marks `target` so.
 const CACHE: &str = "CACHEDIR.TAG";
 

@@ -1,4 +1,4 @@
-//! Flags that several commands share, and how their values are read: a wrong value is named before anything runs.
+//! Flags that several commands share, and their readers. A wrong value is reported before any run.
 
 use std::io::IsTerminal;
 
@@ -18,10 +18,10 @@ use crate::tick::TickAppExt;
 /// More threads than any machine of today makes use of.
 const MOST_THREADS: usize = 1024;
 
-/// More frames in one picture nobody can tell apart.
+/// The most frames in one picture that can be distinguished.
 const MOST_FRAMES_IN_A_PICTURE: u32 = 400;
 
-/// How much of a verdict an exit code tells.
+/// The influence of a verdict on the exit code.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct StrictFlag {
     /// Exit with 3 too where the verdict on the error card is `Do not trust it`
@@ -54,7 +54,7 @@ pub(super) struct OverrideFlags {
 }
 
 impl OverrideFlags {
-    /// What is to be otherwise than the scene says.
+    /// The requests that replace those of the scene.
     pub fn overrides(&self) -> Overrides {
         Overrides {
             tick: self.tick,
@@ -68,7 +68,7 @@ impl OverrideFlags {
     }
 }
 
-/// Says which trial of a scene is under way, where somebody looks.
+/// Reports the current trial of a scene on a terminal.
 fn tell_trial(number: u32, what: &str) {
     if std::io::stderr().is_terminal() {
         say(&format!("finding the steps: run {number}, {what}"));

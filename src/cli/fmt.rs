@@ -1,4 +1,4 @@
-//! `jostle fmt`: scenes in their standard layout.
+//! `jostle fmt`: writes scenes in their standard layout.
 
 use std::io::{IsTerminal, Read};
 use std::path::Path;

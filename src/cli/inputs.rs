@@ -1,4 +1,4 @@
-//! What a command has read: no output takes the place of it.
+//! The inputs of a command, which no output may replace.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::simulation::Simulation;
 pub(super) struct Inputs(Vec<PathBuf>);
 
 impl Inputs {
-    /// Those of a scene: its own, what it includes, pictures, tables.
+    /// The inputs of a scene: its file, included files, pictures, tables.
     pub fn of(request: Request, simulation: &Simulation) -> Self {
         let own = (!request.name.starts_with(EXAMPLE)).then(|| PathBuf::from(request.name));
         Self(own.into_iter().chain(simulation.header().files.iter().cloned()).collect())
@@ -23,7 +23,7 @@ impl Inputs {
         self
     }
 
-    /// What speaks against an output: a file, or the directory of a sequence.
+    /// The objection to an output: a file, or the directory of a sequence.
     pub fn objection(&self, output: &Path) -> Option<String> {
         if !is_directory(output) {
             let read = self.0.iter().any(|input| is_same_file(input, output));
@@ -40,7 +40,7 @@ impl Inputs {
     }
 }
 
-/// Where a file would be written that may not be there yet.
+/// The final path of a file that may not exist yet.
 fn destination(path: &Path) -> Option<PathBuf> {
     let target = behind_links(path).ok()?;
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -1,10 +1,10 @@
-//! Results as JUnit XML, which build servers read: a suite for each scene, in it the run and each of its expectations.
+//! Results as JUnit XML for build servers. Each scene is a suite, with the run and each of its expectations.
 
 use std::fmt::Write;
 
 use super::trial::{Trial, Verdict};
 
-/// A result by name: none was not a scene.
+/// A result by name; `None` for files that are not scenes.
 pub(super) type Named<'a> = (&'a str, Option<&'a Trial>);
 
 /// The whole report; `seconds` were spent in all.
@@ -96,7 +96,7 @@ impl Counts {
     }
 }
 
-/// A text as the value of an attribute. What XML 1.0 cannot hold at all becomes a replacement character.
+/// A text as the value of an attribute. Characters that XML 1.0 cannot hold become a replacement character.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {

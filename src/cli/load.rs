@@ -1,4 +1,4 @@
-//! Reading scenes for the commands, and telling what is wrong with them.
+//! Reading of scenes for the commands, and reports of their mistakes.
 
 use std::io::IsTerminal;
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::cli::author;
 use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
 
-/// What scenes that come with the program are called by.
+/// The prefix of scenes that come with the program.
 pub(super) const EXAMPLE: &str = "example:";
 
 /// Whether scenes may read files that lie elsewhere (`--allow-outside`).
@@ -32,8 +32,8 @@ pub(super) struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// Reads and prepares the scene; prints what is wrong with it. The source comes along, so that a second run does
-    /// not read it again: it may come from a pipe.
+    /// Reads and prepares the scene; prints its mistakes. It also returns the source, which may come from a pipe, so
+    /// that a second run does not read it again.
     pub fn load(self, settings: &[(String, String)], overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
         self.read(settings, overrides).map_err(|errors| self.refuse_scene(&errors))
     }
@@ -49,14 +49,14 @@ impl Request<'_> {
         Ok((source, simulation))
     }
 
-    /// Tells what is wrong with the scene.
+    /// Reports the mistakes of the scene.
     pub fn refuse_scene(self, errors: &SceneErrors) -> Exit {
         say(errors.render(std::io::stderr().is_terminal()).trim_end());
         let exit = if self.is_missing() { Exit::Usage } else { Exit::SceneWrong };
         if self.json { print_line(&errors.to_json().to_string()).worse(exit) } else { exit }
     }
 
-    /// Whether there is no scene of that name: then the command line is wrong.
+    /// Whether there is no scene of that name, which is a mistake of the command line.
     pub fn is_missing(self) -> bool {
         match self.name.strip_prefix(EXAMPLE) {
             Some(name) => !examples::SCENES.iter().any(|(known, _)| *known == name),
@@ -64,7 +64,7 @@ impl Request<'_> {
         }
     }
 
-    /// Tells what is wrong with a value of the scene that only now turned out to be.
+    /// Reports a mistake in a value of the scene that only shows at this point.
     pub fn refuse(self, exit: Exit, path: &str, message: &str, help: &str) -> Exit {
         let message = message.to_owned();
         let error = SceneError::new(path, message).with_help(help);
@@ -73,7 +73,7 @@ impl Request<'_> {
         exit
     }
 
-    /// Tells that the command cannot be done with this scene: its output cannot be written, or a flag does not fit.
+    /// Reports that the command does not suit this scene: its output cannot be written, or a flag does not fit.
     pub fn usage(self, message: &str) -> Exit {
         say(&format!("error: {message}"));
         if self.json {

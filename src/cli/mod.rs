@@ -51,7 +51,7 @@ pub enum Exit {
     SceneWrong,
     /// 2: the command line is wrong, or a file cannot be written.
     Usage,
-    /// 3: the run went wrong; frames so far are kept.
+    /// 3: the run failed; frames so far are kept.
     RunWrong,
 }
 
@@ -139,7 +139,7 @@ enum Command {
 }
 
 impl CommandLine {
-    /// Does what was asked for; messages go to standard error, results to standard output.
+    /// Executes the command. Messages go to standard error, results to standard output.
     pub fn execute(self) -> Exit {
         load::allow_outside(self.allow_outside);
         match self.command {

@@ -1,4 +1,4 @@
-//! The moments that a film, a strip or a sheet shows.
+//! The moments of a film, a strip or a sheet.
 
 use bevy_ecs::entity::Entity;
 
@@ -19,7 +19,7 @@ const MOST_FRAMES: f64 = 1e6;
 const ROUNDING: f64 = 1e-9;
 
 impl Order<'_> {
-    /// The moments to draw, and the seconds of physics from frame to frame: what the clock has to tell apart.
+    /// The moments to draw, and the seconds of physics between frames, which the clock has to distinguish.
     pub(super) fn moments(&self, simulation: &Simulation, frames_per_second: f64) -> Result<(Schedule, f64), Exit> {
         let film = simulation.film();
         let end = end(simulation);
@@ -78,13 +78,13 @@ impl Order<'_> {
         misfit.refuse(self.request, exit)
     }
 
-    /// Whether the command line, not the scene, says how long the run and the film are.
+    /// Whether the command line, and not the scene, sets the length of the run and the film.
     fn is_overridden(&self) -> bool {
         self.frames_per_second.is_some() || self.overrides.duration.is_some()
     }
 
-    /// When the contacts begin for which the film is to stand still; `None` for those that do not begin between `from`
-    /// and `to`. The scene is run once for that, if there is one.
+    /// The beginnings of the contacts for which the film stands still. `None` for those that do not begin between
+    /// `from` and `to`. If there are such contacts, the scene is run once for them.
     fn first_touches(&self, simulation: &Simulation, from: f64, to: f64) -> Result<Vec<Option<f64>>, Exit> {
         let freezes = &simulation.film().freeze;
         let mut found = vec![None; freezes.len()];
@@ -96,7 +96,7 @@ impl Order<'_> {
         let pairs: Vec<Option<Touching>> = freezes.iter().map(|freeze| pair(&mut ahead, freeze)).collect();
         let mut missing = pairs.iter().flatten().count();
         while missing > 0 && ahead.clock().ticks < ahead.ticks() && ahead.clock().time() < to {
-            // What goes wrong is told by the run that is drawn.
+            // The run that is drawn reports the failure.
             if ahead.run_to_tick(ahead.clock().ticks + 1).is_err() {
                 break;
             }
@@ -126,7 +126,7 @@ pub(super) struct Misfit {
 }
 
 impl Misfit {
-    /// What the film of a scene would be refused for, at the frames per second that the scene says.
+    /// The reasons to refuse the film of a scene, at the frames per second of the scene.
     pub(super) fn of(simulation: &Simulation) -> Option<Self> {
         let late = begins_too_late(simulation);
         let many = || too_many_frames(simulation, simulation.film().frames_per_second());

@@ -11,7 +11,7 @@ use super::Exit;
 use super::say::{print_line, say};
 use crate::output::{OutputError, write_new};
 
-/// What the templates are called by until they get a name of their own.
+/// The names in the templates, which new names replace.
 const TEMPLATE: [&str; 2] = ["home_spring", "HomeSpring"];
 const PLUGIN_FILES: [(&str, &str); 5] = [
     ("src/lib.rs", include_str!("../../assets/templates/plugin/lib.rs")),
@@ -145,7 +145,7 @@ fn in_camel_case(name: &str) -> String {
     name.split('_').map(capital).collect()
 }
 
-/// The path of a checkout, as the manifest in a folder of its own has to say it.
+/// The path of a checkout, in the form of the manifest in another folder.
 fn quoted_path(path: &Path) -> Result<String, String> {
     let shown = path.display();
     let manifest = std::fs::read_to_string(path.join("Cargo.toml")).unwrap_or_default();
@@ -167,7 +167,7 @@ fn built_from() -> Result<PathBuf, String> {
     }
 }
 
-/// A folder in the making; it goes unless it is kept.
+/// A temporary folder, which is removed unless it is kept.
 fn beside(folder: &Path) -> std::io::Result<TempDir> {
     if folder.symlink_metadata().is_ok() {
         return Err(ErrorKind::AlreadyExists.into());
@@ -176,7 +176,7 @@ fn beside(folder: &Path) -> std::io::Result<TempDir> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // The system takes away what the user's mask says, as from any new folder.
+        // The system applies the user's mask, as for any new folder.
         maker.permissions(std::fs::Permissions::from_mode(0o777));
     }
     maker.prefix(&format!("{}.", folder.display())).suffix(".part").tempdir_in(".")

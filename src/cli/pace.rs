@@ -1,4 +1,4 @@
-//! Running without drawing, with a progress bar that moves, as fast as possible or at the speed of the clock.
+//! Runs without drawing, with a moving progress bar, as fast as possible or at the speed of the clock.
 
 use std::time::{Duration, Instant};
 
@@ -21,7 +21,7 @@ pub(super) struct Runner {
 }
 
 impl Runner {
-    /// Runs to a tick in batches that last about a beat: a fixed share of an enormous run would keep the bar still.
+    /// Runs to a tick in batches of about a beat. Batches of a fixed share would stop the bar in enormous runs.
     pub fn run_to(&mut self, simulation: &mut Simulation, tick: u64) -> Result<(), Failure> {
         let step = ((STEP / simulation.clock().dt).round() as u64).max(1);
         let mut batch = if self.wall_clock.is_some() { step } else { 1 };

@@ -1,10 +1,10 @@
-//! Paths of types and functions as users of the crate `jostle` name them.
+//! Paths of types and functions, as users of the crate `jostle` name them.
 
-/// The rooms and the paths by which `jostle` hands on what they hold.
+/// The rooms, and the paths by which `jostle` re-exports their contents.
 const ROOMS: [(&str, &str); 3] =
     [("jostle_engine::", "jostle::"), ("jostle_film::", "jostle::"), ("jostle_report::", "jostle::report::")];
 
-/// A path, and all paths within it, as `jostle` hands them on.
+/// A path, and all paths within it, as `jostle` re-exports them.
 pub(super) fn handed_on(path: &str) -> String {
     ROOMS.into_iter().fold(path.to_owned(), |path, (room, handed_on)| path.replace(room, handed_on))
 }

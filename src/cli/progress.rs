@@ -1,4 +1,4 @@
-//! The progress bar with the time left, on standard error, if somebody is looking.
+//! The progress bar with the remaining time, on standard error, if it is a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 

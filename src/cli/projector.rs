@@ -1,4 +1,4 @@
-//! Shows frames to a film, as they are taken or from where they were kept aside.
+//! Gives frames to a film, directly or from a spool.
 
 use std::io;
 

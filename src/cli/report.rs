@@ -1,4 +1,4 @@
-//! `jostle report`: speed against error on problems whose answer is known, and hard cases.
+//! `jostle report`: speed against error on problems with known answers, and hard cases.
 
 use std::path::PathBuf;
 
@@ -78,7 +78,7 @@ impl Report {
         let order = Order { quick: self.quick };
         let progress = Progress::new((2 * problems.len() + cases.len()) as u64, "runs of problems", self.quiet);
         let (mut sheets, cases) = order.errors(&problems, &cases, &|| progress.step());
-        // What there is so far is kept whatever happens.
+        // The results so far are kept in every case.
         let mut written = self.write(&sheets, &cases, &peers);
         if written.is_ok() {
             for sheet in &mut sheets {
@@ -136,7 +136,7 @@ impl Report {
         Ok((problems, cases))
     }
 
-    /// Nothing that is written takes the place of the table that is read.
+    /// Outputs must not replace the table that is read.
     fn spare_peers(&self, problems: &[Problem]) -> Result<(), String> {
         let Some(peers) = &self.peers else { return Ok(()) };
         let own = problems.iter().map(|problem| format!("{}.csv", problem.name));

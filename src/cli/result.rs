@@ -1,4 +1,4 @@
-//! How a run went: the error card and the expectations, for people or as JSON.
+//! The result of a run: the error card and the expectations, for people or as JSON.
 
 use crate::SimulationExt;
 use serde::Serialize;
@@ -12,10 +12,10 @@ use crate::report::reversal::Reversal;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
-/// How much is told of a run that went well.
+/// The detail of the report of a good run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
-    /// Only what is wrong.
+    /// Only mistakes.
     Quiet,
     /// The card.
     Card,
@@ -36,13 +36,13 @@ impl Detail {
 /// A run that has come to its end.
 pub(super) struct Ran<'a> {
     pub simulation: &'a Simulation,
-    /// What went wrong.
+    /// The failure.
     pub failure: Option<&'a Failure>,
     /// It was cut short on purpose: that breaks no expectation that was to be judged later.
     pub cut: bool,
-    /// How it came back, if that was asked for.
+    /// The result of the way back, if that was requested.
     pub back: Option<&'a Result<Reversal, Failure>>,
-    /// A verdict that nothing is to be trusted counts as a run that went wrong.
+    /// Whether the verdict `Do not trust it` counts as a failure.
     pub strict: bool,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Ran<'a> {
     }
 }
 
-/// Tells how a run went, and returns how it ended.
+/// Reports the result of a run, and returns its exit code.
 pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     let Ran { simulation, failure, cut, back, strict } = *ran;
     let card = simulation.card();

@@ -164,7 +164,7 @@ impl Run {
     }
 }
 
-/// What speaks against writing channels to a path.
+/// The objection to a path for channels.
 fn objection(request: Request, path: &Path) -> Option<String> {
     let name = path.display();
     if path.as_os_str().is_empty() {
@@ -180,7 +180,7 @@ fn objection(request: Request, path: &Path) -> Option<String> {
     }
 }
 
-/// Runs, and writes a row now, after each frame of the film, and at the end.
+/// Runs, and writes a row at once, after each frame of the film, and at the end.
 fn write_channels(
     simulation: &mut Simulation,
     path: &Path,
@@ -204,7 +204,7 @@ fn write_channels(
             break Err(trouble);
         }
     };
-    // A run that goes wrong keeps the rows so far.
+    // A failing run keeps the rows so far.
     table.finish()?;
     run
 }

@@ -1,4 +1,4 @@
-//! `--save` and `--resume`: runs that are set down at a moment and taken up again.
+//! `--save` and `--resume`: runs that are saved at a moment and resumed.
 
 use std::path::{Path, PathBuf};
 
@@ -66,18 +66,18 @@ pub(super) struct Saves {
 }
 
 impl SnapshotFlags {
-    /// The file that the run goes on from.
+    /// The file from which the run continues.
     pub fn input(&self) -> Option<PathBuf> {
         self.resume.clone()
     }
 
-    /// Whether the run goes on from a file.
+    /// Whether the run continues from a file.
     pub fn resumes(&self) -> bool {
         self.resume.is_some()
     }
 
-    /// Lets the run go on from a file, if that is asked for, and settles where snapshots go. What is wrong is told before
-    /// anything runs.
+    /// Resumes the run from a file, if that is requested, and settles the paths of snapshots. Mistakes are reported
+    /// before any run.
     pub fn begin(
         &self,
         simulation: &mut Simulation,
@@ -139,8 +139,8 @@ fn resume(simulation: &mut Simulation, file: &Path) -> Result<(), String> {
 }
 
 impl Saves {
-    /// Runs to a tick, and writes the snapshots of the moments on the way. One that cannot be written is told at once and does not end the
-    /// run.
+    /// Runs to a tick, and writes the snapshots of the moments on the way. An unwritable snapshot is reported at once
+    /// and does not end the run.
     pub fn run_to(&mut self, runner: &mut Runner, simulation: &mut Simulation, tick: u64) -> Result<(), Trouble> {
         while let Some((at, _)) = self.missing.first().filter(|(at, _)| *at <= tick) {
             runner.run_to(simulation, *at).map_err(Trouble::Run)?;

@@ -1,5 +1,5 @@
-//! Printing: messages for people go to standard error, results to standard output. Whoever does not read to the end
-//! (`jostle .. | head`) does no harm: the macros of the standard library would panic then.
+//! Printing: messages for people go to standard error, results to standard output. A reader that ends early (`jostle
+//! .. | head`) does no harm, unlike with the macros of the standard library, which panic.
 
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,10 +8,10 @@ use super::Exit;
 
 pub(super) use crate::scene::{count, number};
 
-/// Longer lines than this many bytes are cut: a name or a cell of any length may stand in them.
+/// Longer lines than this many bytes are cut, because they may hold a name or a cell of any length.
 const LONGEST_LINE: usize = 10_000;
 
-/// Prints a message to standard error; nobody is left to be told if that fails.
+/// Prints a message to standard error. A failure of that cannot be reported.
 pub(super) fn say(message: &str) {
     let mut text = String::with_capacity(message.len() + 1);
     for line in message.split('\n') {
@@ -22,7 +22,7 @@ pub(super) fn say(message: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
-/// Whether it was told that standard output takes no more.
+/// Whether the failure of standard output was reported.
 static TOLD: AtomicBool = AtomicBool::new(false);
 
 /// Prints a result to standard output, one line.
@@ -32,7 +32,7 @@ pub(super) fn print_line(line: &str) -> Exit {
         // A reader that has gone away wants no more.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Exit::Good,
         Err(error) => {
-            // Results of many lines would say so many times.
+            // Results of many lines would report it many times.
             if !TOLD.swap(true, Ordering::Relaxed) {
                 say(&format!("error: the result cannot be written to standard output: {error}"));
             }

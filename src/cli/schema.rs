@@ -1,4 +1,4 @@
-//! `jostle schema`: what may stand in a scene, as JSON schema or as the manual.
+//! `jostle schema`: the scene language, as JSON schema or as the manual.
 
 use std::path::PathBuf;
 

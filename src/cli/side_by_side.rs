@@ -1,15 +1,15 @@
-//! Several runs at once: each has a thread of its own, and what is told of them keeps their order.
+//! Several runs at once, one per thread, whose reports keep their order.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// Threads when nobody says how many: one for each core.
+/// The default number of threads: one for each core.
 pub(super) fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }
 
-/// Does `work` once for each item, on so many threads, and hands the results to `told` in the order of the items, each as
+/// Does `work` once for each item on this many threads. `told` receives the results in the order of the items, each as
 /// soon as it and all before it are done.
 pub(super) fn in_order<Item: Sync, Done: Send>(
     items: &[Item],
@@ -26,7 +26,7 @@ pub(super) fn in_order<Item: Sync, Done: Send>(
                 loop {
                     let place = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(place) else { break };
-                    // Nobody listens any more when what was told has panicked.
+                    // If `told` has panicked, there is no receiver.
                     if sender.send((place, work(item))).is_err() {
                         break;
                     }

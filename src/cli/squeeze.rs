@@ -1,5 +1,5 @@
-//! `--max-size`: a GIF that fits. Colours, size and rate are lowered step by step, in an order that keeps the film worth
-//! watching; the physics is run once, the frames are played from where they were kept aside.
+//! `--max-size`: a GIF that fits. Colours, size and rate are lowered step by step, in an order that keeps the film
+//! worth watching. The physics is run once, and the frames come from a spool.
 
 use super::film::{Order, Trouble};
 use super::flags::bytes_in_words;
@@ -20,7 +20,7 @@ pub(super) struct Squeeze<'a> {
 /// One compromise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rung {
-    /// Width and height, as a share of what was asked for.
+    /// Width and height, as a share of the requested ones.
     scale: f64,
     /// Every so manieth frame is shown.
     every: u64,
@@ -31,7 +31,7 @@ const fn rung(scale: f64, every: u64, colors: usize) -> Rung {
     Rung { scale, every, colors }
 }
 
-/// From what was asked for down to what is hardly a film. Numbers of colours leave a place for the transparent one.
+/// From the requested film down to a minimal one. Numbers of colours leave an entry for the transparent one.
 const LADDER: [Rung; 16] = [
     rung(1.0, 1, 255),
     rung(1.0, 1, 127),
@@ -53,19 +53,19 @@ const LADDER: [Rung; 16] = [
 
 /// A film that uses this share of its size is large enough.
 const GOOD_USE: f64 = 0.9;
-/// So many sizes of picture are tried between two rungs: each costs a film.
+/// The tries of other picture sizes between two rungs, each of which costs a film.
 const MOST_REFINEMENTS: usize = 3;
 
 impl Rung {
-    /// The same with larger pictures, such that a film that had so many bytes would use what it may, and no larger than
-    /// asked for. Bytes grow with the side where there are edges, with its square where everything changes.
+    /// The same with larger pictures, so that a film of `bytes` bytes would reach the limit. They are at most as large
+    /// as requested. Bytes grow with the side for edges, and with its square for full changes.
     fn grown(self, bytes: u64, most: u64) -> Rung {
         let room = 0.5 * (1.0 + GOOD_USE) * most as f64 / bytes.max(1) as f64;
         Rung { scale: (self.scale * room.powf(1.0 / 1.5)).min(1.0), ..self }
     }
 
-    /// About how large a film of this rung is, as a share of the first one: edges grow with the side, areas are cheap;
-    /// of fewer frames each has more to change. Only the next rung to try is chosen by it.
+    /// The approximate size of a film of this rung, as a share of the first one. Edges grow with the side, and areas
+    /// are cheap. With fewer frames each has more changes. It only selects the next rung to try.
     fn weight(&self) -> f64 {
         let colors = (self.colors as f64 / 255.0).powf(0.2);
         self.scale.powf(1.3) * (self.every as f64).powf(-0.8) * colors
@@ -79,7 +79,7 @@ impl Squeeze<'_> {
         order: &Order,
         mut play: impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
     ) -> Result<Written, Trouble> {
-        // Only the best one gets its name: the film of before stays until then.
+        // Only the best one gets its name, and the earlier film stays until then.
         let mut best: Option<(usize, Draft)> = None;
         // All rungs before this one are known to be too large.
         let (mut low, mut next) = (0, 0);
@@ -122,7 +122,7 @@ impl Squeeze<'_> {
         Ok(written)
     }
 
-    /// Makes the pictures of a film that fits as large as they may be: the rungs of the ladder lie far apart.
+    /// Enlarges the pictures of a film that fits as far as possible, because the rungs of the ladder are far apart.
     fn refine(
         &self,
         order: &Order,
@@ -174,7 +174,7 @@ impl Squeeze<'_> {
         (side(width), side(height))
     }
 
-    /// Says what was traded.
+    /// Reports the reduction.
     fn tell(&self, rung: Rung) {
         let limit = bytes_in_words(self.most as f64);
         let ((width, height), (small_width, small_height)) = (self.view.size(), self.size(rung));

@@ -1,4 +1,4 @@
-//! Where the films of a command go. All of it is settled before anything runs.
+//! The paths of the films of a command, which are settled before any run.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub(super) fn ends_as_picture(path: &Path) -> bool {
     path.extension().is_some_and(|ending| PICTURES.iter().any(|picture| ending.eq_ignore_ascii_case(picture)))
 }
 
-/// What the command line says about where films go.
+/// The request of the command line for the paths of films.
 pub(super) struct Wish<'a> {
     /// `-o`.
     pub output: Option<&'a Path>,
@@ -26,7 +26,7 @@ pub(super) struct Wish<'a> {
     pub png: bool,
 }
 
-/// Where one film goes.
+/// The path of one film.
 #[derive(Debug)]
 pub(super) struct Place {
     pub target: Target,
@@ -79,7 +79,7 @@ impl Wish<'_> {
         let mut folder = None;
         let path = match self.output {
             None => PathBuf::from(&file),
-            // A sequence of one scene needs no folder of its own.
+            // A sequence of one scene needs no separate folder.
             Some(output) if scenes == 1 && !(self.still.is_some() && is_directory(output)) => output.to_owned(),
             Some(output) if is_directory(output) => {
                 folder = Some(output.to_owned());
@@ -148,8 +148,7 @@ impl Wish<'_> {
     }
 }
 
-/// What speaks against giving a finished file this name: it would take the place of a scene, a device or a pipe, or has no
-/// directory to be in.
+/// The objection to this name for a finished file. It would replace a scene, a device or a pipe, or has no directory.
 pub(super) fn takes_no_file(path: &Path) -> Option<String> {
     let directory = path.parent().filter(|directory| !directory.as_os_str().is_empty() && !directory.is_dir());
     let missing = directory.map(|directory| {
@@ -159,14 +158,14 @@ pub(super) fn takes_no_file(path: &Path) -> Option<String> {
     missing.or_else(|| is_special(path)).or_else(|| is_scene(path))
 }
 
-/// What speaks against a name that is made for scenes, also behind a link.
+/// The objection to a name for scenes, also behind a link.
 fn is_scene(path: &Path) -> Option<String> {
     let ends = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
     let scene = ends(path) || std::fs::canonicalize(path).is_ok_and(|real| ends(&real));
     scene.then(|| format!("`{}` has the name of a scene: this would not be one; take another ending", path.display()))
 }
 
-/// What speaks against a name of a device or a pipe.
+/// The objection to the name of a device or a pipe.
 fn is_special(path: &Path) -> Option<String> {
     let kind = std::fs::metadata(path).ok()?.file_type();
     let special = !kind.is_file() && !kind.is_dir();

@@ -1,4 +1,4 @@
-//! `jostle test`: runs all scenes of a folder and checks what they expect.
+//! `jostle test`: runs all scenes of a folder and checks their expectations.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -60,14 +60,14 @@ Exit codes: 0 all good, 1 broken or refused, 2 usage, 3 failed.";
 /// A scene to be tried.
 struct Candidate {
     name: String,
-    /// Whether it was found in a folder: what is no scene there is nobody's mistake.
+    /// Whether it was found in a folder. A file there that is not a scene is no mistake.
     found: bool,
 }
 
-/// What came of it.
+/// The result of a file.
 enum Tried {
     Trial(Box<Trial>),
-    /// Not a scene; what it is instead.
+    /// Not a scene, but this kind of file.
     Skipped(String),
 }
 
@@ -100,7 +100,7 @@ impl Test {
             |candidate| self.attempt(candidate),
             |tried| {
                 let name = &candidates[results.len()].name;
-                // Output that cannot be written is told once.
+                // Unwritable output is reported once.
                 if !mute {
                     let written = progress.aside(|| self.tell(name, &tried, width));
                     mute = written != Exit::Good;

@@ -1,4 +1,4 @@
-//! How a run ended when many are made at once: in a word, with the reason.
+//! The end of one of many runs: a word with the reason.
 
 use crate::SimulationExt;
 use std::path::PathBuf;
@@ -12,13 +12,13 @@ use crate::tick::Failure;
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// It does what it expects, or expects nothing.
+    /// It meets its expectations, or has none.
     Good,
     /// It breaks an expectation.
     Broken,
     /// The scene is wrong.
     Refused,
-    /// The run went wrong.
+    /// The run failed.
     Failed,
 }
 
@@ -60,12 +60,12 @@ pub(super) struct Trial {
     pub hash: Option<String>,
     /// Seconds spent computing.
     pub seconds: f64,
-    /// The files that were read for it, without the scene's own.
+    /// The files that were read for it, except the scene's own.
     pub files: Vec<PathBuf>,
 }
 
 impl Trial {
-    /// A scene that is wrong.
+    /// The result of a wrong scene.
     pub fn refused(errors: SceneErrors) -> Self {
         let first = errors.errors().first();
         let line = |error: &crate::scene::SceneError| {
@@ -88,7 +88,7 @@ impl Trial {
         }
     }
 
-    /// A run that has ended, as it should or not; `strict`: one that is not to be trusted has failed.
+    /// The result of an ended run. With `strict` an untrusted run counts as failed.
     pub fn of(simulation: &Simulation, failure: Option<&Failure>, strict: bool) -> Self {
         let card = simulation.card();
         let expect = simulation.outcomes();

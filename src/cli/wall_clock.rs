@@ -1,4 +1,4 @@
-//! `--pace`: a run at the speed of the clock on the wall, for programs that watch it live.
+//! `--pace`: a run at the speed of the wall clock, for programs that watch it live.
 
 use std::time::{Duration, Instant};
 
@@ -21,7 +21,7 @@ impl WallClock {
         let now = Instant::now();
         let start = *self.start.get_or_insert(now);
         self.steps += 1;
-        // A moment beyond all clocks is waited for until somebody ends it.
+        // A moment beyond all clocks is awaited until the user ends it.
         let due = Duration::try_from_secs_f64(due.max(0.0)).unwrap_or(Duration::MAX);
         match due.checked_sub(now - start) {
             Some(early) => std::thread::sleep(early),
@@ -32,7 +32,7 @@ impl WallClock {
         }
     }
 
-    /// Says how it went.
+    /// Reports the result.
     pub fn report(&self, one: &str, many: &str) {
         let steps = count(self.steps as usize, one, many);
         let late = match self.late {

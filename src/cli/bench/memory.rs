@@ -1,4 +1,4 @@
-//! How much memory a scene takes: looked at in a process of its own, which has read nothing else before.
+//! The memory of a scene, measured in a separate process that has read no other scene.
 
 use std::process::{Command, Stdio};
 
@@ -11,7 +11,7 @@ use crate::report::bench::resident;
 use crate::simulation::Overrides;
 use crate::simulation::Simulation;
 
-/// Bytes that another process needs to read a scene and run a round of it; nothing where the system does not tell.
+/// Bytes of another process that reads a scene and runs a round of it; `None` if the system does not provide them.
 pub(super) fn of_other_process(bench: &Bench, scene: &str, ticks: u64) -> Option<u64> {
     resident()?;
     let mut command = Command::new(std::env::current_exe().ok()?);
@@ -33,7 +33,7 @@ pub(super) fn of_other_process(bench: &Bench, scene: &str, ticks: u64) -> Option
     std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
 }
 
-/// A small scene that goes ahead, so that the program itself is in memory: it is read as far as it is run.
+/// A small scene that is run first, so that the program itself is in memory. It is read as far as it is run.
 const WARM_UP: (&str, u64) = ("example:tetris", 100);
 
 impl Bench {

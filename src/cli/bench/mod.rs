@@ -1,4 +1,4 @@
-//! `jostle bench`: what ticks of scenes cost, beside a plain loop that does the same work.
+//! `jostle bench`: the cost of ticks of scenes, beside a plain loop that does the same work.
 
 mod memory;
 mod told;
@@ -15,7 +15,7 @@ use crate::report::bench::{self, Measured, Order, Stopped};
 use crate::scene::{SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
 
-/// What is measured if no scene is named: an example, and a scene of this command.
+/// The default scenes: an example, and a scene of this command.
 const DEFAULT: [&str; 2] = ["example:tetris", GAS];
 /// The scene of this command.
 const GAS: &str = "bench:gas";
@@ -124,7 +124,7 @@ impl Bench {
         }
     }
 
-    /// What is measured of a scene, and the bytes that it takes.
+    /// The measurement of a scene, and its bytes.
     fn measure(&self, scene: &str, order: Order, progress: &Progress) -> Result<(Measured, Option<u64>), Stopped> {
         let source = self.source(scene)?;
         let load = |plan| {

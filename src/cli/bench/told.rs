@@ -1,4 +1,4 @@
-//! What was measured, as tables for people and as JSON.
+//! Measurements as tables for people and as JSON.
 
 use std::fmt::Write;
 
@@ -9,13 +9,13 @@ use crate::cli::say::number;
 use crate::report::bench::{Measured, Spread};
 use crate::tick::stopwatch::Part;
 
-/// A stage below this share of a tick is not told.
+/// A stage below this share of a tick is omitted.
 const SMALLEST_SHARE: f64 = 0.005;
 
 /// Below so many atoms a scene takes less memory than what else grows in a process when it is run.
 const FEWEST_ATOMS: usize = 1000;
 
-/// What was measured of a scene.
+/// The measurement of a scene.
 pub(super) struct Row {
     name: String,
     measured: Measured,
@@ -29,12 +29,12 @@ impl Row {
     }
 }
 
-/// Memory for each atom, where it is that of the scene.
+/// Memory for each atom, if it is that of the scene.
 fn bytes_per_atom(bytes: Option<u64>, atoms: usize) -> Option<f64> {
     bytes.filter(|_| atoms >= FEWEST_ATOMS).map(|bytes| bytes as f64 / atoms as f64)
 }
 
-/// Three digits are enough of what was measured.
+/// Three digits are enough for a measurement.
 fn rounded(value: f64) -> String {
     if value.abs() >= 1000.0 {
         return format!("{value:.0}");
@@ -89,7 +89,7 @@ pub(super) fn table(rows: &[Row]) -> String {
     let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
     for row in rows {
         let told = row.measured.stages.iter().filter(|(_, share)| *share >= SMALLEST_SHARE);
-        // The search for rest has a line of its own: it may take more than all the rest.
+        // The search for rest has a separate line, because it may take more than all the rest.
         let (search, others): (Vec<_>, Vec<_>) = told.partition(|(name, _)| *name == Part::Rest.name());
         for part in [others, search].into_iter().filter(|part| !part.is_empty()) {
             let shares: Vec<String> = part.iter().map(|(name, share)| format!("{name} {}", percent(*share))).collect();
@@ -113,7 +113,7 @@ pub(super) fn table(rows: &[Row]) -> String {
     text
 }
 
-/// What was measured of a scene, for programs.
+/// The measurement of a scene, for programs.
 pub(super) fn json(scene: &str, measured: &Measured, bytes: Option<u64>) -> Value {
     let spread = |spread: &Spread| json!({ "median": spread.median, "min": spread.least, "max": spread.most });
     let plain = match &measured.plain {

@@ -1,4 +1,4 @@
-//! `jostle measure`: which error each method and tick has on a scene, what it costs, and which to take.
+//! `jostle measure`: the error and cost of each method and tick on a scene, and advice.
 
 mod told;
 
@@ -140,7 +140,7 @@ impl Measure {
         }
     }
 
-    /// Prints and writes what was measured.
+    /// Prints and writes the measurement.
     fn tell(&self, request: Request, measured: &Measured) -> Exit {
         let mut exit = if measured.reference.is_err() || measured.all_fail() { Exit::RunWrong } else { Exit::Good };
         let run = self.run_with();
@@ -241,7 +241,7 @@ fn ends_with(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
 }
 
-/// What speaks against writing to a path.
+/// The objection to an output path.
 fn objection(request: Request, path: &Path) -> Option<String> {
     let name = path.display();
     if is_directory(path) {

@@ -1,4 +1,4 @@
-//! What was measured, for people, for spreadsheets and for programs.
+//! Measurements for people, for spreadsheets and for programs.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::report::ladder::{Advice, Cost, Course, Deviation, Outcome, Setting};
 use crate::report::measure::{Measured, NORM, NoReference};
 use crate::tick::Wrong;
 
-/// Three digits are enough of what was measured.
+/// Three digits are enough for a measurement.
 fn rounded(value: f64) -> String {
     number(format!("{value:.2e}").parse().unwrap_or(value))
 }
@@ -41,7 +41,7 @@ fn word(setting: &Setting) -> &'static str {
     }
 }
 
-/// What is to be known beside the numbers.
+/// The notes beside the numbers.
 fn note(setting: &Setting) -> String {
     let first = match &setting.outcome {
         Outcome::Measured(_) => None,
@@ -139,7 +139,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
     }
     let advice = measured.settings.advice();
     if measured.reference.is_ok() {
-        // What is advised for several errors is said once.
+        // Common advice for several errors is printed once.
         let mut parts: Vec<(String, String)> = Vec::new();
         for advice in &advice {
             let (target, (lead, what)) = (format!("{:.0e}", advice.target), told(measured, advice));
@@ -177,7 +177,7 @@ fn cost(measured: &Measured) -> &'static str {
     }
 }
 
-/// What to take for an error, as two parts of a sentence between which the error stands.
+/// The advice for an error, as two parts of a sentence around the error.
 fn told(measured: &Measured, advice: &Advice) -> (&'static str, String) {
     let price = |setting: &Setting| {
         let spent = match measured.settings.cost {
@@ -233,7 +233,7 @@ pub(super) fn csv(measured: &Measured) -> String {
     text
 }
 
-/// What was measured, for programs.
+/// The measurement, for programs.
 pub(super) fn json(scene: &str, measured: &Measured, run: &str) -> Value {
     let setting = |setting: &Setting| {
         let apart = apart(setting);

@@ -16,7 +16,7 @@ use crate::simulation::Recorder;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
-/// A channel over a run, looked at where the film has its frames, and at the end.
+/// A channel over a run, read at the frames of the film and at the end.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Track {
     /// `name.quantity`.
@@ -30,7 +30,7 @@ pub(super) struct Track {
 impl Track {
     fn see(&mut self, value: f64) {
         self.last = value;
-        // A value that is no number stays one.
+        // A NaN stays a NaN.
         if value.is_nan() || value < self.least {
             self.least = value;
         }
@@ -40,13 +40,13 @@ impl Track {
     }
 }
 
-/// What came of a run.
+/// The result of a run.
 pub(super) struct Attempt {
     pub trial: Trial,
     pub tracks: Vec<Track>,
-    /// None if the scene was refused.
+    /// `None` if the scene was refused.
     pub card: Option<Card>,
-    /// The last moment of a run that reached its end, if a picture is wanted, and how the scene wants to be looked at.
+    /// The last moment of a completed run and the camera of its scene, if a picture is wanted.
     pub picture: Option<(Frame, Option<CameraChoice>)>,
 }
 
@@ -56,7 +56,7 @@ pub(super) fn refused(source: &Source, message: String) -> Attempt {
     Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None }
 }
 
-/// Runs a scene to its end. `title` stands on its picture, if one is wanted.
+/// Runs a scene to its end. `title` is the title of its picture, if one is wanted.
 pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, strict: StrictFlag, title: Option<&str>) -> Attempt {
     let mut simulation = match Simulation::load_with(scene, &flags.overrides(), author::plugin) {
         Ok(simulation) => simulation,
@@ -64,7 +64,7 @@ pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, strict: StrictFlag,
     };
     let mut tracks = tracks_of(&simulation);
     let failure = run(&mut simulation, &mut tracks).err();
-    // A run that went wrong ends anywhere.
+    // The end of a failed run is arbitrary.
     let picture = title.filter(|_| failure.is_none()).and_then(|title| {
         let camera = simulation.get_resource::<CameraChoice>().cloned();
         picture(&mut simulation, camera.as_ref(), title).map(|frame| (frame, camera))
@@ -102,7 +102,7 @@ fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure>
     }
 }
 
-/// The present moment with a title of its own; none if it cannot be drawn.
+/// The current moment with another title; `None` if it cannot be drawn.
 fn picture(simulation: &mut Simulation, camera: Option<&CameraChoice>, title: &str) -> Option<Frame> {
     let now = simulation.clock().time();
     let mut frame = Recorder::default().frame(simulation, now).ok()?;

@@ -1,4 +1,4 @@
-//! The tables of shards, put together.
+//! The merger of the tables of shards.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,14 +12,14 @@ use crate::scene::embed::{Wanted, told};
 /// A table of a shard.
 const SHARD: Wanted = Wanted { most: 1 << 30, noun: "the table of a shard", smaller: "use more shards" };
 
-/// So many shards that are missing are told.
+/// The most absent shards that are listed.
 const MOST_NAMED: usize = 20;
 
 /// Merges all shards in a directory into `table.csv`.
 pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
     let shown = folder.display();
     let (shards, of) = shards_in(folder)?;
-    // A name may tell of any number of them.
+    // A name may claim any number of them.
     let mut missing = (1..=of).filter(|which| !shards.contains_key(which)).map(|which| which.to_string());
     let first: Vec<String> = missing.by_ref().take(MOST_NAMED).collect();
     if !first.is_empty() {

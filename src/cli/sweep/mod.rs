@@ -1,4 +1,5 @@
-//! `jostle sweep`: a scene with many values of what varies, run side by side; a table, a contact sheet, films.
+//! `jostle sweep`: a scene with many values of its varied quantities, run side by side. It makes a table, a contact
+//! sheet and films.
 
 mod attempt;
 mod merge;
@@ -95,7 +96,7 @@ greatest value, taken at the times of the film's frames and at the end. A run th
 
 Exit codes are those of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 usage, 3 a run went wrong.";
 
-/// How many runs that did not reach their end are told one by one.
+/// The most incomplete runs that are reported one by one.
 const MOST_TOLD: usize = 10;
 
 /// Reads `K/N`.
@@ -127,7 +128,7 @@ impl Sweep {
             Ok(source) => source.with_settings(&self.overrides.settings),
             Err(errors) => return Ok(request.refuse_scene(&errors)),
         };
-        // What is wrong with the scene itself is told once, with its place.
+        // A mistake of the scene itself is reported once, with its place.
         let plain = match Simulation::load_with(&source, &self.overrides.overrides(), author::plugin) {
             Ok(plain) => plain,
             Err(errors) => return Ok(request.refuse_scene(&errors)),
@@ -192,7 +193,7 @@ impl Sweep {
         Ok(exit)
     }
 
-    /// What varies and is neither a parameter nor, as a path, within a section: most likely a slip.
+    /// Varied names that are neither a parameter nor a path within a section, which are most likely misspelt.
     fn strangers(&self, source: &Source, plain: &Simulation) -> Result<(), String> {
         let registry = plain.resource::<SceneRegistry>();
         let params = source.params();
@@ -208,7 +209,7 @@ impl Sweep {
         }
     }
 
-    /// Of two sweeps the same if scene, what it includes, flags and what varies are the same, as text.
+    /// A text that is equal for two sweeps if scene, included files, flags and varied quantities are equal as text.
     fn fingerprint(&self, source: &Source, registry: &SceneRegistry) -> String {
         let OverrideFlags { duration, tick, method, tolerance, settings, simd: _ } = &self.overrides;
         let flags =
@@ -219,7 +220,7 @@ impl Sweep {
         format!("{:016x}", of_bytes(bytes))
     }
 
-    /// A flag of all runs for what is to vary.
+    /// A flag of all runs for a varied quantity.
     fn contradiction(&self) -> Option<String> {
         let OverrideFlags { duration, tick, method, settings, .. } = &self.overrides;
         let flags = [("clock.duration", "--duration", duration.is_some()), ("clock.tick", "--tick", tick.is_some())];
@@ -273,7 +274,8 @@ impl Sweep {
                         progress.aside(|| say(&line));
                     }
                 }
-                // Without a record the sweep is as good, as long as nobody interrupts it. A run without its film is not done.
+                // Without a record the sweep is equally good, unless it is interrupted. A run without its film is not
+                // done.
                 if recorded
                     && film == Exit::Good
                     && let Err(message) = record.add(&Row::of(run + 1, owned(grid, run), &attempt))
@@ -307,7 +309,7 @@ impl Sweep {
         let (Ok(mut simulation), Ok(target)) =
             (Simulation::load_with(scene, &overrides, author::plugin), Target::new(path))
         else {
-            // The run itself has told why.
+            // The run itself has reported the reason.
             return Exit::Good;
         };
         let order = Order {
@@ -344,7 +346,7 @@ impl Sweep {
         [self.table(folder), self.sheet(folder), record].into_iter().chain(films)
     }
 
-    /// The name of a file; those of shards say which.
+    /// The name of a file; that of a shard contains its number.
     fn file(&self, stem: &str, ending: &str) -> String {
         self.shard.map_or_else(|| format!("{stem}.{ending}"), |(which, of)| format!("{stem}.{which}-of-{of}.{ending}"))
     }
@@ -365,7 +367,7 @@ fn owned(grid: &Grid, run: usize) -> Vec<String> {
     grid.values(run).into_iter().map(str::to_owned).collect()
 }
 
-/// What varies, and how, in a line.
+/// The varied quantities and their values, in a line.
 fn label(grid: &Grid, run: usize) -> String {
     let pairs = grid.variations.iter().zip(grid.values(run));
     let pairs: Vec<String> = pairs.map(|(variation, value)| format!("{} = {value}", variation.name)).collect();

@@ -1,4 +1,4 @@
-//! The contact sheet of a sweep: the last moment of each run, with what varies as its title.
+//! The contact sheet of a sweep: the last moment of each run, with the varied values as its title.
 
 use std::path::Path;
 
@@ -7,14 +7,14 @@ use crate::output::{OutputError, Target, sheet};
 use crate::raster::{Bounds, Camera, Theme, View};
 use crate::record::sections::{CameraChoice, FitCamera};
 
-/// More pictures on one sheet nobody can tell apart.
+/// The most pictures on one sheet that can be distinguished.
 pub(super) const MOST_PICTURES: usize = 100;
 
 /// Width of one picture in pixels.
 const WIDTH: u32 = 360;
 
-/// Writes the sheet: all pictures are seen by one camera, so that they can be compared. A camera that fits shows what is
-/// there at the end of all runs. `proportions` are those of the film.
+/// Writes the sheet. One camera shows all pictures, so that they can be compared. A camera that fits includes the ends
+/// of all runs. `proportions` are those of the film.
 pub(super) fn write(
     path: &Path,
     attempts: &[Attempt],

@@ -1,4 +1,4 @@
-//! What a sweep has done so far, beside its table: a sweep that was killed goes on where it was.
+//! The record of a sweep beside its table, by which a killed sweep continues.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::table::Row;
 use jostle_language::digest::of_bytes;
 
-/// What a record begins with; behind it stands of which sweep it is.
+/// The beginning of a record, which the sweep's identity follows.
 const HEAD: &str = "jostle sweep ";
 
 /// A larger file is no record.
@@ -37,7 +37,7 @@ impl Record {
             Err(TryLockError::WouldBlock) => {
                 return Err(format!("another sweep writes into this folder (`{shown}`): wait for it, or name another"));
             }
-            // Some systems know no locks.
+            // Some systems have no locks.
             Err(TryLockError::Error(_)) | Ok(()) => {}
         }
         let mut text = Vec::new();
@@ -51,7 +51,7 @@ impl Record {
             Some(lines) => read(lines),
             None => (BTreeMap::new(), 0),
         };
-        // What a kill has left of a line is written over.
+        // An incomplete line after a kill is overwritten.
         let length = if good > 0 || text.starts_with(head.as_bytes()) { head.len() + good } else { 0 };
         file.set_len(length as u64).and_then(|()| file.seek(SeekFrom::End(0)).map(|_| ())).map_err(told)?;
         if length == 0 {

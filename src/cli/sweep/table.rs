@@ -1,5 +1,5 @@
-//! The table of a sweep: a row for each run. It holds nothing that depends on time or threads, so the same sweep makes the
-//! same bytes, in one piece or in shards.
+//! The table of a sweep: a row for each run. It contains nothing that depends on time or threads. So the same sweep
+//! makes the same bytes, in one piece or in shards.
 
 use crate::cli::columns::quoted;
 use std::cmp::Ordering;
@@ -25,9 +25,9 @@ const FIXED: [&str; 8] = [
 ];
 const RUN: &str = "run";
 const REASON: &str = "reason";
-/// What the header of a shard's last column begins with; the column has no cells.
+/// The prefix of the header of a shard's last column, which has no cells.
 const SWEEP: &str = "sweep ";
-/// Before the check sum of a shard's table, in the same header: that of the text without it.
+/// The prefix of the check sum of a shard's table in the same header. The sum is that of the text without it.
 const SUM: &str = " sum ";
 
 /// One run.
@@ -35,7 +35,7 @@ const SUM: &str = " sum ";
 pub(super) struct Row {
     /// Counted from 1.
     pub run: usize,
-    /// What varies.
+    /// The varied values.
     pub values: Vec<String>,
     fixed: Vec<String>,
     /// Column and cell of each channel.
@@ -76,7 +76,7 @@ impl Row {
         Self { run, values, fixed, channels, reason }
     }
 
-    /// How the run ended; none for a word that is no verdict.
+    /// The verdict of the run; `None` for a word that is no verdict.
     pub fn verdict(&self) -> Option<Verdict> {
         Verdict::ALL.into_iter().find(|verdict| self.fixed[0] == verdict.word())
     }
@@ -94,8 +94,8 @@ fn cells(track: &Track) -> Vec<(String, String)> {
 }
 
 impl Table {
-    /// The columns of channels: in the order of the sensors if all runs have the same, else by name. So the order does not
-    /// depend on how the runs were shared out.
+    /// The columns of channels. They have the order of the sensors if all runs have the same, and are else sorted by
+    /// name. So the order does not depend on the distribution of the runs.
     fn channels(&self) -> Vec<String> {
         let lists: BTreeSet<Vec<&str>> = self
             .rows

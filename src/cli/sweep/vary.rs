@@ -1,12 +1,12 @@
-//! `--vary NAME=VALUES`: what varies, and the grid of all combinations.
+//! `--vary NAME=VALUES`: the varied quantities, and the grid of all combinations.
 
 use crate::cli::say::number;
 use crate::scene::Source;
 
-/// A sweep has at most this many runs: more rows nobody reads, and each takes its time.
+/// The most runs of a sweep. More rows are unreadable, and each takes time.
 pub(super) const MOST_RUNS: usize = 100_000;
 
-/// A parameter or path, and the values it takes, as they are to stand in the scene.
+/// A parameter or path, and its values in the form of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Variation {
     pub name: String,
@@ -127,7 +127,7 @@ impl<'a> Grid<'a> {
         values
     }
 
-    /// The scene of a run: a name that is one of the scene's `params` is set, any other is a path into its text.
+    /// The scene of a run. A name in the scene's `params` is set, and any other name is a path into the text.
     pub fn scene(&self, source: &Source, run: usize) -> Result<Source, String> {
         let params = source.params();
         let mut scene = source.clone();
