@@ -1,4 +1,4 @@
-//! What ARCHITECTURE.md promises about the code itself.
+//! The promises of ARCHITECTURE.md about the code itself.
 
 mod arrow;
 mod pay;

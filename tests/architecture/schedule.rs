@@ -1,5 +1,5 @@
-//! The order of systems is never left to chance: with everything that a scene can name, no two systems that touch the
-//! same data are without an order between them.
+//! The order of systems is never left to chance. With everything that a scene can name, any two systems on the same
+//! data have an order.
 
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, Schedules};

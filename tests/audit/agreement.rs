@@ -1,5 +1,6 @@
-//! Law: one scene, one motion. Impacts under every law agree with a reference solution that is written apart from the engine; runs
-//! of several bodies by methods of different kinds agree with each other, by no more than what both state of their error.
+//! Law: one scene, one motion. Impacts under every law agree with a reference solution that is independent of the
+//! engine. Runs of several bodies by methods of different kinds agree with each other. They differ by no more than both
+//! state of their error.
 //!
 //! Not tested: packings, and heaps that come to rest (`laws/rest`, `laws/conditioned`).
 

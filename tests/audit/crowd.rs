@@ -1,5 +1,5 @@
-//! Random scenes of a few bodies: discs and clumps, walls and belts, a driven body, springs, drag and attraction, under any
-//! contact laws. No reference is known; runs are compared with each other.
+//! Random scenes of a few bodies: discs and clumps, walls and belts, a driven body, springs, drag and attraction, under
+//! any contact laws. No reference is known; runs are compared with each other.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Scenes on which the engine was found wrong, each with what is right.
+//! Scenes with earlier defects of the engine, each with the right result.
 
 use jostle::problems::hard::kinetic;
 use jostle::scene::Source;

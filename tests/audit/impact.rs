@@ -1,8 +1,8 @@
-//! A disc that strikes a wall, solved apart from the engine: the penalty law written down again, integrated from event to
-//! event with steps of a thousandth of a contact.
+//! A disc that strikes a wall, solved independently of the engine. The penalty law is written again, and integrated
+//! from event to event with steps of a thousandth of a contact.
 //!
-//! Between two events every rate is smooth, so the classical Runge-Kutta method errs by `(omega h)^4/120` of the motion in a
-//! contact: 1e-13 with [`STEPS`]. Events are bisected to rounding. The reference uses no code of the engine.
+//! Between two events every rate is smooth. So the classical Runge-Kutta method errs by `(omega h)^4/120` of the motion
+//! in a contact: 1e-13 with [`STEPS`]. Events are bisected to rounding. The reference uses no code of the engine.
 
 use std::f64::consts::PI;
 

@@ -1,9 +1,10 @@
-//! Landings: discs and clumps that come down on a slope, bounce, slip, stick and come to rest, by two ways that share no step.
+//! Landings by two ways that share no step: discs and clumps that come down on a slope, bounce, slip, stick and come to
+//! rest.
 //!
-//! Velocity Verlet searches each tick for the forces that stop a contact; methods with located events go from mode to mode. Both
-//! follow one law, so that what they differ by falls with the tick. Two modes that end within one tick are left to chance, which
-//! the share of scenes that have to agree allows for. Of clumps more do not agree: where a drawn spring comes to a stand, a force
-//! that holds it for one tick only takes its energy.
+//! Velocity Verlet searches each tick for the forces that stop a contact. Methods with located events go from mode to
+//! mode. Both follow one law, so that their difference falls with the tick. Two modes that end within one tick are left
+//! to chance. The share of scenes that have to agree allows for that. More clumps disagree: when a stretched spring
+//! comes to rest, a force that holds it for one tick only takes its energy.
 
 use glam::DVec2;
 use jostle::Simulation;

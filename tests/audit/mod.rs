@@ -1,5 +1,4 @@
-//! Random scenes against references that are written apart from the engine, and what runs state of their error against the
-//! truth.
+//! Random scenes against independent references, and the stated errors of runs against the true ones.
 
 mod agreement;
 mod crowd;

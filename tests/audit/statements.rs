@@ -1,5 +1,5 @@
-//! Promise: what a run states of its error is of the size of the error, for any method and tick, and trust is not told of a run
-//! that is wrong.
+//! Promise: the stated error of a run has the size of the error, for any method and tick. A wrong run is never called
+//! trustworthy.
 //!
 //! Two twins understate an error where both meet events in the phase of the first run. With ticks that share one end in ten that is
 //! rare; the shares below are asked for, not found. Errors below 1e-13 of the motion are rounding, of which nothing is stated.

@@ -1,4 +1,4 @@
-//! What scenes may read: files, of bounded size, in the scene's folder or below it or in one above it.
+//! Files that scenes may read: of bounded size, in the scene's folder or below it, or in one above it.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};

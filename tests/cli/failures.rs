@@ -1,5 +1,5 @@
-//! Runs that go wrong: exit code 3, the frames and rows so far kept, and a message with body, tick, time, likely cause
-//! and remedy. Expectations that break: exit code 1.
+//! Failing runs: exit code 3, the frames and rows so far kept, and a message with body, tick, time, likely cause and
+//! remedy. Expectations that break: exit code 1.
 
 use super::harness::{EXPLOSION, FALL, Folder, OVERFLOW};
 

@@ -1,4 +1,4 @@
-//! Wrong flags: named with what was expected, exit code 2, and nothing runs.
+//! Wrong flags: the message names them with the expected value, the exit code is 2, and no scene runs.
 
 use super::harness::{FALL, Folder};
 

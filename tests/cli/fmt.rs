@@ -1,4 +1,4 @@
-//! `fmt`: the standard layout changes how a scene looks, never what it means.
+//! `fmt`: the standard layout changes the look of a scene, never its meaning.
 
 use std::path::{Path, PathBuf};
 use std::process::Stdio;

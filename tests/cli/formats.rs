@@ -1,5 +1,5 @@
-//! Formats beside GIF and PNG: APNG, raw pictures, and videos by ffmpeg, whose place a small script takes here: what it
-//! makes of the pictures is not tested.
+//! Formats beside GIF and PNG: APNG, raw pictures, and videos by ffmpeg. A small script takes the place of ffmpeg,
+//! whose result is not tested.
 
 use std::process::Stdio;
 

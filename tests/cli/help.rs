@@ -1,4 +1,4 @@
-//! What the program says about itself.
+//! Help texts and versions of the program.
 
 use super::harness::Folder;
 

@@ -1,5 +1,5 @@
-//! `--json`: one object for each scene on standard output, with the fields the scene language promises, and numbers
-//! that read back to the same bits.
+//! `--json`: one object for each scene on standard output, with the fields that the scene language promises. Numbers
+//! read back to the same bits.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! The command line as its users meet it: the built program, run in folders of its own, one file per promise.
+//! The command line as its users meet it: the built program, run in separate folders, one file per promise.
 
 mod anchors;
 mod bench;

@@ -1,4 +1,4 @@
-//! `jostle new`: what it writes is a good beginning, and it destroys nothing.
+//! `jostle new`: its files are a good beginning, and it destroys none.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Every file that the program writes comes from one writer: two programs do not spoil each other's files, links and
-//! permissions stay, nothing but the target changes.
+//! Every file that the program writes comes from one writer. Two programs do not spoil each other's files, links and
+//! permissions stay, and only the target changes.
 
 use std::process::Stdio;
 

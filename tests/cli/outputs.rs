@@ -1,4 +1,4 @@
-//! Where films and tables go: formats by their endings, nothing overwritten by chance, nothing written by halves.
+//! Targets of films and tables: formats by their endings, no accidental overwriting, no incomplete files.
 
 use super::harness::{EXPLOSION, FALL, Folder};
 

@@ -1,4 +1,4 @@
-//! Small promises of the commands, each a law of what is written where.
+//! Small promises of the commands, each a law of an output and its target.
 
 use super::harness::{FALL, Folder};
 

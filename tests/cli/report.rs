@@ -1,4 +1,4 @@
-//! `jostle report`: what it writes, and what it refuses. Not tested: that times are right; the hard cases themselves (see
+//! `jostle report`: its outputs, and its refusals. Not tested: that times are right; the hard cases themselves (see
 //! `laws/hard`).
 
 use super::harness::Folder;

@@ -1,4 +1,4 @@
-//! `run --save` and `--resume`: a run that is set down goes on in another process to the same bits.
+//! `run --save` and `--resume`: a saved run continues in another process with the same bits.
 //!
 //! Tolerance: none. Compared are the state's hash, the rows of channels behind the moment, and the accounts of the card.
 

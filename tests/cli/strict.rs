@@ -1,4 +1,4 @@
-//! `--strict`: a verdict that nothing is to be trusted is an exit code. And what `check` knows beforehand.
+//! `--strict`: the verdict `Do not trust it` is an exit code. Also the predictions of `check`.
 
 use std::process::Stdio;
 

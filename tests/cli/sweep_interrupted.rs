@@ -1,4 +1,4 @@
-//! A sweep that is interrupted goes on where it was; tables of shards that were cut or changed are found out.
+//! An interrupted sweep continues. Tables of shards that were cut or changed are detected.
 
 use std::process::Stdio;
 use std::time::{Duration, Instant};

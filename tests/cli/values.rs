@@ -1,5 +1,5 @@
-//! Values in scenes that cannot be: refused with path and line; values that merely look wild: run, or end with a
-//! message, but never with a panic.
+//! Impossible values in scenes are refused with path and line. Unusual values run, or end with a message, but never
+//! with a panic.
 
 use super::harness::{FALL, Folder};
 

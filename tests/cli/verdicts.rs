@@ -1,5 +1,5 @@
-//! The verdict names what spoils a run: scenes that are broken on purpose, each in its own way, and the words that the cause has to
-//! be called by. Eighteen of twenty would do; none is known to be wrong.
+//! The verdict names the cause that spoils a run. Each scene is broken on purpose in another way, and the verdict has
+//! to contain the words of its cause. Eighteen of twenty would suffice; all of them are right.
 
 use super::harness::Folder;
 

@@ -1,4 +1,4 @@
-//! Runs that end, but went beyond a limit of their tick: a line each on standard error, a note on the card, exit code 0.
+//! Runs that end beyond a limit of their tick: a line each on standard error, a note on the card, exit code 0.
 
 use super::harness::Folder;
 

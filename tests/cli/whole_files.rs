@@ -1,4 +1,4 @@
-//! Files are whole or old: whatever ends the program, nobody finds half of a film under its name.
+//! Files are complete or old: however the program ends, no name belongs to half of a film.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
-//! Spawning and despawning in mid-run by an ordinary system of a plugin: it works, and whoever has nothing to do with
-//! it does not notice, to the last bit. Contacts keep their history (elongation of tangential springs, sticking or
-//! slipping) when places in the packed state change.
+//! Spawning and despawning in mid-run by an ordinary system of a plugin: it works, and unrelated bodies keep their
+//! bits. Contacts keep their history (elongation of tangential springs, sticking or slipping) when indices in the
+//! packed state change.
 
 use bevy_ecs::prelude::*;
 use jostle::SimulationExt;

@@ -1,4 +1,4 @@
-//! Promise: the vector instructions of the processor change no bit of a run, neither of the state nor of the accounts.
+//! Promise: the vector instructions of the processor change no bit of a run, neither in the state nor in the accounts.
 
 use jostle::Simulation;
 use jostle::scene::Source;

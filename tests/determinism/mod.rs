@@ -1,8 +1,8 @@
-//! Same scene, same binary: same bits. Source: design of the engine: the order of every sum is a function of keys and
+//! Same scene, same binary: same bits. Source: design of the engine. The order of every sum is a function of keys and
 //! state, never of spawning, archetypes, batches or pictures.
 //!
-//! Tolerance: none, hashes and states are compared to the last bit. A scene that would not tell one order of sums from
-//! another proves nothing, so each hash is of a pile with friction that has been shaken for thousands of ticks.
+//! Tolerance: none, hashes and states are compared to the last bit. A scene that is insensitive to the order of sums
+//! proves nothing. So each hash is of a pile with friction after thousands of ticks of shaking.
 //!
 //! Not tested: other machines.
 

@@ -1,5 +1,5 @@
-//! The state hash in which each shipped scene ends is written down, in `pinned.txt`: no change of a result goes
-//! unnoticed, and the change of each hash stands in a commit that explains it.
+//! The state hash at the end of each shipped scene stands in `pinned.txt`. So no change of a result goes unnoticed, and
+//! a commit explains the change of each hash.
 //!
 //! Tolerance: none. Not tested: whether a result is right, which the laws and the expectations of the scenes do.
 

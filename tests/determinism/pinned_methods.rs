@@ -1,5 +1,5 @@
-//! Scenes end in the hashes that are written down in `pinned_methods.txt` under methods of several stages, with located events and
-//! under a tolerance too: no change of a result goes unnoticed under any of them.
+//! The hashes of scenes in `pinned_methods.txt` are those under methods of several stages, with located events and
+//! under a tolerance. So no change of a result goes unnoticed under any of them.
 //!
 //! Tolerance: none. Not tested: whether a result is right, which the laws do. Scenes of many bodies are run for a short time.
 

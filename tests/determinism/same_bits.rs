@@ -1,5 +1,5 @@
-//! What must not change the result: running again, the order of spawning, components of others, batches, pictures,
-//! and systems of others that do nothing.
+//! Conditions that must not change the result: another run, the order of spawning, foreign components, batches,
+//! pictures, and idle foreign systems.
 
 use bevy_ecs::prelude::*;
 use jostle::tick::{Evaluate, EvaluateStage, SimTick, Stage, TickAppExt};

@@ -1,8 +1,9 @@
-//! A run that was set down and taken up again goes on to the same bits: in another simulation, with other threads and vector
-//! instructions, from the bytes of a file. Under every kind of method, and with contacts, rest, sleep, flights and steps under way.
+//! A saved and resumed run continues with the same bits: in another simulation, with other threads and vector
+//! instructions, from the bytes of a file. It does so under every kind of method, and with contacts, rest, sleep,
+//! flights and unfinished steps.
 //!
-//! Tolerance: none. Compared are the state's hash, all that decides the future, and the card but for its times. Not tested here:
-//! another process, which the tests of the command line do.
+//! Tolerance: none. Compared are the state's hash, all data that decides the future, and the card without its times.
+//! Not tested here: another process, which the tests of the command line cover.
 
 use std::path::PathBuf;
 

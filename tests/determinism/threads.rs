@@ -1,4 +1,4 @@
-//! What threads must not change: their number, as the command line takes it, and what they run meanwhile.
+//! Threads change no result: neither their number on the command line, nor their other work.
 
 use std::process::Command;
 

@@ -1,4 +1,4 @@
-//! A model from outside with an account of its own: what it takes stands in the ledger, in JSON and in a channel.
+//! A model from outside with a separate account: its losses appear in the ledger, in JSON and in a channel.
 //!
 //! Law: a brake `F = -c v` on a mass takes `m v0^2/2 (1 - e^(-2 c t/m))` in the time t. Tolerance: the global error of the method at
 //! this tick, `(c dt/m)^2 = 1e-6` of what was there for velocity Verlet, which is of second order under brakes, 1e-12 for the others

@@ -1,5 +1,5 @@
-//! A contact law from outside: the axis-wise law of "Simulating the Physical World", chapter 5, through the public
-//! plugin interface only.
+//! A contact law from outside, by the public plugin interface only: the axis-wise law of "Simulating the Physical
+//! World", chapter 5.
 //!
 //! Law, for atom a of the earlier body against atom b of the later one, `d = x_a - x_b`, compression
 //! `c = max(0, r_a + r_b - |d|)`, `k = 1/(1/k_a + 1/k_b)`, `w = v_a - v_b`, each component i with j the other one:

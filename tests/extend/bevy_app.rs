@@ -1,5 +1,5 @@
-//! A scene inside a Bevy app, in its fixed timestep: the same bits as without it, next to systems of the app's own,
-//! and whatever goes wrong is told.
+//! A scene inside a Bevy app, in its fixed timestep: the same bits as without the app, next to the app's own systems.
+//! Failures are reported.
 //!
 //! Not tested: windows, and apps with threads of their own (physics stays on the thread that runs its system).
 

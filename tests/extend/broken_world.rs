@@ -1,4 +1,5 @@
-//! What a plugin or a program takes from the world, or breaks in it: runs end with an error that names it, never in a panic.
+//! Plugins or programs that remove or break parts of the world: runs end with an error that names the part, never in a
+//! panic.
 //!
 //! Not tested: models that change lengths of lists while they act; `Bodies` says that they may panic.
 

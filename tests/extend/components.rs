@@ -1,5 +1,4 @@
-//! Components from outside: whoever reads them sees the present state, whoever writes them changes it, a batch of ticks or one at a
-//! time.
+//! Components from outside: readers see the current state, and writers change it, in a batch of ticks or one at a time.
 //!
 //! Law: uniform motion, x = v t, exact in binary for these numbers but for the rounding of t = k dt, which is 2^-10 s here. No
 //! tolerance. Not tested: systems in the tick (`replaced_system`), bodies that come and go (`contact_events`).

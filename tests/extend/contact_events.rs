@@ -1,11 +1,11 @@
 //! A plugin from outside that listens to contact events, and the sensor that counts them.
 //!
-//! Law: a pair touches while its overlap is positive. So in each tick the pairs that began are those that touch now by their
-//! positions and did not before, worked out here from positions and radii alone. No tolerance: the same comparison.
-//! Times of an elastic ball's impacts are those of free fall and of half a swing (textbook), to a share `s^2`, `s = w dt`, of
-//! all speeds (see `bounce` among the laws).
+//! Law: a pair touches while its overlap is positive. So in each tick the begun pairs are those that touch by their
+//! positions and did not before. The test computes them from positions and radii alone. No tolerance: the same
+//! comparison. Times of an elastic ball's impacts are those of free fall and of half a swing (textbook), to a share
+//! `s^2`, `s = w dt`, of all speeds (see `bounce` among the laws).
 //!
-//! Laws from outside that do not note who touches: see `axis_wise`.
+//! Laws from outside that do not note touching pairs: see `axis_wise`.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -1,4 +1,4 @@
-//! A contact law from outside stands on the card as the engine's own does: overlap, energy, critical tick.
+//! A contact law from outside has the engine's results on the card: overlap, energy, critical tick.
 //!
 //! Law: a spring of `k` between a disc and a floor. A disc of mass m that comes down with v presses it in by
 //! `m g/k + sqrt((m g/k)^2 + m v^2/k)`; its critical tick is `2 sqrt(m/k)` under

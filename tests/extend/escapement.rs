@@ -1,4 +1,4 @@
-//! A force from outside that jumps where the state says so, and whose jumps are located: the escapement of a clock as an impulse.
+//! A force from outside that jumps at given states, with located jumps: the escapement of a clock as an impulse.
 //!
 //! Law: `I th'' = -M g d sin th - c th' + tau s`, where `s` is the sign of `th'` while `-b1 < th sign(th') < b2`, else zero (Airy 1826;
 //! truth file J11). Each swing takes up `tau (b1 + b2)`, and the pendulum settles to the amplitude at which drag takes as much. Tolerances: a

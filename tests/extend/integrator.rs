@@ -1,4 +1,4 @@
-//! A method from outside: what it does to bodies between a step and the evaluation of forces, contacts see.
+//! A method from outside: contacts see its changes of bodies between a step and the evaluation of forces.
 //!
 //! Law: under a spring and a dashpot two discs that do not move against each other are pushed apart by `k d` alone, whatever the
 //! dashpot. Tolerance: rounding of the overlap, `u` times the place over the overlap, a part in 1e12.

@@ -1,7 +1,8 @@
 //! Systems on components and systems on the state in one run, and models that come in mid-run.
 //!
-//! Laws: a kick of `v` metres per second counts once, whichever way it is given and however a run is cut into batches; energy that a
-//! model from outside takes is booked from the moment at which it acts. Tolerance: rounding of sums, 1e-12; batches: none.
+//! Laws: a kick of `v` metres per second counts once, however it is given and however a run is cut into batches. Energy
+//! that a model from outside takes is booked from the moment at which it acts. Tolerance: rounding of sums, 1e-12;
+//! batches: none.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -1,4 +1,4 @@
-//! A plugin that takes a system out and puts another one in its place gets what it asked for.
+//! A plugin that replaces a system by another one gets the expected result.
 //!
 //! Law: a drag of 0.5 kg/s on 1 kg lets a body that falls from rest reach `v = -g/c (1 - e^(-c t))`; without it, and with a
 //! push of 2 N upwards in its place, `v = (2 - g) t`. Tolerance: velocity Verlet is of second order under drag, exact without.

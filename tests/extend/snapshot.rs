@@ -1,4 +1,4 @@
-//! Snapshots of runs with plugins: what says what it remembers is kept, what does not makes the snapshot refuse by name.
+//! Snapshots of runs with plugins: declared memory is kept, and for undeclared memory the snapshot refuses by name.
 //!
 //! Law: a run that is set down and taken up ends in the bits of one that was not. Tolerance: none.
 

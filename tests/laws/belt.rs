@@ -1,6 +1,6 @@
-//! Law: a belt takes a body along by friction, `mu g` until it has the belt's velocity `V`, and then carries it with
-//! exactly `V`; a disc that is free to turn ends at `V/3`; a body held by a spring sticks and slips. Source: Coulomb 1785;
-//! sticking and slipping on a belt: den Hartog, *Mechanical Vibrations*, 1956, 7.
+//! Law: by friction a belt accelerates a body with `mu g` until it has the belt's velocity `V`, and then carries it
+//! with exactly `V`. A disc that is free to turn ends at `V/3`. A body held by a spring sticks and slips. Source:
+//! Coulomb 1785; sticking and slipping on a belt: den Hartog, *Mechanical Vibrations*, 1956, 7.
 //!
 //! Tolerances: the tangential spring is part of the exact answer where it matters: it is drawn out with
 //! `e'' = -(k_t/m) e`, from `e' = V`, until `k_t e = mu N`. What is left is the end of slipping inside a tick: order one.

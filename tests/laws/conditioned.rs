@@ -1,5 +1,6 @@
-//! Law: with located events a method of order 8 errs by rounding, as far as the problem itself lets rounding grow. Source: Higham,
-//! *Accuracy and Stability of Numerical Algorithms*, 2002, 1.6: forward error is condition number times backward error.
+//! Law: with located events the error of a method of order 8 is rounding, as far as the problem magnifies it. Source:
+//! Higham, *Accuracy and Stability of Numerical Algorithms*, 2002, 1.6: forward error is condition number times
+//! backward error.
 //!
 //! Tolerance: the error of `Dop853` is at most the greatest of ten times the truth's own error, 1e-12, and `50 eps kappa sqrt(n)` for
 //! `n` ticks, whose roundings add up by chance; `kappa`, in the unit of the problem's error, is measured: by how much the error

@@ -1,9 +1,10 @@
 //! Law: what acts between bodies alone keeps momentum and angular momentum. Source: Newton's third law; forces along the line
 //! of centres have no torque.
 //!
-//! On every problem of `jostle::problems` that nothing from outside acts on, under every method. Tolerance: 1e-13 of the sums of
-//! absolute values per thousand ticks: each kick rounds a velocity by at most half a unit in the last place, 1.1e-16 of it, and
-//! a walk of two kicks a tick is off by `sqrt(2000) x 1.1e-16 = 5e-15` then; twenty times that is allowed.
+//! It runs every problem of `jostle::problems` without external forces, under every method. Tolerance: 1e-13 of the
+//! sums of absolute values per thousand ticks: each kick rounds a velocity by at most half a unit in the last place,
+//! 1.1e-16 of it, and a walk of two kicks a tick is off by `sqrt(2000) x 1.1e-16 = 5e-15` then; twenty times that is
+//! allowed.
 //!
 //! Not tested: energy (see `energy`), rough contacts of clumps (see `momentum`).
 

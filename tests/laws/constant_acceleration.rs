@@ -1,6 +1,6 @@
-//! Law: under constant acceleration each integrator has its own exact discrete solution, which tells which one is at
-//! work. After `n` ticks of `dt` from rest semi-implicit Euler stands at `a dt^2 n (n + 1)/2`, velocity Verlet at
-//! `a (n dt)^2/2`. Source: truth file P02 (ticks of a second); the formulas for other ticks.
+//! Law: under constant acceleration each integrator has an exact discrete solution, which identifies it. After `n`
+//! ticks of `dt` from rest semi-implicit Euler is at `a dt^2 n (n + 1)/2`, and velocity Verlet at `a (n dt)^2/2`.
+//! Source: truth file P02 (ticks of a second); the formulas for other ticks.
 //!
 //! Tolerance: 4 units in the last place: each of tick, acceleration and product is rounded once, the same way at every
 //! tick, and positions are summed with compensation.

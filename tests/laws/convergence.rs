@@ -1,6 +1,6 @@
-//! Law: a method of order p errs by a constant times `dt^p`. Source: any textbook (Hairer, Norsett, Wanner 1993); where
-//! the force has a kink inside a tick at most order 2 is left, where it jumps order 1, on average over the phase of the
-//! event in the tick.
+//! Law: a method of order p errs by a constant times `dt^p`. Source: any textbook (Hairer, Norsett, Wanner 1993). If
+//! the force has a kink inside a tick, at most order 2 remains. If it jumps, order 1 remains, on average over the phase
+//! of the event in the tick.
 //!
 //! Tolerance: the slope of a least-squares fit over six ticks may fall short of the order by 0.25 (the next error
 //! term is a factor of 2 smaller per halving than the leading one: at the coarsest ticks it may bend the line). Smooth
@@ -11,13 +11,15 @@
 //! own tick, up to a tenth shorter: two events of one contact fall on unrelated places of a tick only if the length of
 //! the contact in ticks is as arbitrary as its beginning.
 //!
-//! Where events are located a method keeps its order through kinks and jumps. An order is a statement on small ticks: the line
-//! begins at ticks as coarse as bear six points, and as long as its slope is not the one that is asked, a finer tick is added and
-//! the coarsest left out, down to a last one. Points within ten times the worst case of rounding are left out; where
-//! fewer than four are above it, the method is at rounding from the beginning, and nothing else is asked. Coarse ticks bend
-//! their line upwards, so that only methods up to order 2 are held to "not better than stated".
+//! If events are located, a method keeps its order through kinks and jumps. An order is a statement on small ticks: the
+//! line begins at ticks as coarse as bear six points, and as long as its slope is not the one that is asked, a finer
+//! tick is added and the coarsest left out, down to a last one. Points within ten times the worst case of rounding are
+//! left out; where fewer than four are above it, the method is at rounding from the beginning, and nothing else is
+//! asked. Coarse ticks bend their line upwards, so that only methods up to order 2 are held to "not better than
+//! stated".
 //!
-//! Of smooth problems the samples within the first 16384 ticks count: an order does not depend on the length of a run.
+//! Of smooth problems the samples within the first 16384 ticks count, because an order does not depend on the length of
+//! a run.
 //!
 //! Not tested: the size of the errors (see `problems`).
 

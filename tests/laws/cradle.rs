@@ -1,5 +1,5 @@
-//! Law: what a row of touching soft discs does with a pulse depends on the springs, not on the tick: it disperses. Source:
-//! Herrmann and Seitz 1982; truth file M01 (modal solution).
+//! Law: the effect of a row of touching soft discs on a pulse depends on the springs, not on the tick: the pulse
+//! disperses. Source: Herrmann and Seitz 1982; truth file M01 (modal solution).
 //!
 //! Tolerances: those of the problem (kinks inside ticks); they grow with the number of contacts, two kinks each. All discs
 //! have parted when the truth says so: before it the last pair still touches, after it none does, but for the ticks in

@@ -1,9 +1,9 @@
-//! Law: a method that is stable up to `w dt = 2` bears a tick of `2/w_max`, `w_max` the largest angular frequency of
-//! `K phi = w^2 M phi` with all springs that hold a body. Source: Hairer, Lubich, Wanner 2006, I.5; for contacts: Itasca,
-//! PFC, *Timestep determination*.
+//! Law: a method that is stable up to `w dt = 2` allows a tick of `2/w_max`. Here `w_max` is the largest angular
+//! frequency of `K phi = w^2 M phi` with all springs that hold a body. Source: Hairer, Lubich, Wanner 2006, I.5; for
+//! contacts: Itasca, PFC, *Timestep determination*.
 //!
-//! A body of 2 kg and 0.05 kg m2 is clamped by three contacts off its centre, of 1e5, 1e5 and 4e4 N/m. The eigenvalue is
-//! that of a 3 x 3 matrix, solved to 40 digits: `w_max = 555.282536068347 rad/s`, 1.6 times what `sqrt(sum k/m)` says.
+//! A body of 2 kg and 0.05 kg m2 is clamped by three contacts off its centre, of 1e5, 1e5 and 4e4 N/m. The eigenvalue
+//! is that of a 3 x 3 matrix, solved to 40 digits: `w_max = 555.282536068347 rad/s`, 1.6 times `sqrt(sum k/m)`.
 //!
 //! Tolerance: the contacts bear forces `N`, and their turning adds `N r` to the stiffness `k r^2`: 1e-4 of 0.1 or 0.3 m,
 //! a share below 1e-3.

@@ -1,7 +1,7 @@
-//! Law: where contacts are too many for their events to be located, runs stay finite, their energy closes, heaps come to rest;
-//! and held contacts that depend on each other hold what rigid statics says together. Source: the energy of a spring under
-//! velocity Verlet swings by the share `(omega dt/2)^2` (Hairer, Lubich and Wanner 2003), and crowded ticks are divided so that
-//! `omega dt` is at most 1/2.
+//! Law: if contacts are too many for their events to be located, runs stay finite, their energy closes, and heaps come
+//! to rest. Held contacts that depend on each other together hold the loads of rigid statics. Source: the energy of a
+//! spring under velocity Verlet swings by the share `(omega dt/2)^2` (Hairer, Lubich and Wanner 2003), and crowded
+//! ticks are divided so that `omega dt` is at most 1/2.
 //!
 //! Tolerances: a sixteenth of the energy that went round, from that; momentum: rounding, as many terms as there are ticks and
 //! bodies. Where everything comes to rest: exactly 0.

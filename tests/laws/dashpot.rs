@@ -1,7 +1,7 @@
-//! Law: `N = max(0, k d - c v_n)`. With the effective mass `m`, `b = c/(2 m)`, `w0^2 = k/m`, `zeta = b/w0` a contact ends
-//! when its force does, and `e = exp(-b t)` with the time `t` that it lasts. It needs more damping for the same restitution
-//! than a contact that pulls until its overlap is gone. Source: Schwager and Poeschel 2007 for the end; truth file C03; the
-//! catalogue's cases of two discs and of overdamped contacts.
+//! Law: `N = max(0, k d - c v_n)`. Let `m` be the effective mass, `b = c/(2 m)`, `w0^2 = k/m`, `zeta = b/w0`. A contact
+//! ends when its force does, and `e = exp(-b t)` with the duration `t`. It needs more damping for the same restitution
+//! than a contact that pulls until its overlap is gone. Source: Schwager and Poeschel 2007 for the end; truth file C03;
+//! the catalogue's cases of two discs and of overdamped contacts.
 //!
 //! Tolerances, with `s = w0 dt`. At the first touch the force jumps to `c v`. Velocity Verlet sees it at the end of the tick
 //! and kicks for half a tick; it should have acted for the share `1 - theta` of the tick that was left: the disc arrives as

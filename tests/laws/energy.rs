@@ -1,4 +1,4 @@
-//! Law: elastic frictionless discs in a box keep their energy. A symplectic method keeps it nearly, for ever (Hairer,
+//! Law: elastic frictionless discs in a box keep their energy. A symplectic method nearly keeps it forever (Hairer,
 //! Lubich, Wanner, *Geometric Numerical Integration*, IX.8): errors are bounded and do not add up.
 //!
 //! Tolerance: with 40 ticks per contact `w dt = pi/40`. A contact that begins at the share `p` of a tick and ends at the

@@ -1,5 +1,5 @@
-//! Laws of contacts that pass from a side of a hull to its corner and from part to part: the change is an event, so that methods with
-//! stages show their order and their account across it.
+//! Laws of contacts that pass from a side of a hull to its corner and from part to part. The change is an event, so
+//! that methods with stages keep their order and their account across it.
 //!
 //! Not tested: corners that have sunk below the side of another core, and joints of lines.
 

@@ -1,6 +1,6 @@
-//! Law: what nothing touches moves along a parabola, `x + v t + g t²/2`, and turns evenly (Galilei; Newton's first and second
-//! laws), so that its motion need not be worked out tick by tick. Whether it is, who looks, and in how many pieces a run is
-//! made changes nothing.
+//! Law: a free body moves along a parabola, `x + v t + g t²/2`, and turns uniformly (Galilei; Newton's first and second
+//! laws). So its motion need not be computed tick by tick. Neither that choice, nor readers, nor the batches of a run
+//! change anything.
 //!
 //! Tolerances: rounding, `u = 2^-53`. A place is rounded when it is given in the scene and once more at its end, each by `u` of
 //! its size, the way between by a few `u` of itself. A collision makes what rounding left larger by some `1 + 2 l / r` (a disc of

@@ -1,11 +1,11 @@
 //! Law: motion is the same in every inertial frame: turned by 37 degrees, shifted, and boosted by 100 m/s. Source: Galileo;
 //! Noether.
 //!
-//! On every problem of `jostle::problems` that nothing from outside acts on, under every method. Tolerance: rounding times
-//! condition. In the other frame a place is known to an ulp of its distance from the origin, up to 100 m/s times the length of
-//! the run. What such an ulp makes is measured: the run is repeated with every place of the start moved by it. As each tick
-//! rounds anew, the square root of the number of ticks times that, and fifty times for what the worst direction is worse than
-//! the one tried, is allowed.
+//! It runs every problem of `jostle::problems` without external forces, under every method. Tolerance: rounding times
+//! condition. In the other frame a place is known to an ulp of its distance from the origin, up to 100 m/s times the
+//! length of the run. What such an ulp makes is measured: the run is repeated with every place of the start moved by
+//! it. As each tick rounds anew, the square root of the number of ticks times that, and fifty times for what the worst
+//! direction is worse than the one tried, is allowed.
 //!
 //! Not tested: frames of walls, fields and drag, which move with the scene.
 

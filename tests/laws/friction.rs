@@ -1,6 +1,6 @@
-//! Law: a body that slides is slowed by `mu g` (Coulomb), whatever its speed; a disc that slides begins to roll and then
-//! keeps two thirds of its speed. A contact that slips obeys the dynamic coefficient. Source: Coulomb 1785; any textbook
-//! (a disc has `I = m r^2/2`).
+//! Law: a sliding body is decelerated by `mu g` (Coulomb) at every speed. A sliding disc begins to roll and then keeps
+//! two thirds of its speed. A contact that slips obeys the dynamic coefficient. Source: Coulomb 1785; any textbook (a
+//! disc has `I = m r^2/2`).
 //!
 //! Tolerances: the tangential spring must be drawn out by `s = mu m g/k_t` before friction is full, for a time `s/v` and
 //! one tick: that much of `mu g` is missing. After it has begun to roll a disc swings on that spring, undamped, with a

@@ -1,8 +1,8 @@
-//! Law: each of the hard cases of `jostle::problems::hard`, its own, in the short form. Source and tolerances: each case's file, where
-//! every threshold stands beside what it is derived from.
+//! Law: that of each hard case of `jostle::problems::hard`, in the short form. Source and tolerances: each case's file,
+//! which derives every threshold.
 //!
-//! A value beyond its threshold of which the engine tells is no failure here: only the sweep of ticks has such, above the critical tick, and dead
-//! points of linkages.
+//! A value beyond its threshold that the engine reports is no failure here. Only the sweep of ticks above the critical
+//! tick and dead points of linkages have such values.
 //!
 //! Not tested: what the short forms leave out; `jostle report` runs all.
 

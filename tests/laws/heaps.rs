@@ -1,11 +1,12 @@
-//! Promise: heaps of hundreds of bodies come to rest exactly, as single bodies do. No speed is small enough to be called rest: the
-//! search for rest finds forces within the bounds of the contact laws, or the heap moves on (`constraints/rest_solver`).
+//! Promise: heaps of hundreds of bodies come to rest exactly, as single bodies do. No small speed counts as rest. The
+//! search for rest finds forces within the bounds of the contact laws, or the heap moves on
+//! (`constraints/rest_solver`).
 //!
 //! Grains without restitution fall from a loose grid into a box. What they lose as they meet is lost for good: a search that ends
 //! too early lets contacts sink in under forces below their springs', which stores energy that no body gave. The bound on that, 1e-3 of
 //! the loss, is what docs/limits.md promises, and follows from no order. Plain sweeps miss it, and the rest.
 //!
-//! Not tested: when they rest, but for the given time; that grains roll on, which no law of contact stops.
+//! Not tested: the time of rest, except for the given one; grains that roll on, which no law of contact stops.
 
 use jostle::{Simulation, SimulationExt};
 

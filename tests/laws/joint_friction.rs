@@ -1,10 +1,11 @@
 //! Laws of friction in linkages: it keeps to its bound where other joints and motors move the joint on.
 //!
-//! Friction in a joint takes its bound times the way of the joint as long as it moves. Where the rate of the joint changes its sign while
-//! the linkage goes on, at dead points, friction turns round: to stick there would take more than its bound. Reference values: closed
-//! forms, or one equation for the one angle that is free (Lagrange), integrated here by the classical Runge-Kutta method in steps of 1e-5
-//! s, whose error is below 1e-9. Tolerance: under methods from tick to tick friction turns at the end of a tick, so that it is wrong
-//! for one tick at each turn: the loss by the bound times the way of that tick, the angle by what passes within a tick.
+//! Friction in a joint takes its bound times the way of the joint as long as it moves. The rate of the joint may change
+//! its sign while the linkage moves on, at dead points. Then friction reverses, because to stick there would take more
+//! than its bound. Reference values: closed forms, or one equation for the one angle that is free (Lagrange),
+//! integrated here by the classical Runge-Kutta method in steps of 1e-5 s, whose error is below 1e-9. Tolerance: under
+//! methods from tick to tick friction turns at the end of a tick, so that it is wrong for one tick at each turn: the
+//! loss by the bound times the way of that tick, the angle by what passes within a tick.
 
 use jostle::scene::Source;
 use jostle::tick::Wrong;

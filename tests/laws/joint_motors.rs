@@ -1,5 +1,5 @@
-//! Laws of motors with a greatest torque: they hold their rate as long as that suffices, and give way else, however many of them, limits
-//! and joints with friction are in one mechanism.
+//! Laws of motors with a greatest torque: they hold their rate as long as the torque suffices, and yield otherwise. A
+//! mechanism may have any number of them, of limits and of joints with friction.
 //!
 //! Reference values: closed forms, or one equation for the one angle that is free (Lagrange), integrated here by the classical Runge-Kutta
 //! method in steps of 1e-5 s, whose error is below 1e-9. Tolerance: methods from tick to tick see at the end of a tick that a motor

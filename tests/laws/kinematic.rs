@@ -1,6 +1,6 @@
-//! Law: a body whose motion is prescribed is where its prescription says, pushes others as a wall of infinite mass would
-//! (`v' = u + e (u - v)`), receives nothing, and the work it does is booked. Source: kinematics; Newton's law of impact in
-//! the frame of the wall; energy balance.
+//! Law: a body with prescribed motion is where its prescription says. It pushes others as a wall of infinite mass would
+//! (`v' = u + e (u - v)`), receives nothing, and its work is booked. Source: kinematics; Newton's law of impact in the
+//! frame of the wall; energy balance.
 //!
 //! Tolerances: places are functions of time, so rounding of the product and the sum is all. Impacts and the ledger have
 //! the order of the method; a body that is carried has the platform's velocity but for the rounding of velocities.

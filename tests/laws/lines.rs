@@ -1,8 +1,8 @@
 //! Laws of lines: surfaces of many pieces.
 //!
-//! Source: an atom is kept out of the line moved by its radius to the open side. So a straight line of pieces is a half-plane, whatever
-//! slides or rolls over it, and a line with corners keeps energy. Tolerances: at each test. Not tested: lines whose corners are narrower than
-//! an overlap.
+//! Source: an atom is kept out of the line moved by its radius to the open side. So a straight line of pieces is a
+//! half-plane for every body that slides or rolls over it, and a line with corners keeps energy. Tolerances: at each
+//! test. Not tested: lines whose corners are narrower than an overlap.
 
 use glam::DVec2;
 use jostle::{Simulation, SimulationExt};

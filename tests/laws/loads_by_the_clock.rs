@@ -1,5 +1,5 @@
-//! Laws of joints whose load swings by the clock while nothing moves: the estimated error of a step sees nothing of it. Motors reach
-//! their limits, friction slips and joints break at the time at which the load says so, however long steps may be.
+//! Laws of joints at rest under oscillating loads, which the estimated error of a step does not see. Motors reach their
+//! limits, friction slips and joints break at the times that the load determines, however long steps are.
 //!
 //! Reference: closed forms of the motion from event to event; the times of events by bisection. Tolerance: the share that is allowed,
 //! times the largest load over the inertia, over the square of the duration; a hundredfold of it for the sum over some hundred steps.

@@ -1,6 +1,6 @@
-//! Law: where events are located, motion that ends in finite time ends there exactly: with the closed form's number of
-//! bounces and half swings, at its place, with a velocity of exactly zero, and nothing moves from then on. Source: closed
-//! forms of `settling_bounce` (truth file C05) and `coulomb_oscillator` (F03).
+//! Law: if events are located, motion that ends in finite time ends there exactly. It has the closed form's number of
+//! bounces and half swings, its position, and a velocity of exactly zero, and then no body moves. Source: closed forms
+//! of `settling_bounce` (truth file C05) and `coulomb_oscillator` (F03).
 //!
 //! Tolerances: rounding for `Dop853` (its own error at these ticks lies below: `w dt` is 0.04 and 0.3, order 8, see
 //! `convergence`), the problems' leading error for the others.

@@ -1,5 +1,5 @@
-//! Law: steps as long as their error allows keep the tolerance where a run begins without any force, where bodies meet within a
-//! step on curved ways, and where a body stands for a while before it moves.
+//! Law: steps that follow their error keep the tolerance at three places. A run begins without any force, bodies meet
+//! within a step on curved ways, and a body is at rest before it moves.
 //!
 //! Tolerances: three times the one asked for, of the size of the motion, as everywhere (`tolerance.rs`); where no exact answer
 //! is known it is a run with equal short steps, whose error falls with the eighth power of the step.

@@ -1,5 +1,5 @@
-//! The laws of physics and of numerics that the engine must obey. Each file states its law and source, where its
-//! tolerances come from, and what it does not test.
+//! The laws of physics and of numerics that the engine must obey. Each file states its law and source, the origin of
+//! its tolerances, and the untested cases.
 
 mod support;
 

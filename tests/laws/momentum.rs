@@ -1,5 +1,5 @@
-//! Law: momentum and angular momentum of a closed system stay; of an open one they change by the impulses from outside.
-//! Source: Newton's third law; Noether.
+//! Law: momentum and angular momentum of a closed system are constant. Those of an open one change by the external
+//! impulses. Source: Newton's third law; Noether.
 //!
 //! Tolerance: rounding. A kick rounds each velocity once, by at most half a unit in the last place, 1.1e-16 of it; with
 //! errors of the same sign a thousand ticks of two kicks make 2.2e-13, and contacts as many again: 1e-12 per 1000

@@ -1,4 +1,4 @@
-//! Laws of motors with a limit on wheels that touch the ground: their torques keep to their limits, and their work is booked.
+//! Laws of motors with a limit on wheels that touch the ground: torques keep to their limits, and work is booked.
 //!
 //! Not tested: motors without contacts, see `joint_motors`; the path of the wheels, which is chaotic.
 

@@ -1,8 +1,8 @@
-//! Law: a disc that strikes a wall at a slant slips throughout if `tan a >= 3 mu (1 + e)`: then friction takes `mu (1 + e)`
-//! of the normal speed off its velocity along the wall, and `2/r` of that off its spin. Else it sticks for a while, and a
-//! tangential spring throws the point of contact back: with full stick its speed after is `cos(w_t t_c)` times that
-//! before, `w_t = sqrt(3 k_t/m)`. No impact creates energy, whatever angle, spin, friction and stiffness. Source: Walton
-//! 1993; Maw, Barber and Fawcett 1976; Schaefer, Dippel and Wolf 1996; truth files C07, C08.
+//! Law: a disc that strikes a wall at a slant slips throughout if `tan a >= 3 mu (1 + e)`. Then friction takes `mu (1 +
+//! e)` of the normal speed off its velocity along the wall, and `2/r` of that off its spin. Otherwise it sticks for a
+//! while, and a tangential spring throws the point of contact back. With full stick its speed after is `cos(w_t t_c)`
+//! times that before, `w_t = sqrt(3 k_t/m)`. No impact creates energy, whatever angle, spin, friction and stiffness.
+//! Source: Walton 1993; Maw, Barber and Fawcett 1976; Schaefer, Dippel and Wolf 1996; truth files C07, C08.
 //!
 //! Tolerances: those of `tangential_impact` for elastic impacts; restitution as in `restitution`. Truth file C07 is for
 //! friction without a spring: the contact sticks with no force. A stiff spring comes near that: where the contact stops

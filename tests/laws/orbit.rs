@@ -1,6 +1,6 @@
 //! Law: a planet keeps its energy and angular momentum. A symplectic method keeps the first within a bound, without
-//! trend, and the second exactly, for the attraction points along the line of centres. Source: Hairer, Lubich, Wanner,
-//! *Geometric Numerical Integration*, I.2 and IX; truth file P07.
+//! trend. It keeps the second exactly, because the attraction points along the line of centres. Source: Hairer, Lubich,
+//! Wanner, *Geometric Numerical Integration*, I.2 and IX; truth file P07.
 //!
 //! Tolerances: passing the sun, where the kinetic energy is 19 times the total and the rate `r^-1.5`, the energy may be
 //! wrong by `19 (rate dt)^2`; back at the far end, where the motion is slow, by much less: `(dt / 2)^2` of the rates

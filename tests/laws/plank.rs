@@ -1,5 +1,5 @@
-//! Law: five posts bear what the balance of forces and torques and their equal stiffness tell, and together exactly the weight. Source:
-//! least complementary energy; truth file S03.
+//! Law: the balance of forces and torques and the equal stiffness of five posts determine their loads, whose sum is
+//! exactly the weight. Source: least complementary energy; truth file S03.
 //!
 //! Tolerance: the swing of the plank falls below rounding in half of the run. Forces are rounded as differences of heights are, by 1e-16 m
 //! times 1e5 N/m, a few times each. So all are right to 1e-9 N.

@@ -1,6 +1,6 @@
-//! Laws that hold for every scene: space has no place, direction, handedness or state of rest of its own; actio is reactio;
-//! contacts push and never pull, and pull along only within the cone. Source: mechanics; McNamara, Garcia-Rojo and Herrmann
-//! 2008 for contacts that turn as one rigid body.
+//! Laws that hold for every scene: no position, direction, handedness or state of rest is preferred; actio is reactio.
+//! Contacts push and never pull, and act along the surface only within the cone. Source: mechanics; McNamara,
+//! Garcia-Rojo and Herrmann 2008 for contacts that turn as one rigid body.
 //!
 //! Scenes are drawn by chance from fixed seeds: three to five discs and clumps of two discs, with friction, inelasticity and
 //! spin, that run into each other. Tolerances: moved, boosted, turned or renumbered, numbers are rounded otherwise, in each

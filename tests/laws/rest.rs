@@ -1,6 +1,6 @@
-//! Law: a contact at rest holds with any force that its law allows there, `[1 - mu, 1 + mu] k d`, so a body comes to rest
-//! in finite time with an overlap between `m g/(k (1 + mu))` and `m g/(k (1 - mu))`; from then on nothing moves at all.
-//! Source: statics; truth file C05.
+//! Law: a contact at rest holds with any force that its law allows there, `[1 - mu, 1 + mu] k d`. So a body comes to
+//! rest in finite time with an overlap between `m g/(k (1 + mu))` and `m g/(k (1 - mu))`. From then on no body moves at
+//! all. Source: statics; truth file C05.
 //!
 //! Tolerances: "at rest" is a velocity of exactly zero and a state that does not change by a bit. Heights of rebounds: a share `2 x 2 mu s^2/e^2`,
 //! `s = w dt`, at each impact for restitution (see `restitution`; heights go with the square of the speed).

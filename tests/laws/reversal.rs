@@ -1,6 +1,6 @@
-//! Z06: there and back. Methods that are symmetric in time return but for rounding where forces are smooth; with events
-//! they are made of the same symmetric steps up to the event, but the tick is cut elsewhere on the way back, so that they err by
-//! twice the error of the run, as the others do everywhere.
+//! Z06: time reversal. Methods that are symmetric in time return up to rounding if forces are smooth. With events their
+//! symmetric steps reach up to the event, but the tick is cut elsewhere on the way back. So they err by twice the error
+//! of the run, like all other methods.
 //!
 //! Rounding: each tick rounds positions and velocities once, and what it does to an orbit grows with the time that is left: at
 //! most `2 n^2 eps` of the motion for `n` ticks, which is 1e-9 here; found are 1e-12. The bound is chosen between that and the error of

@@ -1,6 +1,6 @@
-//! Law: with ever stiffer contacts a scene becomes that of rigid bodies. Overlaps of lasting contacts are forces over `k`, and so
-//! is the error. A blow lasts `pi sqrt(m/k)`, and its error falls as `1/sqrt(k)`. Source: truth files C09 to C12 and H06, which
-//! know nothing of stiffness.
+//! Law: with ever stiffer contacts a scene becomes that of rigid bodies. Overlaps of lasting contacts are forces over
+//! `k`, and so is the error. A blow lasts `pi sqrt(m/k)`, and its error falls as `1/sqrt(k)`. Source: truth files C09
+//! to C12 and H06, which do not depend on stiffness.
 //!
 //! Tolerances: the power of `k` over three decades is right to 0.02. The next term of the error is a hundredth of the error or less, from
 //! the first decade on. Two stiffnesses that are ten times apart tell the rigid limit, to 1e-9 m where contacts last. A blow turns the

@@ -1,7 +1,7 @@
-//! Law: a disc (`I = m r^2/2`) that slides rolls off with two thirds of its speed; on a slope it rolls with
-//! `(2/3) g sin a` if `mu >= tan(a)/3`, else it slides with `g (sin a - mu cos a)`; a spool pulled by a string goes where
-//! the string's line of action tells it. A disc that rolls is not slowed by anything. Source: textbooks; Asmar et al. 2002,
-//! Ke and Bray 1995 for discs in particle codes; truth files F05, F06.
+//! Law: a disc (`I = m r^2/2`) that slides rolls off with two thirds of its speed. On a slope it rolls with `(2/3) g
+//! sin a` if `mu >= tan(a)/3`, else it slides with `g (sin a - mu cos a)`. The line of action of the string determines
+//! the direction of a pulled spool. No force decelerates a rolling disc. Source: textbooks; Asmar et al. 2002, Ke and
+//! Bray 1995 for discs in particle codes; truth files F05, F06.
 //!
 //! The floor is hard: the disc sinks in by a share of 1e-6 of its radius at most, by which arms are shorter. Until friction
 //! is full it is missing for `s/v`, `s = mu N/k_t`, and one tick: so much of `mu g` is missing (see `friction`), or, from

@@ -1,4 +1,4 @@
-//! What sensors tell of forces: accelerations by all forces of the present state, joints among them.
+//! Forces in sensors: accelerations by all forces of the current state, joints among them.
 //!
 //! Source: Newton's law; a rod of length `l` that is let go level about its end begins with `3 g/(2 l)` (Goldstein, section 5.7). Tolerance:
 //! rounding. Not tested: bodies that rest in contact.

@@ -1,5 +1,5 @@
-//! Law: leaving bodies at rest out of the work changes nothing, before and after they wake (numerics: a body whose forces
-//! balance and do not change stays where it is). A run in which each evaluation looks at them ends in the same bits.
+//! Law: to leave bodies at rest out of the work changes nothing, before and after they wake (numerics: a body whose
+//! forces balance and do not change stays at rest). A run whose evaluations include them ends in the same bits.
 //!
 //! Tolerances: none for the motion. The force on the floor is summed in another order while bodies are asleep: sums of `n` terms of
 //! one sign in two orders differ by at most `2 (n - 1) u` of themselves, `u = 2^-53`; those along the floor, of both signs, by as

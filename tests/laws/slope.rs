@@ -1,6 +1,6 @@
-//! Law: a block on a slope stays if `tan a <= mu`, with `mu` the mean of both coefficients, else it slides with
-//! `g (sin a - mu cos a)`; thrown uphill it comes back slower. On the flat it stops after `v^2/(2 mu g)` and stays. Source:
-//! Coulomb 1785, any textbook; truth files F01, F02.
+//! Law: a block on a slope stays if `tan a <= mu`, with `mu` the mean of both coefficients. Otherwise it slides with `g
+//! (sin a - mu cos a)`, and thrown uphill it comes back slower. On the flat it stops after `v^2/(2 mu g)` and stays.
+//! Source: Coulomb 1785, any textbook; truth files F01, F02.
 //!
 //! The block is a row of four discs and stands as deep as the slope component of its weight presses it. Tolerances: on the
 //! slope it is displaced by at most the elastic `mu N/k_t`, and then nothing moves, to the last bit. Slipping forces are

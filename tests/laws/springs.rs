@@ -1,6 +1,6 @@
-//! Law: a body held by springs responds with the frequencies of `K phi = w^2 M phi`, lever arms included, and a method that is
-//! stable up to `w dt = 2` bears a tick of `2/w_max`. Source: Hairer, Lubich, Wanner 2006, I.5; truth file O05, a 3 x 3
-//! eigenvalue to 40 digits.
+//! Law: a body held by springs responds with the frequencies of `K phi = w^2 M phi`, lever arms included. A method that
+//! is stable up to `w dt = 2` allows a tick of `2/w_max`. Source: Hairer, Lubich, Wanner 2006, I.5; truth file O05, a 3
+//! x 3 eigenvalue to 40 digits.
 //!
 //! The springs hold a body of 2 kg and 0.05 kg m2 off its centre, by 10 m of length each, without force at the start, so that
 //! they are linear to a share of displacement over length, 1e-8 here.

@@ -1,7 +1,7 @@
-//! Law: what stands stands, and only where the contact laws hold it. At rest the normal force is whatever balances the
-//! load, but within `[1 - mu_e, 1 + mu_e] k d`, and the tangential force within the cone of the static coefficient
-//! (Coulomb 1785; set-valued force laws: Moreau 1988). Beyond, a contact slips with the dynamic coefficient, and the
-//! body has the acceleration that Newton's second law gives it. Energy lost to friction is never given back.
+//! Law: a standing body stays, and only if the contact laws hold it. At rest the normal force balances the load, within
+//! `[1 - mu_e, 1 + mu_e] k d`. The tangential force is within the cone of the static coefficient (Coulomb 1785;
+//! set-valued force laws: Moreau 1988). Beyond, a contact slips with the dynamic coefficient, and the body has the
+//! acceleration that Newton's second law gives it. Energy lost to friction is never given back.
 //!
 //! A disc so heavy to turn that it hardly rolls stands on a slope: gravity is tilted, not the floor. (Friction turns it
 //! by some 1e-10 rad/s2 all the same: nothing balances that, so it is not at rest.)

@@ -1,6 +1,6 @@
-//! Law: a contact that sticks is a spring along the true path of the two bodies on each other (Mindlin 1949 to first
-//! order; Cundall and Strack 1979), followed to second order in the tick; what it holds when the bodies part is lost to
-//! friction, and the ledger has it.
+//! Law: a sticking contact is a spring along the relative path of the two bodies (Mindlin 1949 to first order; Cundall
+//! and Strack 1979), followed to second order in the tick. Its energy at the parting of the bodies is lost to friction,
+//! and the ledger has it.
 //!
 //! A disc meets off centre another one, or one end of a bar, so rough that they never slip. Tolerances: during the contact all forces are continuous,
 //! so that errors fall with order 2, less the slack of 0.25 of all fits (see `convergence`); the reference is a run with

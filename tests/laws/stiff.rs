@@ -1,4 +1,4 @@
-//! Law: a tick far above the time of a contact gives numbers without meaning, and the card says so, however stiff the floor.
+//! Law: a tick far above the time of a contact gives meaningless numbers. The card says so, however stiff the floor is.
 //!
 //! Not tested: what shorter ticks give (see `hard`).
 

@@ -1,4 +1,4 @@
-//! What several laws need: loading, phases, fits.
+//! Common tools of laws: loading, phases, fits.
 
 use std::fmt::Write;
 

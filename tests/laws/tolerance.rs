@@ -1,12 +1,12 @@
-//! `tolerance`: the error that a scene is allowed is the error that it has, on all problems whose answer is known.
+//! `tolerance`: the error of a scene keeps to the allowed one, on all problems with known answers.
 //!
 //! The allowed error is a share of how far bodies go and how fast they are; the norms of the problems are such shares too,
 //! of sizes of their own, so that three times the tolerance is asked of them (the sizes differ by less). What remains below
 //! the rounding of a problem cannot be asked; the run then has to say so.
 //!
-//! Cost is counted in evaluations of all forces. The run that is chosen is compared with the cheapest of the runs with equal
-//! ticks, of four methods and of numbers of ticks that double up to four thousand: those that the tolerance allows. Moments at
-//! which the run is looked at are left out, and so are trials, which come on top; the card says how many.
+//! Cost is counted in evaluations of all forces. The chosen run is compared with the cheapest allowed run with equal
+//! ticks, of four methods and of numbers of ticks that double up to four thousand. Readings of the run are left out,
+//! and so are trials, which come on top; the card gives their number.
 
 use jostle::problems::{ALL, EventTiming, Problem, Setting, rotating_ring, settling_bounce};
 use jostle::scene::Source;

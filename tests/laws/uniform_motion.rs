@@ -1,5 +1,4 @@
-//! Law: a body on which nothing acts moves and turns at a constant rate (Newton's first law), after a million ticks as
-//! after one.
+//! Law: a free body moves and turns at a constant rate (Newton's first law), after a million ticks as after one.
 //!
 //! Tolerance: the way and the turn of a tick are products, rounded once and the same in every tick: half a unit of the
 //! last place of the whole. Compensated summation (Kahan 1965) adds two units at most, whatever the number of ticks; the

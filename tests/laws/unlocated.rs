@@ -1,6 +1,6 @@
-//! Law: where a force has a kink or jumps inside a tick and that is not located, no method keeps its order: a kink leaves order 2, a
-//! jump order 1, whatever the method costs (Hairer, Norsett, Wanner 1993, II.6). Errors are root mean squares over 24 phases of the
-//! places of the problems, as in `convergence`.
+//! Law: if a kink or jump of a force inside a tick is not located, no method keeps its order. A kink leaves order 2,
+//! and a jump order 1, whatever the method costs (Hairer, Norsett, Wanner 1993, II.6). Errors are root mean squares
+//! over 24 phases of the places of the problems, as in `convergence`.
 //!
 //! Orders measured, of VelocityVerlet, RungeKutta4, Dop853:
 //!
@@ -16,8 +16,8 @@
 //! Tolerances: 0.25 below for the scatter over phases, as there; half an order above, for a method that does better than its
 //! forces allow locates after all. Velocity Verlet that goes from tick to tick refuses friction that sticks without any give.
 //!
-//! And with `tangential: None` nothing acts along the surface, whatever friction the materials have and however events are met: the
-//! velocity along a floor and the spin stay what they were, to the last bit.
+//! With `tangential: None` no force acts along the surface, for all frictions of materials and treatments of events.
+//! The velocity along a floor and the spin are constant to the last bit.
 //!
 //! Not tested: a single phase (errors scatter by a factor of a hundred).
 

@@ -1,5 +1,5 @@
-//! Law: looking for events changes nothing where there are none, and what may happen within a tick is looked for however far
-//! bodies fly in it.
+//! Law: the search for events changes nothing if there are none. Events within a tick are found however far bodies fly
+//! in it.
 //!
 //! Tolerances: none; the same operations give the same bits.
 //!

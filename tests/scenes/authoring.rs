@@ -1,4 +1,4 @@
-//! Scenes that are made by `params`, `templates`, `instances` and `Repeat` are the scenes they stand for.
+//! Scenes made by `params`, `templates`, `instances` and `Repeat` equal their written-out forms.
 //!
 //! Each is compared with a scene written out by hand: same names in the same order, and after the run the same bits.
 //! Tolerance: none; the numbers by hand are those that the expressions round to. Not tested here: messages, which stand

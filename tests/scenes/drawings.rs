@@ -1,4 +1,4 @@
-//! Outlines from SVG files: what they become, and what is said to files that cannot be one.
+//! Outlines from SVG files: the resulting shapes, and the messages for unusable files.
 //!
 //! Tolerance: said where it is used. Not tested here: paths, transforms and chords, which the unit tests of `src/engine/shapes/svg` do.
 

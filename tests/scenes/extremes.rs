@@ -1,5 +1,5 @@
-//! Scenes at the edges of what numbers can be, as the fuzzer found them: each run goes on with finite numbers, or ends
-//! with a failure that names a body. It never panics, and never goes on in silence.
+//! Scenes at the edges of the range of numbers, as the fuzzer found them. Each run continues with finite numbers, or
+//! ends with a failure that names a body. It never panics, and never fails in silence.
 //!
 //! Not tested: whether what such scenes compute is of any use.
 

@@ -1,4 +1,4 @@
-//! `fill` with shapes: what stands in a region.
+//! `fill` with shapes: the bodies in a region.
 //!
 //! Tolerance: rounding. Not tested here: chance and regions, which the unit tests of `src/engine/world/sections/fill.rs` do.
 

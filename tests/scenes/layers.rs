@@ -1,4 +1,4 @@
-//! Layers of films show what is there and change nothing.
+//! Layers of films show the state and change nothing.
 
 use jostle::Simulation;
 use jostle::record::MarkShape;

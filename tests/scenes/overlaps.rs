@@ -1,4 +1,5 @@
-//! What overlaps at the start is noted, once, by `check` as by `run`: how many pairs, which is the deepest, and what to do.
+//! Overlaps at the start are noted, once, by `check` and by `run`: the number of pairs, the deepest one, and the
+//! remedy.
 //!
 //! Tolerance: none; the numbers of the notes are short ones. The number of pairs of strewn discs is that of a comparison of each
 //! with each. Not tested: how long it takes.

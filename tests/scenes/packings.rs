@@ -1,4 +1,4 @@
-//! Bodies from tables beside the scene: what they become, and what is said to tables that cannot be read.
+//! Bodies from tables beside the scene: the resulting bodies, and the messages for unreadable tables.
 //!
 //! Tolerance: none; all numbers are exact. Not tested here: the columns one by one, which the unit tests of
 //! `src/engine/world/sections/packing` do, and what the scenes of `scenes/benchmarks` do: they are only read.

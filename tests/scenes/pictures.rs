@@ -1,4 +1,4 @@
-//! One picture of each theme, pixel by pixel: whoever changes how films look sees it here.
+//! One picture of each theme, pixel by pixel. A change of the look of films shows here.
 //!
 //! Tolerance: none, as the same picture has the same bytes everywhere. Not tested: whether it is beautiful; look at
 //! `tests/pictures`. That shapes are drawn where they are is tested in `src/film/raster`.

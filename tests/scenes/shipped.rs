@@ -1,4 +1,4 @@
-//! Every scene in `scenes/` loads, runs, stays finite and holds what it expects.
+//! Every scene in `scenes/` loads, runs, stays finite and meets its expectations.
 
 use jostle::SimulationExt;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Silhouettes from PNG pictures: what they become, and what is said to pictures that cannot be one.
+//! Silhouettes from PNG pictures: the resulting discs, and the messages for unusable pictures.
 //!
 //! Tolerance: said where it is used. Not tested here: how well discs cover, which the unit tests of
 //! `src/engine/shapes/silhouette` do.

@@ -1,8 +1,8 @@
-//! Every wrong scene in `tests/wrong_scenes` is refused with exactly the message that stands beside it.
+//! Every wrong scene in `tests/wrong_scenes` is refused with exactly the message in the file beside it.
 //!
-//! Each file holds one mistake (some hold several, to show how they are told together) and is named by it. `NAME.txt` is
-//! what `jostle check` prints for `NAME.ron`. Tolerance: none. Not tested: files that cannot be read as text, which the
-//! tests of the command line do, and mistakes in sections of plugins, which `src/engine/scene/tests` does.
+//! Each file holds one mistake (some hold several, to show their common message) and is named by it. `NAME.txt` is what
+//! `jostle check` prints for `NAME.ron`. Tolerance: none. Not tested: files that cannot be read as text, which the
+//! tests of the command line cover. Mistakes in sections of plugins are covered by `src/engine/scene/tests`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
-//! Ten mistakes that one makes on the first day, each in `scenes/marble_mills.ron`, and what is said to them.
+//! Ten mistakes of a first day, each in `scenes/marble_mills.ron`, and their messages.
 //!
-//! `wrong_mills/NAME.txt` is what `jostle check` prints. Tolerance: none. To write the messages down anew:
+//! `wrong_mills/NAME.txt` is what `jostle check` prints. Tolerance: none. To write the messages again:
 //! `JOSTLE_REWRITE_MESSAGES=1 cargo test --test main wrong_mills`; then read them as a newcomer would.
 
 use std::path::Path;

@@ -1,6 +1,6 @@
-//! Laws: an impulse is force times time; a torque is arm times force; bodies attract each other by `G m1 m2/r^2` with
-//! equal and opposite forces; drag acts on those it is told to; who does not collide neither touches nor is touched.
-//! Source: Newton; the force files state each law.
+//! Laws: an impulse is force times time, and a torque is arm times force. Bodies attract each other by `G m1 m2/r^2`
+//! with equal and opposite forces. Drag acts on its given bodies. A body that does not collide touches no body. Source:
+//! Newton; the force files state each law.
 //!
 //! Tolerances: forces are constant over the intervals compared, so both methods are exact: `ticks` roundings. Forces that
 //! turn with a body are sampled at ticks: the trapezoidal rule errs by `(omega dt)^2/12`.
