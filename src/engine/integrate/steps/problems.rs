@@ -135,8 +135,8 @@ pub(super) const HARDENING: Motion = Motion {
     energy: |state| 0.5 * (state[1] * state[1] - state[0] * state[0]) + 0.25 * state[2] * state[2],
 };
 
-/// A combination of damping, a force in time, and a state that lags, `z' = v - z`, and pulls. The equation is `q'' = -q
-/// - v/2 - z + f(t)` with `f` such that `q = sin t`. So `z = (cos t + sin t)/2 - e^-t/2`.
+/// A combination of damping, a force in time, and a state that lags, `z' = v - z`, and pulls. The equation is
+/// `q'' = -q - v/2 - z + f(t)` with `f` such that `q = sin t`. So `z = (cos t + sin t)/2 - e^-t/2`.
 pub(super) const LAGGING: Motion = Motion {
     name: "damped and lagging",
     coordinates: 1,
