@@ -124,7 +124,7 @@ impl Render {
         }
     }
 
-    /// What speaks against a target, seen from the other flags.
+    /// The objection of the other flags to a target.
     fn objection(&self, target: &Target) -> Option<String> {
         let path = target.path();
         if self.json && target.is_standard_output() {
@@ -183,7 +183,7 @@ impl Render {
     }
 }
 
-/// Says what was written.
+/// Reports the written film.
 fn report(written: &Written, cut: bool) {
     let Written { path, frames: count, bytes, seconds, left_over } = written;
     let size = flags::bytes_in_words(*bytes as f64);

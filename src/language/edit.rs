@@ -19,7 +19,7 @@ impl Source {
     /// bracket. `value` is a number, a bracket, a word such as `VelocityVerlet`, or a text, which gets its quotes.
     ///
     /// # Errors
-    /// The message says what is wrong with the path, and how far the path leads.
+    /// The message names the mistake in the path, and how far the path leads.
     pub fn with_value(&self, path: &str, value: &str) -> Result<Self, String> {
         let found = scan(&self.text);
         if let Some(fault) = found.fault {

@@ -1,8 +1,8 @@
 //! The scene language: from text to values, with the place of every mistake. It depends on no ECS and no model.
 //!
-//! A scene is one RON file. Each top-level section belongs to the type that is registered for its name ([`Registry`]),
-//! and so does each entry of a list such as `forces`. This crate itself reads only `format`, `title` and `notes`.
-//! Reading takes five steps, and the last one builds the scene if all others passed:
+//! A scene is one RON file. Each top-level section belongs to the type that is registered for its name ([`Registry`]).
+//! So does each entry of a list such as `forces`. This crate itself reads only `format`, `title` and `notes`. Reading
+//! takes five steps, and the last one builds the scene if all others passed:
 //!
 //! 1. *walk* the text: brackets, commas, duplicate fields, and numbers that are NaN or infinite;
 //! 2. *read* every section with the type registered for it;

@@ -47,7 +47,7 @@ pub(super) struct Known {
 
 impl Known {
     /// A quarter of the tick, or less if that is still too long. The limits are a tenth of the critical tick, a
-    /// twentieth of the briefest contact, and half a radius of travel. Rounded down to few digits.
+    /// twentieth of the briefest contact, and half a radius of way. Rounded down to few digits.
     ///
     /// Above the critical tick nothing else counts: what flies about then is what came of that.
     pub fn advised_tick(&self) -> f64 {

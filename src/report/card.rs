@@ -64,8 +64,8 @@ pub struct Card {
     pub method: String,
     /// Length of a tick in seconds.
     pub tick: f64,
-    /// Largest stable tick in seconds. It is the smallest measured on contacts of the run, or the possible one of a
-    /// single contact if no bodies touched. `null` without contacts.
+    /// Largest stable tick in seconds. It is the smallest measured on contacts of the run. If no bodies touched, it is
+    /// the possible one of a single contact. `null` without contacts.
     pub critical_tick: Option<f64>,
     /// Events that were located inside ticks.
     pub events_located: u64,

@@ -225,8 +225,8 @@ impl Hull {
     }
 
     /// Half of the least width of the hull in metres; for a disc or a capsule its radius. For a part of a concave
-    /// polygon it is half the thickness of the polygon behind the sides of the part. If the part has no side of the
-    /// outline, all sides count.
+    /// polygon it is half the polygon's thickness behind the sides of the part. If the part has no side of the outline,
+    /// all sides count.
     pub fn half_width(&self) -> f64 {
         let least = |widths: &mut dyn Iterator<Item = f64>| widths.fold(f64::INFINITY, f64::min);
         let all = 0..self.outline.len();

@@ -1,7 +1,7 @@
 //! The outline of a simple polygon: its points are checked, put counter-clockwise, and moved inwards.
 //!
 //! If the outline moves inwards by r, each side stays parallel. The corner between the normals m and n moves to c - r
-//! (m + n) / (1 + m . n), the mitre. The disc that rolls inside loses area at a convex corner: r^2 (tan(b/2) - b/2) for
+//! (m + n) / (1 + m . n), the mitre. At a convex corner the disc that rolls inside loses area: r^2 (tan(b/2) - b/2) for
 //! a turn b. All signs are exact. Lengths are in metres.
 
 use glam::DVec2;

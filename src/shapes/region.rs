@@ -1,4 +1,4 @@
-//! Voronoi regions: the points to which a corner or side of a hull is nearest, and the features beyond their borders.
+//! Voronoi regions: the points nearest to a corner or side of a hull, and the features beyond their borders.
 //!
 //! Outside the core the region of a side is a strip. The region of a corner is a wedge between the normals of its
 //! sides. Each has two borders: the first is passed clockwise round the hull, the second counter-clockwise.

@@ -71,8 +71,7 @@ impl PairedQuads<'_> {
         unsafe { [V::quads(self.quads, &first[lane..]), V::quads(self.quads, &second[lane..])] }
     }
 
-    /// Writes what was [loaded](PairedQuads::load): the first sides, then the second ones. If an index occurs several
-    /// times, the last write remains.
+    /// The inverse of [loading](PairedQuads::load): writes the first sides, then the second ones.
     #[inline(always)]
     pub fn store<V: Lanes>(&mut self, block: usize, lane: usize, [a, b]: [[V; QUAD]; 2]) {
         let [first, second] = &self.blocks[block];

@@ -153,8 +153,8 @@ impl Projection {
         rows.iter().position(|row| (row.rate - row.velocity(bodies)).abs() > CONTRADICTS * fastest)
     }
 
-    /// The velocity along a row, in m/s for each N s, under one unit of impulse while `others` keep theirs. Zero means
-    /// that the others leave the row no free motion.
+    /// The velocity along a row, in m/s for each N s, under one unit of impulse. The `others` keep their velocities.
+    /// Zero means that the others leave the row no free motion.
     pub fn compliance(&mut self, row: &Row, others: &[Row], solver: &mut Solver, bodies: &Bodies) -> f64 {
         self.values.clear();
         self.values.extend(others.iter().map(|other| other.response(row, bodies)));

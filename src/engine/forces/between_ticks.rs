@@ -1,4 +1,4 @@
-//! The effect of forces that begin, end or bend between two ticks of a run from tick to tick, for the card.
+//! The effect of forces that begin, end or bend between the ticks of a run from tick to tick, for the card.
 
 use crate::scene::Outline;
 use crate::tick::{Clock, State, Style};

@@ -1,9 +1,8 @@
 //! Whole ticks: a tick without watched events is one step.
 //!
-//! A tick is quiet if no pair of bodies is near, no thrust begins or ends, and no other event is watched. In a quiet
-//! tick the form that goes from tick to tick makes the same step, but saves the checks. If bodies come near in such a
-//! tick, the renewal of the candidate lists shows it. Then the tick is undone, and made again as a step that may end at
-//! an event.
+//! A tick is quiet if no pair of bodies is near, no thrust changes, and no other event is watched. In a quiet tick the
+//! form that goes from tick to tick makes the same step, but saves the checks. If bodies come near in such a tick, the
+//! renewal of the candidate lists shows it. Then the tick is undone, and made again as a step that may end at an event.
 
 use crate::tick::Integrator;
 use crate::tick::{Indicator, Tick, Undo};

@@ -1,4 +1,4 @@
-//! Bounded holding of a rate by a torque (Coulomb: stick and slip): friction in a joint, and motors with a greatest
+//! Bounded holding of a rate by a torque (Coulomb: stick and slip), for joint friction and motors with a greatest
 //! torque. While the torque suffices, a row holds the rate exactly. Otherwise the torque is the greatest one.
 
 use serde::{Deserialize, Serialize};

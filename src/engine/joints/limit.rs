@@ -1,6 +1,5 @@
-//! The limits of a joint: its free motion stays between two values. A joint that reaches a limit stops at once, or
-//! rebounds with a share of its speed (Newton's law of impact). At the limit a row holds it until the row would have to
-//! pull.
+//! The limits of a joint: its free motion stays between two values. A joint that reaches a limit stops, or rebounds
+//! with a share of its speed (Newton's law of impact). At the limit a row holds it until the row would have to pull.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};

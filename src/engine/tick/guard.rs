@@ -1,12 +1,12 @@
 //! The guard against created energy.
 //!
-//! What a run creates is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. The input
-//! consists of the kinetic and elastic energy at the beginning, the energy released by fields since, and all positive
-//! work of drives. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`. That is
-//! fifty times at 0.99 of it. So the limit must be far above any factor that a stable run reaches. A run is stopped if
-//! it has created [`BEYOND`] times the input and its tick is above the critical one. At [`ENORMOUS`] times the input it
-//! is stopped for any tick. Rounding of large energies counts as input, and so does motion by a billionth of a size in
-//! a tick.
+//! The created energy is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. The input
+//! has three parts: kinetic and elastic energy at the beginning, energy released by fields since, and all positive work
+//! of drives. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`. That is fifty
+//! times at 0.99 of it. So the limit must be far above any factor that a stable run reaches. A run is stopped if it has
+//! created [`BEYOND`] times the input and its tick is above the critical one. At [`ENORMOUS`] times the input it is
+//! stopped for any tick. Rounding of large energies counts as input, and so does motion by a billionth of a size in a
+//! tick.
 //!
 //! It checks every [`EVERY`] ticks. It also checks when a body travels farther in a tick than the smallest radius. When
 //! that way has doubled, it checks again. After contacts were seen to respond nearly as fast as a method allows, it

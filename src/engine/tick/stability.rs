@@ -48,8 +48,7 @@ pub struct Foreseen {
 }
 
 impl Stability {
-    /// The stiffness that damping adds for the method is this number, times the damping in N s/m, times the limit over
-    /// the tick in 1/s.
+    /// The stiffness that damping adds for the method, over the damping in N s/m and the limit over the tick in 1/s.
     pub fn weight_of_damping(&self) -> f64 {
         self.limit / self.damping_limit
     }

@@ -1,4 +1,4 @@
-//! A quantity that has one of two dimensions, such as a torque about a hinge or a force on a line.
+//! A quantity with one of two dimensions, such as a torque about a hinge or a force on a line.
 
 use std::borrow::Cow;
 use std::fmt;

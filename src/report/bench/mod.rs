@@ -1,4 +1,4 @@
-//! Benchmark of a scene: its ticks are timed in rounds, beside a plain loop that does the same work without an engine.
+//! Benchmark of a scene: its ticks are timed in rounds. A plain loop does the same work without an engine.
 //!
 //! Both begin at the same state, and the springs of the plain loop are slack. They run by turns, round by round, so
 //! that a slow phase of the computer affects both. The first round is not timed. A separate run measures the parts of a
@@ -28,7 +28,7 @@ const WORK: u64 = 2_000_000;
 /// The same for quick measurements.
 const QUICK_WORK: u64 = 100_000;
 /// The least ticks of a round, unless it is quick. A round begins and ends with the state in components. To read it and
-/// to write it back takes as long as some five ticks of a million discs that hardly touch.
+/// to write it back takes as long as some five ticks of a million sparse discs.
 const LEAST: u64 = 50;
 
 /// The order of a measurement.

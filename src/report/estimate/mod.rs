@@ -3,7 +3,8 @@
 //! *Solving Ordinary Differential Equations I*, 1993, II.4. If that is expensive, only the beginning is repeated, and
 //! the rest has no estimate.
 //!
-//! Rounding is estimated by runs with disturbed last bits, and the error of soft contacts by a run with stiffer ones.
+//! Rounding is estimated by runs with disturbed last bits. The error of soft contacts is estimated by a run with
+//! stiffer ones.
 
 pub mod check;
 mod growth;
@@ -297,7 +298,7 @@ fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &m
     ));
 }
 
-/// The order with which the error falls, from a half and a quarter of the tick; `None` if it does not fall.
+/// The order with which the error falls, from a half and a quarter of the tick. `None` if it does not fall.
 fn observed_order(
     simulation: &Simulation,
     run: &Trajectory,

@@ -3,7 +3,7 @@
 //! Two runs differ by the error of the coarser one, unless their errors are equal. If motion is smooth, one twin with
 //! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may
 //! meet the jumps at the same phase by chance. So two twins are made, and the larger difference counts. A twin with
-//! half the tick meets every second jump at the end of the same tick as the first run. So ticks of twins end elsewhere,
+//! half the tick meets every second jump at the same end of tick as the first run. So ticks of twins end elsewhere,
 //! except for one in ten of the first run.
 
 use std::time::{Duration, Instant};

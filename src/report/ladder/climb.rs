@@ -1,5 +1,5 @@
-//! The climb of the ladder: every course has ticks from coarse to fine, and the cheapest tick of all courses is next.
-//! It ends when errors reach the floor of the reference, or time is up.
+//! The climb of the ladder: every course has ticks from coarse to fine. The cheapest tick of all courses is next. It
+//! ends when errors reach the floor of the reference, or time is up.
 
 use super::{Budget, Course, Outcome, Setting, USELESS};
 use jostle_language::numbers::number;

@@ -4,7 +4,7 @@ use super::{Cost, Course, Outcome, Setting, Settings};
 use jostle_engine::record::plot::{Axis, Content, Curve, Plot, Sample};
 use jostle_film::raster::{Diagram, Look, Sign, Spot};
 
-/// The greatest distance of the axis' beginning from the smallest error, so that a floor far below does not push curves
+/// The greatest distance of the axis' beginning from the smallest error. So a floor far below does not push curves
 /// aside.
 const MARGIN: f64 = 1e-2;
 

@@ -1,8 +1,8 @@
 //! Statistics beyond the time until which positions are known. They are means over the rest of the run and over all
 //! bodies, which chaos does not change.
 //!
-//! The differences of reference runs there are the scatter of one run. A setting within it is as good as they are, as
-//! far as a single run can show (ensembles show more: `jostle sweep`).
+//! The differences of reference runs there are the scatter of one run. A setting within it is as good as they are. A
+//! single run cannot show more (ensembles do: `jostle sweep`).
 
 use glam::DVec2;
 

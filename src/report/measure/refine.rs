@@ -7,7 +7,7 @@ use jostle_engine::scene::SceneErrors;
 
 /// The tries between two ticks for each error.
 const TIMES: usize = 2;
-/// Errors between two ticks are only known to this factor, so the tried tick aims at a smaller error by this factor.
+/// Errors between two ticks are only known to this factor. So the tried tick aims at a smaller error by this factor.
 const AIM: f64 = 0.7;
 /// Ticks that are not longer by this factor are not worth a run.
 const LONGER: f64 = 1.1;

@@ -1,4 +1,4 @@
-//! A scene on the ladder: its properties before any run, its ticks, and the comparison of a run with the reference.
+//! A scene on the ladder: its properties before any run, its ticks, and the comparison with the reference.
 
 use crate::SimulationExt;
 use std::f64::consts::PI;

@@ -2,8 +2,8 @@
 //! distance of the corner from the centre along the floor. The impulse of a hard impact is `(1 + e) v` times that mass. SI units, no
 //! gravity.
 //!
-//! With a contact of stiffness `k` the box turns during the contact, and the error of the ideal falls as `1/sqrt(k)`.
-//! The force jumps at the deepest overlap.
+//! With a contact of stiffness `k` the box turns during the contact. The error of the ideal falls as `1/sqrt(k)`. The
+//! force jumps at the deepest overlap.
 
 use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
 use jostle_engine::Simulation;

@@ -1,7 +1,7 @@
 //! A sled on a spring with dry friction (Coulomb 1785). Its half swings have centres on alternating sides. Each is
 //! shorter by the same length, until one ends where friction can hold it. SI units.
 //!
-//! Let `w = sqrt(k/m)` and `a = mu m g/k`. A half swing has its centre at `+a` or `-a`, on its starting side, and turns
+//! Let `w = sqrt(k/m)` and `a = mu m g/k`. A half swing has its centre at `+a` or `-a`, on its starting side. It turns
 //! `2 a` nearer to the middle. The first turn within `a` is the last, after a finite time. Friction jumps at each turn,
 //! so a method that does not locate it has order 1. The sled sticks without compliance, so events are always located.
 //! Its inertia keeps it from turning.

@@ -1,6 +1,6 @@
 //! A ladder slides down between a wall and a floor without friction. It leaves the wall at `sin a = (2/3) sin a0`. SI units.
 //!
-//! The ladder is a capsule. Forces on its round ends go through their centres, so it moves as a thin rod at the
+//! The ladder is a capsule. Forces on its round ends go through their centres. So it moves as a thin rod at the
 //! distance of its radius. It starts at rest with those overlaps that carry the forces of a rigid ladder. Its contacts
 //! then hardly swing.
 //!

@@ -1,5 +1,5 @@
-//! Four balls are aimed at one target, on the low and on the high arc, without drag and with linear drag. The
-//! velocities of the aim agree with the firing angles to 22 digits (external ballistics, any textbook). SI units.
+//! Four balls are aimed at one target, on the low and the high arc, without drag and with linear drag. The velocities
+//! of the aim agree with the firing angles to 22 digits (external ballistics, any textbook). SI units.
 //!
 //! The whole way is compared with the closed form for the angle of the truth file. It ends at the target.
 

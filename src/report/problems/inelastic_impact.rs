@@ -1,5 +1,5 @@
-//! A disc meets a wall that dissipates: `N = k d (1 + mu)` while it approaches, `N = k d (1 - mu)` while it parts (the
-//! idea of Walton and Braun 1986). SI units, no gravity.
+//! A disc meets a dissipative wall (the idea of Walton and Braun 1986). While it approaches `N = k d (1 + mu)`, and
+//! while it parts `N = k d (1 - mu)`. SI units, no gravity.
 //!
 //! Loading is a quarter period of `w1 = sqrt(k (1 + mu)/m)`, and unloading one of `w2 = sqrt(k (1 - mu)/m)`. The
 //! deepest overlap is `v/w1`. The disc leaves with `e v`, `e = sqrt((1 - mu)/(1 + mu))`. The force jumps at its turn,

@@ -1,4 +1,4 @@
-//! A rod slides on its leading tip. It is so steep and rough that friction presses the tip into the floor: no
+//! A rod slides on its leading tip. It is so steep and rough that friction presses the tip into the floor. No
 //! acceleration fits a rigid rod (Painleve 1895). With a compliant contact the force grows as `exp(sqrt(-A k) t)` until
 //! the tip stops. Here `A = (1 + 3 cos^2 a - 3 mu sin a cos a)/m` is below zero (Champneys and Varkonyi 2016). SI
 //! units.

@@ -1,4 +1,4 @@
-//! A straight rope of ten uniform links of 10 g, released at 30 degrees with a load of 100 kg at its end. It is a
+//! A straight rope of ten uniform links of 10 g is released at 30 degrees. Its load at the end is 100 kg. It is a
 //! pendulum whose light links vibrate under tension with up to 2340 rad/s. The reference solves Lagrange's equations,
 //! and independently the equations of bodies with multipliers. SI units.
 

@@ -1,4 +1,4 @@
-//! The report of speed against error: problems with known answers, run by each method at a ladder of ticks, and hard
+//! The report of speed against error. Each method runs problems with known answers at a ladder of ticks, and hard
 //! cases.
 //!
 //! Errors and times come from separate runs. Errors come first, on all cores. Then come times, one after the other

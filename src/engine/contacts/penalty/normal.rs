@@ -98,7 +98,7 @@ pub trait NormalForce: Send + Sync + 'static {
     /// newtons.
     fn loss<V: Lanes>(law: &PairLaw<V>, sign: V, before: (V, V), after: (V, V)) -> V;
 
-    /// The greatest stiffness in N/m and the damping in N s/m of a contact with this mobility in 1/kg.
+    /// The greatest stiffness in N/m and the damping in N s/m, for a mobility of the contact in 1/kg.
     fn response(law: &PairLaw, mobility: f64) -> (f64, f64);
 
     /// Whether the law takes energy from a pair. Pairs without losses never come to rest, and keep the motion of their

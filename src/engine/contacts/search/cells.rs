@@ -1,5 +1,5 @@
 //! Linked cells (Hockney and Eastwood 1981): atoms are sorted into squares as wide as the reach of most of them. Each
-//! is compared with those of the nine squares around it, in one pass over lists that lie row by row.
+//! is compared with those of the nine squares around it, in one pass over lists in row order.
 //!
 //! Atoms much larger than most are kept beside the cells, and each is compared with all cells that it covers. So one
 //! large disc under a thousand grains does not make all cells as large as itself. It costs no more than the cells under

@@ -25,8 +25,8 @@ use crate::world::{Bodies, PackedHull};
 /// A probe that passes through a hull reaches this share of half its width.
 const THROUGH: f64 = 0.5;
 
-/// The greatest depth of a probe at which the nearest side is its side of entry, as a share of half the hull's width.
-/// It is also the greatest depth of a centre behind a line, as a share of half its owner's width.
+/// The greatest depth of a probe at which the nearest side is its entry, as a share of half the hull's width. It is
+/// also the greatest depth of a centre behind a line, as a share of half its owner's width.
 const DEEPEST: f64 = 0.9;
 
 /// The positions at the beginning of the current step.
@@ -394,7 +394,7 @@ fn has_turned_over(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     owned && came.normal.dot(found.normal) < -LEAST_COSINE && way_in_core(packed, before, now).is_some()
 }
 
-/// The part of a straight way inside the core of a polygon, as shares of the way (Cyrus and Beck 1978).
+/// The part of a straight way in the core of a polygon, as shares of the way (Cyrus and Beck 1978).
 fn way_in_core(packed: &PackedHull, before: DVec2, now: DVec2) -> Option<(f64, f64)> {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for (side, corner) in packed.hull.sides().iter().zip(packed.hull.corners()) {

@@ -8,8 +8,8 @@ use crate::world::line::{BEHIND, PackedLine};
 use crate::world::{Bodies, Name};
 use jostle_language::numbers::number;
 
-/// Reports the first body with a corner too deep behind a line, if its centre of mass lies before the line. The depth
-/// is below half the corner's width.
+/// Reports the first body with a corner too deep behind a line and its centre of mass before the line. The depth is
+/// below half the corner's width.
 pub(super) fn refuse_sunk(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let Some((body, wall, depth)) = bodies.lines.iter().find_map(|line| sunk_in(bodies, line)) else { return };

@@ -10,8 +10,9 @@
 //! stiffly on itself: `h/2` times that rate has to be less than 1. Its coupling to velocities may be arbitrarily stiff.
 //!
 //! Newton's method to rounding, with differences for derivatives. It takes one evaluation first, then one per
-//! coordinate for the matrix, and one for each of 2 to 4 iterations. States of models at least double that. The matrix
-//! is made in each step, and again if an iteration gains less than a digit. A step of length 0 changes nothing.
+//! coordinate for the matrix, and one per iteration, of which there are 2 to 4. States of models at least double that.
+//! The matrix is made in each step, and again if an iteration gains less than a digit. A step of length 0 changes
+//! nothing.
 
 use super::elimination::Elimination;
 use super::fixed_point::FixedPoint;

@@ -1,5 +1,5 @@
-//! Order conditions of Runge-Kutta methods on rooted trees. A sum of rates is right to order `p` if it satisfies one
-//! condition for each tree of up to `p` nodes. Its weights times the stages' elementary weights of the tree must sum to
+//! Order conditions of Runge-Kutta methods on rooted trees. A sum of rates has order `p` if it satisfies one condition
+//! for each tree of up to `p` nodes. Its weights times the stages' elementary weights of the tree must sum to
 //! `1/density`. The source is Butcher 1963; Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section
 //! II.2.
 

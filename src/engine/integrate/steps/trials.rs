@@ -78,7 +78,7 @@ pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
 }
 
 /// Measured order of a method on a motion, from six step lengths. It is the slope of the error's logarithm over that of
-/// the length; the error is the root mean square over all steps. The first run takes `fineness` times the steps of a
+/// the length. The error is the root mean square over all steps. The first run takes `fineness` times the steps of a
 /// method of order 4. The `ratio` is the factor of steps from then on.
 fn measured_order(method: &mut dyn OneStep, motion: Motion, fineness: f64, ratio: f64) -> f64 {
     let points: Vec<_> = (0..6)

@@ -2,7 +2,7 @@
 //!
 //! Forces between two bodies, or a body and a wall, through neighbouring atoms in about one direction make one arrow.
 //! It is their resultant at the centre of pressure. The arrow begins there and points into the body that receives the
-//! force. Of two bodies it is the one that the contact bears up, and without gravity the later one in the scene. Forces
+//! force. Of two bodies it is the one that the contact supports, or without gravity the later one in the scene. Forces
 //! are those at the end of a tick, not means over a frame. In an impact of a few ticks they are large, and an impact
 //! between frames is invisible.
 

@@ -13,8 +13,8 @@ use fineness::Trials;
 /// A callback during trials, with the number of the current trial, counted from one, and its purpose.
 pub type Tell = fn(u32, &str);
 
-/// Finds the plan that reaches a goal. It begins with `first`: a plan, the order of its method, and the steps of a tick
-/// that suit the fastest response. `make` gives the scene at its beginning, ready to run by a plan.
+/// Finds the plan that reaches a goal. It begins with `first`: a plan, its method's order, and the steps of a tick that
+/// suit the fastest response. `make` gives the scene at its beginning, ready to run by a plan.
 ///
 /// # Errors
 /// Those of `make`.

@@ -19,7 +19,7 @@ const BETWEEN: f64 = 2.5;
 /// The ratio of the fineness of a trial with other steps to that of the finer one. Its steps are not parts of those of
 /// the others.
 const OTHER_STEPS: f64 = 1.0 / 1.37;
-/// An error that is foretold aims at this share of the tolerance.
+/// A predicted error aims at this share of the tolerance.
 const FORETOLD: f64 = 0.3;
 /// A prediction is confirmed if the result exceeds it by at most this factor, because errors of located events scatter.
 const SCATTER: f64 = 3.0;
@@ -106,7 +106,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     }
     let mut fineness = climb.first;
     let mut next = (fineness * climb.finer).max(climb.finest);
-    // Fineness and difference of the last pair of trials, and the error that it foretold.
+    // Fineness and difference of the last pair of trials, and the predicted error.
     let mut before: Option<(f64, f64, f64)> = None;
     loop {
         let fine = trials.run(next, "a finer run", |_| {})?;

@@ -1,7 +1,7 @@
 //! Linkages at dead points, at which two bars are in line. A motor drives a rocker into one, beyond which the loop
 //! cannot move. A parallelogram runs through one, at which it could continue as another linkage. SI units.
 //!
-//! The rocker of 0.3 m on a base of 0.4 m takes crank and coupler of 0.1 and 0.35 m as far as 0.45 m. The parallelogram
+//! The base of the rocker of 0.3 m is 0.4 m long. Crank and coupler of 0.1 and 0.35 m reach 0.45 m. The parallelogram
 //! continues in its form, because bodies keep their velocities. At a distance `s` from the dead point in rad, errors of
 //! velocities are rounding over `s^2`.
 

@@ -4,13 +4,13 @@
 //! `Z` is Henderson's equation of state of hard discs (Molecular Physics 30, 1975), `(1 + eta^2/8)/(1 - eta)^2` with
 //! `eta` the share of the area. Its distance from the virial series is allowed (Clisby and McCoy 2006; truth file M02).
 //!
-//! The box is hard, not periodic, so its known correction is applied (scaled particle theory: Reiss, Frisch, Lebowitz
-//! 1959, in two dimensions). Near a wall discs are denser than inside. `N` discs are in a box of area `A` and perimeter
-//! `P`, and `eta` is the share of area inside. Then `N = n A - P Gamma`, `Gamma = (2/(pi s)) eta (1 - eta)/(1 + eta)`,
-//! with `s` the diameter and `n = 4 eta/(pi s^2)`. `Gamma` is the derivative of the line tension `k T 2 eta/((1 - eta)
-//! pi s)` with respect to the chemical potential. The width of the box gives the wanted `eta`. That tension `gamma`
-//! pulls at the walls, too. To move one of width `L` outwards changes the grand potential by `-(p L - 2 gamma)`. So `p
-//! = (F + 2 gamma)/L` with `F` the mean force on it.
+//! The box is hard, not periodic, so its known correction is applied. It is scaled particle theory (Reiss, Frisch,
+//! Lebowitz 1959, in two dimensions). Near a wall discs are denser than inside. `N` discs are in a box of area `A` and
+//! perimeter `P`, and `eta` is the share of area inside. Then `N = n A - P Gamma`, `Gamma = (2/(pi s)) eta (1 -
+//! eta)/(1 + eta)`, with `s` the diameter and `n = 4 eta/(pi s^2)`. `Gamma` is the derivative of the line tension `k T
+//! 2 eta/((1 - eta) pi s)` with respect to the chemical potential. The width of the box gives the wanted `eta`. That
+//! tension `gamma` pulls at the walls, too. To move one of width `L` outwards changes the grand potential by `-(p L - 2
+//! gamma)`. So `p = (F + 2 gamma)/L` with `F` the mean force on it.
 //!
 //! The discs are soft, so everywhere their effective diameter is smaller by `sqrt(pi k T/(2 k))` (Barker and Henderson
 //! 1967). That is a hundredth here, for a wall with the stiffness of one disc. They are made larger by that amount, and

@@ -5,8 +5,8 @@
 //! to sleep, clamped or damped for a case beyond the general rules of the engine. A failure is a failed reading.
 //!
 //! Hard cases of joints that are tests and not numbers. They are a motor against a limit and a break in the midst of a
-//! step (`laws/joint_limits`), a table on four jointed legs (`laws/joints_at_rest`), and a loop that cannot close
-//! (`wrong_scenes/joints`).
+//! step (`laws/joint_limits`). Others are a table on four jointed legs (`laws/joints_at_rest`) and a loop that cannot
+//! close (`wrong_scenes/joints`).
 
 pub mod column;
 pub mod cut_chain;

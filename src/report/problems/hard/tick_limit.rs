@@ -2,8 +2,8 @@
 //! to the number of ticks. Above it they explode, and the engine reports it. SI units.
 //!
 //! A mass on a spring allows ticks of `2/omega` under velocity Verlet and semi-implicit Euler and `2.83/omega` under
-//! Runge-Kutta 4. A body of 2 kg and 0.05 kg m2 is clamped by three contacts off its centre, of 1e5, 1e5 and 4e4 N/m.
-//! Its largest eigenvalue of `K phi = omega^2 M phi` is 555.3 rad/s, 1.6 times `sqrt(sum k/m)`.
+//! Runge-Kutta 4. Three contacts off its centre, of 1e5, 1e5 and 4e4 N/m, clamp a body of 2 kg and 0.05 kg m2. Its
+//! largest eigenvalue of `K phi = omega^2 M phi` is 555.3 rad/s, 1.6 times `sqrt(sum k/m)`.
 
 use crate::SimulationExt;
 use std::error::Error;

@@ -1,6 +1,6 @@
-//! Columns, stacks and a wedge with ticks from 1/30 to 1/960 s, and with the tick that the engine chooses. Most of the
-//! ticks are far beyond the limit of their contacts. Numbers stay finite, and the energy never exceeds that of the
-//! start, or the engine reports it. SI units.
+//! Columns, stacks and a wedge with ticks from 1/30 to 1/960 s, and with the engine's choice. Most of the ticks are far
+//! beyond the limit of their contacts. Numbers stay finite, and the energy never exceeds that of the start, or the
+//! engine reports it. SI units.
 //!
 //! Below the critical tick the energy of a stable spring swings by `z^2/(1 - z^2)` of the turnover. Here `z` is the
 //! tick over the critical one (Hairer, Lubich and Wanner 2006, I.5). Beyond it only a message is promised.
