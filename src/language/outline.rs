@@ -216,7 +216,7 @@ impl Outline {
     }
 
     /// The indices of all names that fit a pattern, in canonical order. `*` stands for any run of characters, also an
-    /// empty one.
+    /// empty one. A pattern without `*` fits the one name that it spells.
     pub fn matching(&self, kind: Kind, pattern: &str) -> Vec<usize> {
         if !pattern.contains('*') {
             return self.position(kind, pattern).into_iter().collect();

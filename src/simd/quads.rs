@@ -71,7 +71,8 @@ impl PairedQuads<'_> {
         unsafe { [V::quads(self.quads, &first[lane..]), V::quads(self.quads, &second[lane..])] }
     }
 
-    /// The inverse of [loading](PairedQuads::load): writes the first sides, then the second ones.
+    /// The inverse of [loading](PairedQuads::load): writes the first sides, then the second ones. If an index occurs
+    /// several times, the last write remains.
     #[inline(always)]
     pub fn store<V: Lanes>(&mut self, block: usize, lane: usize, [a, b]: [[V; QUAD]; 2]) {
         let [first, second] = &self.blocks[block];
