@@ -482,13 +482,13 @@ mod tests {
     /// Neither many walls nor many entries may take memory and time for empty cells.
     #[test]
     fn a_grid_is_not_much_larger_than_what_stands_in_it() {
-        let mut grid = Grid::new(DVec2::ZERO, DVec2::splat(1e3), 1e-3, 0.0, 10);
+        let mut grid = Grid::new((DVec2::ZERO, DVec2::splat(1e3)), 1e-3, 0.0, 10);
         assert_eq!(grid.last.len(), 36);
         for _ in 0..1000 {
             grid.insert(Obstacle::Wall { left: DVec2::X, right: DVec2::ZERO });
         }
         assert!(grid.near.is_empty());
-        assert!(grid.is_free(DVec2::new(5.0, 1e-3)) && !grid.is_free(DVec2::new(5.0, 0.9e-3)));
+        assert!(grid.is_free(DVec2::new(5.0, 1e-3), 1e-3) && !grid.is_free(DVec2::new(5.0, 0.9e-3), 1e-3));
     }
 
     #[test]
