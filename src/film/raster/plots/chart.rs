@@ -126,11 +126,17 @@ impl Chart {
             let (low, high) = found();
             ticks::widened(low, high, most_across, plot.across.logarithmic)
         });
-        let across_ticks = if plot.across.logarithmic {
-            Ticks::logarithmic(across_range.0, across_range.1, most_across)
-        } else {
-            Ticks::linear(across_range.0, across_range.1, most_across)
+        let across_ticks = |most: usize| {
+            let make = if plot.across.logarithmic { Ticks::logarithmic } else { Ticks::linear };
+            make(across_range.0, across_range.1, most)
         };
+        // Labels of many digits need more room than most.
+        let fits = |ticks: &Ticks| {
+            let wide: f32 = ticks.labels.iter().map(|label| small.width(label) + 0.6 * text).sum();
+            wide <= inner.width() + text
+        };
+        let fitting = (1..=most_across).rev().map(across_ticks).find(fits);
+        let across_ticks = fitting.unwrap_or_else(|| across_ticks(1));
 
         let up_unit = ticks::unit(&plot.up.unit, up_ticks.exponent);
         let mut across_label = with_unit(&plot.across.label, &ticks::unit(&plot.across.unit, across_ticks.exponent));
@@ -425,6 +431,10 @@ fn outside(count: u64) -> String {
 /// Counts have no halves.
 fn whole_numbers(ticks: &mut Ticks) {
     let whole: Vec<usize> = (0..ticks.values.len()).filter(|place| ticks.values[*place].fract() == 0.0).collect();
+    // A range that was asked for may lie between two counts.
+    if whole.len() < 2 {
+        return;
+    }
     ticks.labels = whole.iter().map(|place| ticks.labels[*place].trim_end_matches(".0").to_owned()).collect();
     ticks.values = whole.iter().map(|place| ticks.values[*place]).collect();
 }

@@ -31,12 +31,13 @@ impl Scale {
 pub(super) fn range_of(values: impl Iterator<Item = f64>, logarithmic: bool) -> Option<(f64, f64)> {
     let shown = values.filter(|value| value.is_finite() && (!logarithmic || *value > 0.0));
     let (low, high) = shown.map(|value| (value, value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-    if logarithmic {
-        return Some(if high > low { (low, high) } else { (low / 10.0, high * 10.0) });
-    }
-    // Values that differ only by rounding count as one.
+    // What differs by rounding only is one value.
     let size = low.abs().max(high.abs());
-    if high - low <= 1e-9 * size {
+    let one = high - low <= 1e-9 * size;
+    if logarithmic {
+        return Some(if one { (low / 10.0, high * 10.0) } else { (low, high) });
+    }
+    if one {
         let around = if size == 0.0 { 1.0 } else { 0.1 * size };
         return Some((low - around, high + around));
     }
@@ -73,5 +74,6 @@ mod tests {
         assert!((low - 9.0).abs() < 1e-11 && (high - 11.0).abs() < 1e-11);
         assert_eq!(range(&[f64::INFINITY]), None);
         assert_eq!(range_of([0.0, 1e-3, 10.0].into_iter(), true), Some((1e-3, 10.0)));
+        assert_eq!(range_of([1.0, 1.0 - 1e-12].into_iter(), true), Some(((1.0 - 1e-12) / 10.0, 10.0)));
     }
 }

@@ -1,4 +1,11 @@
-//! Ticks of an axis: at 1, 2 or 5 times a power of ten. Their number neither crowds the axis nor leaves it bare.
+//! Ticks of an axis: at 1, 2 or 5 times a power of ten, so many that they neither crowd nor leave the axis bare. An axis has at
+//! least two, as one alone tells no scale.
+
+/// An axis with fewer ticks has no scale that can be read.
+const FEWEST: usize = 2;
+
+/// With so many steps allowed, a step is at most half of any range, so that two multiples of it lie in the range.
+const ENOUGH: usize = 5;
 
 /// The positions of the ticks of an axis, and their labels.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +48,35 @@ pub(super) fn widened(low: f64, high: f64, most: usize, logarithmic: bool) -> (f
 }
 
 impl Ticks {
-    /// Ticks of a linear axis from `low` to `high`, at most `most` steps.
+    /// Ticks of a linear axis from `low` to `high`, at least two, and at most `most` steps.
     pub(super) fn linear(low: f64, high: f64, most: usize) -> Ticks {
+        let finer = (most..=ENOUGH.max(most)).map(|steps| Self::at_steps(low, high, steps));
+        finer.map(|ticks| ticks.thinned(most)).find(Self::is_scale).unwrap_or_else(|| Self::at_ends(low, high))
+    }
+
+    /// Whether they tell how long the axis is: two at least, which digits tell apart.
+    fn is_scale(&self) -> bool {
+        let rising = self.values.windows(2).all(|pair| pair[0] < pair[1]);
+        let told_apart = self.labels.windows(2).all(|pair| pair[0] != pair[1]);
+        self.values.len() >= FEWEST && rising && told_apart
+    }
+
+    /// Every second, third .. of them, so that there are at most `most` steps.
+    fn thinned(self, most: usize) -> Ticks {
+        let every = self.values.len().saturating_sub(1).div_ceil(most.max(1)).max(1);
+        let labels = self.labels.into_iter().step_by(every).collect();
+        Ticks { values: self.values.into_iter().step_by(every).collect(), labels, ..self }
+    }
+
+    /// Ticks at the ends alone, where digits do not tell apart what lies between them.
+    fn at_ends(low: f64, high: f64) -> Ticks {
+        let values = vec![low, high];
+        let label = |value: &f64| format!("{value:e}").replace("e0", "").replace('-', "−");
+        Ticks { labels: values.iter().map(label).collect(), values, exponent: 0 }
+    }
+
+    /// Ticks at the multiples of the step of which no more than `most` fit.
+    fn at_steps(low: f64, high: f64, most: usize) -> Ticks {
         let step = step(low, high, most);
         let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
         let count = if (last - first).abs() < 1000.0 { (last - first + 1.0).max(0.0) as i64 } else { 0 };
@@ -60,27 +94,34 @@ impl Ticks {
         Ticks { labels: values.iter().map(label).collect(), values, exponent }
     }
 
-    /// Ticks of a logarithmic axis at powers of ten. If there is only one, also at 2 and 5 times them.
+    /// Ticks of a logarithmic axis, at least two: at powers of ten; where there is only one, at 2 and 5 times them too; within
+    /// less than that, at equal steps.
     pub(super) fn logarithmic(low: f64, high: f64, most: usize) -> Ticks {
         let (first, last) = (libm::floor(libm::log10(low) + 1e-9) as i32, libm::ceil(libm::log10(high) - 1e-9) as i32);
-        let every = ((last - first) as usize).div_ceil(most.max(1)).max(1);
-        let steps: &[f64] = if last - first <= 2 { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let mut values = Vec::new();
-        let mut labels = Vec::new();
-        for exponent in (first..=last).step_by(every) {
-            for step in steps {
-                let value = step * power(exponent);
-                if (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(&value) {
-                    values.push(value);
-                    labels.push(match (exponent, *step) {
-                        (-2..=3, _) => value.to_string(),
-                        (_, 1.0) => format!("10{}", superscript(exponent)),
-                        (_, step) => format!("{step}·10{}", superscript(exponent)),
-                    });
-                }
-            }
-        }
-        Ticks { values, labels, exponent: 0 }
+        let decades = last.saturating_sub(first).max(0) as usize;
+        let every = decades.div_ceil(most.max(1)).max(1);
+        let choices: &[(usize, &[f64])] = &[(every, &[1.0]), (1, &[1.0]), (1, &[1.0, 2.0, 5.0])];
+        let choices = if decades <= 2 { &choices[2..] } else { choices };
+        let at = |(every, steps): &(usize, &[f64])| {
+            let all =
+                (first..=last).step_by(*every).flat_map(|exponent| steps.iter().map(move |step| (exponent, *step)));
+            let seen = all.filter(|(exponent, step)| {
+                (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(&(step * power(*exponent)))
+            });
+            let (values, labels) =
+                seen.map(|(exponent, step)| (step * power(exponent), of_a_decade(exponent, step))).unzip();
+            Ticks { values, labels, exponent: 0 }
+        };
+        choices.iter().map(at).find(Self::is_scale).unwrap_or_else(|| Self::linear(low, high, most))
+    }
+}
+
+/// What is written at so many times a power of ten.
+fn of_a_decade(exponent: i32, step: f64) -> String {
+    match (exponent, step) {
+        (-2..=3, _) => (step * power(exponent)).to_string(),
+        (_, 1.0) => format!("10{}", superscript(exponent)),
+        (_, step) => format!("{step}·10{}", superscript(exponent)),
     }
 }
 
@@ -162,6 +203,56 @@ mod tests {
         assert_eq!(widened(0.0, 10.0, 5, false), (0.0, 10.0));
         assert_eq!(widened(-1.5, 12.2, 2, false), (-5.0, 15.0));
         assert_eq!(widened(0.02, 3.0, 4, true), (0.01, 10.0));
+    }
+
+    /// Ranges of many widths, from a part in 1e9 of their distance from zero to all of it, on both sides of zero.
+    fn ranges() -> impl Iterator<Item = (f64, f64)> {
+        let widths = (-25..=25).map(|width| libm::exp10(f64::from(width) / 1.7));
+        let shares = [1e-9, 3.7e-8, 1e-6, 2.3e-4, 0.013, 0.3, 0.77, 1.0, 1.9, f64::INFINITY];
+        let of_width = move |width: f64| {
+            let begins = move |share: f64| [width / share, -width / share - width, -0.4 * width, 0.6 / share * width];
+            shares.into_iter().flat_map(begins).map(move |low| (low, low + width))
+        };
+        widths.flat_map(of_width)
+    }
+
+    /// Promise: an axis has two ticks at least, all of them on it, whose labels differ and are no more than asked for.
+    #[test]
+    fn an_axis_has_at_least_two_ticks_whose_labels_differ() {
+        for (low, high) in ranges() {
+            for most in 1..=10 {
+                for (low, high) in [(low, high), widened(low, high, most, false)] {
+                    let Ticks { values, labels, .. } = Ticks::linear(low, high, most);
+                    assert!(values.len() >= 2 && values.len() <= most + 1, "{low} to {high}, {most}: {labels:?}");
+                    assert!(labels.windows(2).all(|pair| pair[0] != pair[1]), "{low} to {high}, {most}: {labels:?}");
+                    // A multiple of a step that is an end but for rounding stands at it.
+                    let about = 1e-9 * (high - low) + 4.0 * f64::EPSILON * low.abs().max(high.abs());
+                    assert!(values.iter().all(|value| (low - about..=high + about).contains(value)), "{low} {high}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_logarithmic_axis_has_at_least_two_ticks_too() {
+        for (low, high) in ranges().filter(|(low, _)| *low > 0.0) {
+            for most in 1..=10 {
+                for (low, high) in
+                    [(low, high), widened(low, high, most, true)].into_iter().filter(|(low, high)| low < high)
+                {
+                    let Ticks { values, labels, .. } = Ticks::logarithmic(low, high, most);
+                    assert!(values.len() >= 2, "{low} to {high}, {most}: {labels:?}");
+                    assert!(labels.windows(2).all(|pair| pair[0] != pair[1]), "{low} to {high}, {most}: {labels:?}");
+                }
+            }
+        }
+    }
+
+    /// Digits do not tell the middle of it from its ends.
+    #[test]
+    fn the_shortest_axis_there_is_shows_its_ends() {
+        let high = 1.0 + f64::EPSILON;
+        assert_eq!(Ticks::linear(1.0, high, 4).values, [1.0, high]);
     }
 
     #[test]
