@@ -14,6 +14,7 @@ use super::say::{number, say};
 use super::target::{is_directory, takes_no_file};
 use crate::output;
 use crate::raster::{Theme, figure};
+use crate::record::plot::pairs;
 use crate::record::plot::table::{self, Column};
 use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit};
 use crate::record::sections::{PlotEntry, PlotsSection};
@@ -38,7 +39,7 @@ pub(super) struct PlotCommand {
     /// their own. Default: the plots of the scene, or all columns of the table
     #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
     channels: Vec<String>,
-    /// Against what it is plotted, instead of time
+    /// Against what it is plotted, instead of time; `*.position.x` draws each channel over that of its own body
     #[arg(long, value_name = "CHANNEL")]
     x: Option<String>,
     /// What stands above the figure
@@ -66,6 +67,7 @@ Examples:
   jostle plot my.ron -o plots.png                            the plots that stand in the scene
   jostle plot my.ron --channels 'energy.kinetic,energy.potential,energy.total' --title Energy
   jostle plot my.ron --x ball.position.x --channels ball.velocity.x      a phase portrait
+  jostle plot my.ron --x '*.position.x' --channels '*.position.y'        the path of each body
   jostle plot my.ron --channels energy.residual --log --size 1600x900
   jostle plot channels.csv --channels '*.position.y'         what `jostle run -o channels.csv` wrote, or any such table";
 
@@ -226,10 +228,6 @@ impl PlotCommand {
                 request.usage(&format!("{flag}: `{name}` has no column `{wanted}`: {known}"))
             })
         };
-        let x = match &self.x {
-            Some(x) => column("--x", x)?,
-            None => columns.iter().find(|column| column.name == "time").unwrap_or(&columns[0]),
-        };
         let mut chosen: Vec<&Column> = Vec::new();
         for pattern in &self.channels {
             let fitting: Vec<&Column> = columns.iter().filter(|column| fits(pattern, &column.name)).collect();
@@ -238,15 +236,34 @@ impl PlotCommand {
             }
             chosen.extend(fitting);
         }
+        let x = self.x.as_deref();
+        let x = x.or(columns.iter().map(|column| column.name.as_str()).find(|name| *name == "time"));
+        let x = x.unwrap_or(&columns[0].name);
         if self.channels.is_empty() {
-            chosen.extend(columns.iter().filter(|column| column.name != x.name));
+            chosen.extend(
+                columns.iter().filter(|column| pairs::beside(x, &column.name).is_some_and(|x| x != column.name)),
+            );
         }
-        if x.values.is_empty() || chosen.is_empty() {
+        if let Some(other) = pairs::over_another(x, chosen.iter().map(|column| column.name.as_str())) {
+            let (message, help) = pairs::told(x, other);
+            return Err(request.refuse(Exit::Usage, "--x", &message, &help));
+        }
+        let beside = |of: &&Column| match pairs::beside(x, &of.name) {
+            Some(own) => column("--x", &own),
+            None => Err(request.usage(&format!("--x: {x:?} does not fit the owner of `{}`", of.name))),
+        };
+        let across = chosen.iter().map(beside).collect::<Result<Vec<_>, _>>()?;
+        if across.first().is_none_or(|x| x.values.is_empty()) {
             return Err(
                 request.usage(&format!("`{name}` has nothing to plot: it needs two columns and a row of numbers"))
             );
         }
-        for column in [x].into_iter().chain(chosen.iter().copied()).filter(|_| !self.quiet) {
+        let mut told: Vec<&str> = Vec::new();
+        for column in across.iter().chain(&chosen).filter(|_| !self.quiet) {
+            if told.contains(&column.name.as_str()) {
+                continue;
+            }
+            told.push(&column.name);
             let wild = column.values.iter().filter(|value| !value.is_finite()).count();
             if wild > 0 {
                 let all = column.values.len();
@@ -255,26 +272,28 @@ impl PlotCommand {
                 say(&format!("note: {what}: {wild} of {all} cells hold no finite number and are left out"));
             }
         }
-        let mut groups: Vec<(&str, Vec<&Column>)> = Vec::new();
-        for column in chosen {
+        let mut groups: Vec<(&str, Vec<[&Column; 2]>)> = Vec::new();
+        for (x, column) in across.into_iter().zip(chosen) {
             match groups.iter_mut().find(|(unit, _)| *unit == column.unit) {
-                Some((_, columns)) => columns.push(column),
-                None => groups.push((&column.unit, vec![column])),
+                Some((_, columns)) => columns.push([x, column]),
+                None => groups.push((&column.unit, vec![[x, column]])),
             }
         }
-        Ok(groups.into_iter().map(|(unit, columns)| self.plot(x, unit, &columns)).collect())
+        Ok(groups.into_iter().map(|(unit, columns)| self.plot(unit, &columns)).collect())
     }
 
-    /// One plot of columns against another.
-    fn plot(&self, x: &Column, unit: &str, columns: &[&Column]) -> Plot {
-        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-        let (shared, labels) = common(&names);
-        let rising = x.values.is_sorted();
-        let curves = columns.iter().zip(labels).map(|(column, label)| {
-            let pairs = x.values.iter().zip(&column.values).enumerate();
+    /// One plot of columns, each against the other of its pair.
+    fn plot(&self, unit: &str, pairs: &[[&Column; 2]]) -> Plot {
+        let named = |place: usize| common(&pairs.iter().map(|pair| pair[place].name.as_str()).collect::<Vec<_>>());
+        let ((across, _), (shared, labels)) = (named(0), named(1));
+        let first = pairs[0][0];
+        let one = pairs.iter().all(|[x, _]| x.name == first.name);
+        let curves = pairs.iter().zip(labels).map(|([x, column], label)| {
+            let rising = x.values.is_sorted();
+            let values = x.values.iter().zip(&column.values).enumerate();
             let sample =
                 |(row, (&x, &y)): (usize, (&f64, &f64))| Sample { time: if rising { x } else { row as f64 }, x, y };
-            Curve { label, body: None, samples: pairs.map(sample).collect() }
+            Curve { label, body: None, samples: values.map(sample).collect() }
         });
         let curves: Vec<Curve> = curves.collect();
         let axis = |label: &str, unit: &str, range, logarithmic| Axis {
@@ -283,11 +302,11 @@ impl PlotCommand {
             range,
             logarithmic,
         };
-        let ends = x.values.first().copied().zip(x.values.last().copied());
-        let span = ends.filter(|(first, last)| rising && first < last);
+        let ends = first.values.first().copied().zip(first.values.last().copied());
+        let span = ends.filter(|(low, high)| one && first.values.is_sorted() && low < high);
         Plot {
             title: shared.clone(),
-            across: axis(&x.name, &x.unit, span, false),
+            across: axis(&across, &first.unit, span, false),
             up: axis(&shared, unit, None, self.log),
             content: if span.is_some() { Content::Times(curves) } else { Content::Phases(curves, None) },
         }

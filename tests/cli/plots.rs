@@ -177,3 +177,36 @@ fn what_cannot_be_plotted_is_told() {
     }
     assert_eq!(folder.names(), ["bare.ron", "fly.ron", "good.csv", "n.csv", "t.csv", "x.csv"]);
 }
+
+/// Two balls that are thrown from two places.
+const TWO: &str = r#"Scene(format: 1, clock: (duration: 1, tick: "10 ms"), gravity: (0, -10), sensors: [Pose(of: "*")], bodies: [
+    (name: "a", at: (0, 0), velocity: (1, 4), atoms: Disc(radius: 0.1)),
+    (name: "b", at: (3, 0), velocity: (2, 6), atoms: Disc(radius: 0.1)),
+    (name: "peg", at: (9, 0), fixed: true, atoms: Disc(radius: 0.1)),
+])"#;
+
+/// Two bodies are never drawn over the places of one without a word; `*` gives each its own, as a plot of it alone shows.
+#[test]
+fn each_channel_is_drawn_over_that_of_its_own_body() {
+    let folder = Folder::new("plot_pairs").with("two.ron", TWO);
+    folder.jostle("run two.ron -o two.csv --quiet").code(0);
+    for source in ["two.ron", "two.csv"] {
+        let refused = format!("plot {source} --x a.position.x --channels a.position.y,b.position.y");
+        let ended = folder.jostle(&refused).code(2);
+        ended.says("`b.position.y` would be drawn over `a.position.x`").says("write `*.position.x`");
+        folder
+            .jostle(&format!("plot {source} -o both.png --x *.position.x --channels a.position.y,b.position.y"))
+            .code(0);
+        folder.jostle(&format!("plot {source} -o own.png --x b.position.x --channels b.position.y")).code(0);
+        folder.jostle(&format!("plot {source} -o star.png --x *.position.x --channels b.position.y")).code(0);
+        assert_eq!(folder.read("own.png"), folder.read("star.png"));
+        // Another pair of axes that was meant so.
+        folder.jostle(&format!("plot {source} -o other.png --x a.position.x --channels b.position.y")).code(0);
+        assert_ne!(folder.read("own.png"), folder.read("other.png"));
+    }
+    folder
+        .jostle("plot two.ron --x p*.position.x --channels a.position.y")
+        .code(2)
+        .says("does not fit the owner of `a.position.y`");
+    folder.jostle("plot two.ron --x *.positon.x --channels a.position.y").code(2).says("did you mean `position.x`?");
+}

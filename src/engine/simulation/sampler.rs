@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::record::plot::names::{common, headed, with_unit};
+use crate::record::plot::pairs;
 use crate::record::plot::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
 use crate::record::sections::PlotEntry;
 use crate::scene::Outline;
@@ -56,8 +57,9 @@ struct Sampled {
 
 enum Gauge {
     Times(Vec<(Channel, Decimator)>),
-    Phases(Channel, Vec<(Channel, Vec<Sample>)>),
-    /// Current values of bodies.
+    /// Channels to the right and upwards.
+    Phases(Vec<(Channel, Channel, Vec<Sample>)>),
+    /// Values of bodies now.
     Bodies(Vec<Channel>, Vec<(f64, Vec<u64>)>),
     /// Values of a channel so far.
     Values(Channel, Vec<u64>, Vec<(f64, Vec<u64>)>),
@@ -119,10 +121,9 @@ impl Sampler {
                         decimator.push(column, Sample { time, x: time, y: channel.value(world) });
                     }
                 }
-                Gauge::Phases(x, curves) => {
-                    let x = x.value(world);
-                    for (channel, samples) in curves {
-                        samples.push(Sample { time, x, y: channel.value(world) });
+                Gauge::Phases(curves) => {
+                    for (x, channel, samples) in curves {
+                        samples.push(Sample { time, x: x.value(world), y: channel.value(world) });
                     }
                 }
                 Gauge::Bodies(channels, kept) if counts => {
@@ -168,12 +169,13 @@ fn gauge(simulation: &mut Simulation, entry: &PlotEntry, outline: &Outline) -> R
             }
         });
     }
-    let x = find(entry.x.iter().cloned().collect())?.pop();
-    let upward = find(entry.channels(outline))?;
-    Ok(match x {
-        Some(x) => Gauge::Phases(x, upward.into_iter().map(|channel| (channel, Vec::new())).collect()),
-        None => Gauge::Times(upward.into_iter().map(|channel| (channel, Decimator::default())).collect()),
-    })
+    let names = entry.channels(outline);
+    let Some(x) = &entry.x else {
+        return Ok(Gauge::Times(find(names)?.into_iter().map(|channel| (channel, Decimator::default())).collect()));
+    };
+    let across = names.iter().map(|name| pairs::beside(x, name).unwrap_or_else(|| x.clone())).collect();
+    let pairs = find(across)?.into_iter().zip(find(names)?);
+    Ok(Gauge::Phases(pairs.map(|(x, channel)| (x, channel, Vec::new())).collect()))
 }
 
 /// No counts yet: a place for each bin, and one for what lies outside.
@@ -224,15 +226,17 @@ impl Sampled {
                     content: Content::Times(curves.collect()),
                 }
             }
-            Gauge::Phases(x, curves) => {
-                let (shared, unit, labels) = labels(curves.iter().map(|(channel, _)| channel));
+            Gauge::Phases(curves) => {
+                let (x, x_unit, _) = labels(curves.iter().map(|(x, ..)| x));
+                let (shared, unit, labels) = labels(curves.iter().map(|(_, channel, _)| channel));
                 let curves = curves.into_iter().zip(labels);
-                let curves = curves.map(|((channel, samples), label)| Curve { label, body: body(&channel), samples });
-                // The common beginning of both axes is above them.
-                let (owner, [to_the_right, upwards]) = headed([&x.name, &shared]);
+                let curves =
+                    curves.map(|((_, channel, samples), label)| Curve { label, body: body(&channel), samples });
+                // What both axes begin with stands above them.
+                let (owner, [to_the_right, upwards]) = headed([&x, &shared]);
                 Plot {
-                    title: titled(if owner.is_empty() { format!("{shared} against {}", x.name) } else { owner }),
-                    across: across(&to_the_right, x.unit, None),
+                    title: titled(if owner.is_empty() { format!("{shared} against {x}") } else { owner }),
+                    across: across(&to_the_right, &x_unit, None),
                     up: up(upwards, unit),
                     content: Content::Phases(curves.collect(), entry.tail.map(|tail| tail.si())),
                 }

@@ -3,6 +3,7 @@
 mod decimate;
 mod legend;
 pub mod names;
+pub mod pairs;
 pub mod table;
 
 pub use decimate::Decimator;

@@ -2,6 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use jostle_frames::plot::pairs;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -33,7 +34,7 @@ pub struct PlotEntry {
     /// `x` and `y`, or `histogram`.
     #[serde(default)]
     pub channels: Option<Vec<String>>,
-    /// The channel to the right of a phase portrait. Default: none.
+    /// The channel to the right of a phase portrait; `*.position.x` draws each channel over that of its own body. Default: none.
     #[serde(default)]
     pub x: Option<String>,
     /// The channel, or channels, upwards. Default: none.
@@ -144,6 +145,32 @@ impl PlotEntry {
         self.upward().into_iter().flat_map(|(pattern, _)| sensors::chosen(pattern, outline)).collect()
     }
 
+    /// Reports channels to the right that are not there, or that belong to another body than what is drawn over them.
+    fn check_x(&self, x: &str, outline: &Outline, report: &mut Report) {
+        let upward = self.channels(outline);
+        if let Some(other) = pairs::over_another(x, upward.iter().map(String::as_str)) {
+            let (message, help) = pairs::told(x, other);
+            report.error("x", message).help(help);
+        } else if !x.contains('*') {
+            sensors::check_channel(x, "x", outline, report);
+        } else if upward.is_empty() {
+            sensors::check_channels(x, "x", outline, report);
+        }
+        let told = report.problems().len();
+        for channel in upward.iter().filter(|_| x.contains('*')) {
+            match pairs::beside(x, channel) {
+                Some(own) => sensors::check_channel(&own, "x", outline, report),
+                None => {
+                    report.error("x", format!("{x:?} does not fit the owner of `{channel}`"));
+                }
+            }
+            // The others would say the same.
+            if report.problems().len() > told {
+                return;
+            }
+        }
+    }
+
     /// Reports channels that are not there, and what makes no plot.
     pub fn check(&self, outline: &Outline, report: &mut Report) {
         let given = (self.channels.is_some(), self.x.is_some(), self.y.is_some(), self.histogram.is_some());
@@ -173,7 +200,7 @@ impl PlotEntry {
             sensors::check_channels(pattern, &path, outline, report);
         }
         if let Some(x) = &self.x {
-            sensors::check_channel(x, "x", outline, report);
+            self.check_x(x, outline, report);
         }
         if let Some(histogram) = &self.histogram {
             report.within("histogram", |report| histogram.check(outline, report));
