@@ -141,6 +141,12 @@ pub(super) fn rate(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| "expected frames per second, from 0.01 to 1000".to_owned())
 }
 
+/// Rows of a table for each second.
+pub(super) fn rows(text: &str) -> Result<f64, String> {
+    let rate = text.parse::<f64>().ok().filter(|rate| (1e-3..=1e9).contains(rate));
+    rate.ok_or_else(|| "expected rows for each second of physics, from 0.001 to 1e9".to_owned())
+}
+
 /// Times from early to late, separated by commas.
 pub(super) fn moments(text: &str) -> Result<Moments, String> {
     let times = text.split(',').map(moment).collect::<Result<Vec<f64>, _>>();

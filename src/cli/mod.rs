@@ -28,6 +28,7 @@ mod projector;
 mod render;
 mod report;
 mod result;
+mod rows;
 mod run;
 mod save;
 mod say;

@@ -13,6 +13,7 @@ use super::load::Request;
 use super::pace::Runner;
 use super::progress::Progress;
 use super::result::{self, Detail, Ran};
+use super::rows::Rows;
 use super::save::{Saves, SnapshotFlags, Trouble};
 use super::say::say;
 use super::side_by_side::all_cores;
@@ -36,6 +37,9 @@ pub(super) struct Run {
     /// the nearest tick); `-` is standard output
     #[arg(short, long, value_name = "channels.csv")]
     output: Option<PathBuf>,
+    /// Rows of channels for each second of physics, each at the nearest tick. Default: one for each frame of the film
+    #[arg(long, value_name = "N", value_parser = flags::rows, allow_negative_numbers = true, requires = "output")]
+    fps: Option<f64>,
     #[command(flatten)]
     overrides: OverrideFlags,
     #[command(flatten)]
@@ -68,6 +72,7 @@ const EXAMPLES: &str = "\
 Examples:
   jostle run example:projectile                 the error card: how far to trust the result
   jostle run my.ron -o channels.csv             what the sensors measured
+  jostle run my.ron -o channels.csv --fps 1000  the same a thousand times a second
   jostle run my.ron -o - --quiet | head         the same for another program
   jostle run my.ron --tick 0.1ms --json         another tick; the result for a program
   jostle run my.ron --tolerance 1e-6            the coarsest steps whose error stays below a millionth of the motion
@@ -84,7 +89,7 @@ The card and all messages go to standard error (`2> card.txt` keeps them), resul
 impl Run {
     fn overrides(&self, plan: Option<Plan>) -> Overrides {
         let threads = Some(self.threads.unwrap_or_else(all_cores));
-        Overrides { plan, threads, ..self.overrides.overrides() }
+        Overrides { plan, threads, rate: self.fps, ..self.overrides.overrides() }
     }
 
     pub(super) fn execute(self) -> Exit {
@@ -119,7 +124,10 @@ impl Run {
         }
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {
-            Some(path) => write_channels(&mut simulation, path, (&mut runner, &mut saves)),
+            Some(path) => {
+                let rows = Rows::of(&simulation, self.fps);
+                write_channels(&mut simulation, (path, &rows), (&mut runner, &mut saves))
+            }
             None => {
                 let end = simulation.ticks();
                 saves.run_to(&mut runner, &mut simulation, end)
@@ -180,27 +188,25 @@ fn objection(request: Request, path: &Path) -> Option<String> {
     }
 }
 
-/// Runs, and writes a row at once, after each frame of the film, and at the end.
+/// Runs, and writes a row in the beginning, at the moments of rows, and at the end.
 fn write_channels(
     simulation: &mut Simulation,
-    path: &Path,
+    (path, rows): (&Path, &Rows),
     (runner, saves): (&mut Runner, &mut Saves),
 ) -> Result<(), Trouble> {
     let none = Channels::default();
     let channels = simulation.get_resource::<Channels>().unwrap_or(&none);
     let columns = channels.iter().map(|channel| (channel.name.as_str(), channel.unit));
     let mut table = Table::create(path, columns)?;
-    let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     let run = loop {
-        let rows = simulation.get_resource::<Channels>().unwrap_or(&none);
-        let values = rows.iter().map(|channel| simulation.value(channel));
+        let measured = simulation.get_resource::<Channels>().unwrap_or(&none);
+        let values = measured.iter().map(|channel| simulation.value(channel));
         table.row(simulation.clock().time(), values)?;
         let (done, end) = (simulation.clock().ticks, simulation.ticks());
         if done == end {
             break Ok(());
         }
-        let next = (done / every).saturating_add(1).saturating_mul(every).min(end);
-        if let Err(trouble) = saves.run_to(runner, simulation, next) {
+        if let Err(trouble) = saves.run_to(runner, simulation, rows.next(done, end)) {
             break Err(trouble);
         }
     };

@@ -27,6 +27,7 @@ mod outputs;
 mod plots;
 mod promises;
 mod report;
+mod rows;
 mod scene_files;
 mod schema;
 mod snapshots;

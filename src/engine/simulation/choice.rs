@@ -214,7 +214,7 @@ fn plan_for(
     let mut method = overrides.method.clone().unwrap_or_else(|| named.to_owned());
     let free = method == ClockSection::AUTO || method == ClockSection::REFERENCE;
     let given = overrides.tick.or(clock.tick.map(|tick| tick.si()).filter(|_| goal == Goal::Reference));
-    let tick = given.map_or_else(|| frame_tick(world, duration), |tick| positive("--tick", tick))?;
+    let tick = given.map_or_else(|| frame_tick(world, duration, overrides.rate), |tick| positive("--tick", tick))?;
     let state = world.resource::<State>();
     let varies = state.contact_law().is_some() || state.changing_forces();
     let mut plan = Plan {
@@ -250,11 +250,12 @@ fn plan_for(
     Ok(plan)
 }
 
-/// The time between frames, if the run is a whole number of frames long. Otherwise it is a part of that time of which
-/// the run is a whole multiple.
-fn frame_tick(world: &World, duration: f64) -> Result<f64, Wrong> {
+/// The time from frame to frame, or that of a `rate`, where the run is a whole number of them long; else a part of it of which the
+/// run is a whole number.
+fn frame_tick(world: &World, duration: f64, rate: Option<f64>) -> Result<f64, Wrong> {
     let film = world.get_resource::<FilmSection>();
     let frame = film.map_or(1.0 / 30.0, |film| film.speed().abs() / film.frames_per_second());
+    let frame = rate.map_or(frame, f64::recip);
     let frames = duration / frame;
     let whole = frames >= 1.0 && (frames - frames.round()).abs() < 1e-9 * frames;
     let parts = if whole { frames.round() } else { (TICKS_PER_ODD_FRAME * frames).ceil().max(1.0) };
