@@ -29,6 +29,9 @@ pub(super) struct Check {
     overrides: OverrideFlags,
     #[command(flatten)]
     strict: StrictFlag,
+    /// Messages only if something is wrong
+    #[arg(long)]
+    quiet: bool,
     /// Print for each scene one line of JSON on standard output: its mistakes, or with --run its result
     #[arg(long)]
     json: bool,
@@ -40,7 +43,8 @@ const MOST_ANCHORS: usize = 12;
 const EXAMPLES: &str = "\
 Examples:
   jostle check my.ron                 every mistake with its line and a remedy
-  jostle check --run scenes/*.ron     does each scene do what it says under `expect`?";
+  jostle check --run scenes/*.ron     does each scene do what it says under `expect`?
+  jostle check --quiet scenes/*.ron   the exit code says it, and mistakes are told";
 
 impl Check {
     pub(super) fn execute(self) -> Exit {
@@ -74,6 +78,9 @@ impl Check {
             let told = serde_json::json!({ "scene": name, "errors": [], "notes": notes, "anchors": anchors });
             return print_line(&told.to_string());
         }
+        if self.quiet {
+            return Exit::Good;
+        }
         for note in notes {
             say(&format!("note: {name}: {note}"));
         }
@@ -88,12 +95,12 @@ impl Check {
     }
 
     fn run(&self, request: Request, mut simulation: Simulation) -> Exit {
-        let progress = Progress::new(simulation.ticks(), "ticks", self.json);
+        let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let end = simulation.ticks();
         let failure = Runner { progress, wall_clock: None }.run_to(&mut simulation, end).err();
         let ran = Ran { strict: self.strict.strict, ..Ran::whole(&simulation, failure.as_ref()) };
         let exit = result::tell(request, &ran, Detail::of(self.json, true));
-        if exit == Exit::Good && !self.json {
+        if exit == Exit::Good && !self.json && !self.quiet {
             let holding = match simulation.outcomes().len() {
                 0 => "nothing is expected".to_owned(),
                 many => count(many, "expectation holds", "expectations hold"),

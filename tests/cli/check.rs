@@ -34,3 +34,14 @@ fn an_overlap_at_the_start_is_noted() {
     let [result] = &folder.jostle("check --json two.ron").code(0).json()[..] else { panic!("one line") };
     assert_eq!(result["notes"].as_array().map(Vec::len), Some(1), "{result}");
 }
+
+/// The exit code alone says that a scene is good; what is wrong is told all the same.
+#[test]
+fn a_quiet_check_tells_mistakes_alone() {
+    let folder = Folder::new("check_quiet").with("fall.ron", FALL).with("wrong.ron", FALL.replace("gravity", "gravty"));
+    for run in ["", " --run"] {
+        let ended = folder.jostle(&format!("check --quiet fall.ron{run}")).code(0);
+        assert_eq!((ended.out.as_str(), ended.err.as_str()), ("", ""), "{ended:?}");
+        folder.jostle(&format!("check --quiet fall.ron wrong.ron{run}")).code(1).says("gravty");
+    }
+}
