@@ -9,7 +9,7 @@ use crate::cli::author;
 use crate::cli::paths::handed_on;
 use crate::integrate::ClockSection;
 use crate::integrate::Methods;
-use crate::scene::schema::Language;
+use crate::scene::schema::{Choice, Language};
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, Source, nearest_name};
 use crate::simulation::Overrides;
@@ -20,8 +20,8 @@ use crate::tick::TickAppExt;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct List {
-    /// What: scenes (the default), sections, the entries of a section such as forces, sensors or expect, or words such as
-    /// methods, colors, channels or themes
+    /// What: scenes (the default), sections, shapes, the entries of a section such as forces, sensors or layers, or words
+    /// such as methods, colors, channels or themes
     #[arg(value_name = "WHAT", default_value = SCENES)]
     what: String,
     /// Only lines that hold this text, in capitals or not
@@ -37,6 +37,7 @@ Examples:
   jostle list                   the scenes that come with the program: jostle render example:NAME
   jostle list sections          everything that may stand in a scene, with an example
   jostle list forces            the forces, with an example and the module that brings each
+  jostle list shapes            what bodies with sides may be; `jostle list atoms` for bodies of discs
   jostle list forces drag       those with `drag` in their line
   jostle list channels energy   what can be measured and plotted
 
@@ -44,6 +45,8 @@ Examples:
 
 const SCENES: &str = "scenes";
 const SECTIONS: &str = "sections";
+/// Lists of what may stand as a value in a body, with the types that read them.
+const CHOICES: [(&str, &str); 2] = [("shapes", "Shape"), ("atoms", "Atoms")];
 /// Who brings the sections that are there before any plugin.
 pub(super) const READER: &str = "jostle::scene";
 
@@ -66,6 +69,10 @@ impl Item {
     fn of(known: Known) -> Self {
         let (name, text) = (known.name.to_owned(), known.example.to_owned());
         Self { name, text, more: String::new(), from: handed_on(known.origin) }
+    }
+
+    fn choice(choice: Choice) -> Self {
+        Self { name: choice.name, text: choice.example, more: choice.meaning, from: String::new() }
     }
 
     fn holds(&self, text: &str) -> bool {
@@ -123,8 +130,12 @@ impl List {
             }
             _ => {}
         }
+        if let Some((_, definition)) = CHOICES.into_iter().find(|(list, _)| *list == self.what) {
+            let choices = Language::of(registry).choices(definition);
+            return Some(choices.into_iter().map(Item::choice).collect());
+        }
         let mut entries = registry.sections().into_iter().filter(|known| known.takes_entries);
-        if let Some(section) = entries.find(|known| known.name == self.what) {
+        if let Some(section) = entries.find(|known| short(known.name) == short(&self.what)) {
             return Some(registry.entries(section.name).into_iter().map(Item::of).collect());
         }
         let list = registry.word_lists().into_iter().find(|list| self.what == plural(list) || self.what == *list)?;
@@ -140,12 +151,18 @@ impl List {
     }
 }
 
+/// What a list is called: `layers` for the field `look.layers`.
+fn short(section: &str) -> &str {
+    section.rsplit('.').next().unwrap_or(section)
+}
+
 /// The names of all lists.
 fn kinds(registry: &SceneRegistry) -> Vec<String> {
     let sections = registry.sections();
-    let entries = sections.iter().filter(|known| known.takes_entries).map(|known| known.name.to_owned());
+    let entries = sections.iter().filter(|known| known.takes_entries).map(|known| short(known.name).to_owned());
     let words = registry.word_lists();
-    let fixed = [SCENES, SECTIONS].into_iter().map(str::to_owned);
+    let choices = CHOICES.iter().map(|(list, _)| *list);
+    let fixed = [SCENES, SECTIONS].into_iter().chain(choices).map(str::to_owned);
     fixed.chain(entries).chain(words.into_iter().map(plural)).collect()
 }
 

@@ -32,6 +32,14 @@ fn what_a_scene_may_name_is_listed_with_its_module() {
     assert_eq!(of("gravity")["text"], "gravity: (0, -9.81)");
     let methods = folder.jostle("list methods").code(0);
     assert!(methods.out.contains("VelocityVerlet     order 2, stable up to omega dt = 2\n"), "{methods:?}");
+    let shapes = folder.jostle("list shapes --json").code(0).json();
+    assert_eq!((&shapes[0]["name"], &shapes[0]["text"]), (&"Disc".into(), &"Disc(radius: 0.2)".into()));
+    assert!(
+        shapes.iter().any(|shape| shape["name"] == "Gear") && shapes.iter().any(|shape| shape["name"] == "Compound")
+    );
+    assert!(folder.jostle("list atoms").code(0).out.starts_with("Picture  Picture(spacing: 0.1"));
+    assert_eq!(folder.jostle("list layers").code(0).out, folder.jostle("list look.layers").code(0).out);
+    assert!(folder.jostle("list layers").code(0).out.contains("jostle::record::layers::trails"));
     assert!(folder.jostle("list themes").code(0).out.contains("paper\n"));
     assert!(folder.jostle("list channels energy").code(0).out.contains("energy.residual\n"));
 }

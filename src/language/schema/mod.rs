@@ -5,6 +5,7 @@
 //! defaults from the sentence `Default: ..` at their end. A run pays nothing for it: only functions are registered, and
 //! [`Language::of`] calls them.
 
+mod choices;
 mod instance;
 mod json;
 mod kinds;
@@ -12,6 +13,7 @@ mod made;
 mod manual;
 mod tidy;
 
+pub use choices::Choice;
 pub use instance::as_json;
 pub use manual::anchor;
 
