@@ -18,7 +18,8 @@ fn a_scene_is_taken_apart() {
         "PairSearch (jostle::contacts::search",
         "for `gravity`)",
         "for `contacts: Penalty (by default)`)",
-        "mean of 200 ticks",
+        "mean of all 200 ticks of the run",
+        "The first tenth of these ticks took ",
     ] {
         assert!(ended.out.contains(text), "{text}: {}", ended.out);
     }
@@ -70,6 +71,50 @@ fn names_and_words_are_explained() {
     folder.jostle("explain thread").code(0);
     folder.jostle("explain treads").code(2).says("did you mean `threads`?");
     folder.jostle("explain Drag --json").code(2).says("--json is for scenes");
+}
+
+/// What a channel is, its unit and the sensor that gives it, from its name or a part of it; in a scene its value too.
+#[test]
+fn channels_are_explained() {
+    let folder = Folder::new("explain_channels").with("fall.ron", FALL);
+    for (name, texts) in [
+        (
+            "kinetic",
+            &["`energy.kinetic` is a channel, in J. ", "The sensor `Energy` makes a column of it: Energy()"][..],
+        ),
+        (
+            "ball.position.x",
+            &["`position.x` of a body, in m. ", "The sensor `Pose` makes a column of it: Pose(of: \"ball\")"],
+        ),
+        ("ball.weight.y", &["`weight.y` of a body, in N", "The sensor `Force`"]),
+        ("spin", &["`NAME.spin` is a channel: `spin` of a body, in rad/s"]),
+        ("hip.travel", &["`travel` of a joint that slides, in m", "The sensor `Joint`"]),
+        ("gap.clearance", &["`clearance` of a sensor, by its name", "The sensor `Clearance`"]),
+        ("ball.x", &["`ball.x` is a part of the names of channels: ", "`ball.position.x`", "`ball.velocity.x`"]),
+        ("fall.ron ball.position.y", &["`ball.position.y` is a channel of fall.ron, in m. At the start it is "]),
+    ] {
+        let ended = folder.jostle(&format!("explain {name}")).code(0);
+        texts.iter().for_each(|text| assert!(ended.out.contains(text), "{name}: {text}: {}", ended.out));
+    }
+    folder
+        .jostle("explain fall.ron bal.position.y")
+        .code(2)
+        .says("there is no channel `bal.position.y`")
+        .says("`ball`");
+}
+
+/// A run that takes longer than the look at it is told as far as it was looked at.
+#[test]
+fn a_long_run_is_told_as_far_as_it_was_looked_at() {
+    let folder = Folder::new("explain_long").with("fall.ron", FALL);
+    let ended = folder.jostle("explain fall.ron --duration 1e6").code(0);
+    assert!(ended.out.contains("mean of the first ") && ended.out.contains(" of 1000000 s"), "{}", ended.out);
+    assert!(ended.out.contains("Later ticks were not looked at, and may cost more or less"), "{}", ended.out);
+    let [json] = &folder.jostle("explain fall.ron --duration 1e6 --json").code(0).json()[..] else {
+        panic!("one line")
+    };
+    assert_eq!(json["ticks_of_run"], 1_000_000_000);
+    assert!(json["ticks"].as_u64().unwrap() < 1_000_000_000);
 }
 
 /// Whatever the card says in front of a number is explained.

@@ -1,5 +1,6 @@
 //! `jostle explain`: what a scene does in a tick and what that costs; what a name or a word means.
 
+mod channel;
 mod flag;
 mod name;
 mod scene;
@@ -18,7 +19,8 @@ use super::say::say;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
-    /// A scene file or example:NAME; or the name of a section, entry, method, channel or flag; or a word on the error card
+    /// A scene file or example:NAME, and a channel of it if that is meant; or the name of a section, entry, method, channel or
+    /// flag; or a word on the error card
     #[arg(value_name = "SCENE|NAME", required = true)]
     what: Vec<String>,
     #[command(flatten)]
@@ -33,14 +35,23 @@ Examples:
   jostle explain example:tetris     its systems in order, who brought them, and how the time is shared out
   jostle explain Drag               what a force, sensor, section or method is, with an example
   jostle explain critical tick      what a word on the error card means
+  jostle explain kinetic            what a channel is, its unit, and the sensor that gives it
+  jostle explain example:bounce ball.position.y
+                                    the same of a channel of a scene
   jostle explain threads            what a flag does, and which commands have it
 
-A scene is run for half a second twice: as it is, for the cost of a tick, and with a look at the clock around each stage.";
+A scene is run twice: for half a second as it is, and for up to three seconds with a look at the clock around each stage, from
+its beginning as far as that goes. The output says how much of the run was looked at.";
 
 impl Explain {
     pub(super) fn execute(self) -> Exit {
         let what = self.what.join(" ");
-        if what.starts_with(EXAMPLE) || what.ends_with(".ron") || Path::new(&what).is_file() {
+        if let [scene, name] = &self.what[..]
+            && is_scene(scene)
+        {
+            return channel::of_scene(Request { name: scene, json: false }, &self.overrides, name);
+        }
+        if is_scene(&what) {
             return self.scene(Request { name: &what, json: self.json });
         }
         if self.json {
@@ -57,4 +68,8 @@ impl Explain {
             Err(exit) => exit,
         }
     }
+}
+
+fn is_scene(what: &str) -> bool {
+    what.starts_with(EXAMPLE) || what.ends_with(".ron") || Path::new(what).is_file()
 }

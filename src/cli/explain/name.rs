@@ -2,8 +2,8 @@
 
 use bevy_app::App;
 
-use super::flag;
 use super::words::{WORDS, Word};
+use super::{channel, flag};
 use crate::cli::Exit;
 use crate::cli::list::READER;
 use crate::cli::paths::handed_on;
@@ -13,7 +13,6 @@ use crate::raster::Theme;
 use crate::scene::schema::Language;
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, nearest_name};
-use crate::sensors::QUANTITIES;
 use crate::tick::TickAppExt;
 
 /// Explains a name; `what` may be written in capitals or not, and in the singular or the plural.
@@ -27,6 +26,11 @@ pub(super) fn explain(what: &str) -> Exit {
         if found.is_empty() {
             found = look_up(&other, &app).0;
         }
+    }
+    if found.is_empty() {
+        let registry = app.world().resource::<SceneRegistry>();
+        let told = channel::told(what, registry, &Language::of(registry));
+        found.extend(told.or_else(|| channel::parts(what, registry)));
     }
     if found.is_empty() {
         let near = nearest_name(what, names.iter().map(String::as_str));
@@ -88,12 +92,10 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
         let fields = told(section, None);
         if let Some(line) = fields.lines().find(|line| line.starts_with(&beginning)) {
             found.push(format!("`{section}.{field}` is a field of the section `{section}`.\n{}", line.trim()));
-        } else if registry.words(QUANTITIES).contains(&field) {
-            found.push(format!(
-                "`{what}` is a channel: `{field}` of the body or wall `{section}`. Sensors, plots and `expect` name it so; \
-                 `jostle list quantities` shows what else can be measured."
-            ));
         }
+    }
+    if what.contains('.') {
+        found.extend(channel::told(what, registry, &language));
     }
     names.extend(Theme::names());
     if let Some(theme) = Theme::names().into_iter().find(|theme| same(theme)) {

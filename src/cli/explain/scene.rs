@@ -16,11 +16,16 @@ use crate::cli::say::{count, number};
 use crate::report::Card;
 use crate::scene::{Known, SceneRegistry};
 use crate::simulation::{Overrides, Simulation};
+use crate::tick::Failure;
 use crate::tick::State;
 use crate::tick::stopwatch::{self, Part};
 
-/// How long a scene is run, twice.
-const BUDGET: Duration = Duration::from_millis(500);
+/// How long a scene is run as it is, to learn how much a look at the clock costs.
+const PLAIN: Duration = Duration::from_millis(500);
+/// How long it is run with a look at the clock around each stage, as far as it goes.
+const WATCHED: Duration = Duration::from_millis(2500);
+/// Fewer ticks have no first and last tenth to be compared.
+const FEWEST_TICKS: u64 = 100;
 
 /// What was found out about a scene.
 pub(super) struct Anatomy {
@@ -28,13 +33,17 @@ pub(super) struct Anatomy {
     things: String,
     named: Vec<Named>,
     card: Card,
+    /// Ticks that were looked at, from the first on, and those of the whole run.
     ticks: u64,
+    all_ticks: u64,
     atoms: usize,
     pairs: (usize, usize),
     /// How pairs were searched, and for how many evaluations their lists held in the mean.
     search: Option<(&'static str, f64)>,
-    /// Seconds per tick of a run that nobody watches.
+    /// Seconds per tick of a run without looks at the clock.
     per_tick: f64,
+    /// The same in the first and in the last tenth of the ticks; nothing, if they are few.
+    tenths: Option<[f64; 2]>,
     /// How much longer a tick takes when it is watched, as a share.
     slower: f64,
     parts: Vec<Stage>,
@@ -65,34 +74,53 @@ impl Anatomy {
     /// Runs a scene twice and looks at it.
     pub fn of(request: Request, flags: &OverrideFlags) -> Result<Self, Exit> {
         let (source, mut plain) = request.load(&flags.settings, &flags.overrides())?;
-        let failure = run_for(&mut plain, BUDGET).err().map(|failure| failure.to_string());
-        let ticks = plain.clock().ticks;
+        let mut failure = run_for(&mut plain, u64::MAX, PLAIN, &mut Vec::new()).err();
+        let common = plain.clock().ticks;
         let overrides = Overrides { plan: plain.plan().cloned(), ..flags.overrides() };
         let mut watched = Simulation::load_with(&source, &overrides, author::plugin)
             .map_err(|errors| request.refuse_scene(&errors))?;
         stopwatch::watch(watched.world_mut());
         // It fails where the other one did.
-        let _ = watched.run_to_tick(ticks);
+        let mut marks = vec![(0, 0.0)];
+        let mut ran = run_for(&mut watched, common, Duration::MAX, &mut marks);
+        let slower = (watched.seconds_spent() / plain.seconds_spent().max(1e-9) - 1.0).max(0.0);
+        if ran.is_ok() && failure.is_none() {
+            ran = run_for(&mut watched, u64::MAX, WATCHED, &mut marks);
+        }
+        failure = ran.err().or(failure);
+        let ticks = watched.clock().ticks;
         let known = known_in(&watched);
         let parts = stages(watched.world(), &known);
-        let pairs = plain.resource::<State>().pairs();
+        let pairs = watched.resource::<State>().pairs();
         Ok(Self {
-            title: plain.header().title.clone(),
-            things: things(&plain),
-            named: named(&plain),
-            card: plain.card(),
+            title: watched.header().title.clone(),
+            things: things(&watched),
+            named: named(&watched),
+            card: watched.card(),
             ticks,
-            atoms: plain.bodies().atom_count(),
+            all_ticks: watched.ticks(),
+            atoms: watched.bodies().atom_count(),
             pairs: pairs.map_or((0, 0), |pairs| (pairs.atoms.len(), pairs.surfaces.len())),
             search: pairs.map(|pairs| {
-                let evaluations = plain.resource::<State>().evaluation().count;
+                let evaluations = watched.resource::<State>().evaluation().count;
                 (pairs.search.told(), evaluations as f64 / pairs.version.max(1) as f64)
             }),
-            per_tick: plain.seconds_spent() / ticks.max(1) as f64,
-            slower: watched.seconds_spent() / plain.seconds_spent().max(1e-9) - 1.0,
+            per_tick: watched.seconds_spent() / (1.0 + slower) / ticks.max(1) as f64,
+            tenths: tenths(&marks, ticks).map(|tenths| tenths.map(|seconds| seconds / (1.0 + slower))),
+            slower,
             parts,
-            failure,
+            failure: failure.map(|failure| failure.to_string()),
         })
+    }
+
+    /// Which part of the run the numbers are of.
+    fn looked_at(&self) -> String {
+        let (ticks, all) = (self.ticks, self.all_ticks);
+        if ticks == all {
+            return format!("mean of all {} of the run", count(ticks as usize, "tick", "ticks"));
+        }
+        let time = |ticks: u64| number(rounded(ticks as f64 * self.card.tick));
+        format!("mean of the first {ticks} of {all} ticks, {} of {} s", time(ticks), time(all))
     }
 
     /// In words.
@@ -128,11 +156,20 @@ impl Anatomy {
         };
         let _ = writeln!(
             text,
-            "\nOne tick takes {} us, {:.1} ns per atom (mean of {}{pairs}):",
+            "\nOne tick takes {} us, {:.1} ns per atom ({}{pairs}):",
             number(rounded(self.per_tick * 1e6)),
             self.per_tick * 1e9 / self.atoms.max(1) as f64,
-            count(self.ticks as usize, "tick", "ticks"),
+            self.looked_at(),
         );
+        if let Some([first, last]) = self.tenths.map(|tenths| tenths.map(|seconds| number(rounded(seconds * 1e6)))) {
+            let _ = writeln!(text, "  The first tenth of these ticks took {first} us each, the last tenth {last} us.");
+        }
+        if self.ticks < self.all_ticks && self.failure.is_none() {
+            let _ = writeln!(
+                text,
+                "  Later ticks were not looked at, and may cost more or less: `jostle run` takes them all."
+            );
+        }
         if let Some((search, lasted)) = self.search {
             let _ = writeln!(text, "  Pairs are found by {search}; a list lasted {lasted:.0} evaluations in the mean.");
         }
@@ -149,7 +186,7 @@ impl Anatomy {
         let _ = writeln!(
             text,
             "Looking at the clock around each stage made the ticks {:.0} % slower; the shares are those of that run.",
-            (self.slower * 100.0).max(0.0)
+            self.slower * 100.0
         );
         text
     }
@@ -172,10 +209,12 @@ impl Anatomy {
             "notes": self.card.notes,
             "failure": self.failure,
             "ticks": self.ticks,
+            "ticks_of_run": self.all_ticks,
             "pairs_of_atoms": self.pairs.0,
             "atoms_near_walls": self.pairs.1,
             "search": self.search.map(|(search, lasted)| json!({ "how": search, "evaluations_per_list": lasted })),
             "seconds_per_tick": self.per_tick,
+            "seconds_per_tick_of_tenths": self.tenths.map(|[first, last]| json!({ "first": first, "last": last })),
             "ns_per_atom_tick": self.per_tick * 1e9 / self.atoms.max(1) as f64,
             "slower_when_watched": self.slower,
             "stages": self.parts.iter().map(stage).collect::<Vec<_>>(),
@@ -183,20 +222,40 @@ impl Anatomy {
     }
 }
 
-/// Runs until the time or the scene is over.
-fn run_for(simulation: &mut Simulation, budget: Duration) -> Result<(), crate::tick::Failure> {
-    let start = Instant::now();
+/// How long a batch of ticks takes at least, between two marks.
+const BATCH: Duration = Duration::from_millis(3);
+
+/// Runs until a tick, the end of the scene or that of the time, and marks ticks and seconds spent on the way.
+fn run_for(
+    simulation: &mut Simulation,
+    until: u64,
+    time: Duration,
+    marks: &mut Vec<(u64, f64)>,
+) -> Result<(), Failure> {
+    let (start, until) = (Instant::now(), until.min(simulation.ticks()));
     let mut batch = 1;
-    while simulation.clock().ticks < simulation.ticks() && start.elapsed() < budget {
+    while simulation.clock().ticks < until && start.elapsed() < time {
         let begin = Instant::now();
-        let next = simulation.clock().ticks.saturating_add(batch).min(simulation.ticks());
-        simulation.run_to_tick(next)?;
-        // Batches of about a hundredth of the time.
-        if begin.elapsed() < budget / 200 {
+        simulation.run_to_tick(simulation.clock().ticks.saturating_add(batch).min(until))?;
+        marks.push((simulation.clock().ticks, simulation.seconds_spent()));
+        if begin.elapsed() < BATCH {
             batch = batch.saturating_mul(2);
         }
     }
     Ok(())
+}
+
+/// Seconds per tick in the first and in the last tenth of ticks, between the marks that are nearest to their ends.
+fn tenths(marks: &[(u64, f64)], ticks: u64) -> Option<[f64; 2]> {
+    let nearest = |tick: u64| marks.iter().min_by_key(|(marked, _)| marked.abs_diff(tick)).copied();
+    let between = |from: u64, to: u64| {
+        let ((begin, early), (end, late)) = (nearest(from)?, nearest(to)?);
+        (end > begin).then(|| (late - early) / (end - begin) as f64)
+    };
+    if ticks < FEWEST_TICKS {
+        return None;
+    }
+    Some([between(0, ticks / 10)?, between(ticks - ticks / 10, ticks)?])
 }
 
 /// Three digits are enough of what was measured.
@@ -317,5 +376,19 @@ impl System {
     fn told(&self) -> String {
         let serves = self.serves.as_ref().map_or_else(String::new, |serves| format!(", for `{serves}`"));
         format!("{} ({}{serves})", self.name, self.module)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tenths;
+
+    /// Ticks that cost k us at tick k: the first tenth of a thousand costs 50 us a tick in the mean, the last 950 us.
+    #[test]
+    fn the_tenths_of_a_run_that_grows_dear_differ() {
+        let marks: Vec<(u64, f64)> = (0..=1000).step_by(20).map(|tick| (tick, 0.5e-6 * (tick * tick) as f64)).collect();
+        let [first, last] = tenths(&marks, 1000).expect("enough ticks");
+        assert!((first - 50e-6).abs() < 1e-12 && (last - 950e-6).abs() < 1e-12, "{first} {last}");
+        assert_eq!(tenths(&marks, 50), None);
     }
 }
