@@ -296,11 +296,11 @@ impl fmt::Display for Card {
         row(
             "time",
             format!(
-                "{} s in {} ticks, {:.3} s spent: {:.0} x real time, {:.1} ns per atom and tick",
+                "{} s in {} ticks, {:.3} s spent: {} x real time, {:.1} ns per atom and tick",
                 number(self.time),
                 self.ticks,
                 self.seconds_spent,
-                self.real_time_factor,
+                factor(self.real_time_factor),
                 self.ns_per_atom_tick
             ),
         )?;
@@ -344,6 +344,11 @@ impl fmt::Display for Card {
     }
 }
 
+/// A factor in whole numbers, or in two digits where these say more.
+fn factor(value: f64) -> String {
+    if value < 10.0 { number(format!("{value:.1e}").parse().unwrap_or(value)) } else { format!("{value:.0}") }
+}
+
 /// Energies with their names; those that are zero are left out, and nothing at all is `0 J`.
 fn parts(parts: &[(&str, f64)]) -> String {
     let there: Vec<String> = parts
@@ -352,4 +357,17 @@ fn parts(parts: &[(&str, f64)]) -> String {
         .map(|(name, value)| format!("{name} {} J", number(*value)))
         .collect();
     if there.is_empty() { "0 J".to_owned() } else { there.join(", ").trim_start().to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::factor;
+
+    #[test]
+    fn slow_runs_have_a_factor_too() {
+        for (value, told) in [(0.000_321, "0.00032"), (0.4567, "0.46"), (1.04, "1"), (9.87, "9.9"), (12_345.6, "12346")]
+        {
+            assert_eq!(factor(value), told);
+        }
+    }
 }
