@@ -1,10 +1,8 @@
-//! A scene inside a Bevy app: [`PhysicsPlugin`] reads it into the app's world and runs one tick in each
-//! `FixedPostUpdate`.
+//! A scene inside a Bevy app: [`PhysicsPlugin`] reads it into the app's world and runs its ticks in `FixedPostUpdate`.
 //!
 //! A tick always lasts the physics clock's `dt`, whatever the app believes: the bits are those of a headless run. The
-//! app decides only *when* a tick runs, and for that its fixed timestep should be `dt` too. [`Pace`] says so: the
-//! driver compares before each tick, and stops if they differ. How it goes stands in the resource [`Run`], and nothing
-//! panics.
+//! app decides only *when* ticks run, and [`Pace`] how many: as many as keep the physics on the clock of the game, or one for
+//! each fixed timestep. How it goes stands in the resource [`Run`], and nothing panics.
 //!
 //! ```
 //! use bevy_app::{App, FixedPostUpdate};
@@ -25,6 +23,12 @@
 //! assert_eq!(app.world().resource::<State>().clock().ticks, 1);
 //! ```
 
+#[cfg(feature = "transform")]
+mod transforms;
+
+#[cfg(feature = "transform")]
+pub use transforms::SyncTransforms;
+
 use std::time::Duration;
 
 use bevy_app::{App, FixedPostUpdate, Plugin};
@@ -35,24 +39,27 @@ use crate::scene::{SceneError, SceneErrors, Source};
 use crate::simulation::{self, Overrides};
 use crate::tick::{Failure, State, step};
 
-/// The system set in `FixedPostUpdate` in which the tick runs: order systems of the same schedule by it.
+/// The system set in `FixedPostUpdate` in which ticks run: order systems of the same schedule by it.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Physics;
 
 /// How the app's fixed timestep and the physics clock's tick belong together.
 #[derive(Clone, Copy, Debug)]
 pub enum Pace {
-    /// They are the same, and the run stops if not. The function says how long the app's timestep is; with Bevy's time:
-    /// `|world| world.resource::<Time<Fixed>>().timestep()`.
+    /// As many ticks in each `FixedPostUpdate` as keep the physics on the clock of the game, behind it by less than a tick. The
+    /// function says how long the app's timestep is; with Bevy's time: `|world| world.resource::<Time<Fixed>>().timestep()`.
+    SameClock(fn(&World) -> Duration),
+    /// A tick in each `FixedPostUpdate`, whose timestep is as long as a tick: the run stops if not. The function is that of
+    /// [`Pace::SameClock`].
     Checked(fn(&World) -> Duration),
-    /// They need not be the same: a film in slow motion, or an app that calls `FixedPostUpdate` itself.
+    /// A tick in each `FixedPostUpdate`, whatever its timestep: a film in slow motion, or an app that calls `FixedPostUpdate` itself.
     Free,
 }
 
 /// How the run of a scene in an app goes.
 #[derive(Resource, Clone, Debug)]
 pub enum Run {
-    /// Each `FixedPostUpdate` runs a tick.
+    /// Each `FixedPostUpdate` runs what is due.
     Running,
     /// The scene's duration is over. A run that shall not end overrides the duration: [`Overrides::duration`].
     Ended,
@@ -77,8 +84,8 @@ impl Run {
             Self::Refused(errors) => Some(errors.to_string()),
             Self::Failed(failure) => Some(failure.to_string()),
             Self::OutOfStep { fixed, tick } => Some(format!(
-                "the app's fixed timestep is {:?} s, the scene's tick {tick:?} s: give the app the scene's \
-                 (`jostle::bevy::timestep`), or drive the scene with `Pace::Free`",
+                "the app's fixed timestep is {:?} s, the scene's tick {tick:?} s: run as many ticks as the app's time asks for \
+                 (`Pace::SameClock`), give the app the scene's tick (`jostle::bevy::timestep`), or drive the scene with `Pace::Free`",
                 fixed.as_secs_f64()
             )),
         }
@@ -88,6 +95,10 @@ impl Run {
 /// Ticks after which the run is over.
 #[derive(Resource, Clone, Copy, Debug)]
 struct End(u64);
+
+/// How long the app's clock has run with the scene.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+struct Elapsed(Duration);
 
 /// Reads a scene with the standard plugins into the app and runs it in `FixedPostUpdate`. One scene per app.
 ///
@@ -100,7 +111,7 @@ pub struct PhysicsPlugin {
     pub overrides: Overrides,
     /// Registers further forces, sensors ... before the scene is read. Default: none.
     pub plugins: fn(&mut App),
-    /// Whether the app's timestep is checked.
+    /// How many ticks a timestep of the app has.
     pub pace: Pace,
 }
 
@@ -130,7 +141,7 @@ impl PhysicsPlugin {
             app.insert_resource(Run::Refused(errors.clone()));
         })?;
         let pace = self.pace;
-        app.insert_resource(End(ticks));
+        app.insert_resource(End(ticks)).init_resource::<Elapsed>();
         app.add_systems(FixedPostUpdate, (move |world: &mut World| tick(world, pace)).in_set(Physics));
         Ok(())
     }
@@ -160,22 +171,65 @@ fn tick(world: &mut World, pace: Pace) {
     if !matches!(run, Run::Running | Run::OutOfStep { .. }) {
         return;
     }
-    let next = match pace {
+    let (ticks, dt) = (world.resource::<State>().clock().ticks, world.resource::<State>().clock().dt);
+    let left = world.resource::<End>().0.saturating_sub(ticks);
+    let due = match pace {
         // Timesteps are whole nanoseconds.
-        Pace::Checked(fixed) if fixed(world).abs_diff(timestep(world)) > Duration::from_nanos(1) => {
-            Run::OutOfStep { fixed: fixed(world), tick: world.resource::<State>().clock().dt }
+        Pace::Checked(fixed) if fixed(world).abs_diff(timestep(world)) > Duration::from_nanos(1) => None,
+        Pace::Checked(_) | Pace::Free => Some(1),
+        Pace::SameClock(fixed) => {
+            let step = fixed(world);
+            let mut elapsed = world.resource_mut::<Elapsed>();
+            // Durations are whole numbers: their sum is exact.
+            elapsed.0 = elapsed.0.saturating_add(step);
+            Some(ticks_in(elapsed.0, dt).saturating_sub(ticks))
         }
-        _ => match step(world, 1) {
-            Err(failure) => Run::Failed(failure),
-            Ok(()) if world.resource::<State>().clock().ticks >= world.resource::<End>().0 => {
-                observe_all(world);
-                Run::Ended
-            }
-            Ok(()) => Run::Running,
-        },
+    };
+    let next = match (due.map(|due| step(world, due.min(left))), pace) {
+        (None, Pace::Checked(fixed) | Pace::SameClock(fixed)) => Run::OutOfStep { fixed: fixed(world), tick: dt },
+        (Some(Err(failure)), _) => Run::Failed(failure),
+        _ if world.resource::<State>().clock().ticks >= world.resource::<End>().0 => {
+            observe_all(world);
+            Run::Ended
+        }
+        _ => Run::Running,
     };
     // Whoever tells the user asks whether the resource has changed: not in every tick.
     if std::mem::discriminant(&next) != now {
         world.insert_resource(next);
+    }
+}
+
+/// Whole ticks in a time; one that is reached but for rounding is reached. The time in seconds, the tick and their ratio are rounded.
+fn ticks_in(time: Duration, dt: f64) -> u64 {
+    (time.as_secs_f64() / dt * (1.0 + 4.0 * f64::EPSILON)) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ticks_in;
+    use std::time::Duration;
+
+    /// Law: the physics is behind the game by less than a tick, and by none where ticks divide the timestep, for days.
+    #[test]
+    fn ticks_keep_to_the_clock_of_the_game() {
+        for (step, dt, per_step) in
+            [(15_625_000, 1.0 / 640.0, 10), (15_625_000, 0.015_625, 1), (20_000_000, 0.0004, 50)]
+        {
+            for steps in [1, 7, 1000, 999_999, 30_000_000] {
+                assert_eq!(
+                    ticks_in(Duration::from_nanos(step) * steps, dt),
+                    u64::from(steps) * per_step,
+                    "{steps} of {step}"
+                );
+            }
+        }
+        for steps in (1..1000).chain(10_000_000..10_000_100_u32) {
+            let time = Duration::from_nanos(16_666_667) * steps;
+            let behind = time.as_secs_f64() - ticks_in(time, 0.0007) as f64 * 0.0007;
+            // Each of three roundings is one of the whole time.
+            let rounding = 3.0 * f64::EPSILON * time.as_secs_f64();
+            assert!(behind > -rounding && behind < 0.0007 + rounding, "{steps}: {behind}");
+        }
     }
 }

@@ -8,12 +8,14 @@ use std::time::Duration;
 use bevy_app::{App, FixedUpdate, Update};
 use bevy_ecs::prelude::*;
 use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
-use jostle::bevy::{Pace, Physics, PhysicsPlugin, Run, timestep};
+use bevy_transform::components::Transform;
+use glam::DVec2;
+use jostle::bevy::{Pace, Physics, PhysicsPlugin, Run, SyncTransforms, timestep};
 use jostle::report::Card;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{State, TickAppExt};
-use jostle::world::{Force, Position, hash::state_hash};
+use jostle::world::{Atom, Force, MaterialIndex, Name, NewBody, Position, Rotation, hash::state_hash};
 use jostle::{Simulation, SimulationExt};
 
 const CHECKED: Pace = Pace::Checked(|world| world.resource::<Time<Fixed>>().timestep());
@@ -140,6 +142,104 @@ fn another_timestep_than_the_clocks_stops_the_run_until_it_is_mended() {
     app.update();
     assert!(app.world().resource::<Run>().trouble().is_none());
     assert!(app.world().resource::<State>().clock().ticks > 0);
+}
+
+const SAME_CLOCK: Pace = Pace::SameClock(|world| world.resource::<Time<Fixed>>().timestep());
+
+/// An app whose fixed timestep is its own.
+fn game(physics: PhysicsPlugin, timestep: Duration) -> App {
+    let mut app = app(physics, 1);
+    app.insert_resource(Time::<Fixed>::from_duration(timestep));
+    app
+}
+
+/// How long game and physics have run. The first update of an app takes no time.
+fn clocks(app: &App) -> (f64, f64) {
+    (app.world().resource::<Time<Fixed>>().elapsed_secs_f64(), app.world().resource::<State>().clock().time())
+}
+
+/// Law: n timesteps of the game are n times as many ticks. Rounding: that of the two times, a few parts in 2^52 each.
+#[test]
+fn game_and_physics_keep_one_clock_over_many_timesteps() {
+    let mut physics = PhysicsPlugin::new(scene(), SAME_CLOCK);
+    (physics.overrides.tick, physics.overrides.duration) = (Some(1.0 / 640.0), Some(1e4));
+    let mut app = game(physics, Duration::from_micros(15_625));
+    for _ in 0..=20_000 {
+        app.update();
+    }
+    let (game, physics) = clocks(&app);
+    assert_eq!(game, 20_000.0 / 64.0);
+    assert!((game - physics).abs() <= 4.0 * f64::EPSILON * game, "{game} {physics}");
+}
+
+/// Law: where ticks do not divide the timestep the physics is behind by less than a tick; the bits are those of a headless run.
+#[test]
+fn ticks_that_do_not_divide_the_timestep_stay_near_the_game() {
+    let mut headless = Simulation::load(&scene()).unwrap();
+    headless.run_to_end().unwrap();
+    let mut app = game(PhysicsPlugin::new(scene(), SAME_CLOCK), Duration::from_micros(15_625));
+    for _ in 0..32 {
+        app.update();
+        let (game, physics) = clocks(&app);
+        assert!(physics <= game + 1e-12 && game - physics < 0.0005, "{game} {physics}");
+    }
+    app.update();
+    assert!(matches!(app.world().resource::<Run>(), Run::Ended), "{:?}", app.world().resource::<Run>());
+    assert_eq!(hash(&app), state_hash(headless.bodies()));
+}
+
+/// A timestep shorter than a tick runs none until one is due.
+#[test]
+fn a_timestep_shorter_than_a_tick_waits_for_it() {
+    let mut physics = PhysicsPlugin::new(scene(), SAME_CLOCK);
+    physics.overrides.tick = Some(0.01);
+    let mut app = game(physics, Duration::from_millis(4));
+    let ticks: Vec<u64> = (0..=5)
+        .map(|_| {
+            app.update();
+            app.world().resource::<State>().clock().ticks
+        })
+        .collect();
+    assert_eq!(ticks, [0, 0, 0, 1, 1, 2]);
+}
+
+/// Each body has a `Transform` from the beginning, one that is spawned later too; its z and scale stay the app's.
+#[test]
+fn transforms_follow_bodies() {
+    let mut app = game(PhysicsPlugin::new(scene(), SAME_CLOCK), Duration::from_micros(15_625));
+    app.add_plugins(SyncTransforms { units_per_meter: 100.0 });
+    app.update();
+    for mut transform in app.world_mut().query::<&mut Transform>().iter_mut(app.world_mut()) {
+        transform.translation.z = 7.0;
+    }
+    let atom =
+        Atom { offset: DVec2::ZERO, radius: 0.1, mass: 1.0, stiffness: 5000.0, material: MaterialIndex::default() };
+    let late = NewBody { name: "late".into(), mass: 1.0, inertia: 0.005, atoms: vec![atom], ..NewBody::default() };
+    late.spawn(app.world_mut());
+    for _ in 0..10 {
+        app.update();
+    }
+    let mut bodies = app.world_mut().query::<(&Name, &Position, &Rotation, &Transform)>();
+    let mut seen = 0;
+    for (name, position, rotation, transform) in bodies.iter(app.world()) {
+        seen += 1;
+        let place = (position.0 * 100.0).as_vec2();
+        assert_eq!([transform.translation.x, transform.translation.y], [place.x, place.y]);
+        assert_eq!(transform.translation.z, if *name == *"late" { 0.0 } else { 7.0 }, "{name}");
+        // A turn by an angle about z, in the digits of an `f32`.
+        let half = (0.5 * rotation.0) as f32;
+        assert!((transform.rotation.z - half.sin()).abs() < 1e-6 && transform.rotation.w > 0.0, "{name}");
+    }
+    assert_eq!(seen, 3);
+}
+
+/// The example ends well: it runs as it is shipped.
+#[path = "../../examples/bevy_headless.rs"]
+mod example;
+
+#[test]
+fn the_example_throws_a_ball_in_mid_run() {
+    example::main().unwrap();
 }
 
 #[test]
