@@ -145,12 +145,13 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "verdict",
-        "the last sentences of the card: how far the run can be trusted, what most likely spoils it, with body and time where that \
-         began, and what would mend it. `Do not trust it`: what was computed is not the scene. `Trust the numbers, not the \
-         model`: it is, but the scene is not what it is meant to be. `Trust it roughly`, `Trust places until ..`: in part. `Trust it`: \
-         nothing that the engine looks for was found. The gravest cause speaks, and causes come before what they bring about: a tick above the critical one, overlaps at the \
-         start, drag, places too far from the origin, forces that swing too fast, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
-         travel beyond a radius, chaos, a tick too long for the motion.",
+        "the last sentences of the card: what of the run can be trusted, then what cannot, with body and time where that began, and \
+         then what would help. `Trust it`: nothing that the engine looks for was found. `Do not trust it`: what was computed is not \
+         the scene, for the cause that is told. Else energy, statistics, rest and places are trusted as far as nothing speaks against \
+         them. `The model at contacts` is doubted where bodies overlap by more than half a radius: softer contacts than those of the \
+         scene's things. Causes come before what they bring about: a tick above the critical one, overlaps at the start, drag, places \
+         too far from the origin, forces that swing too fast, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
+         travel beyond a radius, chaos, a tick too long for the motion, places that no estimate tells.",
     ),
     word(
         "error",

@@ -1,7 +1,7 @@
 //! What was wrong before the first tick: the scene itself.
 
 use super::energy::UNACCOUNTED;
-use super::{Cause, Evidence, Trust};
+use super::{Cause, Evidence, Part, Trust};
 use crate::Remedy;
 use jostle_engine::contacts::search::OverlapAtStart;
 use jostle_engine::tick::State;
@@ -27,7 +27,7 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
         percent(share)
     );
     let remedy = Some("other places, smaller bodies, or `collides: false`".to_owned());
-    (share > COMPRESSED).then_some(Cause { trust: Trust::NotTheModel, what, remedy })
+    (share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(Part::Model), what, remedy })
 }
 
 /// Drag or a damper that takes more than there is: a method of whole steps then turns a velocity round and makes it larger.

@@ -1,6 +1,6 @@
 //! Energy that is missing, or came out of nowhere.
 
-use super::{Cause, Evidence, Trust, near, ticks};
+use super::{Cause, Evidence, Part, Trust, near, ticks};
 use crate::Remedy;
 use jostle_language::numbers::{number, percent};
 
@@ -38,6 +38,9 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`{tolerance}")) })
 }
 
+/// Share of the energy that went round which may be missing without a word.
+pub(super) const MISSING: f64 = 1e-3;
+
 /// Share of the energy that went round which friction and contacts may give in a run that is good for a first look.
 const GIVEN: f64 = 1e-2;
 /// The same in a run of which nothing is said.
@@ -48,7 +51,7 @@ pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let given = card.energy.given_back();
     let share = given / card.energy_scale;
-    let trust = if share > GIVEN { Trust::Not } else { Trust::Roughly };
+    let trust = if share > GIVEN { Trust::Not } else { Trust::ButNot(Part::Energy) };
     let what = format!(
         "friction and contacts have given {} J, though they can only take: contacts that should rest sink in, and are wedged",
         number(given)

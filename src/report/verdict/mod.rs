@@ -1,26 +1,29 @@
-//! The verdict: one plain line that says how far to trust a run, what most likely spoils it, where and when that began, and what
-//! would mend it.
+//! The verdict: one plain line that says what of a run can be trusted, then what cannot, where and when that began, and then what
+//! would help.
 //!
-//! Each cause is a function that looks at the evidence: the card and the world. The gravest speaks. Causes that are as grave
-//! stand in the order in which one explains the others: a tick above the critical one makes everything else go wrong too.
+//! Each cause is a function that looks at the evidence: the card and the world. One that leaves nothing to be trusted speaks
+//! alone. Causes stand in the order in which one explains the others: a tick above the critical one makes everything else go
+//! wrong too.
 
 mod ahead;
 mod asked;
 mod energy;
 mod motion;
 mod near;
+mod part;
 mod place;
 mod soft;
 mod ticks;
+mod voice;
 
 use bevy_ecs::prelude::*;
 
 use super::card::{Card, name};
 use crate::estimate::EstimatedError;
 use jostle_engine::constraints::Kind;
-use jostle_engine::simulation::error::ErrorEstimate;
 use jostle_engine::tick::{Failure, State, Wrong};
 use jostle_language::numbers::{number, percent, rough};
+use part::Part;
 
 /// What a verdict is found from.
 pub(super) struct Evidence<'a> {
@@ -33,12 +36,8 @@ pub(super) struct Evidence<'a> {
 pub(super) enum Trust {
     /// Not at all: what was computed is not the scene.
     Not,
-    /// The numbers are those of the scene, but the scene is not what it is meant to be.
-    NotTheModel,
-    /// For a first look.
-    Roughly,
-    /// In part: the words say which.
-    Partly(String),
+    /// But for a part.
+    ButNot(Part),
 }
 
 /// What most likely spoils a run.
@@ -55,7 +54,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// What may be to blame, in the order in which one explains the others.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 16] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -72,19 +71,11 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 16] = [
     ticks::far_travel_unseen,
     motion::chaos,
     motion::inexact,
+    motion::not_run_again,
+    motion::unknown,
 ];
 
 impl Evidence<'_> {
-    /// The gravest, and of several that are as grave the first.
-    fn cause(&self) -> Option<Cause> {
-        let all = CAUSES.iter().filter_map(|cause| cause(self));
-        all.min_by_key(|cause| match cause.trust {
-            Trust::Not => 0,
-            Trust::NotTheModel => 1,
-            Trust::Roughly | Trust::Partly(_) => 2,
-        })
-    }
-
     /// The remedy that the card advises, between words that go with it.
     pub fn advice(&self, before: &str, after: &str) -> String {
         self.card.remedy().map_or_else(String::new, |remedy| format!("{before}{remedy}{after}"))
@@ -158,20 +149,14 @@ impl Evidence<'_> {
 
     /// The verdict of a run that came to its end.
     pub fn verdict(&self) -> String {
-        self.cause().map_or_else(|| motion::good(self), |cause| cause.to_string())
-    }
-}
-
-impl std::fmt::Display for Cause {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let Self { trust, what, remedy } = self;
-        match trust {
-            Trust::Not => write!(f, "{DISTRUST}: {what}.")?,
-            Trust::NotTheModel => write!(f, "Trust the numbers, not the model: {what}.")?,
-            Trust::Roughly => write!(f, "Trust it roughly: {what}.")?,
-            Trust::Partly(part) => write!(f, "{part}: {what}.")?,
+        let causes = CAUSES.iter().filter_map(|cause| cause(self)).collect();
+        match voice::doubts(causes) {
+            Ok(doubts) => voice::told(self, &doubts),
+            Err(Cause { what, remedy, .. }) => {
+                let help = remedy.map_or_else(String::new, |remedy| format!(" Use {remedy}."));
+                format!("{DISTRUST}: {what}.{help}")
+            }
         }
-        remedy.as_ref().map_or(Ok(()), |remedy| write!(f, " Use {remedy}."))
     }
 }
 
@@ -185,10 +170,7 @@ fn of_the_way(share: f64) -> String {
 
 /// Places and velocities in words.
 fn places(card: &Card) -> Option<String> {
-    places_of(card.error.as_ref()?)
-}
-
-fn places_of(error: &ErrorEstimate) -> Option<String> {
+    let error = card.error.as_ref()?;
     let (position, velocity) = error.position.sum().zip(error.velocity.sum())?;
     Some(format!("places to about {} m, velocities to about {} m/s", rough(position), rough(velocity)))
 }

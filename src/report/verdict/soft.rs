@@ -2,9 +2,9 @@
 
 use bevy_ecs::prelude::*;
 
-use super::{Cause, Evidence, Trust};
+use super::{Cause, Evidence, Part, Trust};
 use jostle_engine::tick::{State, place_of};
-use jostle_language::numbers::{number, percent};
+use jostle_language::numbers::number;
 
 /// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
 const HEAVY: f64 = 100.0;
@@ -12,15 +12,18 @@ const HEAVY: f64 = 100.0;
 /// Critical ticks that a tick has to be shorter than, so that contacts are resolved.
 const TICKS: f64 = 20.0;
 
+/// An overlap, as a share of a radius, from which on bodies visibly are not where their surfaces meet.
+const DEEP: f64 = 0.5;
+
 /// Overlaps that hardly change what a scene means, as a share of a radius.
 const HARDLY: f64 = 0.1;
 
-/// Something was pressed in by more than a radius. Where that is an impact, overlaps fall with the root of the stiffness, `d = v
+/// Something was pressed in by much of a radius. Where that is an impact, overlaps fall with the root of the stiffness, `d = v
 /// sqrt(m/k)`, and so do critical ticks.
 pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = &card.largest_overlap_share;
-    if overlap.share_of_radius <= 1.0 {
+    if overlap.share_of_radius <= DEEP {
         return None;
     }
     let by = overlap.share_of_radius * 100.0;
@@ -42,7 +45,6 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
         ),
         None => format!("bodies overlap by {by:.0} % of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
     };
-    let error = card.energy_error();
     let radius = overlap.meters / overlap.share_of_radius;
     let softer = overlap.share_of_radius / HARDLY;
     // What runs through another was not stopped by its spring: `m v^2 = k d^2` for the fastest that was seen.
@@ -60,16 +62,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let remedy = format!(
         "a `stiffness` some {times} times as high{with}: the overlap of such an impact is about a tenth of a radius then"
     );
-    let what = if card.by_ticks() && error > 0.0 {
-        format!("{what}; energy is accounted for to {}", percent(error))
-    } else {
-        what
-    };
-    let what = match evidence.known_until() {
-        Some(until) => format!("{what}; the numbers were run again with finer steps until {} alone", super::at(until)),
-        None => what,
-    };
-    Some(Cause { trust: Trust::NotTheModel, what, remedy: Some(remedy) })
+    Some(Cause { trust: Trust::ButNot(Part::Model), what, remedy: Some(remedy) })
 }
 
 /// Stiffness in N/m of the softest atom of two sides; infinite where neither has one.
