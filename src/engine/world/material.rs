@@ -396,7 +396,7 @@ pub struct PairEntry {
     pub inelasticity: Option<Scalar>,
 }
 
-/// The coefficients of two materials that differ from the mean of both.
+/// Coefficients of two materials in contact, in place of the means of both.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct PairsSection(pub Vec<PairEntry>);
 

@@ -17,7 +17,7 @@ const MOST_BINS: u64 = 200;
 /// The most plots that fit beside a film and stay readable.
 const MOST_PLOTS: usize = 6;
 
-/// The plots beside the film, on the film's clock. It never changes the physics.
+/// The plots beside the film, on the film's clock. They never change the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct PlotsSection(pub Vec<PlotEntry>);

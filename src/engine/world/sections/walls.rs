@@ -113,8 +113,8 @@ pub enum Sides {
 /// digits.
 const ALONG: f64 = 1e-6;
 
-/// Impenetrable walls. Half-planes are floors, slopes and belts. Strips with two ends are shelves and funnels. Lines of
-/// many pieces are the ground of a landscape.
+/// Impenetrable half-planes, strips with two ends, and lines of many pieces. Half-planes are floors, slopes and belts.
+/// Strips are shelves and funnels. Lines are the ground of a landscape.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct WallsSection(pub Vec<WallEntry>);
 
