@@ -10,7 +10,6 @@
 
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::SimulationExt;
 use jostle::scene::Source;
 use jostle::world::Name;
 use jostle::world::anchor::Anchors;
