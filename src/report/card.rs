@@ -117,6 +117,8 @@ pub struct Card {
     seconds_spent: f64,
     #[serde(skip)]
     pub(super) energy_scale: f64,
+    #[serde(skip)]
+    pub(super) given_back: f64,
     /// Whether nothing moves in it.
     #[serde(skip)]
     pub(super) stands: bool,
@@ -151,7 +153,7 @@ impl Card {
         let shortest_contact = responses.briefest.map(|brief| brief.duration());
         let shortest_contact = shortest_contact.or(stability.stiffest_contact().map(|frequency| PI / frequency));
         let energy = EnergyLedger::of(state);
-        let energy_scale = energy.turned_over(state);
+        let (energy_scale, given_back) = (energy.turned_over(state), energy.given_back(state));
         let now = state.totals();
         let start = ledger.start.unwrap_or(now);
         let momentum = now.momentum - start.momentum;
@@ -188,6 +190,7 @@ impl Card {
             time: clock.time(),
             seconds_spent,
             energy_scale,
+            given_back,
             stands: stands(state),
             asked: known.map(|known| known.tolerance),
         };

@@ -68,9 +68,11 @@ impl EnergyLedger {
         known.into_iter().chain(self.accounts.iter().map(|(name, lost)| (*name, *lost)))
     }
 
-    /// Energy in J that friction and contacts have given, though they can only take. Drag may give: wind drives.
-    pub fn given_back(&self) -> f64 {
-        (-self.friction).max(0.0) + (-self.inelasticity).max(0.0)
+    /// Energy in J that friction and contacts have given, though they can only take: below zero, or back of a loss. Drag may give:
+    /// wind drives. Losses are sampled every few hundred ticks.
+    pub fn given_back(&self, state: &State) -> f64 {
+        let back = state.progress.energy.given_back(self.friction + self.inelasticity);
+        back.max((-self.friction).max(0.0) + (-self.inelasticity).max(0.0))
     }
 
     /// The turnover of energy in the run, in J, which is the scale of the residual. The zero of potential energy is

@@ -142,7 +142,7 @@ impl std::fmt::Display for Failure {
             Wrong::Sunk(_) => write!(
                 f,
                 "a sharp corner has sunk so deep, between `{body}` and `{other}`, that the side that it came through is not known: give \
-                 them more `stiffness`, or `rounding`,"
+                 them a `rounding` of some hundredths of their size, or more `stiffness`,"
             )?,
             Wrong::Contradiction => write!(
                 f,

@@ -35,6 +35,10 @@ pub(super) struct EnergyGuard {
     released: f64,
     /// The greatest kinetic and elastic energy together that was seen, in J.
     greatest: f64,
+    /// The greatest loss to friction and inelasticity that was seen, in J.
+    taken: f64,
+    /// The greatest fall from there, in J.
+    given: f64,
 }
 
 /// More energy than there can be.
@@ -52,6 +56,11 @@ impl EnergyGuard {
         self.greatest + self.released
     }
 
+    /// The greatest fall in J of the loss to friction and inelasticity, which is `lost` J at present: energy that contacts gave back.
+    pub fn given_back(&self, lost: f64) -> f64 {
+        self.given.max(self.taken - lost)
+    }
+
     /// Whether it is time to look, after `ticks` ticks in which nothing travelled farther than `travel` metres per tick.
     #[inline]
     pub fn is_due(&self, ticks: u64, travel: f64) -> bool {
@@ -67,7 +76,10 @@ impl EnergyGuard {
         // From the smallest radius on it looks each time the travel has doubled.
         self.travel = if travel > bodies.smallest_radius { 2.0 * travel } else { bodies.smallest_radius };
         let (now, start) = (state.totals(), ledger.start?);
-        let lost = ledger.friction.value() + ledger.inelasticity.value() + ledger.drag.value();
+        let by_contacts = ledger.friction.value() + ledger.inelasticity.value();
+        let lost = by_contacts + ledger.drag.value();
+        self.given = self.given_back(by_contacts);
+        self.taken = self.taken.max(by_contacts);
         let work = ledger.work.value();
         self.released = self.released.max(start.potential - now.potential);
         self.greatest = self.greatest.max(now.kinetic + now.elastic);

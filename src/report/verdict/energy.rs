@@ -49,7 +49,7 @@ const ROUNDED: f64 = 1e-3;
 /// Friction and contacts have given energy: they held bodies by less than their springs, while these were pressed together further.
 pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
-    let given = card.energy.given_back();
+    let given = card.given_back;
     let share = given / card.energy_scale;
     let trust = if share > GIVEN { Trust::Not } else { Trust::ButNot(Part::Energy) };
     let what = format!(
