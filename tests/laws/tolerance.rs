@@ -204,7 +204,7 @@ fn a_tolerance_below_rounding_is_not_said_to_be_reached() {
     let told =
         card.warnings.iter().any(|warning| warning.contains("tolerance of 1e-12 is not reached: rounding of places"));
     assert!(told, "{:?}", card.warnings);
-    assert!(card.verdict.starts_with("Do not trust its last digits"), "{}", card.verdict);
+    assert!(card.verdict.contains("Do not trust its last digits"), "{}", card.verdict);
 }
 
 #[test]

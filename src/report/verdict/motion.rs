@@ -107,7 +107,7 @@ pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
         Some(_) => None,
         None if card.by_ticks() => {
             let what = "how wrong they are is not known, as energy says nothing of a light body among heavy ones";
-            cause(Part::Places, what, Some("`--estimate`"))
+            cause(Part::UnknownPlaces, what, Some("`--estimate`"))
         }
         None => cause(Part::Places, "runs of it differ by more than can be told", None),
     }

@@ -21,6 +21,8 @@ pub(crate) enum Part {
     PlacesAfter(f64),
     /// Places after a time in s, of which nothing is known.
     UnknownAfter(f64),
+    /// Places of which nothing is known.
+    UnknownPlaces,
     /// Places that finer runs give otherwise by a hundredth of the motion or more.
     FinePlaces,
     /// The digits that a tolerance asked for.
@@ -38,12 +40,14 @@ impl Part {
 
     /// Whether nothing speaks against it: it is only not known.
     pub fn is_unknown(&self) -> bool {
-        matches!(self, Self::UnknownAfter(_))
+        matches!(self, Self::UnknownAfter(_) | Self::UnknownPlaces)
     }
 
     /// Whether a doubt of this part makes a doubt of the other idle.
     pub fn covers(&self, other: &Self) -> bool {
-        let of_places = |part: &Self| matches!(part, Self::Places | Self::FinePlaces) || part.places_until().is_some();
+        let of_places = |part: &Self| {
+            matches!(part, Self::Places | Self::UnknownPlaces | Self::FinePlaces) || part.places_until().is_some()
+        };
         self == other || of_places(self) && of_places(other)
     }
 }
@@ -55,7 +59,7 @@ impl fmt::Display for Part {
             Self::Energy => f.write_str("energy and rest"),
             Self::Impacts => f.write_str("impacts"),
             Self::Meetings => f.write_str("that all contacts were seen"),
-            Self::Places => f.write_str("places"),
+            Self::Places | Self::UnknownPlaces => f.write_str("places"),
             Self::PlacesAfter(time) => write!(f, "places after about {}", at(*time)),
             Self::UnknownAfter(time) => write!(f, "places after {}", at(*time)),
             Self::FinePlaces => f.write_str("places to more than that"),

@@ -55,7 +55,7 @@ fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
             some => trusted.push(format!("the state of rest of {some} of {count} bodies")),
         }
     }
-    if stands(state) || doubted(&Part::Places) {
+    if stands(state) || doubted(&Part::Places) || doubted(&Part::UnknownPlaces) {
         return trusted;
     }
     // The error on the card is that of all that was compared.
