@@ -9,6 +9,7 @@ use crate::cli::author;
 use crate::cli::paths::handed_on;
 use crate::integrate::ClockSection;
 use crate::integrate::Methods;
+use crate::record::sections::look::LAYERS;
 use crate::scene::schema::{Choice, Language};
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, Source, nearest_name};
@@ -45,6 +46,8 @@ Examples:
 
 const SCENES: &str = "scenes";
 const SECTIONS: &str = "sections";
+/// What the entries of `look.layers` are called.
+const SHORT_LAYERS: &str = "layers";
 /// Lists of what may stand as a value in a body, with the types that read them.
 const CHOICES: [(&str, &str); 2] = [("shapes", "Shape"), ("atoms", "Atoms")];
 /// Who brings the sections that are there before any plugin.
@@ -134,8 +137,11 @@ impl List {
             let choices = Language::of(registry).choices(definition);
             return Some(choices.into_iter().map(Item::choice).collect());
         }
+        if self.what == SHORT_LAYERS {
+            return Some(registry.entries(LAYERS).into_iter().map(Item::of).collect());
+        }
         let mut entries = registry.sections().into_iter().filter(|known| known.takes_entries);
-        if let Some(section) = entries.find(|known| short(known.name) == short(&self.what)) {
+        if let Some(section) = entries.find(|known| known.name == self.what) {
             return Some(registry.entries(section.name).into_iter().map(Item::of).collect());
         }
         let list = registry.word_lists().into_iter().find(|list| self.what == plural(list) || self.what == *list)?;
@@ -151,18 +157,13 @@ impl List {
     }
 }
 
-/// What a list is called: `layers` for the field `look.layers`.
-fn short(section: &str) -> &str {
-    section.rsplit('.').next().unwrap_or(section)
-}
-
 /// The names of all lists.
 fn kinds(registry: &SceneRegistry) -> Vec<String> {
     let sections = registry.sections();
-    let entries = sections.iter().filter(|known| known.takes_entries).map(|known| short(known.name).to_owned());
+    let entries = sections.iter().filter(|known| known.takes_entries).map(|known| known.name.to_owned());
     let words = registry.word_lists();
     let choices = CHOICES.iter().map(|(list, _)| *list);
-    let fixed = [SCENES, SECTIONS].into_iter().chain(choices).map(str::to_owned);
+    let fixed = [SCENES, SECTIONS, SHORT_LAYERS].into_iter().chain(choices).map(str::to_owned);
     fixed.chain(entries).chain(words.into_iter().map(plural)).collect()
 }
 

@@ -75,7 +75,7 @@ Examples:
   jostle render example:bounce -o bounce.png --at 1.5    one picture, after 1.5 s
   jostle render scenes/*.ron -o films/                   a film of each scene
   jostle run example:projectile -o channels.csv          numbers instead of pictures
-  jostle plot example:bounce --channels ball.position.y  a figure of what a sensor measures
+  jostle plot example:bounce --channels elastic.position.y  a figure of what a sensor measures
   jostle check my_scene.ron                              read it and say what is wrong
   jostle test scenes/                                    do all scenes of a folder do what they expect?
   jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values

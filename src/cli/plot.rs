@@ -63,7 +63,7 @@ pub(super) struct PlotCommand {
 
 const EXAMPLES: &str = "\
 Examples:
-  jostle plot example:bounce --channels ball.position.y      a height against time: bounce.png
+  jostle plot example:bounce --channels elastic.position.y   a height against time: bounce.png
   jostle plot my.ron -o plots.png                            the plots that stand in the scene
   jostle plot my.ron --channels 'energy.kinetic,energy.potential,energy.total' --title Energy
   jostle plot my.ron --x ball.position.x --channels ball.velocity.x      a phase portrait

@@ -38,7 +38,6 @@ fn what_a_scene_may_name_is_listed_with_its_module() {
         shapes.iter().any(|shape| shape["name"] == "Gear") && shapes.iter().any(|shape| shape["name"] == "Compound")
     );
     assert!(folder.jostle("list atoms").code(0).out.starts_with("Picture  Picture(spacing: 0.1"));
-    assert_eq!(folder.jostle("list layers").code(0).out, folder.jostle("list look.layers").code(0).out);
     assert!(folder.jostle("list layers").code(0).out.contains("jostle::record::layers::trails"));
     assert!(folder.jostle("list themes").code(0).out.contains("paper\n"));
     assert!(folder.jostle("list channels energy").code(0).out.contains("energy.residual\n"));

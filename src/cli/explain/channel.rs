@@ -74,7 +74,8 @@ pub(super) fn parts(what: &str, registry: &SceneRegistry) -> Option<String> {
     let has = |quantity: &&str| quantity.split('.').any(|word| word == part);
     let names: Vec<String> =
         registry.words(QUANTITIES).into_iter().filter(has).map(|quantity| format!("`{owner}.{quantity}`")).collect();
-    let first = names.first()?;
+    // A place is what most ask for.
+    let first = names.iter().find(|name| name.contains(".position")).or(names.first())?;
     let first = first.trim_matches('`');
     let all = names.join(", ");
     Some(format!("`{what}` is a part of the names of channels: {all}. `jostle explain {first}` tells more of one."))

@@ -36,7 +36,7 @@ Examples:
   jostle explain Drag               what a force, sensor, section or method is, with an example
   jostle explain critical tick      what a word on the error card means
   jostle explain kinetic            what a channel is, its unit, and the sensor that gives it
-  jostle explain example:bounce ball.position.y
+  jostle explain example:bounce elastic.position.y
                                     the same of a channel of a scene
   jostle explain threads            what a flag does, and which commands have it
 

@@ -13,7 +13,9 @@ use crate::raster::Theme;
 use crate::scene::schema::Language;
 use crate::scene::suggest::plural;
 use crate::scene::{Known, SceneRegistry, nearest_name};
+use crate::sensors::QUANTITIES;
 use crate::tick::TickAppExt;
+use crate::tick::energy::CHANNELS;
 
 /// Explains a name; `what` may be written in capitals or not, and in the singular or the plural.
 pub(super) fn explain(what: &str) -> Exit {
@@ -120,7 +122,7 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
             found.push(format!("{word}: {meaning}"));
         }
     }
-    for list in registry.word_lists() {
+    for list in registry.word_lists().into_iter().filter(|list| ![QUANTITIES, CHANNELS].contains(list)) {
         let word = registry.words(list).into_iter().find(|word| same(word));
         if let Some(word) = word.filter(|_| found.is_empty()) {
             found.push(format!("{word} is a {list}; `jostle list` shows the others"));
