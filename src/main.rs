@@ -44,10 +44,10 @@ const fn digits_from(text: &[u8], start: usize) -> Option<[u8; DIGITS]> {
         return None;
     }
     let mut digits = [0; DIGITS];
-    let mut place = 0;
-    while place < DIGITS {
-        digits[place] = text[start + place];
-        place += 1;
+    let mut index = 0;
+    while index < DIGITS {
+        digits[index] = text[start + index];
+        index += 1;
     }
     Some(digits)
 }

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::Exit;
 use super::film::Order;
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::say;
 use crate::cli::author;
 use crate::forces::spring::SpringForce;
 use crate::joints::Joint;
 use crate::raster::{Bounds, Camera, Panel};
 use crate::record::Schedule;
-use crate::record::follow::Follower;
+use crate::record::follow_camera::Follower;
 use crate::record::legend;
 use crate::record::plot::{Board, Plot};
 use crate::record::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};

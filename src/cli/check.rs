@@ -2,11 +2,11 @@
 
 use clap::Args;
 
+use super::film_times::Misfit;
 use super::flags::{OverrideFlags, StrictFlag};
 use super::load::Request;
-use super::moments::Misfit;
 use super::pace::Runner;
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::result::{self, Detail, Ran};
 use super::say::{count, print_line, say};
 use super::{Exit, colors};
@@ -132,7 +132,7 @@ impl Seen {
 fn anchors(simulation: &Simulation) -> Vec<Seen> {
     let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
     let seen = |anchor: &Anchor| {
-        let (_, at) = anchor.place(bodies)?;
+        let (_, at) = anchor.index(bodies)?;
         let body = world.get::<Name>(anchor.body).map(Name::to_string).unwrap_or_default();
         Some(Seen { path: anchor.path.clone(), body, position: at.to_array() })
     };

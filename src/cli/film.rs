@@ -3,21 +3,21 @@
 use std::io;
 
 use super::aim::Aim;
+use super::destination::Place;
 use super::inputs::Inputs;
 use super::load::Request;
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::projector::Projector;
 use super::say::say;
 use super::squeeze::Squeeze;
-use super::target::Place;
 use super::wall_clock::WallClock;
 use super::{Exit, colors};
 use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
 use crate::raster::{Camera, View};
 use crate::record::Schedule;
-use crate::record::follow::Follower;
+use crate::record::follow_camera::Follower;
+use crate::record::frame_spool::Spool;
 use crate::record::layers::PictureHeight;
-use crate::record::spool::Spool;
 use crate::scene::Source;
 use crate::simulation::Recorder;
 use crate::simulation::{Overrides, Simulation};

@@ -9,7 +9,7 @@ use super::Exit;
 use super::load;
 use super::say::{print_line, say};
 use crate::output::write_whole;
-use crate::scene::{LARGEST_SCENE, SceneErrors, Source, laid_out};
+use crate::scene::{LARGEST_SCENE, SceneErrors, Source, formatted};
 
 /// The command `fmt`.
 #[derive(Args, Debug)]
@@ -52,7 +52,7 @@ impl Fmt {
             Ok(source) => source,
             Err(exit) => return exit,
         };
-        let text = match laid_out(&source) {
+        let text = match formatted(&source) {
             Ok(text) => text,
             Err(errors) => return refuse(&errors),
         };

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::destination::is_directory;
 use super::load::{EXAMPLE, Request};
-use super::target::is_directory;
 use crate::output::behind_links;
 use crate::simulation::Simulation;
 

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::wall_clock::WallClock;
 use crate::simulation::Simulation;
 use crate::tick::Failure;

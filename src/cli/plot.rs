@@ -6,12 +6,12 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use super::Exit;
+use super::destination::{is_directory, takes_no_file};
 use super::flags::{self, OverrideFlags};
 use super::inputs::Inputs;
 use super::load::Request;
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::{number, say};
-use super::target::{is_directory, takes_no_file};
 use crate::output;
 use crate::raster::{Theme, figure};
 use crate::record::plot::pairs;
@@ -20,7 +20,7 @@ use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit}
 use crate::record::sections::{PlotEntry, PlotsSection};
 use crate::scene::embed::{Wanted, told};
 use crate::scene::values::Names;
-use crate::scene::{Report, fits, suggest};
+use crate::scene::{Diagnostics, fits, suggest};
 use crate::sensors::{self, Channels};
 use crate::simulation::Simulation;
 use crate::simulation::{Missing, Sampler};
@@ -197,7 +197,7 @@ impl PlotCommand {
             },
             None => PlotEntry { channels: Some(channels), log: self.log, ..PlotEntry::default() },
         };
-        let mut report = Report::new();
+        let mut report = Diagnostics::new();
         entry(named.clone()).check(&outline, &mut report);
         if let Some(problem) = report.problems().first() {
             let flag = if problem.path == "x" { "--x" } else { "--channels" };
@@ -284,7 +284,7 @@ impl PlotCommand {
 
     /// One plot of columns, each against the other of its pair.
     fn plot(&self, unit: &str, pairs: &[[&Column; 2]]) -> Plot {
-        let named = |place: usize| common(&pairs.iter().map(|pair| pair[place].name.as_str()).collect::<Vec<_>>());
+        let named = |index: usize| common(&pairs.iter().map(|pair| pair[index].name.as_str()).collect::<Vec<_>>());
         let ((across, _), (shared, labels)) = (named(0), named(1));
         let first = pairs[0][0];
         let one = pairs.iter().all(|[x, _]| x.name == first.name);

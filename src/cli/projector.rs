@@ -5,9 +5,9 @@ use std::io;
 use super::film::Trouble;
 use super::wall_clock::WallClock;
 use crate::output::Film;
-use crate::record::follow::Follower;
+use crate::record::follow_camera::Follower;
 use crate::record::frame::Frame;
-use crate::record::spool::Spool;
+use crate::record::frame_spool::Spool;
 
 /// Aims the camera and keeps to the clock.
 pub(super) struct Projector {

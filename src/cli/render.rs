@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Exit;
+use super::destination::{Place, Wish, places};
 use super::estimate::EstimateFlags;
 use super::film::{Made, Order, Shot};
 use super::flags::{self, OverrideFlags, StrictFlag};
@@ -12,7 +13,6 @@ use super::load::Request;
 use super::result::{self, Detail, Ran};
 use super::say::{count as in_words, say};
 use super::side_by_side::all_cores;
-use super::target::{Place, Wish, places};
 use crate::output::{Target, Written};
 use crate::simulation::Overrides;
 

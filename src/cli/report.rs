@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::inputs::is_same_file;
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::{count, say};
 use super::{Exit, author};
 use crate::output::{flat_picture, write_whole};
-use crate::problems::hard::{self, Case, Verdict};
+use crate::problems::hard::{self, Case, Judgement};
 use crate::problems::{ALL, Problem};
 use crate::raster::{Theme, draw_diagram};
-use crate::report::survey::{self, Judged, Made, Order, Peers, Picture, Sheet};
+use crate::report::document::{self, Judged, Made, Order, Peers, Picture, Sheet};
 use crate::scene::embed::{Wanted, told};
 use crate::scene::nearest_name;
 
@@ -98,7 +98,7 @@ impl Report {
     }
 
     fn tell(&self, sheets: &[Sheet], cases: &[Judged]) -> Exit {
-        let failed: usize = cases.iter().map(|judged| judged.count(Verdict::Failed)).sum();
+        let failed: usize = cases.iter().map(|judged| judged.count(Judgement::Failed)).sum();
         if failed > 0 {
             say(&format!("{} of hard cases beyond their thresholds", count(failed, "reading", "readings")));
         }
@@ -166,9 +166,9 @@ impl Report {
             let (file, shows) = (format!("{name}.png"), format!("Cost against error of {name}"));
             Some(Picture { file, shows, bytes: flat_picture(&drawn).ok()? })
         };
-        let page = survey::page(&Made::here(author::commit()), sheets, cases, peers, &picture);
+        let page = document::page(&Made::here(author::commit()), sheets, cases, peers, &picture);
         for block in &page {
-            if let survey::Block::Picture(picture) = block {
+            if let document::Block::Picture(picture) = block {
                 self.put(&picture.file, &picture.bytes)?;
             }
         }
@@ -176,10 +176,10 @@ impl Report {
             self.put(&format!("{}.csv", sheet.problem.name), sheet.csv().as_bytes())?;
         }
         if !cases.is_empty() {
-            self.put("hard_cases.csv", survey::cases_csv(cases).as_bytes())?;
+            self.put("hard_cases.csv", document::cases_csv(cases).as_bytes())?;
         }
-        self.put("report.md", survey::markdown(&page).as_bytes())?;
-        self.put("report.html", survey::html(&page).as_bytes())
+        self.put("report.md", document::markdown(&page).as_bytes())?;
+        self.put("report.html", document::html(&page).as_bytes())
     }
 
     fn put(&self, file: &str, bytes: &[u8]) -> Result<(), String> {

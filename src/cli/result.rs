@@ -145,12 +145,12 @@ fn print_json(
     reverse: Option<&Reversal>,
 ) -> Exit {
     let (bodies, clock) = (simulation.bodies(), simulation.clock());
-    let state = |place: usize| BodyState {
-        name: simulation.name(place),
-        position: bodies.position[place].into(),
-        angle: bodies.angle[place],
-        velocity: bodies.velocity[place].into(),
-        spin: bodies.spin[place],
+    let state = |index: usize| BodyState {
+        name: simulation.name(index),
+        position: bodies.position[index].into(),
+        angle: bodies.angle[index],
+        velocity: bodies.velocity[index].into(),
+        spin: bodies.spin[index],
     };
     let result = RunResult {
         scene,

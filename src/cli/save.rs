@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::destination::{is_directory, takes_no_file};
 use super::flags::moment;
 use super::inputs::{Inputs, is_same_file};
 use super::load::Request;
 use super::pace::Runner;
 use super::say::say;
-use super::target::{is_directory, takes_no_file};
 use crate::output::{OutputError, write_whole};
 use crate::simulation::{Simulation, Snapshot};
 use crate::tick::{Failure, Notes};

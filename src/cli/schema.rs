@@ -6,8 +6,8 @@ use bevy_app::App;
 use clap::Args;
 
 use super::Exit;
+use super::destination::takes_no_file;
 use super::say::{print_line, say};
-use super::target::takes_no_file;
 use crate::output::write_whole;
 use crate::plugins;
 use crate::scene::SceneRegistry;

@@ -24,10 +24,10 @@ pub(super) fn in_order<Item: Sync, Done: Send>(
             let (sender, next, work) = (sender.clone(), &next, &work);
             scope.spawn(move || {
                 loop {
-                    let place = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(item) = items.get(place) else { break };
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(index) else { break };
                     // If `told` has panicked, there is no receiver.
-                    if sender.send((place, work(item))).is_err() {
+                    if sender.send((index, work(item))).is_err() {
                         break;
                     }
                 }
@@ -36,8 +36,8 @@ pub(super) fn in_order<Item: Sync, Done: Send>(
         drop(sender);
         let mut early = BTreeMap::new();
         let mut due = 0;
-        for (place, done) in receiver {
-            early.insert(place, done);
+        for (index, done) in receiver {
+            early.insert(index, done);
             while let Some(done) = early.remove(&due) {
                 told(done);
                 due += 1;

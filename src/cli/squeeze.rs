@@ -105,7 +105,7 @@ impl Squeeze<'_> {
                 Err(other) => return Err(other),
             }
         }
-        let Some((place, fitting)) = best else {
+        let Some((index, fitting)) = best else {
             let (most, smallest) = (bytes_in_words(self.most as f64), bytes_in_words(smallest));
             order.request.usage(&format!(
                 "the film does not fit into {most}: even at an eighth of its size, with a sixth of its frames and 15 \
@@ -114,7 +114,7 @@ impl Squeeze<'_> {
             ));
             return Err(Trouble::Told);
         };
-        let (rung, draft) = self.refine(order, LADDER[place], fitting, &mut play)?;
+        let (rung, draft) = self.refine(order, LADDER[index], fitting, &mut play)?;
         let written = draft.keep()?;
         if !order.quiet {
             self.tell(rung);

@@ -6,15 +6,15 @@ use std::time::Instant;
 use clap::Args;
 
 use super::Exit;
+use super::destination::{is_directory, takes_no_file};
 use super::find::scenes_in;
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::is_same_file;
 use super::junit;
 use super::load::Request;
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::{count, print_line, say};
 use super::side_by_side::{all_cores, in_order};
-use super::target::{is_directory, takes_no_file};
 use super::trial::{Trial, Verdict, told};
 use crate::output::write_whole;
 use crate::scene::Source;

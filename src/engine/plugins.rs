@@ -4,7 +4,7 @@
 //! sections are not scheduled, not stored, and cost nothing.
 
 use bevy_app::App;
-use jostle_frames::palette;
+use jostle_frames::color_names;
 
 use crate::record::sections::look::THEMES;
 use crate::scene::SceneAppExt;
@@ -19,10 +19,10 @@ pub fn run_and_film(app: &mut App) {
     integrate::clock::plugin(app);
     record::sections::plugin(app);
     // The painter has its names of colours, and the language checks against them.
-    for color in palette::COLOR_NAMES {
+    for color in color_names::COLOR_NAMES {
         app.register_word(COLORS, color);
     }
-    for (theme, _) in palette::THEMES {
+    for (theme, _) in color_names::THEMES {
         app.register_word(THEMES, theme);
     }
     for later in RESERVED {

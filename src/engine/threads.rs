@@ -128,8 +128,8 @@ mod tests {
             for parts in [0, 1, 2, 40] {
                 let mut done = vec![0_u32; parts];
                 let work: Vec<(usize, &mut u32)> = done.iter_mut().enumerate().collect();
-                threads.each(work, |(place, part)| *part += 1 + place as u32);
-                assert!(done.iter().enumerate().all(|(place, &done)| done == 1 + place as u32), "{count}, {parts}");
+                threads.each(work, |(index, part)| *part += 1 + index as u32);
+                assert!(done.iter().enumerate().all(|(index, &done)| done == 1 + index as u32), "{count}, {parts}");
             }
         }
     }

@@ -1,14 +1,14 @@
 //! Replaces one value in the text of a scene, by the path of that value.
 
-use super::scan::{scan, skip_blank};
+use super::lexer::{lex, skip_blank};
 use super::source::Source;
 use super::suggest;
-use super::tree::{Form, Id, Step, Tree};
+use super::syntax::{Form, Id, Step, Tree};
 
 impl Source {
     /// The scene's own parameters (`params`), in the order of the file.
     pub fn params(&self) -> Vec<String> {
-        let tree = scan(&self.text).tree;
+        let tree = lex(&self.text).tree;
         let Ok(params) = tree.trace("params", &self.text) else { return Vec::new() };
         let names = tree.children(params).iter().map(|&id| self.text[tree.key(id)].trim_matches('"').to_owned());
         names.collect()
@@ -21,7 +21,7 @@ impl Source {
     /// # Errors
     /// The message names the mistake in the path, and how far the path leads.
     pub fn with_value(&self, path: &str, value: &str) -> Result<Self, String> {
-        let found = scan(&self.text);
+        let found = lex(&self.text);
         if let Some(fault) = found.fault {
             return Err(fault.message);
         }

@@ -6,7 +6,7 @@ use std::any::Any;
 use std::path::Path;
 use std::sync::Arc;
 
-pub use super::expand::{Door, Wanted, told};
+pub use super::macros::{Door, Wanted, told};
 
 /// The place in a scene of an entry that names a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

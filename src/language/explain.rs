@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 
 use super::error::SceneError;
 use super::suggest;
-use super::tree::{Form, Id, Tree};
+use super::syntax::{Form, Id, Tree};
 
 /// The reason why the reader stopped, and the byte, counted from the beginning of the value's text.
 #[derive(Debug)]

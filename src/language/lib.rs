@@ -7,43 +7,43 @@
 //! 1. *walk* the text: brackets, commas, duplicate fields, and numbers that are NaN or infinite;
 //! 2. *read* every section with the type registered for it;
 //! 3. *declare* the names of each section ([`Outline`]);
-//! 4. *check* the rules that types cannot express ([`Report`]);
+//! 4. *check* the rules that types cannot express ([`Diagnostics`]);
 //! 5. *install*, in the order of registration ([`Scene::install`]).
 //!
 //! Mistakes come with file, line, column, path, source line and remedy ([`SceneErrors`]).
 
-mod cells;
+mod delimited;
+mod diagnostics;
 pub mod digest;
 mod edit;
 pub mod embed;
 mod error;
-mod expand;
 pub mod explain;
-mod layout;
+mod format;
+mod lexer;
 mod load;
+mod macros;
 pub mod names;
 mod number;
 pub mod numbers;
 mod outline;
 mod registry;
-mod report;
-mod scan;
 pub mod schema;
 mod source;
 pub mod suggest;
-mod tree;
+mod syntax;
 pub mod units;
 pub mod values;
 
-pub use cells::{cells, drop_empty_ends, separator};
+pub use delimited::{cells, drop_empty_ends, separator};
+pub use diagnostics::{Diagnostic, Diagnostics};
 pub use error::{SceneError, SceneErrors};
-pub use expand::{Formula, Mistake};
 pub use explain::read as read_value;
-pub use layout::laid_out;
+pub use format::formatted;
 pub use load::{Scene, SceneHeader};
+pub use macros::{Formula, Mistake};
 pub use number::{count, number};
 pub use outline::{Kind, Mention, Obstacle, Outline, fits};
 pub use registry::{Arity, Described, Known, MakeEntries, ReadEntries, ReadOneSection, ReadSection, Registry};
-pub use report::{Problem, Report};
 pub use source::{LARGEST_SCENE, Source};
 pub use suggest::nearest as nearest_name;

@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use super::diagnostics::{Diagnostic, Diagnostics};
 use super::error::{SceneError, SceneErrors};
-use super::expand::{self, Tables};
 use super::explain::{self, Walked};
+use super::lexer::{lex, skip_blank};
+use super::macros::{self, Tables};
 use super::outline::{Kind, Mention, Outline};
 use super::registry::{Arity, ReadEntries, ReadSection, Reader, Registry, entry_scope};
-use super::report::{Problem, Report};
-use super::scan::{scan, skip_blank};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
-use super::tree::{Form, Id, Tree};
+use super::syntax::{Form, Id, Tree};
 use super::values::WholeNumber;
 use crate::digest;
 
@@ -62,17 +62,17 @@ impl<A> Scene<A> {
             let error = SceneError::new("", message).with_help("many bodies are shorter with `fill`");
             return Err(SceneErrors::new(Source::new(source.name.clone(), ""), vec![error], Vec::new()));
         }
-        let found = scan(&source.text);
+        let found = lex(&source.text);
         if let Some(fault) = found.fault {
             return Err(SceneErrors::new(source.clone(), vec![fault], Vec::new()));
         }
-        if !expand::is_wanted(source, &found.tree, embeddings) {
+        if !macros::is_wanted(source, &found.tree, embeddings) {
             return read_text(registry, &source.text, &found.tree, found.errors, Tables::new())
                 .map_err(|(errors, notes)| SceneErrors::new(source.clone(), errors, notes));
         }
-        let mut expanded = expand::expand(source, found, embeddings)?;
+        let mut expanded = macros::expand(source, found, embeddings)?;
         let tables = std::mem::take(&mut expanded.tables);
-        let mut found = scan(&expanded.text);
+        let mut found = lex(&expanded.text);
         if let Some(fault) = found.fault.take() {
             return Err(expanded.told(&found.tree, vec![fault], Vec::new()));
         }
@@ -133,14 +133,14 @@ impl<A> Registry<A> {
     /// Mistakes that only turned out when the scene was put together, at their places in the text.
     pub fn found_later(&self, source: &Source, mut errors: Vec<SceneError>) -> SceneErrors {
         let embeddings = &self.embeddings;
-        let mut found = scan(&source.text);
-        let expanded = if expand::is_wanted(source, &found.tree, embeddings) {
-            expand::expand(source, found, embeddings).ok()
+        let mut found = lex(&source.text);
+        let expanded = if macros::is_wanted(source, &found.tree, embeddings) {
+            macros::expand(source, found, embeddings).ok()
         } else {
             None
         };
         let text = expanded.as_ref().map_or(&source.text, |expanded| &expanded.text);
-        found = scan(text);
+        found = lex(text);
         for error in &mut errors {
             let is_flag = error.path.starts_with("--");
             if let Some(place) = found.tree.find(&error.path, text).filter(|_| !is_flag) {
@@ -264,7 +264,7 @@ impl<A> Loading<'_, A> {
             let help = {
                 let real = registry.sections.iter().filter(|(_, section)| !matches!(section.reader, Reader::Reserved));
                 let real = real.map(|(name, _)| *name).filter(|name| !name.contains('.'));
-                let names = ["format", "title", "notes"].into_iter().chain(expand::SECTIONS).chain(real);
+                let names = ["format", "title", "notes"].into_iter().chain(macros::SECTIONS).chain(real);
                 suggest::among(name, names.collect::<Vec<_>>().into_iter(), "sections", '`')
             };
             let error = SceneError::new("", format!("there is no section `{name}`"));
@@ -396,7 +396,7 @@ impl<A> Loading<'_, A> {
     }
 
     /// Names first, in the order of the file, so that every check sees all of them.
-    fn check_all(&mut self) -> Report {
+    fn check_all(&mut self) -> Diagnostics {
         let outline = &mut self.header.outline;
         outline.complete = self.errors.iter().all(|error| error.label == "not finite");
         for item in &self.order {
@@ -435,7 +435,7 @@ impl<A> Loading<'_, A> {
     }
 
     /// Finds the places in the text for the mistakes of the checks.
-    fn place(&mut self, problems: &[Problem]) {
+    fn place(&mut self, problems: &[Diagnostic]) {
         let (told, counted) = problems.split_at(problems.len().min(MOST_PROBLEMS));
         self.errors.extend(told.iter().map(|problem| placed(&self.walked, problem)));
         if let Some(next) = counted.first() {
@@ -445,7 +445,7 @@ impl<A> Loading<'_, A> {
     }
 }
 
-fn placed(Walked { text, tree }: &Walked, problem: &Problem) -> SceneError {
+fn placed(Walked { text, tree }: &Walked, problem: &Diagnostic) -> SceneError {
     let mut error = SceneError::new(problem.path.clone(), problem.message.clone());
     error.help.clone_from(&problem.help);
     if let Some(place) = tree.find(&problem.path, text) {

@@ -79,7 +79,7 @@ impl Names {
     /// The places of all names that fit a pattern.
     pub fn matching(&self, pattern: &str) -> Vec<usize> {
         let names = self.list().iter().enumerate();
-        names.filter(|(_, name)| fits(pattern, name)).map(|(place, _)| place).collect()
+        names.filter(|(_, name)| fits(pattern, name)).map(|(index, _)| index).collect()
     }
 
     /// Adds a name that is new.
@@ -126,8 +126,8 @@ mod tests {
         names.add("gas_011", "walls[0].name".to_owned());
         assert_eq!(names.len(), 13);
         assert_eq!(names.list()[..3], ["gas", "gas_0", "gas_1"]);
-        for (place, name) in names.list().iter().enumerate() {
-            assert_eq!(names.find(name).map(|(place, _)| place), Some(place), "{name}");
+        for (index, name) in names.list().iter().enumerate() {
+            assert_eq!(names.find(name).map(|(index, _)| index), Some(index), "{name}");
         }
         for name in ["gas_11", "gas_00", "gas_+1", "gas_", "_1", "gas_1_1", "gas_99999999999999999999"] {
             assert_eq!(names.find(name), None, "{name}");

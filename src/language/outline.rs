@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::expand::Tables;
+use super::diagnostics::Diagnostics;
+use super::macros::Tables;
 use super::names::{self, Names};
-use super::report::Report;
 use super::suggest;
 
 /// Longer names, in bytes, are no names.
@@ -117,7 +117,7 @@ pub struct Outline {
     pub(crate) scope: String,
     /// Whether every section could be read. If not, names may be missing, so unknown ones are not reported.
     pub(crate) complete: bool,
-    pub(crate) report: Report,
+    pub(crate) report: Diagnostics,
 }
 
 impl Outline {
@@ -225,7 +225,7 @@ impl Outline {
     }
 
     /// The place of a name; an unknown one is reported at `path` with the nearest known name.
-    pub fn require(&self, kind: Kind, name: &str, path: &str, report: &mut Report) -> Option<usize> {
+    pub fn require(&self, kind: Kind, name: &str, path: &str, report: &mut Diagnostics) -> Option<usize> {
         let found = self.position(kind, name);
         if found.is_none() {
             self.report_unknown(&[kind], name, path, report);
@@ -234,7 +234,7 @@ impl Outline {
     }
 
     /// Whether the name belongs to one of these kinds. An unknown name is reported at `path`.
-    pub fn require_any(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Report) -> bool {
+    pub fn require_any(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Diagnostics) -> bool {
         let found = kinds.iter().any(|&kind| self.position(kind, name).is_some());
         if !found {
             self.report_unknown(kinds, name, path, report);
@@ -243,7 +243,7 @@ impl Outline {
     }
 
     /// The indices of all names that fit a pattern. If no name fits, the pattern is reported at `path`.
-    pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Report) -> Vec<usize> {
+    pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Diagnostics) -> Vec<usize> {
         let parts = pattern.matches('*').count();
         if !report.may_compare(path, parts * self.count(kind)) {
             return Vec::new();
@@ -255,7 +255,7 @@ impl Outline {
         found
     }
 
-    fn report_unknown(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Report) {
+    fn report_unknown(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Diagnostics) {
         if !self.complete {
             return;
         }
@@ -365,7 +365,7 @@ pub fn fits(pattern: &str, name: &str) -> bool {
             return rest.ends_with(part);
         }
         match rest.find(part) {
-            Some(place) => rest = &rest[place + part.len()..],
+            Some(index) => rest = &rest[index + part.len()..],
             None => return false,
         }
     }

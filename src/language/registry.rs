@@ -4,10 +4,10 @@
 
 use std::collections::BTreeMap;
 
+use super::diagnostics::Diagnostics;
 use super::embed::Embedding;
 use super::explain::Fault;
 use super::outline::{Outline, Words, join};
-use super::report::Report;
 use super::schema::Describe;
 
 /// How many entries a section of entries takes.
@@ -29,7 +29,7 @@ pub trait ReadSection<A>: Send + Sync {
     /// Tells the outline which names it brings.
     fn declare(&self, outline: &mut Outline);
     /// Reports what types cannot exclude.
-    fn check(&self, outline: &Outline, report: &mut Report);
+    fn check(&self, outline: &Outline, report: &mut Diagnostics);
     /// Builds the section.
     fn install(self: Box<Self>, outline: &Outline, into: &mut A);
 }
@@ -44,7 +44,7 @@ pub trait ReadEntries<A>: Send + Sync {
     /// Tells the outline which names an entry brings.
     fn declare(&self, which: usize, outline: &mut Outline);
     /// Reports what types cannot exclude in an entry.
-    fn check(&self, which: usize, outline: &Outline, report: &mut Report);
+    fn check(&self, which: usize, outline: &Outline, report: &mut Diagnostics);
     /// Builds what all of them ask for.
     fn install(self: Box<Self>, outline: &Outline, into: &mut A);
 }

@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::error::{SceneError, SceneErrors};
-use super::scan::{Scan, scan};
+use super::lexer::{Lexed, lex};
 use super::suggest::nearest;
-use super::tree::{Form, Tree};
+use super::syntax::{Form, Tree};
 
 /// The largest scene the reader takes, in bytes (64 MiB).
 ///
@@ -94,7 +94,7 @@ impl Source {
     /// The kind of the text if it is not a scene that can run by itself. It may have another name, or be a part for
     /// other scenes to include. `None` for a scene, right or wrong.
     pub fn other_than_scene(&self) -> Option<String> {
-        let Scan { tree, fault, .. } = scan(&self.text);
+        let Lexed { tree, fault, .. } = lex(&self.text);
         if tree.is_empty() {
             return None;
         }
@@ -123,7 +123,7 @@ impl Source {
 
     /// The whole text after includes, templates and repetitions; empty if it cannot be made.
     pub fn made<A>(&self, registry: &super::Registry<A>) -> String {
-        super::expand::made(self, &registry.embeddings)
+        super::macros::made(self, &registry.embeddings)
             .into_iter()
             .flatten()
             .map(|(name, text)| format!("{name}: {text},\n"))
@@ -135,9 +135,9 @@ impl Source {
         if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
             return Err((format!("`{name}` is UTF-16 text, not UTF-8"), "save it as UTF-8 in your editor"));
         }
-        if let Some(place) = bytes.iter().position(|&byte| byte == 0) {
+        if let Some(index) = bytes.iter().position(|&byte| byte == 0) {
             return Err((
-                format!("`{name}` is not a text file: a zero byte at position {place}"),
+                format!("`{name}` is not a text file: a zero byte at position {index}"),
                 "a scene is a text file in RON; check that this is the right file",
             ));
         }
@@ -175,7 +175,7 @@ pub(crate) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(crate) fn new(text: &'a str) -> Self {
-        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(place, _)| place + 1)).collect();
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(index, _)| index + 1)).collect();
         Self { text, starts }
     }
 

@@ -6,8 +6,8 @@ use serde::de::{
     self, Deserialize, DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 
+use super::diagnostics::Diagnostics;
 use super::outline::{Kind, Outline};
-use super::report::Report;
 use super::suggest;
 
 /// A bare word, such as the method `VelocityVerlet`, checked against a list that plugins can extend.
@@ -17,7 +17,7 @@ pub struct Word(pub String);
 impl Word {
     /// Reports a word that is not in an open list of words
     /// ([`Registry::add_word`](super::Registry::add_word)), or not available yet. Returns whether it is good.
-    pub fn check(&self, outline: &Outline, list: &str, path: &str, report: &mut Report) -> bool {
+    pub fn check(&self, outline: &Outline, list: &str, path: &str, report: &mut Diagnostics) -> bool {
         match outline.word(list, &self.0) {
             Some(true) => true,
             Some(false) => {
@@ -150,7 +150,7 @@ impl Names {
     }
 
     /// The places of all names that fit, each once, in canonical order. A pattern that fits nothing is reported.
-    pub fn require(&self, kind: Kind, outline: &Outline, path: &str, report: &mut Report) -> Vec<usize> {
+    pub fn require(&self, kind: Kind, outline: &Outline, path: &str, report: &mut Diagnostics) -> Vec<usize> {
         if self.patterns.is_empty() {
             let help = format!("write `{path}: [\"*\"]` for all {}", kind.plural());
             report.error(path, format!("must name at least one {}, or `*`", kind.noun())).help(help);
@@ -172,7 +172,7 @@ impl Names {
 
     /// The places of all names that fit, each once, in canonical order.
     pub fn matching(&self, kind: Kind, outline: &Outline) -> Vec<usize> {
-        self.require(kind, outline, "", &mut Report::new())
+        self.require(kind, outline, "", &mut Diagnostics::new())
     }
 }
 

@@ -146,11 +146,11 @@ impl Card {
         let state = world.resource::<State>();
         let (bodies, clock, stability, ledger) = (state.bodies(), state.clock(), state.stability(), state.ledger());
         let method = world.get_resource::<ChosenMethod>().map_or("VelocityVerlet", |method| method.name);
-        let responses = state.responses();
+        let time_scales = state.time_scales();
         let foreseen = stability.fastest_foreseen();
-        let critical_tick = responses.fastest.map(|fastest| fastest.critical_tick(stability));
+        let critical_tick = time_scales.fastest.map(|fastest| fastest.critical_tick(stability));
         let critical_tick = critical_tick.or(foreseen.map(|fastest| stability.limit / fastest.angular_frequency));
-        let shortest_contact = responses.briefest.map(|brief| brief.duration());
+        let shortest_contact = time_scales.briefest.map(|brief| brief.duration());
         let shortest_contact = shortest_contact.or(stability.stiffest_contact().map(|frequency| PI / frequency));
         let energy = EnergyLedger::of(state);
         let (energy_scale, given_back) = (energy.turned_over(state), energy.given_back(state));

@@ -3,14 +3,14 @@
 mod advice;
 pub mod bench;
 pub mod card;
+pub mod document;
 pub mod estimate;
-pub mod ladder;
 pub mod measure;
 pub mod problems;
 pub mod reversal;
-pub mod survey;
 mod verdict;
 mod warnings;
+pub mod work_precision;
 
 pub use advice::Remedy;
 pub use card::{Card, SimulationExt};

@@ -7,7 +7,7 @@ use super::card::name;
 use super::estimate::EstimatedError;
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::simulation::error::KnownError;
-use jostle_engine::tick::{Responses, State, Style, far_travel};
+use jostle_engine::tick::{EvaluationMode, State, TimeScales, far_travel};
 use jostle_language::numbers::number;
 
 /// Contacts that last fewer ticks are not resolved.
@@ -20,15 +20,15 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let name = |entity| name(world, entity);
     let state = world.resource::<State>();
     let (clock, stability) = (state.clock(), state.stability());
-    let responses = state.responses();
+    let time_scales = state.time_scales();
     let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
     let mut warnings = Vec::new();
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
     // If steps follow their error, ticks are only moments at which the run is read.
     let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
     let by_ticks = by_ticks && !EstimatedError::is_small(world);
-    let responses = if by_ticks { responses } else { Responses::default() };
-    let beyond = responses.fastest.filter(|fastest| clock.dt > fastest.critical_tick(stability));
+    let time_scales = if by_ticks { time_scales } else { TimeScales::default() };
+    let beyond = time_scales.fastest.filter(|fastest| clock.dt > fastest.critical_tick(stability));
     if let Some(fastest) = beyond {
         let critical = fastest.critical_tick(stability);
         let (holder, body, time) = (fastest.holder, name(fastest.body), number(fastest.time));
@@ -43,7 +43,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
     }
     let steps = state.steps();
-    let known = state.responses().fastest.map(|fastest| fastest.angular_frequency);
+    let known = state.time_scales().fastest.map(|fastest| fastest.angular_frequency);
     let critical = known.or(stability.stiffest_contact()).map(|fastest| stability.limit / fastest);
     if let Some(critical) = critical.filter(|critical| beyond.is_none() && steps.shortened > 0 && *critical < clock.dt)
     {
@@ -57,7 +57,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         ));
     }
     // If the tick is above the critical one, this warning is superfluous.
-    let brief = responses.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
+    let brief = time_scales.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
     if let Some(brief) = brief {
         let ticks = brief.duration() / clock.dt;
         warnings.push(format!(
@@ -79,8 +79,8 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
             number(far.time),
         ));
     }
-    let style = world.get_resource::<ChosenMethod>().map_or_else(Style::default, |method| method.style);
-    let departures = state.models().flat_map(|model| model.departures(state, style));
+    let mode = world.get_resource::<ChosenMethod>().map_or_else(EvaluationMode::default, |method| method.mode);
+    let departures = state.models().flat_map(|model| model.departures(state, mode));
     warnings.extend(departures.map(|departure| format!("{}; use {}", departure.what, departure.remedy)));
     let located = state.located();
     if located.given_up > 0 {

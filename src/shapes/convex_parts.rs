@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use crate::hull::{Free, Hull, direction};
 use crate::orientation::orientation;
-use crate::outline::convex_corners;
+use crate::simple_polygon::convex_corners;
 
 /// The parts as rings of indices, each strictly convex. `corners` is a simple outline, counter-clockwise, without
 /// straight corners.
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
     use crate::moments::AreaMoments;
     use crate::nearest::{Feature, nearest};
-    use crate::outline::simple;
+    use crate::simple_polygon::simple;
 
     fn shoelace(corners: &[DVec2]) -> f64 {
         (0..corners.len()).map(|at| corners[at].perp_dot(corners[(at + 1) % corners.len()])).sum::<f64>() / 2.0

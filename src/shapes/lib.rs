@@ -4,39 +4,39 @@
 //! shapes become several. Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
 
 mod boundary;
+mod clipping;
 mod compound;
 mod convex_parts;
-mod cover;
 mod distance;
 mod error;
 mod gear;
 mod hull;
-mod inset;
 mod moments;
 mod nearest;
 mod orientation;
-mod outline;
 mod pose;
 mod rack;
 mod ray;
-mod region;
+mod rounded_corners;
 mod shape;
+mod simple_polygon;
 mod time_of_impact;
+mod voronoi_region;
 
 pub use compound::mark_inner;
 pub use distance::{Separation, distance, separation};
 pub use error::{Mended, ShapeError};
 pub use gear::Gear;
 pub use hull::{Free, Hull, Side};
-pub use inset::Rounded;
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, may_be_nearer, nearest};
 pub use pose::{Bounds, Pose};
 pub use rack::Rack;
 pub use ray::ray;
-pub use region::beyond;
+pub use rounded_corners::Rounded;
 pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
 pub use time_of_impact::{Motion, time_of_impact};
+pub use voronoi_region::beyond;
 
 /// The settings of the property tests: the same cases in each run, and no files of failures.
 #[cfg(test)]

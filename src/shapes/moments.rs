@@ -8,7 +8,7 @@
 use glam::DVec2;
 
 use crate::boundary::{Fan, Piece, pieces};
-use crate::cover::{Ranked, Spans, add_covered, free};
+use crate::clipping::{Ranked, Spans, add_covered, free};
 use crate::hull::Hull;
 use crate::pose::{Bounds, Pose};
 

@@ -9,7 +9,7 @@ use crate::compound::mark_inner;
 use crate::convex_parts::hulls;
 use crate::error::{Mended, ShapeError};
 use crate::hull::{Hull, LEAST, check_count, check_number, check_radius};
-use crate::outline::{inset, lost_area, simple};
+use crate::simple_polygon::{inset, lost_area, simple};
 
 /// A shape as rounded convex hulls.
 #[derive(Clone, Debug, PartialEq)]

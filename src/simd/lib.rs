@@ -101,7 +101,7 @@ pub trait Lanes:
     }
 
     /// The records at the first [`Lanes::COUNT`] places of a list, transposed: item `k` holds the `k`th number of each.
-    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK];
+    fn records(records: &[Record], indices: &[u32]) -> [Self; BLOCK];
 
     /// The records of pairs, transposed. `first` and `second` hold their indices times [`BLOCK`]. The result holds the
     /// first six numbers of the second record minus those of the first. The last two numbers of the second record
@@ -134,11 +134,11 @@ pub trait Lanes:
     /// # Safety
     /// The places are those of quads.
     #[inline(always)]
-    unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
+    unsafe fn quads(quads: &[Quad], indices: &[u32]) -> [Self; QUAD] {
         let mut numbers = [[0.0; BLOCK]; QUAD];
         let mut lane = 0;
         while lane < Self::COUNT {
-            let Quad(quad) = quads[places[lane] as usize];
+            let Quad(quad) = quads[indices[lane] as usize];
             let mut number = 0;
             while number < QUAD {
                 numbers[number][lane] = quad[number];
@@ -154,7 +154,7 @@ pub trait Lanes:
     /// # Safety
     /// The places are those of quads.
     #[inline(always)]
-    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], places: &[u32]) {
+    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], indices: &[u32]) {
         let mut rows = [[0.0; BLOCK]; QUAD];
         let mut number = 0;
         while number < QUAD {
@@ -163,7 +163,7 @@ pub trait Lanes:
         }
         let mut lane = 0;
         while lane < Self::COUNT {
-            quads[places[lane] as usize] = Quad([rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]]);
+            quads[indices[lane] as usize] = Quad([rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]]);
             lane += 1;
         }
     }

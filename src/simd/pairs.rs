@@ -31,7 +31,7 @@ impl PairBlock {
 const SCALE: u32 = BLOCK as u32;
 
 /// Places of pairs are below that.
-pub const MOST_PLACES: usize = (u32::MAX / SCALE) as usize;
+pub const MOST_INDICES: usize = (u32::MAX / SCALE) as usize;
 
 /// Pairs of places in blocks; the last is filled up with pairs of the place 0 with itself.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -67,33 +67,33 @@ impl TryFrom<Listed> for PairBlocks {
     fn try_from(Listed { blocks, sides, records }: Listed) -> Result<Self, Self::Error> {
         let bound = |list: &[[[u32; BLOCK]; 2]]| -> Option<usize> {
             let mut bound = 0;
-            for &place in list.iter().flatten().flatten() {
-                if place % SCALE != 0 {
+            for &index in list.iter().flatten().flatten() {
+                if index % SCALE != 0 {
                     return None;
                 }
-                bound = bound.max((place / SCALE) as usize + 1);
+                bound = bound.max((index / SCALE) as usize + 1);
             }
             Some(bound)
         };
-        let (places, of_records) = (bound(&blocks).ok_or(NOT_A_PLACE)?, bound(&sides).ok_or(NOT_A_PLACE)?);
+        let (indices, of_records) = (bound(&blocks).ok_or(NOT_AN_INDEX)?, bound(&sides).ok_or(NOT_AN_INDEX)?);
         let fits = sides.is_empty() || (sides.len() == blocks.len() && of_records <= records);
-        if !fits || records > MOST_PLACES || (sides.is_empty() && records < places && !blocks.is_empty()) {
-            return Err(NOT_A_PLACE);
+        if !fits || records > MOST_INDICES || (sides.is_empty() && records < indices && !blocks.is_empty()) {
+            return Err(NOT_AN_INDEX);
         }
         let [blocks, sides] = [blocks, sides].map(|list| {
             list.into_iter().map(|[first, second]| PairBlock { first, second }).collect::<Vec<PairBlock>>()
         });
-        Ok(Self { blocks, bound: places, sides, records })
+        Ok(Self { blocks, bound: indices, sides, records })
     }
 }
 
-const NOT_A_PLACE: &str = "places of pairs are not among those there are";
+const NOT_AN_INDEX: &str = "places of pairs are not among those there are";
 
 impl PairBlocks {
     /// Replaces the list of pairs.
     ///
     /// # Panics
-    /// If an index is [`MOST_PLACES`] or more, or the iterator gives more pairs than it announced. The list is then
+    /// If an index is [`MOST_INDICES`] or more, or the iterator gives more pairs than it announced. The list is then
     /// empty.
     pub fn list(&mut self, pairs: impl ExactSizeIterator<Item = (u32, u32)>) {
         // The fields that kernels trust are set when all indices have been checked.
@@ -107,7 +107,7 @@ impl PairBlocks {
                 (SCALE.wrapping_mul(first), SCALE.wrapping_mul(second));
             bound = bound.max(first as usize + 1).max(second as usize + 1);
         }
-        assert!(bound <= MOST_PLACES, "more places than can be written");
+        assert!(bound <= MOST_INDICES, "more places than can be written");
         *self = Self { blocks, bound, sides: Vec::new(), records: bound };
     }
 
@@ -117,10 +117,10 @@ impl PairBlocks {
     /// # Panics
     /// If one is not there; then all is as before.
     pub fn find_records(&mut self, of: &[u32], count: usize) {
-        let count = count.min(MOST_PLACES);
-        let elsewhere = |places: [u32; BLOCK]| {
-            places.map(|place| {
-                let found = of[(place / SCALE) as usize];
+        let count = count.min(MOST_INDICES);
+        let elsewhere = |indices: [u32; BLOCK]| {
+            indices.map(|index| {
+                let found = of[(index / SCALE) as usize];
                 assert!((found as usize) < count, "a pair of what is not there");
                 SCALE * found
             })
@@ -177,8 +177,8 @@ impl PairedRecords<'_> {
     #[inline(always)]
     pub fn fetch(&self, block: usize) {
         if let Some(PairBlock { second, .. }) = self.sides.get(block) {
-            for &place in second {
-                super::fetch(self.records.as_ptr().cast::<f64>().wrapping_add(place as usize));
+            for &index in second {
+                super::fetch(self.records.as_ptr().cast::<f64>().wrapping_add(index as usize));
             }
         }
     }
@@ -189,11 +189,11 @@ impl PairedRecords<'_> {
         if first == 0 && self.pairs.bound.max(1) <= len {
             return true;
         }
-        if first >= MOST_PLACES {
+        if first >= MOST_INDICES {
             return false;
         }
         // A place before the first, less the first, is not below that.
-        let len = len.min(MOST_PLACES - first);
+        let len = len.min(MOST_INDICES - first);
         let mut farthest = 0;
         for lane in 0..BLOCK {
             let first = SCALE * first as u32;
@@ -263,8 +263,8 @@ impl Pushes {
     unsafe fn give_one(&self, block: &PairBlock, lane: usize, (force, torque): (*mut DVec2, *mut f64)) {
         let (a, b) = (block.first[lane] as usize, block.second[lane] as usize);
         // A stored index is eight times the body's index. A body has eight bytes of torque and sixteen of force.
-        let force = |place: usize| force.wrapping_byte_add(place * size_of::<DVec2>() / BLOCK);
-        let torque = |place: usize| torque.wrapping_byte_add(place * size_of::<f64>() / BLOCK);
+        let force = |index: usize| force.wrapping_byte_add(index * size_of::<DVec2>() / BLOCK);
+        let torque = |index: usize| torque.wrapping_byte_add(index * size_of::<f64>() / BLOCK);
         // SAFETY: as the caller promises. Both may be the same body: one is done after the other.
         unsafe {
             *force(a) -= self.force[lane];

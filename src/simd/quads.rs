@@ -40,7 +40,7 @@ impl QuadPairs {
 
     /// Adds a block: the first places of its pairs, and the second ones.
     pub fn push(&mut self, block: [[u32; BLOCK]; 2]) {
-        let farthest = block.iter().flatten().fold(0, |most, &place| most.max(place as usize));
+        let farthest = block.iter().flatten().fold(0, |most, &index| most.max(index as usize));
         self.bound = self.bound.max(farthest + 1);
         self.blocks.push(block);
     }

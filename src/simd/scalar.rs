@@ -61,8 +61,8 @@ impl Lanes for f64 {
     }
 
     #[inline(always)]
-    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
-        records[places[0] as usize].0
+    fn records(records: &[Record], indices: &[u32]) -> [Self; BLOCK] {
+        records[indices[0] as usize].0
     }
 
     #[inline(always)]

@@ -18,17 +18,17 @@ impl Kernel for Everything<'_> {
         let records: Vec<Record> = (0..BLOCK)
             .map(|row| Record(std::array::from_fn(|column| self.numbers[row] + (10 * column) as f64)))
             .collect();
-        let (places, second) = ([3_u32, 0, 7, 1, 6, 2, 5, 4], [1_u32, 1, 0, 6, 7, 4, 2, 3]);
+        let (indices, second) = ([3_u32, 0, 7, 1, 6, 2, 5, 4], [1_u32, 1, 0, 6, 7, 4, 2, 3]);
         let mut twins = PairBlocks::default();
-        twins.list(places.into_iter().zip(second));
+        twins.list(indices.into_iter().zip(second));
         let pairs_of_records = twins.records(&records);
-        let pairs: Vec<DVec2> = (0..BLOCK).map(|place| DVec2::new(self.numbers[place], self.others[place])).collect();
+        let pairs: Vec<DVec2> = (0..BLOCK).map(|index| DVec2::new(self.numbers[index], self.others[index])).collect();
         let mut swapped = [DVec2::ZERO; BLOCK];
         let mut written = [Record::default(); BLOCK];
         let mut lane = 0;
         while lane < BLOCK {
             let (a, b) = (V::load(&self.numbers[lane..]), V::load(&self.others[lane..]));
-            let transposed = V::records(&records, &places[lane..]);
+            let transposed = V::records(&records, &indices[lane..]);
             let (apart, own) = pairs_of_records.load::<V>(0, lane);
             let chosen = V::mask(0b1011_0010 >> lane);
             let both = V::load_pairs(&pairs[lane..]);
@@ -95,7 +95,7 @@ fn all_levels_give_the_same_bits() {
 /// Promise: if only the records of a few indices are listed, pairs keep their sides and bodies their indices.
 #[test]
 fn records_that_stand_elsewhere_are_found() {
-    let record = |place: u32| Record(std::array::from_fn(|column| f64::from(place * 10) + column as f64));
+    let record = |index: u32| Record(std::array::from_fn(|column| f64::from(index * 10) + column as f64));
     let listed = [(2, 9), (4, 2), (9, 11)];
     let mut pairs = PairBlocks::default();
     pairs.list(listed.into_iter());
@@ -103,7 +103,7 @@ fn records_that_stand_elsewhere_are_found() {
     let expected: Vec<_> = (0..3).map(|lane| pairs.records(&all).load::<f64>(0, lane)).collect();
     let needed = [2, 4, 9, 11];
     let mut of = [0; 12];
-    (0..).zip(needed).for_each(|(place, needed)| of[needed as usize] = place);
+    (0..).zip(needed).for_each(|(index, needed)| of[needed as usize] = index);
     pairs.find_records(&of, needed.len());
     let few: Vec<Record> = needed.into_iter().map(record).collect();
     let sides = pairs.records(&few);
@@ -131,10 +131,10 @@ fn a_level_is_named_by_its_word() {
 }
 
 /// The pushes of a block of pairs on bodies in a row, and whether they were given.
-fn given(places: [(u32, u32); BLOCK], first: usize, len: usize) -> (bool, Vec<DVec2>) {
+fn given(indices: [(u32, u32); BLOCK], first: usize, len: usize) -> (bool, Vec<DVec2>) {
     let mut pairs = PairBlocks::default();
-    pairs.list(places.into_iter());
-    let records = vec![Record::default(); places.iter().flat_map(|&(a, b)| [a, b]).max().unwrap() as usize + 1];
+    pairs.list(indices.into_iter());
+    let records = vec![Record::default(); indices.iter().flat_map(|&(a, b)| [a, b]).max().unwrap() as usize + 1];
     let (mut force, mut torque) = (vec![DVec2::ZERO; len], vec![0.0; len]);
     let pushes = Pushes { force: [DVec2::X; BLOCK], ..Pushes::NONE };
     let done = pushes.give(&pairs.records(&records), 0, u8::MAX, (first, &mut force, &mut torque));
@@ -143,15 +143,15 @@ fn given(places: [(u32, u32); BLOCK], first: usize, len: usize) -> (bool, Vec<DV
 
 #[test]
 fn pushes_reach_no_body_outside_the_row() {
-    let places = std::array::from_fn(|lane| (3 + lane as u32 % 2, 5));
-    assert!(given(places, 3, 3).0);
-    assert!(given(places, 0, 6).0);
+    let indices = std::array::from_fn(|lane| (3 + lane as u32 % 2, 5));
+    assert!(given(indices, 3, 3).0);
+    assert!(given(indices, 0, 6).0);
     for (first, len) in [(3, 2), (4, 3), (0, 5), (1 << 29, 9), ((1 << 29) - 2, 9), (usize::MAX, 9), (0, 0)] {
-        let (done, force) = given(places, first, len);
+        let (done, force) = given(indices, first, len);
         assert!(!done, "{first} {len}");
         assert!(force.iter().all(|force| *force == DVec2::ZERO));
     }
-    assert_eq!(given(places, 3, 3).1, [DVec2::new(-4.0, 0.0), DVec2::new(-4.0, 0.0), DVec2::new(8.0, 0.0)]);
+    assert_eq!(given(indices, 3, 3).1, [DVec2::new(-4.0, 0.0), DVec2::new(-4.0, 0.0), DVec2::new(8.0, 0.0)]);
 }
 
 /// The message of a call that panics.
@@ -174,7 +174,7 @@ fn lists_that_cannot_be_leave_nothing_behind_that_kernels_trust() {
     }
     pairs.find_records(&[2, 1, 0], 3);
     assert!(panics(|| _ = pairs.records(&[Record::default(); 2])));
-    let records: [Record; 3] = std::array::from_fn(|place| Record([place as f64; BLOCK]));
+    let records: [Record; 3] = std::array::from_fn(|index| Record([index as f64; BLOCK]));
     let (apart, _) = pairs.records(&records).load::<f64>(0, 0);
     assert_eq!(apart[0], -1.0);
 }
@@ -201,7 +201,7 @@ impl Kernel for Swapped<'_> {
 
 #[test]
 fn quads_are_loaded_and_stored_alike_at_all_levels() {
-    let quads: Vec<Quad> = (0..20).map(|place| Quad(std::array::from_fn(|k| (10 * place + k) as f64))).collect();
+    let quads: Vec<Quad> = (0..20).map(|index| Quad(std::array::from_fn(|k| (10 * index + k) as f64))).collect();
     let mut pairs = QuadPairs::default();
     pairs.push([[3, 0, 7, 1, 6, 2, 5, 4], [8, 19, 10, 11, 12, 13, 14, 15]]);
     pairs.push([[16, 17, 18, 9, 1, 2, 3, 4], [5, 6, 7, 8, 10, 11, 12, 13]]);

@@ -49,8 +49,8 @@ pub fn scene(seed: u64) -> Scene {
     );
     let count = 1 + (draw.between(0.0, 3.0) as usize);
     let names = ["a", "b", "c"];
-    for (place, name) in names.iter().enumerate().take(count) {
-        let (x, y) = (0.35 + 0.6 * place as f64 + draw.between(-0.05, 0.05), draw.between(0.22, 0.7));
+    for (index, name) in names.iter().enumerate().take(count) {
+        let (x, y) = (0.35 + 0.6 * index as f64 + draw.between(-0.05, 0.05), draw.between(0.22, 0.7));
         let (vx, vy) = (draw.between(-2.0, 2.0), draw.between(-2.0, 1.0));
         let spin = draw.between(-8.0, 8.0);
         let atoms = match draw.happens(0.35) {

@@ -241,7 +241,7 @@ fn a_landing_keeps_the_spring_that_slipped() {
 
 /// Ticks with too many events go on by another method: two trials that both do so tell nothing of their error.
 #[test]
-fn crowded_trials_reach_no_tolerance() {
+fn overloaded_trials_reach_no_tolerance() {
     let text = "Scene(format: 1, clock: (duration: 0.2), gravity: (0, -9.81),
         contacts: Penalty(normal: Dashpot, tangential: Exact),
         materials: {\"m\": (stiffness: 20000, friction: (static: 1.2, dynamic: 0.6), restitution: 0.3)},
@@ -329,9 +329,9 @@ fn a_contact_that_grazes_is_no_lack_of_digits() {
 
 /// A place behind the last body is nobody's mistake that a program should end for.
 #[test]
-fn a_place_without_a_body_has_no_name() {
+fn an_index_without_a_body_has_no_name() {
     let scene =
         "Scene(format: 1, clock: (duration: 1), bodies: [(name: \"ball\", at: (0, 0), atoms: Disc(radius: 1))])";
     let simulation = Simulation::load(&Source::new("one", scene)).unwrap_or_else(|errors| panic!("{errors}"));
-    assert_eq!([0, 1, 99].map(|place| simulation.name(place)), ["ball", "", ""]);
+    assert_eq!([0, 1, 99].map(|index| simulation.name(index)), ["ball", "", ""]);
 }

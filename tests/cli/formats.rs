@@ -52,8 +52,8 @@ fn raw_pictures_go_to_standard_output_or_a_file() {
     assert!(pictures == folder.read("film.rgba"));
     assert!(pictures.as_chunks::<4>().0.iter().all(|pixel| pixel[3] == 255));
     folder.jostle("render fall.ron -o frames/ --quiet").code(0);
-    for (place, picture) in pictures.chunks_exact(64 * 36 * 4).enumerate() {
-        let file = folder.read(&format!("frames/frame_{place:05}.png"));
+    for (index, picture) in pictures.chunks_exact(64 * 36 * 4).enumerate() {
+        let file = folder.read(&format!("frames/frame_{index:05}.png"));
         assert!(image::load_from_memory(&file).unwrap().to_rgba8().as_raw()[..] == *picture);
     }
     assert_eq!(folder.names(), ["fall.ron", "film.rgba", "frames"]);
@@ -90,7 +90,7 @@ fn no_format_depends_on_threads() {
     let sequence = [1, 2, 4].map(|threads| {
         let arguments = format!("render example:tetris --duration 0.5 --size 96x54 --quiet --threads {threads} -o f/");
         folder.jostle(&arguments).code(0);
-        (0..15).map(|place| folder.read(&format!("f/frame_{place:05}.png"))).collect::<Vec<_>>()
+        (0..15).map(|index| folder.read(&format!("f/frame_{index:05}.png"))).collect::<Vec<_>>()
     });
     assert!(sequence[0] == sequence[1] && sequence[0] == sequence[2]);
 }

@@ -10,8 +10,8 @@ fn themes_and_layers_are_chosen_on_the_command_line() {
         folder.jostle(&format!("render a.ron -o a.png --at 0.1 --quiet {flags}")).code(0);
         pictures.push(folder.read("a.png"));
     }
-    for (place, picture) in pictures.iter().enumerate() {
-        assert!(!pictures[..place].contains(picture), "picture {place} is like one before");
+    for (index, picture) in pictures.iter().enumerate() {
+        assert!(!pictures[..index].contains(picture), "picture {index} is like one before");
     }
 }
 

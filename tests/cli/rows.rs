@@ -16,9 +16,9 @@ fn rows_stand_at_the_ticks_nearest_to_their_moments() {
     for (rate, count) in [(5.0, 2), (10.0, 3), (30.0, 7), (100.0, 21), (400.0, 81), (1000.0, 201)] {
         let rows = rows(&folder, &format!("--fps {rate}"));
         assert_eq!(rows.len(), count, "{rate}: {rows:?}");
-        for (place, row) in rows.iter().enumerate() {
-            let moment = place as f64 * 1e3 / rate;
-            assert!((row - moment).abs() <= 0.5 + 1e-9, "{rate}: row {place} at {row} ms, not {moment} ms");
+        for (index, row) in rows.iter().enumerate() {
+            let moment = index as f64 * 1e3 / rate;
+            assert!((row - moment).abs() <= 0.5 + 1e-9, "{rate}: row {index} at {row} ms, not {moment} ms");
         }
     }
     // Frames of the film without it, and under a tolerance as often as asked for.

@@ -24,9 +24,9 @@ fn a_strip_shows_its_moments_side_by_side() {
     ended.code(0).says("strip.png: 3 frames in one picture, ");
     let strip = picture(&folder, "strip.png");
     assert_eq!(strip.dimensions(), (3 * 64 + 2 * GAP, 36));
-    for (place, time) in [0.0, 0.5, 1.25].into_iter().enumerate() {
+    for (index, time) in [0.0, 0.5, 1.25].into_iter().enumerate() {
         folder.jostle(&format!("render fly.ron -o still.png --at {time} --quiet")).code(0);
-        let part = image::imageops::crop_imm(&strip, place as u32 * (64 + GAP), 0, 64, 36).to_image();
+        let part = image::imageops::crop_imm(&strip, index as u32 * (64 + GAP), 0, 64, 36).to_image();
         assert!(part == picture(&folder, "still.png"), "{time}");
     }
     assert_eq!(folder.names(), ["fly.ron", "still.png", "strip.png"]);
@@ -39,9 +39,9 @@ fn a_sheet_spreads_its_moments_over_the_film() {
     folder.jostle("render fly.ron -o sheet.png --sheet 3x2").code(0).says("sheet.png: 6 frames in one picture, ");
     let sheet = picture(&folder, "sheet.png");
     assert_eq!(sheet.dimensions(), (3 * 64 + 2 * GAP, 2 * 36 + GAP));
-    for (place, time) in [0.5, 0.8, 1.1, 1.4, 1.7, 2.0].into_iter().enumerate() {
+    for (index, time) in [0.5, 0.8, 1.1, 1.4, 1.7, 2.0].into_iter().enumerate() {
         folder.jostle(&format!("render fly.ron -o still.png --at {time} --quiet")).code(0);
-        let (column, row) = (place as u32 % 3, place as u32 / 3);
+        let (column, row) = (index as u32 % 3, index as u32 / 3);
         let part = image::imageops::crop_imm(&sheet, column * (64 + GAP), row * (36 + GAP), 64, 36).to_image();
         // The bodies are where they are in the still; the clock may count in finer digits.
         let body = |image: &image::RgbaImage| image::imageops::crop_imm(image, 0, 14, 64, 8).to_image();

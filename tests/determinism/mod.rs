@@ -78,7 +78,7 @@ fn spin(number: usize) -> f64 {
 /// Clump `number` of the scene's materials, as a plugin would make it.
 fn new_clump(world: &World, number: usize) -> NewBody {
     let material = MaterialIndex::new(world.resource::<Materials>().index(Some(MATERIALS[number % 2])));
-    let stiffness = world.resource::<Materials>().by_index[material.place()].stiffness;
+    let stiffness = world.resource::<Materials>().by_index[material.index()].stiffness;
     let offsets = [(-0.05, 0.05), (0.05, 0.05), (-0.05, -0.05), (0.05, -0.05)];
     let atom = |(x, y)| Atom { offset: DVec2::new(x, y), radius: 0.05, mass: 0.02, stiffness, material };
     NewBody {

@@ -8,7 +8,7 @@ use jostle::scene::Source;
 use jostle::simd::Level;
 use jostle::simulation::Overrides;
 use jostle::tick::Ledger;
-use jostle::tick::balance::momentum;
+use jostle::tick::ledger::momentum;
 
 use super::{clumps, hash, load, run, scene};
 

@@ -123,7 +123,7 @@ fn the_verdict_distrusts_friction_that_gives() {
             "Scene(format: 1, clock: (duration: {duration:?}, tick: 0.001, method: RungeKutta4),
             bodies: [(name: \"cart\", at: (0, 0), velocity: (3, 4), atoms: Disc(radius: 0.1, mass: 2))])"
         );
-        let pusher = |app: &mut App| {
+        let pusher = move |app: &mut App| {
             app.add_model(Pusher { from });
         };
         let mut simulation =

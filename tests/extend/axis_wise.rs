@@ -18,7 +18,7 @@ use jostle::SimulationExt;
 use jostle::contacts::{AtomPair, CandidatePairs, Law, LawSide, LawTouch, add_law};
 use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
 use jostle::simulation::{Overrides, Simulation};
-use jostle::tick::{Balance, Energies, Model, State, SteadySpring};
+use jostle::tick::{Energies, Model, Rates, State, SteadySpring};
 use jostle::world::material::Rebound;
 use jostle::world::{Bodies, Materials};
 use serde::Deserialize;
@@ -78,7 +78,7 @@ impl Model for AxisWiseLaw {
     }
 }
 
-fn apply_axis_wise(materials: &Materials, pairs: &CandidatePairs, bodies: &mut Bodies, balance: &mut Balance) {
+fn apply_axis_wise(materials: &Materials, pairs: &CandidatePairs, bodies: &mut Bodies, rates: &mut Rates) {
     for &AtomPair { a, b } in &pairs.atoms {
         let (a, b) = (a as usize, b as usize);
         let between = bodies.atom_place(a) - bodies.atom_place(b);
@@ -88,14 +88,14 @@ fn apply_axis_wise(materials: &Materials, pairs: &CandidatePairs, bodies: &mut B
             continue;
         }
         let stiffness = series(bodies, a, b);
-        let pair = materials.pair(bodies.atom_material(a).place(), bodies.atom_material(b).place());
+        let pair = materials.pair(bodies.atom_material(a).index(), bodies.atom_material(b).index());
         let normal_force = between * (stiffness * compression / distance);
         let approach = sign(velocity(bodies, a) - velocity(bodies, b));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * approach * pair.friction_dynamic;
         let force = normal_force - friction - normal_force * approach * inelasticity(pair.rebounds);
-        push(bodies, balance, a, force);
-        push(bodies, balance, b, -force);
+        push(bodies, rates, a, force);
+        push(bodies, rates, b, -force);
     }
     let near_walls: Vec<_> = pairs.near_walls(bodies).collect();
     for (wall, atom) in near_walls {
@@ -105,13 +105,13 @@ fn apply_axis_wise(materials: &Materials, pairs: &CandidatePairs, bodies: &mut B
         if compression <= 0.0 {
             continue;
         }
-        let pair = materials.pair(wall.material.place(), bodies.atom_material(atom).place());
+        let pair = materials.pair(wall.material.index(), bodies.atom_material(atom).index());
         let normal_force = wall.normal * (bodies.atom_stiffness(atom) * compression);
         let motion = sign(velocity(bodies, atom));
         let across = DVec2::new(normal_force.y.abs(), normal_force.x.abs());
         let friction = across * motion * pair.friction_dynamic;
         let force = normal_force - friction - normal_force * motion * sign(wall.normal) * inelasticity(pair.rebounds);
-        push(bodies, balance, atom, force);
+        push(bodies, rates, atom, force);
     }
 }
 
@@ -149,11 +149,11 @@ fn velocity(bodies: &Bodies, atom: usize) -> DVec2 {
 }
 
 /// The law lets forces act at the centre of the atom.
-fn push(bodies: &mut Bodies, balance: &mut Balance, atom: usize, force: DVec2) {
+fn push(bodies: &mut Bodies, rates: &mut Rates, atom: usize, force: DVec2) {
     let body = bodies.atom_body(atom);
     let arm = bodies.atom_place(atom) - bodies.position[body];
     bodies.push(body, arm, force);
-    balance.outside(bodies.atom_place(atom), force, 0.0);
+    rates.outside(bodies.atom_place(atom), force, 0.0);
 }
 
 /// -1, 0 or 1 per component, 0 for 0: unlike `signum`.

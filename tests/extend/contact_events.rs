@@ -161,10 +161,10 @@ fn touching(bodies: &Bodies) -> Vec<(bool, usize, usize)> {
         }
     }
     for body in (0..bodies.len()).filter(|&body| bodies.dynamic[body]) {
-        for (place, wall) in bodies.walls.iter().enumerate() {
+        for (index, wall) in bodies.walls.iter().enumerate() {
             let height = |i: usize| (bodies.atom_place(i) - wall.point).dot(wall.normal);
             if atoms(body).any(|i| bodies.atom_radius[i] - height(i) > 0.0) {
-                pairs.push((true, body, place));
+                pairs.push((true, body, index));
             }
         }
     }

@@ -11,7 +11,7 @@ use bevy_app::App;
 use jostle::problems::Truth;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::{Energies, Events, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use jostle::tick::{Energies, EvaluationMode, Events, Indicator, Model, State, SteadySpring, TickAppExt};
 use jostle::{Simulation, SimulationExt};
 
 /// Where a swing stands.
@@ -63,7 +63,7 @@ impl Model for Escapement {
 
     fn begin_step(&mut self, state: &mut State) {
         // In steps from event to event the phase follows from events alone.
-        if state.evaluation().style != Style::Frozen {
+        if state.evaluation().mode != EvaluationMode::Frozen {
             self.choose(state);
         }
     }

@@ -58,9 +58,9 @@ fn differences(a: &Frame, b: &Frame) -> Vec<(DVec2, [u8; 3])> {
     let (a, b) = (paint(a), paint(b));
     let origin = camera.to_picture(DVec2::ZERO);
     let mut found = Vec::new();
-    for (place, (a, b)) in a.pixels().iter().zip(b.pixels()).enumerate() {
+    for (index, (a, b)) in a.pixels().iter().zip(b.pixels()).enumerate() {
         if a != b {
-            let pixel = DVec2::new((place % 640) as f64 + 0.5, (place / 640) as f64 + 0.5) - origin;
+            let pixel = DVec2::new((index % 640) as f64 + 0.5, (index / 640) as f64 + 0.5) - origin;
             let world = DVec2::new(pixel.x, -pixel.y) / camera.pixels_per_meter();
             found.push((world, [a.red(), a.green(), a.blue()]));
         }

@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::response::Spring;
+use jostle::tick::critical_step::Spring;
 use jostle::tick::{Energies, Loss, Model, SimTick, Stage, State, SteadySpring, TickAppExt};
 use jostle::world::{Position, Velocity, hash::state_hash};
 use jostle::{Simulation, SimulationExt};

@@ -33,13 +33,13 @@ fn both(entry: impl Fn(&str) -> String) -> [Simulation; 2] {
 
 fn where_anchors_are(simulation: &Simulation) -> Vec<(String, DVec2)> {
     let anchors = &simulation.get_resource::<Anchors>().expect("there are anchors").0;
-    let place = |anchor: &jostle::world::anchor::Anchor| {
-        let (body, at) = anchor.place(simulation.bodies()).expect("the body is there");
+    let index = |anchor: &jostle::world::anchor::Anchor| {
+        let (body, at) = anchor.index(simulation.bodies()).expect("the body is there");
         let name = simulation.unpublished_world().get::<Name>(simulation.bodies().entity[body]).expect("it has a name");
         assert_eq!(name.to_string(), "clump");
         (anchor.path.clone(), at)
     };
-    anchors.iter().map(place).collect()
+    anchors.iter().map(index).collect()
 }
 
 #[test]

@@ -26,22 +26,22 @@ const SIZE: f64 = 0.5;
 const INERTIA: f64 = SIZE * SIZE / 6.0;
 
 /// The height of the middle of a box under its load, in m.
-fn height(place: usize) -> f64 {
-    let sunk: usize = (0..=place).map(|face| BOXES - face).sum();
-    (place as f64 + 0.5) * SIZE - sunk as f64 * GRAVITY / (2.0 * STIFFNESS)
+fn height(index: usize) -> f64 {
+    let sunk: usize = (0..=index).map(|face| BOXES - face).sum();
+    (index as f64 + 0.5) * SIZE - sunk as f64 * GRAVITY / (2.0 * STIFFNESS)
 }
 
 /// The stack, a gap in m higher than at rest. `motion` gives each box a velocity along the ground in m/s and a spin in rad/s.
 fn stack(clock: &str, material: &str, contacts: &str, motion: &[(f64, f64)], gap: f64) -> Simulation {
     let mut boxes = String::new();
-    for place in 0..BOXES {
-        let width = if place % 2 == 0 { 0.52 } else { 0.6 };
-        let (velocity, spin) = motion.get(place).copied().unwrap_or_default();
+    for index in 0..BOXES {
+        let width = if index % 2 == 0 { 0.52 } else { 0.6 };
+        let (velocity, spin) = motion.get(index).copied().unwrap_or_default();
         let _ = write!(
             boxes,
-            "(name: \"box_{place}\", at: (0, {:?}), velocity: ({velocity:?}, 0), spin: {spin:?}, mass: 1, inertia: {INERTIA:?},
+            "(name: \"box_{index}\", at: (0, {:?}), velocity: ({velocity:?}, 0), spin: {spin:?}, mass: 1, inertia: {INERTIA:?},
               shape: Rectangle(width: {width:?}, height: {SIZE:?}, rounding: 0.01)),",
-            height(place) + gap
+            height(index) + gap
         );
     }
     load(&format!(
@@ -89,8 +89,8 @@ fn an_elastic_stack_stands_as_deep_as_statics_tell() {
         let mut simulation = stack(clock, "restitution: 1, friction: 0.5", "", &[], 0.0);
         run_to(&mut simulation, 1.0);
         let bodies = simulation.bodies();
-        for place in 0..BOXES {
-            assert_near(&format!("{clock}: box {place}"), bodies.position[place].y, height(place), 1e-9 * sunk);
+        for index in 0..BOXES {
+            assert_near(&format!("{clock}: box {index}"), bodies.position[index].y, height(index), 1e-9 * sunk);
         }
     }
 }

@@ -47,8 +47,8 @@ fn an_impact_beside_the_center_of_mass_makes_it_spin() {
 #[test]
 fn overlapping_atoms_count_as_discs_or_as_the_area_they_cover() {
     // A T of sixteen discs of 0.5 m, 0.8 m apart: nine in the bar, seven below its middle.
-    let bar = (0..9).map(|place| (0.8 * f64::from(place), 0.0));
-    let stem = (1..8).map(|place| (0.8 * 4.0, -0.8 * f64::from(place)));
+    let bar = (0..9).map(|index| (0.8 * f64::from(index), 0.0));
+    let stem = (1..8).map(|index| (0.8 * 4.0, -0.8 * f64::from(index)));
     let atoms: Vec<(f64, f64)> = bar.chain(stem).collect();
     let listed: Vec<String> = atoms.iter().map(|(x, y)| format!("(at: ({x:?}, {y:?}), radius: 0.5)")).collect();
     let body = |rule: &str| {

@@ -8,7 +8,7 @@
 
 use jostle::problems;
 use jostle::report::Card;
-use jostle::report::estimate::check::{Checked, METHODS, check};
+use jostle::report::estimate::validation::{Checked, METHODS, check};
 use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;

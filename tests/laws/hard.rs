@@ -6,7 +6,7 @@
 //!
 //! Not tested: what the short forms leave out; `jostle report` runs all.
 
-use jostle::problems::hard::{ALL, Case, Extent, Threshold, Verdict};
+use jostle::problems::hard::{ALL, Case, Extent, Judgement, Threshold};
 
 /// Runs a case and shows its readings.
 fn assert_holds(case: &Case) {
@@ -18,7 +18,7 @@ fn assert_holds(case: &Case) {
         let line =
             format!("{:?}: {}: {:e} {}{told}", reading.verdict(), reading.what, reading.value, reading.threshold);
         println!("{line}");
-        if reading.verdict() == Verdict::Failed {
+        if reading.verdict() == Judgement::Failed {
             failed.push(format!("{line}: {}", reading.why));
         }
         let (Threshold::AtMost(bound) | Threshold::AtLeast(bound)) = reading.threshold;

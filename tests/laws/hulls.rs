@@ -147,9 +147,9 @@ fn the_end_of_a_strip_hits_a_side() {
 /// A stack of `count` equal shapes on a floor, 0.2 m high each and 2 kg heavy.
 fn stack(shape: &str, count: u32) -> String {
     let boxes: Vec<String> = (0..count)
-        .map(|place| {
-            let y = 0.1 + 0.201 * f64::from(place);
-            format!("(name: \"box_{place}\", at: (0, {y:?}), mass: 2, shape: {shape})")
+        .map(|index| {
+            let y = 0.1 + 0.201 * f64::from(index);
+            format!("(name: \"box_{index}\", at: (0, {y:?}), mass: 2, shape: {shape})")
         })
         .collect();
     format!(

@@ -74,7 +74,7 @@ fn a_straight_line_of_pieces_is_a_wall() {
                 "(name: \"ground\", left: ({:?}, {:?}), right: ({:?}, {:?}))",
                 ends[1].x, ends[1].y, ends[0].x, ends[0].y
             ));
-            let many = end(&line((0..=200).map(|place| slope * (0.05 * f64::from(place) - 5.0))));
+            let many = end(&line((0..=200).map(|index| slope * (0.05 * f64::from(index) - 5.0))));
             let off = many.0.iter().zip(wall.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(wall.0[0] - at.x > 1.0, "{shape}, {clock}: it crossed twenty joints: {wall:?}");
             assert!(off < 1e-9, "{shape}, {clock}: off by {off:e}, {many:?} {wall:?}");
@@ -90,8 +90,8 @@ fn a_straight_line_of_pieces_is_a_wall() {
 /// The points of a valley, a hill and a step, with corners of 0.02 to 0.9 rad in both directions.
 fn landscape() -> Vec<DVec2> {
     let mut points: Vec<DVec2> = (0..=100)
-        .map(|place| {
-            let x = 0.05 * f64::from(place) - 4.0;
+        .map(|index| {
+            let x = 0.05 * f64::from(index) - 4.0;
             DVec2::new(x, 0.4 * x * x * libm::exp(-0.3 * x * x))
         })
         .collect();

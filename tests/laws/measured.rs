@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use jostle::Simulation;
 use jostle::problems::{Setting, kepler};
-use jostle::report::ladder::{Cost, Outcome};
 use jostle::report::measure::{Order, Way, measure};
+use jostle::report::work_precision::{Cost, Outcome};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 

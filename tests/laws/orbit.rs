@@ -100,9 +100,9 @@ fn long_run(method: &str, eccentricity: f64, steps: u64) -> LongRun {
     let middle = (count - 1.0) / 2.0;
     let mean = means.iter().sum::<f64>() / count;
     let along = means.iter().enumerate();
-    let spread: f64 = along.clone().map(|(place, _)| (place as f64 - middle).powi(2)).sum();
-    let slope = along.clone().map(|(place, value)| (place as f64 - middle) * (value - mean)).sum::<f64>() / spread;
-    let scatter = along.map(|(place, value)| (value - mean - slope * (place as f64 - middle)).powi(2)).sum::<f64>();
+    let spread: f64 = along.clone().map(|(index, _)| (index as f64 - middle).powi(2)).sum();
+    let slope = along.clone().map(|(index, value)| (index as f64 - middle) * (value - mean)).sum::<f64>() / spread;
+    let scatter = along.map(|(index, value)| (value - mean - slope * (index as f64 - middle)).powi(2)).sum::<f64>();
     let uncertainty = (scatter / (count - 2.0) / spread).sqrt();
     LongRun { swing: highest - lowest, gain: slope * count, uncertainty: uncertainty * count }
 }

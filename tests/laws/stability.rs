@@ -27,11 +27,11 @@ const PUSH: f64 = 1e-4;
 fn swing(method: &str, count: usize, tick: f64, ticks: u64) -> f64 {
     let (stiffness, spacing) = (2.0 * STIFFNESS, 2.0 * RADIUS - PRESS / STIFFNESS);
     let mut bodies = String::new();
-    for place in 0..count {
-        let (x, speed) = (spacing * place as f64, if place % 2 == 0 { PUSH } else { -PUSH });
+    for index in 0..count {
+        let (x, speed) = (spacing * index as f64, if index % 2 == 0 { PUSH } else { -PUSH });
         let _ = write!(
             bodies,
-            "(name: \"disc_{place}\", at: ({x:?}, 0), velocity: ({speed:?}, 0), material: \"m\",
+            "(name: \"disc_{index}\", at: ({x:?}, 0), velocity: ({speed:?}, 0), material: \"m\",
               atoms: Disc(radius: {RADIUS:?}, mass: {MASS:?})),"
         );
     }

@@ -12,7 +12,7 @@ use jostle::world::hash::state_hash;
 pub fn end(source: &Source) -> (Vec<String>, u64) {
     let mut simulation = Simulation::load(source).unwrap_or_else(|errors| panic!("{errors}"));
     simulation.run_to_end().unwrap();
-    let names = (0..simulation.bodies().len()).map(|place| simulation.name(place).to_owned()).collect();
+    let names = (0..simulation.bodies().len()).map(|index| simulation.name(index).to_owned()).collect();
     (names, state_hash(simulation.bodies()))
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use jostle::Simulation;
-use jostle::scene::{Kind, Outline, Report, SceneAppExt, SceneErrors, Section, Source};
+use jostle::scene::{Diagnostics, Kind, Outline, SceneAppExt, SceneErrors, Section, Source};
 use jostle::simulation::Overrides;
 
 use super::authoring::end;
@@ -144,7 +144,7 @@ impl Section for PaintSection {
     const NAME: &'static str = "paint";
     const EXAMPLE: &'static str = "paint: [(of: \"ball\", coats: 2, thickness: 0.1)]";
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         for (index, paint) in self.0.iter().enumerate() {
             outline.require(Kind::BODY, &paint.of, &format!("[{index}].of"), report);
             report.positive(&format!("[{index}].thickness"), paint.thickness);
@@ -238,8 +238,8 @@ fn names_in_a_template_are_those_of_its_file() {
     // The instance is used ahead of its file; the bodies stand in the order of the sections.
     let mass = |source: &Source, name: &str| {
         let simulation = Simulation::load(source).unwrap();
-        let place = (0..simulation.bodies().len()).find(|&place| simulation.name(place) == name).unwrap();
-        simulation.bodies().mass[place]
+        let index = (0..simulation.bodies().len()).find(|&index| simulation.name(index) == name).unwrap();
+        simulation.bodies().mass[index]
     };
     for name in ["a/own/ball", "a/own/weight", "mine/ball", "mine/weight"] {
         assert_eq!(mass(&made, name), mass(&Source::new("a.ron", by_hand), name), "{name}");
@@ -307,7 +307,7 @@ fn every_shipped_scene_can_be_included() {
         let alone = Simulation::load(&Source::read(&path).unwrap()).unwrap_or_else(|errors| panic!("{errors}"));
         let included = Simulation::load(&main).unwrap_or_else(|errors| panic!("{name}: {errors}"));
         assert_eq!(included.bodies().len(), alone.bodies().len(), "{name}");
-        assert!((0..included.bodies().len()).all(|place| included.name(place).starts_with("p/")), "{name}");
+        assert!((0..included.bodies().len()).all(|index| included.name(index).starts_with("p/")), "{name}");
     }
     assert_eq!(count, 42);
 }

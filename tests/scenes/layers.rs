@@ -50,11 +50,11 @@ fn a_trail_is_the_way_the_body_came() {
         let spacing = step * 0.5;
         // 0.5 s in 256 parts are 1.95 ms: two ticks.
         assert!((spacing - 0.002).abs() < 1e-12, "{spacing}");
-        for (place, point) in points.iter().enumerate() {
+        for (index, point) in points.iter().enumerate() {
             let t = point.x / 3.0;
             assert!((point.y - (20.0 * t - 5.0 * t * t)).abs() < 1e-9 * 80.0, "{point} at {time}");
             // The end of the tick in which the frame lies; the youngest step may be shorter than the others.
-            let age = (points.len() - 1 - place) as f64 * spacing;
+            let age = (points.len() - 1 - index) as f64 * spacing;
             assert!(t <= time + 0.001 + 1e-9 && t >= time - age - 0.002 - 1e-9, "{t} of a frame at {time}, age {age}");
         }
     }

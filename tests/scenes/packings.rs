@@ -43,7 +43,7 @@ fn a_table_becomes_bodies() {
         let more = "bodies: [(name: \"other\", at: (50, 50), atoms: Disc(radius: 0.5))],";
         let mut simulation =
             Simulation::load(&scene(&folder, &entry, more)).unwrap_or_else(|errors| panic!("{errors}"));
-        let names: Vec<String> = (0..3).map(|place| simulation.name(place)).collect();
+        let names: Vec<String> = (0..3).map(|index| simulation.name(index)).collect();
         assert_eq!(names, ["grain_0", "grain_1", "other"]);
         assert_eq!(simulation.bodies().mass[0], 2.0 * std::f64::consts::PI * 0.25);
         simulation.run_to_end().unwrap();

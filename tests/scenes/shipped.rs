@@ -25,11 +25,11 @@ pub(super) fn complaints(path: &Path) -> Vec<String> {
     }
     let mut complaints = Vec::new();
     let bodies = simulation.bodies();
-    let finite = (0..bodies.len()).all(|place| {
-        bodies.position[place].is_finite()
-            && bodies.velocity[place].is_finite()
-            && bodies.angle[place].is_finite()
-            && bodies.spin[place].is_finite()
+    let finite = (0..bodies.len()).all(|index| {
+        bodies.position[index].is_finite()
+            && bodies.velocity[index].is_finite()
+            && bodies.angle[index].is_finite()
+            && bodies.spin[index].is_finite()
     });
     if !finite {
         complaints.push("a body is not finite in the end".to_owned());

@@ -10,7 +10,7 @@ use glam::DVec2;
 use jostle::record::{FilmAppExt, Mark, MarkShape};
 use jostle::scene::units::{Position as At, Stiffness};
 use jostle::scene::values::Names;
-use jostle::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use jostle::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use jostle::sensors::{self, Channel, Channels, SensorAppExt};
 use jostle::tick::kept::SnapshotAppExt;
 use jostle::tick::{SimTick, Stage, TickAppExt};
@@ -63,7 +63,7 @@ impl Entry for HomeSpring {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
         report.positive("stiffness", self.stiffness);
     }
@@ -71,8 +71,8 @@ impl Entry for HomeSpring {
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         let mut springs = Springs::default();
         for Written { value, .. } in entries {
-            for place in value.of.matching(Kind::BODY, outline) {
-                let Some(body) = body_named(app.world_mut(), &outline.names(Kind::BODY)[place]) else { continue };
+            for index in value.of.matching(Kind::BODY, outline) {
+                let Some(body) = body_named(app.world_mut(), &outline.names(Kind::BODY)[index]) else { continue };
                 springs.0.push(Spring { body, home: value.home.si(), stiffness: value.stiffness.si(), greatest: 0.0 });
             }
         }
@@ -135,13 +135,13 @@ impl Entry for HomeSpringStretch {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for place in entries.iter().flat_map(|entry| entry.value.of.matching(Kind::BODY, outline)) {
-            let name = format!("{}.{STRETCH}", outline.names(Kind::BODY)[place]);
+        for index in entries.iter().flat_map(|entry| entry.value.of.matching(Kind::BODY, outline)) {
+            let name = format!("{}.{STRETCH}", outline.names(Kind::BODY)[index]);
             if let Some(channel) = sensors::find(app.world_mut(), &name) {
                 Channels::add(app.world_mut(), channel);
             }

@@ -8,7 +8,7 @@ use clap::Args;
 use super::Exit;
 use super::flags::{self, OverrideFlags};
 use super::load::{self, Request};
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::{print_line, say};
 use crate::cli::author;
 use crate::report::bench::{self, Measured, Order, Stopped};

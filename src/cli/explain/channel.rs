@@ -6,7 +6,7 @@ use crate::cli::flags::OverrideFlags;
 use crate::cli::load::Request;
 use crate::cli::say::{number, print_line};
 use crate::scene::schema::Language;
-use crate::scene::{Report, SceneRegistry, Source};
+use crate::scene::{Diagnostics, SceneRegistry, Source};
 use crate::sensors::{self, Channels, QUANTITIES};
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::energy::CHANNELS;
@@ -90,7 +90,7 @@ pub(super) fn of_scene(request: Request, flags: &OverrideFlags, name: &str) -> E
     };
     let outline = simulation.header().outline.clone();
     let Some(channel) = sensors::find(simulation.world_mut(), name) else {
-        let mut report = Report::new();
+        let mut report = Diagnostics::new();
         sensors::check_channel(name, "", &outline, &mut report);
         let help = report.problems().first().and_then(|problem| problem.help.clone()).unwrap_or_default();
         return request.refuse(Exit::Usage, "", &format!("there is no channel `{name}`"), &help);

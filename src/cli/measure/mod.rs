@@ -8,17 +8,17 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::Exit;
+use super::destination::{is_directory, takes_no_file};
 use super::flags;
 use super::inputs::Inputs;
 use super::load::{self, Request};
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::{number, print_line, say};
-use super::target::{is_directory, takes_no_file};
 use crate::cli::author;
 use crate::output::{OutputError, write_picture, write_whole};
 use crate::raster::{Theme, draw_diagram};
-use crate::report::ladder::Cost;
 use crate::report::measure::{self, Measured, NoReference, Order, Way};
+use crate::report::work_precision::Cost;
 use crate::simulation::{Overrides, Simulation};
 
 /// The command `measure`.

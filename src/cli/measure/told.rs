@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use crate::cli::columns::{aligned, quoted};
 use crate::cli::say::number;
 use crate::output::csv;
-use crate::report::ladder::{Advice, Cost, Course, Deviation, Outcome, Setting};
 use crate::report::measure::{Measured, NORM, NoReference};
+use crate::report::work_precision::{Advice, Cost, Course, Deviation, Outcome, Setting};
 use crate::tick::Wrong;
 
 /// Three digits are enough for a measurement.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::cli::author;
 use crate::cli::flags::{OverrideFlags, StrictFlag};
 use crate::cli::trial::Trial;
-use crate::record::follow::Follower;
+use crate::record::follow_camera::Follower;
 use crate::record::frame::{Cast, Frame};
 use crate::record::sections::CameraChoice;
 use crate::report::Card;

@@ -35,9 +35,9 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
         Table::from_csv(&text).map_err(|why| format!("`{}`: {why}", path.display()))
     };
     let tables = shards.values().map(read).collect::<Result<Vec<_>, _>>()?;
-    let named = |place: usize| {
-        let name = shards.values().nth(place).and_then(|path| path.file_name()).unwrap_or_default();
-        let sweep = tables[place].sweep.as_deref().unwrap_or("unknown");
+    let named = |index: usize| {
+        let name = shards.values().nth(index).and_then(|path| path.file_name()).unwrap_or_default();
+        let sweep = tables[index].sweep.as_deref().unwrap_or("unknown");
         format!("`{}` of the sweep {sweep}", name.display())
     };
     if let Some(other) = tables.iter().position(|table| table.sweep.is_none() || table.sweep != tables[0].sweep) {

@@ -2,8 +2,8 @@
 //! sheet and films.
 
 mod attempt;
+mod contact_sheet;
 mod merge;
-mod picture;
 mod record;
 mod table;
 mod vary;
@@ -19,14 +19,14 @@ use self::table::{Row, Table};
 use self::vary::{Grid, Variation};
 use super::Exit;
 use super::colors;
+use super::destination::Place;
 use super::film::{Order, Shot};
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::Inputs;
 use super::load::{self, Request};
-use super::progress::Progress;
+use super::progress_bar::Progress;
 use super::say::{count, print_line, say};
 use super::side_by_side::{all_cores, in_order};
-use super::target::Place;
 use super::trial::Verdict;
 use crate::cli::author;
 use crate::output::{Target, may_be_written, write_whole};
@@ -146,7 +146,7 @@ impl Sweep {
         may_be_written(&self.table(folder)).map_err(|error| error.to_string())?;
         let (first, step) = self.shard.map_or((0, 1), |(which, of)| (which - 1, of));
         let runs: Vec<usize> = (first..grid.runs).step_by(step).collect();
-        let sheet = !self.no_sheet && runs.len() <= picture::MOST_PICTURES;
+        let sheet = !self.no_sheet && runs.len() <= contact_sheet::MOST_PICTURES;
         let start = Instant::now();
         let fingerprint = self.fingerprint(&source, plain.resource());
         let films = if self.films { format!(" films {:?}", self.size) } else { String::new() };
@@ -177,7 +177,7 @@ impl Sweep {
         // A sheet of some of the runs would be taken for the whole.
         let sheet = sheet && taken == 0;
         if sheet {
-            picture::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
+            contact_sheet::write(&image, &attempts, plain.film().size(), theme).map_err(|error| error.to_string())?;
         }
         record.close()?;
         if !self.quiet && !self.json {
@@ -187,7 +187,7 @@ impl Sweep {
             } else if !self.no_sheet && taken > 0 {
                 say("note: no contact sheet, as some runs were there already: the same command once more makes it");
             } else if !self.no_sheet && !sheet {
-                say(&format!("note: no contact sheet of more than {} runs", picture::MOST_PICTURES));
+                say(&format!("note: no contact sheet of more than {} runs", contact_sheet::MOST_PICTURES));
             }
         }
         Ok(exit)
@@ -234,7 +234,7 @@ impl Sweep {
             .vary
             .iter()
             .enumerate()
-            .find(|(place, one)| self.vary[..*place].iter().any(|other| other.name == one.name));
+            .find(|(index, one)| self.vary[..*index].iter().any(|other| other.name == one.name));
         flag.or(setting.map(|(name, _)| format!("`{name}` varies: leave --set {name} away")))
             .or(twice.map(|(_, one)| format!("`{}` varies twice: name all its values in one --vary", one.name)))
     }

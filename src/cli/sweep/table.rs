@@ -180,7 +180,7 @@ impl Table {
         }
         let mut rows: Vec<Row> = shards.into_iter().flat_map(|table| table.rows).collect();
         rows.sort_by_key(|row| row.run);
-        if rows.iter().enumerate().any(|(place, row)| row.run != place + 1) {
+        if rows.iter().enumerate().any(|(index, row)| row.run != index + 1) {
             return Err("runs are missing or there twice: they are shards of different sweeps".to_owned());
         }
         let table = Self { names, sweep: None, rows };
@@ -203,8 +203,8 @@ impl Table {
         };
         let values: Vec<Vec<&str>> = (0..self.names.len()).map(values).collect();
         let size: usize = values.iter().map(Vec::len).product();
-        let fits = |(place, row): (usize, &Row)| {
-            let mut left = place;
+        let fits = |(index, row): (usize, &Row)| {
+            let mut left = index;
             values.iter().zip(&row.values).rev().all(|(values, value)| {
                 let expected = values[left % values.len()];
                 left /= values.len();
@@ -277,7 +277,7 @@ mod tests {
     fn row(run: usize, values: [&str; 2], channels: &[&str], verdict: Verdict) -> Row {
         let mut fixed = vec![verdict.word().to_owned()];
         fixed.resize(FIXED.len(), "1".to_owned());
-        let cell = |(place, name): (usize, &&str)| ((*name).to_owned(), format!("{}", run * 10 + place));
+        let cell = |(index, name): (usize, &&str)| ((*name).to_owned(), format!("{}", run * 10 + index));
         Row {
             run,
             values: values.map(str::to_owned).to_vec(),

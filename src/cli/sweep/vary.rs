@@ -20,7 +20,7 @@ pub(crate) fn variation(text: &str) -> Result<Variation, String> {
         return Err("expected a name and its values, such as gravity[1]=-1..-10:10 or seed=1..5".to_owned());
     };
     let values = split(values).into_iter().map(|part| range(part.trim())).collect::<Result<Vec<_>, _>>()?.concat();
-    let twice = values.iter().enumerate().find(|(place, value)| values[..*place].contains(value));
+    let twice = values.iter().enumerate().find(|(index, value)| values[..*index].contains(value));
     match (twice, values.iter().find(|value| value.is_empty())) {
         (_, Some(_)) => Err(format!("a value of `{name}` is missing: two commas in a row")),
         (Some((_, value)), _) => Err(format!("`{name}` takes the value {value} twice")),
@@ -32,14 +32,14 @@ pub(crate) fn variation(text: &str) -> Result<Variation, String> {
 fn split(text: &str) -> Vec<&str> {
     let (mut depth, mut quoted, mut start) = (0_i32, false, 0);
     let mut parts = Vec::new();
-    for (place, letter) in text.char_indices() {
+    for (index, letter) in text.char_indices() {
         match letter {
             '"' => quoted = !quoted,
             '(' | '[' | '{' if !quoted => depth += 1,
             ')' | ']' | '}' if !quoted => depth -= 1,
             ',' if depth == 0 && !quoted => {
-                parts.push(&text[start..place]);
-                start = place + 1;
+                parts.push(&text[start..index]);
+                start = index + 1;
             }
             _ => {}
         }
@@ -77,9 +77,9 @@ fn range(text: &str) -> Result<Vec<String>, String> {
     if spacing.is_some() && (from <= 0.0 || to <= 0.0) {
         return Err(wrong("logarithmic steps need ends above zero"));
     }
-    let value = |place: usize| {
-        let share = |a: f64, b: f64| a + (b - a) * place as f64 / (count - 1).max(1) as f64;
-        let value = match place {
+    let value = |index: usize| {
+        let share = |a: f64, b: f64| a + (b - a) * index as f64 / (count - 1).max(1) as f64;
+        let value = match index {
             0 => from,
             last if last == count - 1 => to,
             _ if spacing.is_some() => libm::exp(share(libm::log(from), libm::log(to))),
@@ -93,7 +93,7 @@ fn range(text: &str) -> Result<Vec<String>, String> {
 /// A finite number and the unit after it.
 fn measure(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
-    let mut ends = text.char_indices().map(|(place, letter)| place + letter.len_utf8());
+    let mut ends = text.char_indices().map(|(index, letter)| index + letter.len_utf8());
     let end = ends.rfind(|&end| text[..end].parse::<f64>().is_ok_and(f64::is_finite))?;
     Some((text[..end].parse().ok()?, &text[end..]))
 }
@@ -120,8 +120,8 @@ impl<'a> Grid<'a> {
     pub fn values(&self, run: usize) -> Vec<&'a str> {
         let mut left = run;
         let mut values = vec![""; self.variations.len()];
-        for (place, variation) in self.variations.iter().enumerate().rev() {
-            values[place] = &variation.values[left % variation.values.len()];
+        for (index, variation) in self.variations.iter().enumerate().rev() {
+            values[index] = &variation.values[left % variation.values.len()];
             left /= variation.values.len();
         }
         values

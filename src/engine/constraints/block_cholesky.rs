@@ -69,7 +69,7 @@ impl BlockCholesky {
     fn of_columns(size: Vec<u32>, order: Vec<u32>, left: Vec<Vec<u32>>) -> Self {
         let count = size.len();
         let mut rank = vec![0; count];
-        order.iter().enumerate().for_each(|(place, node)| rank[*node as usize] = place);
+        order.iter().enumerate().for_each(|(index, node)| rank[*node as usize] = index);
         let mut first = Vec::with_capacity(count);
         let (mut unknowns, mut length) = (0, 0);
         for size in &size {
@@ -93,7 +93,7 @@ impl BlockCholesky {
                 })
                 .collect();
         }
-        let place = |below: &[Vec<Below>], column: u32, row: u32| -> u32 {
+        let index = |below: &[Vec<Below>], column: u32, row: u32| -> u32 {
             if column == row {
                 return diagonal[column as usize];
             }
@@ -105,8 +105,8 @@ impl BlockCholesky {
             .map(|node| {
                 let blocks: &[Below] = &below[node];
                 let pairs =
-                    blocks.iter().enumerate().flat_map(|(place, a)| blocks[place..].iter().map(move |b| (a, b)));
-                pairs.map(|(a, b)| place(&below, a.node, b.node)).collect()
+                    blocks.iter().enumerate().flat_map(|(index, a)| blocks[index..].iter().map(move |b| (a, b)));
+                pairs.map(|(a, b)| index(&below, a.node, b.node)).collect()
             })
             .collect();
         Self {
@@ -143,8 +143,8 @@ impl BlockCholesky {
         let Self { size, first, order, diagonal, below, targets, numbers, whole, watch, least_pivot } = self;
         *least_pivot = 1.0;
         for (node, &own) in size.iter().enumerate() {
-            for place in 0..own {
-                whole[(first[node] + place) as usize] = numbers[(diagonal[node] + place * (own + 1)) as usize];
+            for index in 0..own {
+                whole[(first[node] + index) as usize] = numbers[(diagonal[node] + index * (own + 1)) as usize];
             }
         }
         let mut regular = true;
@@ -155,7 +155,7 @@ impl BlockCholesky {
             let whole = &whole[first[node] as usize..];
             regular &= factor_block(&mut numbers[at..at + own * own], own, whole);
             if *watch {
-                let share = |place: usize| numbers[at + place * (own + 1)].powi(2) / whole[place];
+                let share = |index: usize| numbers[at + index * (own + 1)].powi(2) / whole[index];
                 *least_pivot = (0..own).map(share).fold(*least_pivot, f64::min);
             }
             for block in &below[node] {
@@ -164,9 +164,9 @@ impl BlockCholesky {
                 divide_block(&head[at..at + own * own], &mut tail[..rows * own], own);
             }
             let mut targets = targets[node].iter();
-            for (place, a) in below[node].iter().enumerate() {
+            for (index, a) in below[node].iter().enumerate() {
                 let columns = size[a.node as usize] as usize;
-                for b in &below[node][place..] {
+                for b in &below[node][index..] {
                     let target = *targets.next().expect("there is one for each pair") as usize;
                     let rows = size[b.node as usize] as usize;
                     for row in 0..rows {
@@ -292,14 +292,14 @@ mod tests {
         for row in 0..count {
             for column in 0..count {
                 if joined(owner[row].0, owner[column].0)
-                    && let Some(place) = factor.entry(owner[row], owner[column])
+                    && let Some(index) = factor.entry(owner[row], owner[column])
                 {
-                    factor.numbers()[place] = value(row, column);
+                    factor.numbers()[index] = value(row, column);
                 }
             }
         }
         assert!(factor.factor());
-        let exact: Vec<f64> = (0..count).map(|place| 1.0 + place as f64).collect();
+        let exact: Vec<f64> = (0..count).map(|index| 1.0 + index as f64).collect();
         let mut values: Vec<f64> =
             (0..count).map(|row| (0..count).map(|column| value(row, column) * exact[column]).sum()).collect();
         factor.solve(&mut values);

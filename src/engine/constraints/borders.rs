@@ -45,9 +45,9 @@ impl Borders {
     /// Adds the held contacts of an island. `unknowns` names, for each body, the unknowns of the factor that move it.
     pub fn add(&mut self, held: Vec<usize>, rows: &[Row], unknowns: &[Vec<usize>]) {
         let mut couples = Vec::new();
-        for (place, &row) in held.iter().enumerate() {
+        for (index, &row) in held.iter().enumerate() {
             let sides = rows[row].sides.iter().flatten();
-            couples.extend(sides.flat_map(|side| unknowns[side.body].iter().map(|unknown| (place, *unknown))));
+            couples.extend(sides.flat_map(|side| unknowns[side.body].iter().map(|unknown| (index, *unknown))));
         }
         couples.sort_unstable();
         couples.dedup();
@@ -61,9 +61,9 @@ impl Borders {
         for Border { held, couples } in &self.islands {
             let first = self.columns.len();
             self.columns.resize(first + held.len() * joints.len(), 0.0);
-            for &(place, unknown) in couples {
-                let response = rows[joints[unknown]].response(&rows[held[place]], bodies);
-                self.columns[first + place * joints.len() + unknown] = response;
+            for &(index, unknown) in couples {
+                let response = rows[joints[unknown]].response(&rows[held[index]], bodies);
+                self.columns[first + index * joints.len() + unknown] = response;
             }
             let columns = &mut self.columns[first..];
             columns.chunks_exact_mut(joints.len()).for_each(|column| factor.solve(column));
@@ -72,9 +72,9 @@ impl Borders {
                 self.matrix.extend(held.iter().map(|other| rows[row].response(&rows[*other], bodies)));
             }
             let matrix = &mut self.matrix[begin..];
-            for &(place, unknown) in couples {
-                let response = rows[held[place]].response(&rows[joints[unknown]], bodies);
-                for (entry, column) in matrix[place * held.len()..].iter_mut().zip(columns.chunks_exact(joints.len())) {
+            for &(index, unknown) in couples {
+                let response = rows[held[index]].response(&rows[joints[unknown]], bodies);
+                for (entry, column) in matrix[index * held.len()..].iter_mut().zip(columns.chunks_exact(joints.len())) {
                     *entry -= response * column[unknown];
                 }
             }
@@ -95,9 +95,9 @@ impl Borders {
         for Border { held, couples } in &self.islands {
             self.answer.clear();
             self.answer.extend(held.iter().map(|row| values[*row]));
-            for &(place, unknown) in couples {
-                self.answer[place] -=
-                    rows[held[place]].response(&rows[joints[unknown]], bodies) * joint_answer[unknown];
+            for &(index, unknown) in couples {
+                self.answer[index] -=
+                    rows[held[index]].response(&rows[joints[unknown]], bodies) * joint_answer[unknown];
             }
             let (own, others) = matrix.split_at(held.len() * held.len());
             redundant::solve(own, &mut self.answer, held.iter().map(|row| shares(&rows[*row])), &mut self.work);

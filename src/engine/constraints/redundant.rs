@@ -54,8 +54,8 @@ fn eliminate(matrix: &mut [f64], answer: &mut [f64]) -> bool {
         for row in (0..size).filter(|&row| row != pivot) {
             let factor = matrix[row * size + column] / matrix[pivot * size + column];
             if factor != 0.0 {
-                for place in column..size {
-                    matrix[row * size + place] -= factor * matrix[pivot * size + place];
+                for index in column..size {
+                    matrix[row * size + index] -= factor * matrix[pivot * size + index];
                 }
                 answer[row] -= factor * answer[pivot];
             }
@@ -90,8 +90,8 @@ fn nearest(matrix: &[f64], right: &[f64], shares: &[Share], answer: &mut [f64]) 
             parts.push(part / new);
         }
     }
-    for (place, (answer, share)) in answer.iter_mut().zip(shares).enumerate() {
-        let sum = directions.iter().zip(&parts).fold(0.0, |sum, (direction, part)| sum + direction[place] * part);
+    for (index, (answer, share)) in answer.iter_mut().zip(shares).enumerate() {
+        let sum = directions.iter().zip(&parts).fold(0.0, |sum, (direction, part)| sum + direction[index] * part);
         *answer = share.natural + share.measure * sum;
     }
 }

@@ -51,7 +51,7 @@ pub struct Rows {
     loads: Vec<Loaded>,
     /// For each body the index at which its load may be found.
     #[serde(skip)]
-    places: Vec<usize>,
+    indices: Vec<usize>,
     #[serde(skip)]
     matrix: Vec<f64>,
     answer: Vec<f64>,
@@ -276,7 +276,7 @@ impl Rows {
     /// Bodies without velocity whose forces cancel, up to rounding, get no force. `told` receives each of them.
     pub fn cancel(&mut self, bodies: &mut Bodies, mut told: impl FnMut(&Bodies, Cancelled)) {
         self.loads.clear();
-        self.places.resize(bodies.len(), 0);
+        self.indices.resize(bodies.len(), 0);
         for (row, &force) in self.rows.iter().zip(&self.answer) {
             let share = if row.kind == Kind::Acceleration { 1.0 } else { OF_JOINTS };
             for side in row.sides.iter().flatten() {
@@ -284,11 +284,11 @@ impl Rows {
                 let turns = side.force == DVec2::ZERO && row.kind != Kind::Acceleration && extent > 0.0;
                 let of_one = if turns { side.torque.abs() / extent } else { side.force.length() };
                 let load = share * force.abs() * of_one;
-                let place = self.places[side.body];
-                match self.loads.get_mut(place).filter(|loaded| loaded.body == side.body) {
+                let index = self.indices[side.body];
+                match self.loads.get_mut(index).filter(|loaded| loaded.body == side.body) {
                     Some(loaded) => loaded.load += load,
                     None => {
-                        self.places[side.body] = self.loads.len();
+                        self.indices[side.body] = self.loads.len();
                         self.loads.push(Loaded { body: side.body, load });
                     }
                 }

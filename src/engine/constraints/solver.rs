@@ -128,16 +128,16 @@ impl Solver {
     fn fill(&mut self, rows: &[Row], bodies: &Bodies) {
         let numbers = self.factor.numbers();
         numbers.fill(0.0);
-        for &(a, b, place) in &self.entries {
-            numbers[place as usize] = rows[a as usize].response(&rows[b as usize], bodies);
+        for &(a, b, index) in &self.entries {
+            numbers[index as usize] = rows[a as usize].response(&rows[b as usize], bodies);
         }
     }
 
     /// Adds a share of the diagonal. It is the greater, the smaller the measure of the row is.
     fn soften(&mut self, rows: &[Row]) {
         let numbers = self.factor.numbers();
-        for &(row, _, place) in self.entries.iter().filter(|(a, b, _)| a == b) {
-            let number = &mut numbers[place as usize];
+        for &(row, _, index) in self.entries.iter().filter(|(a, b, _)| a == b) {
+            let number = &mut numbers[index as usize];
             *number += SHARE / rows[row as usize].share.measure.powi(2) * *number;
         }
     }
@@ -194,8 +194,8 @@ impl Solver {
         let Self { ends, sparse, .. } = self;
         let (mut size, mut owner): (Vec<u32>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
         let mut nodes_of: Vec<Vec<u32>> = vec![Vec::new(); bodies.len()];
-        for (place, &row) in sparse.iter().enumerate() {
-            let joins = place > 0 && sparse[place - 1] + 1 == row && ends[sparse[place - 1]] == ends[row];
+        for (index, &row) in sparse.iter().enumerate() {
+            let joins = index > 0 && sparse[index - 1] + 1 == row && ends[sparse[index - 1]] == ends[row];
             if !joins {
                 size.push(0);
                 let moved = ends[row].bodies.into_iter().filter(|body| *body != NONE);
@@ -208,15 +208,15 @@ impl Solver {
         let mut edges: Vec<(u32, u32)> = nodes_of
             .iter()
             .flat_map(|nodes| {
-                nodes.iter().enumerate().flat_map(|(place, a)| nodes[place + 1..].iter().map(|b| (*a, *b)))
+                nodes.iter().enumerate().flat_map(|(index, a)| nodes[index + 1..].iter().map(|b| (*a, *b)))
             })
             .collect();
         edges.sort_unstable();
         edges.dedup();
         let mut first = vec![0; size.len()];
-        for (place, (node, own)) in owner.iter().enumerate() {
+        for (index, (node, own)) in owner.iter().enumerate() {
             if *own == 0 {
-                first[*node as usize] = place;
+                first[*node as usize] = index;
             }
         }
         self.factor = BlockCholesky::new(size.clone(), edges.iter().copied());
@@ -226,15 +226,15 @@ impl Solver {
         for (a, b) in pairs {
             for row in within(a) {
                 for column in within(b) {
-                    let place = self.factor.entry(owner[row], owner[column]);
-                    let place = place.or_else(|| self.factor.entry(owner[column], owner[row]));
-                    let place = place.expect("these nodes have an edge");
-                    self.entries.push((sparse[row] as u32, sparse[column] as u32, place as u32));
+                    let index = self.factor.entry(owner[row], owner[column]);
+                    let index = index.or_else(|| self.factor.entry(owner[column], owner[row]));
+                    let index = index.expect("these nodes have an edge");
+                    self.entries.push((sparse[row] as u32, sparse[column] as u32, index as u32));
                 }
             }
         }
         self.moved = (0..bodies.len()).filter(|body| !nodes_of[*body].is_empty()).collect();
-        let nodes = first.iter().map(|place| ends[sparse[*place]].bodies);
+        let nodes = first.iter().map(|index| ends[sparse[*index]].bodies);
         self.factor.watch = has_loop(nodes, bodies.len());
     }
 
@@ -270,8 +270,8 @@ impl Solver {
         for _ in 0..MOST_REFINEMENTS {
             self.spread(rows, bodies);
             self.work.clear();
-            for (place, &row) in self.sparse.iter().enumerate() {
-                self.work.push(self.right[place] - self.gathered(&rows[row]));
+            for (index, &row) in self.sparse.iter().enumerate() {
+                self.work.push(self.right[index] - self.gathered(&rows[row]));
             }
             let worst = self.work.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if worst <= ROUNDING * scale || worst >= 0.5 * before {

@@ -498,12 +498,12 @@ mod tests {
             let state = simulation.state();
             let (contacts, pairs) = (&state.model::<PenaltyState>().unwrap().contacts, state.pairs.as_ref().unwrap());
             let bodies = state.bodies();
-            for place in contacts.atoms.touching() {
-                let geometry = PairGeometry::atoms(bodies, place, pairs.atoms[place]);
-                let contact = contacts.atoms.get(place);
-                assert_eq!(contact.overlap.to_bits(), geometry.overlap.to_bits(), "overlap of pair {place}");
+            for index in contacts.atoms.touching() {
+                let geometry = PairGeometry::atoms(bodies, index, pairs.atoms[index]);
+                let contact = contacts.atoms.get(index);
+                assert_eq!(contact.overlap.to_bits(), geometry.overlap.to_bits(), "overlap of pair {index}");
                 let force = geometry.pair.normal * contact.normal_force;
-                assert_eq!(bodies.force[geometry.pair.b.body], force, "force of pair {place}");
+                assert_eq!(bodies.force[geometry.pair.b.body], force, "force of pair {index}");
                 compared += 1;
             }
         }

@@ -9,12 +9,12 @@ use glam::DVec2;
 
 use super::geometry::PairGeometry;
 use super::{Probe, Surface, search};
-use crate::tick::response::{Spring, Springs};
+use crate::tick::critical_step::{Spring, Springs};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
-    Departure, Dependence, Energies, Events, Fastest, Holder, Model, Objection, Responses, Rhythm, State, SteadySpring,
-    Style, TickAppExt,
+    Departure, Dependence, Energies, EvaluationMode, Events, Fastest, Holder, Model, Objection, Rhythm, State,
+    SteadySpring, TickAppExt, TimeScales,
 };
 
 /// Ticks from one look at how fast the touching pairs respond together to the next.
@@ -57,13 +57,13 @@ pub trait Law: Model {
 /// overlap, the elastic energy and the critical tick.
 pub fn add_law(app: &mut App, law: impl Law) {
     search::plugin(app);
-    app.add_model(Watched { law, found: Responses::default(), springs: Springs::default(), next: 0 });
+    app.add_model(Watched { law, found: TimeScales::default(), springs: Springs::default(), next: 0 });
 }
 
 /// A law from outside, and the measured response of its contacts.
 struct Watched<L> {
     law: L,
-    found: Responses,
+    found: TimeScales,
     springs: Springs,
     next: u64,
 }
@@ -148,7 +148,7 @@ impl<L: Law> Model for Watched<L> {
         self.law.begin_step(state);
     }
 
-    fn responses(&self) -> Responses {
+    fn time_scales(&self) -> TimeScales {
         self.found
     }
 
@@ -164,12 +164,12 @@ impl<L: Law> Model for Watched<L> {
         self.law.next_edge(now)
     }
 
-    fn objection(&self, style: Style) -> Option<Objection> {
-        self.law.objection(style)
+    fn objection(&self, mode: EvaluationMode) -> Option<Objection> {
+        self.law.objection(mode)
     }
 
-    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
-        self.law.departures(state, style)
+    fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
+        self.law.departures(state, mode)
     }
 
     fn remarks(&self, state: &State) -> Vec<String> {

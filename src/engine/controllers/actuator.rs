@@ -9,7 +9,7 @@ use super::driven::{self, Driven};
 use super::output::{self, Output};
 use super::target::Target;
 use crate::scene::units::dimension::{OfForce, OfTorque};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, ForceOn, Model, Rhythm, State, SteadySpring, TickAppExt};
 
@@ -38,7 +38,7 @@ impl Entry for Actuator {
         output::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         driven::check(&self.of, outline, report);
         self.force.check("force", report);
     }

@@ -10,7 +10,7 @@ use crate::joints::ends::{Along, End, Ends, Pair};
 use crate::joints::law::Law;
 use crate::scene::units::dimension::{OfForce, OfSpeed, OfSpin, OfTorque};
 use crate::scene::units::{Either, Said};
-use crate::scene::{Kind, Outline, Report, SceneError};
+use crate::scene::{Diagnostics, Kind, Outline, SceneError};
 use crate::tick::{ForceOn, ForcePart, LoadErrors, State};
 use crate::world::Bodies;
 
@@ -39,7 +39,7 @@ pub(super) struct Motion {
 }
 
 /// Reports a joint that is not there.
-pub(super) fn check(of: &str, outline: &Outline, report: &mut Report) {
+pub(super) fn check(of: &str, outline: &Outline, report: &mut Diagnostics) {
     outline.require(Kind::JOINT, of, "of", report);
 }
 

@@ -10,9 +10,9 @@ use super::driven::{self, Driven, DrivenForce, DrivenSpeed, Motion};
 use super::output::{self, Output};
 use crate::constraints::{Kind, Row, Rows};
 use crate::joints::bounded::Bounded;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Blow, Energies, Events, ForceOn, Indicator, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Blow, Energies, EvaluationMode, Events, ForceOn, Indicator, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
 /// Turns a hinge or moves a slide at a constant rate, with the necessary torque or force.
@@ -43,7 +43,7 @@ impl Entry for Motor {
         output::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         driven::check(&self.of, outline, report);
         report.finite("speed", self.speed);
         report.positive_if_given("limit", self.limit);
@@ -108,7 +108,7 @@ impl Model for MotorRow {
     /// Between ticks the torque of the last evaluation decides, and the rate that is reached.
     fn begin_step(&mut self, state: &mut State) {
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        if state.evaluation().style == Style::Frozen {
+        if state.evaluation().mode == EvaluationMode::Frozen {
             return;
         }
         let Motion { pair, along, .. } = &motion;
@@ -186,7 +186,7 @@ impl Events for MotorRow {
     }
 
     fn switch(&mut self, _: &mut State, fired: &[usize]) {
-        fired.iter().take(1).for_each(|place| self.held.switch(*place));
+        fired.iter().take(1).for_each(|index| self.held.switch(*index));
     }
 
     fn look_again(&mut self) -> bool {

@@ -20,10 +20,12 @@ use super::target::Target;
 use crate::constraints::Kind;
 use crate::scene::units::dimension::{OfAngle, OfLength};
 use crate::scene::units::{Rate, Scalar, Time};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Energies, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{
+    Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
+};
 
 /// Drives a hinge to an angle, or a slide to a position. Its torque (force) is `kp (target - angle) + ki` times the
 /// integral of that `+ kd (rate of the target - rate)`. The field `limit` bounds it.
@@ -66,7 +68,7 @@ impl Entry for Servo {
         output::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         driven::check(&self.of, outline, report);
         self.target.check("target", report);
         for (gain, path) in [(self.kp, "kp"), (self.ki, "ki"), (self.kd, "kd")] {
@@ -195,8 +197,8 @@ impl Sampling {
 
 impl ServoForce {
     /// The target and its rate.
-    fn aim(&self, time: f64, style: Style) -> (f64, f64) {
-        let inside = if style.is_staged() { self.inside } else { time };
+    fn aim(&self, time: f64, mode: EvaluationMode) -> (f64, f64) {
+        let inside = if mode.is_staged() { self.inside } else { time };
         (self.target.at(time), self.target.rate(time, inside))
     }
 
@@ -224,8 +226,8 @@ impl ServoForce {
     fn look(&self, state: &State) -> Option<Wanted> {
         let motion = self.driven.motion(&state.bodies).filter(|_| self.has_events())?;
         let [kp, ki, kd] = self.gains;
-        let (time, style) = (state.evaluation().time, state.evaluation().style);
-        let (target, rate) = self.aim(time, style);
+        let (time, mode) = (state.evaluation().time, state.evaluation().mode);
+        let (target, rate) = self.aim(time, mode);
         let acceleration = motion.pair.row(&motion.along, Kind::Velocity).acceleration(&state.bodies);
         let slope = kp * (rate - motion.rate)
             + ki * (target - motion.value)
@@ -292,8 +294,8 @@ impl Model for ServoForce {
     fn begin_step(&mut self, state: &mut State) {
         let span = state.span();
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
-        let style = state.evaluation().style;
-        let staged = style.is_staged();
+        let mode = state.evaluation().mode;
+        let staged = mode.is_staged();
         let now = span.begin;
         let before = std::mem::replace(&mut self.inside, span.middle());
         if staged && self.sampling.is_none() && self.jumps() {
@@ -301,7 +303,7 @@ impl Model for ServoForce {
         }
         let mut sampling = self.sampling.take();
         if let Some(sampling) = &mut sampling
-            && let Some(before) = sampling.advance(now, || self.bounded(&motion, self.aim(now, style)))
+            && let Some(before) = sampling.advance(now, || self.bounded(&motion, self.aim(now, mode)))
         {
             // The forces of the state were those of the output before.
             if staged {
@@ -322,11 +324,11 @@ impl Model for ServoForce {
         let torque = match &self.sampling {
             Some(sampling) => sampling.held,
             None => {
-                let (style, time) = (state.evaluation().style, state.evaluation().time);
-                let aim = self.aim(time, style);
+                let (mode, time) = (state.evaluation().mode, state.evaluation().time);
+                let aim = self.aim(time, mode);
                 match self.mode {
-                    Mode::Follows if style == Style::Frozen => self.free(&motion, aim),
-                    Mode::Bounded(sign) if style == Style::Frozen => sign * self.limit,
+                    Mode::Follows if mode == EvaluationMode::Frozen => self.free(&motion, aim),
+                    Mode::Bounded(sign) if mode == EvaluationMode::Frozen => sign * self.limit,
                     _ => self.bounded(&motion, aim),
                 }
             }
@@ -411,7 +413,7 @@ impl Events for ServoForce {
         self.choose(state);
     }
 
-    fn hand_over(&mut self, state: &State, _: Style) {
+    fn hand_over(&mut self, state: &State, _: EvaluationMode) {
         self.choose(state);
     }
 }

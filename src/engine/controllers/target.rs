@@ -71,7 +71,7 @@ impl<A, B> Target<A, B> {
     }
 
     /// Reports a course that cannot be.
-    pub fn check(&self, path: &str, report: &mut crate::scene::Report) {
+    pub fn check(&self, path: &str, report: &mut crate::scene::Diagnostics) {
         match &self.value {
             Value::Constant(value) => _ = report.finite(path, *value),
             Value::Course(course) => report.within(path, |report| course.check(report)),

@@ -4,10 +4,10 @@ use bevy_app::App;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Expectations, Sight, Watch, places};
+use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::{Speed, Time};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 
 /// From a time on every point of the bodies is slower than a speed; looked at every tick.
@@ -31,7 +31,7 @@ impl Entry for AtRest {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
         report.not_negative("from", self.from.si());
         report.positive("speed_below", self.speed_below.si());
@@ -68,8 +68,8 @@ impl Watch for Watching {
             return;
         }
         let bodies = sight.bodies;
-        for place in places(bodies, &self.keys) {
-            let speed = bodies.velocity[place].length() + bodies.spin[place].abs() * bodies.extent(place);
+        for index in indices(bodies, &self.keys) {
+            let speed = bodies.velocity[index].length() + bodies.spin[index].abs() * bodies.extent(index);
             if self.fastest.is_none_or(|(fastest, _)| speed > fastest || speed.is_nan()) {
                 self.fastest = Some((speed, sight.time));
             }

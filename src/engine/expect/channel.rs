@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
 use crate::scene::units::{Scalar, Time};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::sensors::{self, energy};
 use crate::tick::energy::EnergyLedger;
 use crate::tick::snapshot::{Memory, Unfit, recall};
@@ -34,7 +34,7 @@ impl Entry for Channel {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         sensors::check_channel(&self.name, "name", outline, report);
         report.not_negative("from", self.from.si());
         report.positive("below", self.below.si());

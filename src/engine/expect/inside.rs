@@ -5,10 +5,10 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Expectations, Sight, Watch, places};
+use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::Position as Place;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 
 /// The centres of mass stay in a box, at every tick.
@@ -30,7 +30,7 @@ impl Entry for Inside {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
         let (low, high) = (self.r#box.0.si(), self.r#box.1.si());
         if !low.cmplt(high).all() {
@@ -75,11 +75,11 @@ impl Watch for Watching {
         if self.escaped.is_some() {
             return;
         }
-        for place in places(sight.bodies, &self.keys) {
-            let position = sight.bodies.position[place];
+        for index in indices(sight.bodies, &self.keys) {
+            let position = sight.bodies.position[index];
             // In this form a NaN or infinite position is outside.
             if !(position.cmpge(self.low).all() && position.cmple(self.high).all()) {
-                let which = self.keys.iter().position(|&key| key == sight.bodies.key.at(place));
+                let which = self.keys.iter().position(|&key| key == sight.bodies.key.at(index));
                 let name = which.map_or_else(String::new, |which| self.names[which].clone());
                 self.escaped = Some((name, sight.time, position));
                 return;

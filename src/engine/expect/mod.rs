@@ -214,6 +214,6 @@ pub fn plugin(app: &mut App) {
 }
 
 /// Places in the packed state of bodies given by their keys; the gone ones are left out.
-fn places<'a>(bodies: &'a Bodies, keys: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
+fn indices<'a>(bodies: &'a Bodies, keys: &'a [u64]) -> impl Iterator<Item = usize> + 'a {
     keys.iter().filter_map(|key| bodies.key.find(*key))
 }

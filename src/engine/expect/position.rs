@@ -5,11 +5,11 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::{Expectations, Sight, Watch, places};
+use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::{Length, Position as Place, Time};
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::world::between::{Moment, position_between};
+use crate::world::between::{MotionSample, position_between};
 
 /// A body is at a place at a time, which may lie between ticks.
 #[derive(Deserialize, JsonSchema)]
@@ -34,7 +34,7 @@ impl Entry for Position {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require(Kind::BODY, &self.of, "of", report);
         report.not_negative("at", self.at.si());
         report.positive("within", self.within.si());
@@ -61,7 +61,7 @@ struct Watching {
     at: f64,
     is: DVec2,
     within: f64,
-    before: Option<Moment>,
+    before: Option<MotionSample>,
     found: Option<DVec2>,
 }
 
@@ -79,8 +79,8 @@ impl Watch for Watching {
         if self.found.is_some() {
             return;
         }
-        let Some(place) = places(sight.bodies, &[self.key]).next() else { return };
-        let now = Moment::of(sight.bodies, place, sight.time);
+        let Some(index) = indices(sight.bodies, &[self.key]).next() else { return };
+        let now = MotionSample::of(sight.bodies, index, sight.time);
         if sight.has_reached(self.at) {
             self.found = Some(self.before.map_or(now.position, |before| position_between(&before, &now, self.at)));
         }

@@ -27,7 +27,7 @@ impl AppliedAt {
         let Some(given) = self.given else { return };
         let bodies = &world.resource::<State>().bodies;
         let targets: Vec<(u64, Entity)> =
-            of.places(bodies).map(|place| (bodies.key.at(place), bodies.entity[place])).collect();
+            of.indices(bodies).map(|index| (bodies.key.at(index), bodies.entity[index])).collect();
         for (key, entity) in targets {
             let at = anchor::from_center(world, entity, format!("{path}.at"), given);
             if at != given {
@@ -39,6 +39,6 @@ impl AppliedAt {
     /// The point on the body of a key, from its centre of mass, in metres.
     pub fn on(&self, key: u64) -> DVec2 {
         let found = self.elsewhere.binary_search_by_key(&key, |(key, _)| *key);
-        found.map_or(self.given.unwrap_or_default(), |place| self.elsewhere[place].1)
+        found.map_or(self.given.unwrap_or_default(), |index| self.elsewhere[index].1)
     }
 }

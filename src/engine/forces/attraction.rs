@@ -11,7 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Name};
@@ -48,7 +48,7 @@ impl Entry for Attraction {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.not_negative("softening", self.softening);
     }
 
@@ -61,7 +61,7 @@ impl Entry for Attraction {
         }
         for Written { value, .. } in entries {
             let (constant, softening) = (value.constant.si(), value.softening.si());
-            app.add_model(AttractionForce { constant, softening, nearest: Nearest::default() });
+            app.add_model(AttractionForce { constant, softening, nearest: SteepestFall::default() });
         }
     }
 }
@@ -90,12 +90,12 @@ pub struct AttractionForce {
     /// Length `s` in metres below which the force stops growing.
     pub softening: f64,
     /// Its steepest encounter so far, without softening.
-    pub nearest: Nearest,
+    pub nearest: SteepestFall,
 }
 
 /// The encounter of two bodies with the steepest attraction, without softening.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Nearest {
+pub struct SteepestFall {
     /// Square of the angular frequency of a circular orbit at that distance, in 1/s2; zero without an encounter.
     pub squared_rate: f64,
     /// Places of both in [`Bodies`].
@@ -103,7 +103,7 @@ pub struct Nearest {
 }
 
 /// The steepest encounter under an attraction without softening, over all evaluations of a run.
-pub fn nearest(state: &State) -> Option<Nearest> {
+pub fn nearest(state: &State) -> Option<SteepestFall> {
     let all = state.models_of::<AttractionForce>().map(|attraction| attraction.nearest);
     all.filter(|nearest| nearest.squared_rate > 0.0).max_by(|a, b| a.squared_rate.total_cmp(&b.squared_rate))
 }
@@ -155,7 +155,7 @@ impl Model for AttractionForce {
             let force = between * stiffness;
             let squared_rate = stiffness * (mass[a] + mass[b]) / (mass[a] * mass[b]);
             if self.softening == 0.0 && squared_rate > self.nearest.squared_rate {
-                self.nearest = Nearest { squared_rate, between: (a, b) };
+                self.nearest = SteepestFall { squared_rate, between: (a, b) };
             }
             sums[a] += force;
             sums[b] -= force;

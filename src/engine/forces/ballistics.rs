@@ -313,9 +313,9 @@ impl Flight {
             let parts = 2 * (column + 1);
             let mut next = vec![self.midpoint(from, &rate, length, parts)];
             // Aitken and Neville: each row from the one with two parts less.
-            for (place, before) in row.iter().enumerate() {
-                let ratio = (parts as f64 / (2 * (column - place)) as f64).powi(2);
-                let last = next[place];
+            for (index, before) in row.iter().enumerate() {
+                let ratio = (parts as f64 / (2 * (column - index)) as f64).powi(2);
+                let last = next[index];
                 next.push(last.plus(&last.minus(before), 1.0 / (ratio - 1.0)));
             }
             row = next;

@@ -1,15 +1,15 @@
 //! The effect of forces that begin, end or bend between the ticks of a run from tick to tick, for the card.
 
 use crate::scene::Outline;
-use crate::tick::{Clock, State, Style};
+use crate::tick::{Clock, EvaluationMode, State};
 use jostle_language::numbers::number;
 
 /// The remedy.
 pub(super) const REMEDY: &str = "`events: Located` or `method: RungeKutta4`, whose steps end there";
 
 /// The clock of a run that has only made whole ticks; `None` if steps end between ticks.
-pub(super) fn clock_of_whole_ticks(state: &State, style: Style) -> Option<Clock> {
-    (style == Style::Following).then(|| state.clock()).filter(|clock| clock.ticks > 0)
+pub(super) fn clock_of_whole_ticks(state: &State, mode: EvaluationMode) -> Option<Clock> {
+    (mode == EvaluationMode::Following).then(|| state.clock()).filter(|clock| clock.ticks > 0)
 }
 
 /// The places in the scene of all entries of a name, in the order of the file, such as `forces[0]`.

@@ -9,7 +9,7 @@ use super::ballistics::Air;
 use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -36,7 +36,7 @@ impl Entry for Drag {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("linear", self.linear);
         report.not_negative("quadratic", self.quadratic);
         if self.linear.si() == 0.0 && self.quadratic.si() == 0.0 {
@@ -90,7 +90,7 @@ impl Model for DragForce {
 
     fn apply_forces(&mut self, state: &mut State) {
         let (bodies, rates) = state.bodies_and_rates();
-        for body in self.of.places(bodies) {
+        for body in self.of.indices(bodies) {
             let velocity = bodies.velocity[body];
             let force = velocity * -(self.linear + self.quadratic * velocity.length());
             bodies.force[body] += force;

@@ -19,9 +19,9 @@ use super::thrust::ThrustFrame;
 use super::{AppliedAt, Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::Memory;
-use crate::tick::{Clock, Departure, Energies, Model, Rhythm, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rhythm, State, SteadySpring, TickAppExt};
 
 /// A force or torque that follows a course in time. The course is a factor on the values that are given here.
 #[derive(Deserialize, JsonSchema)]
@@ -115,7 +115,7 @@ impl Entry for Drive {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
         if self.force.is_none() && self.torque.is_none() {
             report.error("", "this drive pushes nothing").help("give `force: (2, 0)`, `torque: 0.05` or both");
@@ -142,7 +142,7 @@ impl Entry for Drive {
 }
 
 impl Course {
-    pub(crate) fn check(&self, report: &mut Report) {
+    pub(crate) fn check(&self, report: &mut Diagnostics) {
         match self {
             Self::Sine { frequency, angular_frequency, .. } => {
                 if let Some(frequency) = frequency {
@@ -185,7 +185,7 @@ impl Course {
             Self::Sine { amplitude, phase, .. } => amplitude.si() * libm::sin(self.rhythm() * time + phase.si()),
             Self::Piecewise(points) => {
                 let next = points.partition_point(|point| point.0.si() <= time);
-                let point = |place: usize| (points[place].0.si(), points[place].1.si());
+                let point = |index: usize| (points[index].0.si(), points[index].1.si());
                 match (next.checked_sub(1), next < points.len()) {
                     (Some(before), true) => {
                         let ((begin, from), (end, to)) = (point(before), point(next));
@@ -319,8 +319,8 @@ impl Model for DriveForce {
 
     /// The effects of points between two ticks. Effects below a thousandth are not reported, because the card claims no
     /// better accuracy of energies.
-    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
-        let shares = clock_of_whole_ticks(state, style).and_then(|clock| self.course.lost_and_gained(&clock));
+    fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
+        let shares = clock_of_whole_ticks(state, mode).and_then(|clock| self.course.lost_and_gained(&clock));
         let Some((lost, gained)) = shares else { return Vec::new() };
         let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
         let shares: Vec<String> = shares.map(|(share, what)| format!("{} {what}", percent(share))).collect();
@@ -338,7 +338,7 @@ impl Model for DriveForce {
         let value = self.course.at(state.evaluation.time);
         let (bodies, rates) = state.bodies_and_rates();
         let (push, torque) = (self.force * value, self.torque * value);
-        for body in self.of.places(bodies) {
+        for body in self.of.indices(bodies) {
             let (mut force, mut arm) = (push, self.at.on(bodies.key.at(body)));
             if self.turns || arm != DVec2::ZERO {
                 let (sin, cos) = libm::sincos(bodies.angle[body]);

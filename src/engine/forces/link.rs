@@ -7,9 +7,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
 use std::borrow::Cow;
 
-use crate::scene::{Kind, Outline, Report, SceneAppExt};
+use crate::scene::{Diagnostics, Kind, Outline, SceneAppExt};
 use crate::tick::energy::CHANNELS;
-use crate::tick::{Balance, State};
+use crate::tick::{Rates, State};
 use crate::world::{Bodies, anchor};
 
 /// The account of what dampers take.
@@ -58,7 +58,7 @@ impl JsonSchema for Partner {
 }
 
 /// Reports a stiffness and a damping that cannot be, or hold nothing.
-pub(super) fn check_holds(stiffness: impl Into<f64>, damping: impl Into<f64>, report: &mut Report) {
+pub(super) fn check_holds(stiffness: impl Into<f64>, damping: impl Into<f64>, report: &mut Diagnostics) {
     let (stiffness, damping) = (stiffness.into(), damping.into());
     report.not_negative("stiffness", stiffness);
     report.not_negative("damping", damping);
@@ -68,7 +68,7 @@ pub(super) fn check_holds(stiffness: impl Into<f64>, damping: impl Into<f64>, re
 }
 
 /// Reports ends without a body, and two ends on one body.
-pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut Report) {
+pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut Diagnostics) {
     outline.require(Kind::BODY, a, "a", report);
     if let Partner::Body(b) = b {
         outline.require(Kind::BODY, b, "b", report);
@@ -85,7 +85,7 @@ pub struct Link {
     keys: (u64, Option<u64>),
     anchors: (DVec2, DVec2),
     generation: u64,
-    places: Option<(usize, Option<usize>)>,
+    indices: Option<(usize, Option<usize>)>,
 }
 
 /// An end in the present state.
@@ -128,7 +128,7 @@ impl Link {
     /// A spring between bodies of these keys, `None` for the world. Anchors are in the frames of the bodies, from their
     /// centres of mass, or in the world, in metres.
     pub fn new(a: u64, b: Option<u64>, anchors: (DVec2, DVec2)) -> Self {
-        Self { keys: (a, b), anchors, generation: 0, places: None }
+        Self { keys: (a, b), anchors, generation: 0, indices: None }
     }
 
     /// Between the centres of mass of those that a scene names. The keys of a scene's bodies are their places in the outline.
@@ -148,7 +148,7 @@ impl Link {
         for (((anchor, field), key), given) in ends.into_iter().zip(keys).zip(given) {
             let Some(given) = given else { continue };
             let bodies = &world.resource::<State>().bodies;
-            let body = key.and_then(|key| bodies.key.find(key)).map(|place| bodies.entity[place]);
+            let body = key.and_then(|key| bodies.key.find(key)).map(|index| bodies.entity[index]);
             *anchor = body.map_or(given, |body| anchor::from_center(world, body, format!("{path}.{field}"), given));
         }
     }
@@ -157,22 +157,22 @@ impl Link {
     pub fn refresh(&mut self, bodies: &Bodies) {
         if self.generation != bodies.generation {
             self.generation = bodies.generation;
-            self.places = self.look_up(bodies);
+            self.indices = self.look_up(bodies);
         }
     }
 
     fn look_up(&self, bodies: &Bodies) -> Option<(usize, Option<usize>)> {
-        let place = |key: u64| bodies.key.find(key);
+        let index = |key: u64| bodies.key.find(key);
         let b = match self.keys.1 {
-            Some(key) => Some(place(key)?),
+            Some(key) => Some(index(key)?),
             None => None,
         };
-        Some((place(self.keys.0)?, b))
+        Some((index(self.keys.0)?, b))
     }
 
     /// Both ends in the present state; `None` if one of the bodies is gone.
     pub fn ends(&self, bodies: &Bodies) -> Option<(End, End)> {
-        let (a, b) = if self.generation == bodies.generation { self.places } else { self.look_up(bodies) }?;
+        let (a, b) = if self.generation == bodies.generation { self.indices } else { self.look_up(bodies) }?;
         let world = End { body: None, arm: DVec2::ZERO, position: self.anchors.1, velocity: DVec2::ZERO };
         Some((End::of(a, self.anchors.0, bodies), b.map_or(world, |b| End::of(b, self.anchors.1, bodies))))
     }
@@ -194,26 +194,26 @@ type Side = (usize, DVec2);
 
 /// Adds `force` newtons to end A and its opposite to end B. An end that forces do not move takes its force from
 /// outside, and its motion does work.
-pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, balance: &mut Balance) {
+pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, rates: &mut Rates) {
     for (end, other, force) in [(a, b, force), (b, a, -force)] {
         if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {
             bodies.push(body, end.arm, force);
             if !other.dynamic(bodies) {
-                balance.outside(end.position, force, 0.0);
-                balance.work += force.dot(other.velocity);
+                rates.outside(end.position, force, 0.0);
+                rates.work += force.dot(other.velocity);
             }
         }
     }
 }
 
 /// Adds `torque` N m to end B and its opposite to end A, likewise.
-pub(super) fn twist(a: &End, b: &End, torque: f64, bodies: &mut Bodies, balance: &mut Balance) {
+pub(super) fn twist(a: &End, b: &End, torque: f64, bodies: &mut Bodies, rates: &mut Rates) {
     for (end, other, torque) in [(a, b, -torque), (b, a, torque)] {
         if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {
             bodies.torque[body] += torque;
             if !other.dynamic(bodies) {
-                balance.torque += torque;
-                balance.work += torque * other.turn(bodies).1;
+                rates.torque += torque;
+                rates.work += torque * other.turn(bodies).1;
             }
         }
     }

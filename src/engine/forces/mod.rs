@@ -1,13 +1,13 @@
 //! Forces, one per file. A force adds to the sums of the bodies and keeps its account in
-//! [`Balance`](crate::tick::Balance).
+//! [`Rates`](crate::tick::Rates).
 
-pub mod aim;
 mod applied_at;
 pub mod attraction;
 pub mod ballistics;
 mod between_ticks;
 pub mod drag;
 pub mod drive;
+pub mod firing_solution;
 pub mod gravity;
 pub mod link;
 pub mod spring;
@@ -38,5 +38,5 @@ pub fn plugin(app: &mut App) {
         .add_plugins(spring::plugin)
         .add_plugins(torsion_spring::plugin)
         .add_plugins(drive::plugin)
-        .add_plugins(aim::plugin);
+        .add_plugins(firing_solution::plugin);
 }

@@ -14,8 +14,8 @@ use serde::Deserialize;
 
 use super::link::{self, DAMPING, End, Link, Partner};
 use crate::scene::units::{Damping, Length, Position, Stiffness};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, SceneError, Written};
-use crate::tick::response;
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, Written};
+use crate::tick::critical_step;
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
@@ -53,7 +53,7 @@ impl Entry for Spring {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         link::check_ends(&self.a, &self.b, outline, report);
         link::check_holds(self.stiffness, self.damping, report);
         if let Some(length) = self.length {
@@ -165,7 +165,8 @@ impl Model for SpringForce {
         let across = self.stiffness * tension.max(0.0);
         let normal = if direction == DVec2::ZERO { DVec2::X } else { direction };
         let Some((a, b)) = link::sides(&a, &b) else { return };
-        let spring = response::Spring { a, b, normal, stiffness: (self.stiffness, across), damped: 0.0, turning: 0.0 };
+        let spring =
+            critical_step::Spring { a, b, normal, stiffness: (self.stiffness, across), damped: 0.0, turning: 0.0 };
         list.push(SteadySpring { spring, damping: self.damping, turning_damping: 0.0 });
     }
 

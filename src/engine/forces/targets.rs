@@ -1,11 +1,11 @@
 //! The bodies on which a force acts.
 
 use crate::scene::values::Names;
-use crate::scene::{Kind, Outline, Report};
+use crate::scene::{Diagnostics, Kind, Outline};
 use crate::world::Bodies;
 
 /// Reports names of a force's `of` that fit no body.
-pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Report) {
+pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Diagnostics) {
     if let Some(names) = of {
         names.require(Kind::BODY, outline, "of", report);
     }
@@ -16,7 +16,7 @@ pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Report)
 pub struct Targets {
     keys: Option<Vec<u64>>,
     generation: u64,
-    places: Vec<u32>,
+    indices: Vec<u32>,
 }
 
 impl Targets {
@@ -37,12 +37,12 @@ impl Targets {
     }
 
     /// Places of the bodies in canonical order.
-    pub fn places(&mut self, bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
+    pub fn indices(&mut self, bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
         if self.generation != bodies.generation {
             self.generation = bodies.generation;
             let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && self.include(bodies.key.at(b)));
-            self.places = moved.map(|b| b as u32).collect();
+            self.indices = moved.map(|b| b as u32).collect();
         }
-        self.places.iter().map(|&place| place as usize)
+        self.indices.iter().map(|&index| index as usize)
     }
 }

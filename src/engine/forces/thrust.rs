@@ -14,9 +14,9 @@ use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, perc
 use super::{AppliedAt, Targets, check_targets};
 use crate::scene::units::{ForcePair, Position, Time};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Balance, Clock, Departure, Energies, Model, State, SteadySpring, Style, TickAppExt};
+use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rates, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
 /// A force at a point of a body, between two times. Under `VelocityVerlet` and `SemiImplicitEuler` without located
@@ -61,7 +61,7 @@ impl Entry for Thrust {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
         if self.to.is_some_and(|to| to.si() <= self.from.si()) {
             report.error("to", format!("must be later than `from`, {} s", self.from.si()));
@@ -161,8 +161,8 @@ impl Model for ThrustForce {
     }
 
     /// The effects of times between two ticks.
-    fn departures(&self, state: &State, style: Style) -> Vec<Departure> {
-        clock_of_whole_ticks(state, style).and_then(|clock| self.departure(&clock)).into_iter().collect()
+    fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
+        clock_of_whole_ticks(state, mode).and_then(|clock| self.departure(&clock)).into_iter().collect()
     }
 }
 
@@ -199,15 +199,15 @@ impl ThrustForce {
         Some(Departure { what, remedy: REMEDY, share: share.abs() })
     }
 
-    fn push(&mut self, bodies: &mut Bodies, balance: &mut Balance, times: f64) {
-        for body in self.of.places(bodies) {
+    fn push(&mut self, bodies: &mut Bodies, rates: &mut Rates, times: f64) {
+        for body in self.of.indices(bodies) {
             let (sin, cos) = libm::sincos(bodies.angle[body]);
             let rotation = DVec2::new(cos, sin);
             let force = times * if self.turns { rotation.rotate(self.force) } else { self.force };
             let arm = rotation.rotate(self.at.on(bodies.key.at(body)));
             bodies.push(body, arm, force);
-            balance.outside(bodies.position[body], force, arm.perp_dot(force));
-            balance.work += force.dot(bodies.velocity_at(body, arm));
+            rates.outside(bodies.position[body], force, arm.perp_dot(force));
+            rates.work += force.dot(bodies.velocity_at(body, arm));
         }
     }
 }

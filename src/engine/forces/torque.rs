@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::{Targets, check_targets};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written, units};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written, units};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -29,7 +29,7 @@ impl Entry for Torque {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
     }
 
@@ -67,7 +67,7 @@ impl Model for ConstantTorque {
 
     fn apply_forces(&mut self, state: &mut State) {
         let (bodies, rates) = state.bodies_and_rates();
-        for body in self.of.places(bodies) {
+        for body in self.of.indices(bodies) {
             bodies.torque[body] += self.value;
             rates.torque += self.value;
             rates.work += self.value * bodies.spin[body];

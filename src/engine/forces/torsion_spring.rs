@@ -10,8 +10,8 @@ use serde::Deserialize;
 
 use super::link::{self, DAMPING, End, Link, Partner};
 use crate::scene::units::{Angle, Dimension, Powers, Quantity};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
-use crate::tick::response;
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::tick::critical_step;
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Dependence, Energies, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
@@ -63,7 +63,7 @@ impl Entry for TorsionSpring {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         link::check_ends(&self.a, &self.b, outline, report);
         link::check_holds(self.stiffness, self.damping, report);
         if let Some(angle) = self.angle {
@@ -149,8 +149,14 @@ impl Model for TorsionSpringForce {
     fn stiffness(&self, state: &State, list: &mut Vec<SteadySpring>) {
         let Some((a, b)) = self.link.ends(&state.bodies) else { return };
         let Some((a, b)) = link::sides(&a, &b) else { return };
-        let spring =
-            response::Spring { a, b, normal: DVec2::X, stiffness: (0.0, 0.0), damped: 0.0, turning: self.stiffness };
+        let spring = critical_step::Spring {
+            a,
+            b,
+            normal: DVec2::X,
+            stiffness: (0.0, 0.0),
+            damped: 0.0,
+            turning: self.stiffness,
+        };
         list.push(SteadySpring { spring, damping: 0.0, turning_damping: self.damping });
     }
 

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 
-use crate::tick::Style;
+use crate::tick::EvaluationMode;
 
 /// The method of the run.
 #[derive(Resource, Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub struct ChosenMethod {
     /// Whether events are located inside ticks.
     pub located: bool,
     /// How it evaluates models with a history.
-    pub style: Style,
+    pub mode: EvaluationMode,
 }
 
 impl ChosenMethod {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::Word;
-use crate::scene::{Outline, Report, SceneAppExt, Section};
+use crate::scene::{Diagnostics, Outline, SceneAppExt, Section};
 
 /// When forces jump (touch, part, stick, slip), inside a tick or at its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -72,7 +72,7 @@ impl Section for ClockSection {
 
     /// Reports times that are not above zero and a tick longer than the run. Reports unknown methods and methods that
     /// are not available yet.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         let long = report.positive("duration", self.duration);
         if let Some(tick) = self.tick
             && report.positive("tick", tick)

@@ -20,7 +20,7 @@ const MOST_ON_ONE_SIDE: i32 = 3;
 
 /// The indicators at a share of a step.
 #[derive(Clone, Debug)]
-pub struct Moment {
+pub struct IndicatorSample {
     /// Share of the step, 0 to 1.
     pub share: f64,
     /// Indicators there.
@@ -32,8 +32,8 @@ pub struct Moment {
 pub struct Bracket {
     /// Length of the step in seconds.
     length: f64,
-    low: Moment,
-    high: Moment,
+    low: IndicatorSample,
+    high: IndicatorSample,
     /// Greatest value of each indicator at both ends of the step.
     scale: Vec<f64>,
     /// Which were above zero at the beginning.
@@ -52,7 +52,7 @@ pub struct Bracket {
 impl Bracket {
     /// The bracket between two moments of a step of `length` seconds that began with the indicators `begin`. `None` if
     /// it contains no event.
-    pub fn between(begin: &[Indicator], low: Moment, high: Moment, length: f64) -> Option<Self> {
+    pub fn between(begin: &[Indicator], low: IndicatorSample, high: IndicatorSample, length: f64) -> Option<Self> {
         let crossing: Vec<bool> = high.indicators.iter().map(vanished).collect();
         if !crossing.contains(&true) {
             return None;
@@ -82,26 +82,26 @@ impl Bracket {
     }
 
     /// Takes the indicators at the share that was tried.
-    pub fn narrow(&mut self, moment: Moment) {
+    pub fn narrow(&mut self, sample: IndicatorSample) {
         let mut beyond = false;
         let (mut met, mut passed) = (false, false);
-        for (place, indicator) in moment.indicators.iter().enumerate() {
-            if vanished(indicator) && self.above[place] {
-                self.crossing[place] = true;
+        for (index, indicator) in sample.indicators.iter().enumerate() {
+            if vanished(indicator) && self.above[index] {
+                self.crossing[index] = true;
             }
-            if self.crossing[place] {
+            if self.crossing[index] {
                 beyond |= vanished(indicator);
-                met |= indicator.value.abs() <= indicator.rounding.max(GOAL * self.scale[place]);
-                passed |= indicator.value < -indicator.rounding.max(ZERO * self.scale[place]);
+                met |= indicator.value.abs() <= indicator.rounding.max(GOAL * self.scale[index]);
+                passed |= indicator.value < -indicator.rounding.max(ZERO * self.scale[index]);
             }
         }
         self.met = met && !passed;
         if beyond {
             self.replaced = self.replaced.min(0) - 1;
-            self.high = moment;
+            self.high = sample;
         } else {
             self.replaced = self.replaced.max(0) + 1;
-            self.low = moment;
+            self.low = sample;
         }
     }
 
@@ -112,9 +112,9 @@ impl Bracket {
 
     /// The indicators that vanish together at the end of the step, whose values are given.
     pub fn fired(&self, indicators: &[Indicator]) -> Vec<usize> {
-        let zero = |place: usize| indicators[place].rounding.max(ZERO * self.scale[place]);
-        let vanishes = |place: &usize| indicators[*place].value <= zero(*place);
-        (0..indicators.len()).filter(|&place| self.crossing[place]).filter(vanishes).collect()
+        let zero = |index: usize| indicators[index].rounding.max(ZERO * self.scale[index]);
+        let vanishes = |index: &usize| indicators[*index].value <= zero(*index);
+        (0..indicators.len()).filter(|&index| self.crossing[index]).filter(vanishes).collect()
     }
 
     /// The earliest of the guesses for all that have crossed.
@@ -124,9 +124,9 @@ impl Bracket {
         if middle <= a || middle >= b || b - a <= f64::EPSILON * b {
             return None;
         }
-        let crossed = |place: &usize| self.crossing[*place] && vanished(&self.high.indicators[*place]);
-        let guess = |place: usize| {
-            let (low, high) = (&self.low.indicators[place], &self.high.indicators[place]);
+        let crossed = |index: &usize| self.crossing[*index] && vanished(&self.high.indicators[*index]);
+        let guess = |index: usize| {
+            let (low, high) = (&self.low.indicators[index], &self.high.indicators[index]);
             if low.value <= 0.0 || self.replaced.abs() > MOST_ON_ONE_SIDE {
                 // It began at zero and has to be seen above it first; or the guesses do not shrink the bracket.
                 return middle;
@@ -143,7 +143,7 @@ impl Bracket {
 
     /// Whether nothing that crossed was seen above zero yet.
     fn low_is_zero(&self) -> bool {
-        !(0..self.scale.len()).any(|place| self.crossing[place] && self.low.indicators[place].value > 0.0)
+        !(0..self.scale.len()).any(|index| self.crossing[index] && self.low.indicators[index].value > 0.0)
     }
 }
 
@@ -192,11 +192,11 @@ mod tests {
     use super::*;
 
     fn find(indicators: impl Fn(f64) -> Vec<Indicator>, length: f64) -> Option<(f64, Vec<usize>, u32)> {
-        let ends = [0.0, 1.0].map(|share| Moment { share, indicators: indicators(share * length) });
+        let ends = [0.0, 1.0].map(|share| IndicatorSample { share, indicators: indicators(share * length) });
         let [low, high] = ends;
         let mut bracket = Bracket::between(&low.indicators.clone(), low, high, length)?;
         while let Some(share) = bracket.next() {
-            bracket.narrow(Moment { share, indicators: indicators(share * length) });
+            bracket.narrow(IndicatorSample { share, indicators: indicators(share * length) });
         }
         let share = bracket.share();
         let fired = bracket.fired(&indicators(share * length));

@@ -6,14 +6,14 @@
 mod chosen;
 pub mod clock;
 mod control;
-mod crowd;
-mod inside;
+mod event_free_ticks;
+mod event_overload;
+mod event_stepper;
+mod interior_events;
 mod locate;
 mod semi_implicit_euler;
-mod staged;
 pub mod steps;
 mod velocity_verlet;
-mod whole;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -21,8 +21,8 @@ use bevy_ecs::prelude::*;
 pub use chosen::ChosenMethod;
 pub use clock::{ClockSection, EventTiming};
 pub use control::{Allowance, MOST_STEPS};
+pub use event_stepper::{Detail, EventStepper, Pace};
 pub use semi_implicit_euler::SemiImplicitEuler;
-pub use staged::{Detail, Pace, Staged};
 pub use velocity_verlet::VelocityVerlet;
 
 use crate::scene::SceneAppExt;
@@ -58,22 +58,22 @@ impl Description {
     pub fn make(&self, events: EventTiming, pace: Pace, detail: Detail) -> Option<(Method, bool)> {
         let limit = if self.stability_limit.is_normal() { self.stability_limit } else { USUAL_LIMIT };
         let fine = Detail { swing: limit * detail.swing, ..detail };
-        let staged = |located: bool| {
-            let staged = Staged::new(self.one_step?(), located, pace, fine);
-            let staged = match self.whole_ticks.filter(|_| detail == Detail::default()) {
-                Some(make) => staged.with_whole_ticks(make().0),
-                None => staged,
+        let stepper = |located: bool| {
+            let stepper = EventStepper::new(self.one_step?(), located, pace, fine);
+            let stepper = match self.whole_ticks.filter(|_| detail == Detail::default()) {
+                Some(make) => stepper.with_whole_ticks(make().0),
+                None => stepper,
             };
-            Some((Method(Box::new(staged)), located))
+            Some((Method(Box::new(stepper)), located))
         };
         let whole = self
             .whole_ticks
             .filter(|_| pace == Pace::Even(1) && detail == Detail::default())
             .map(|make| (make(), false));
         match events {
-            EventTiming::Auto => whole.or_else(|| staged(true)),
-            EventTiming::Located => staged(true),
-            EventTiming::PerTick => whole.or_else(|| staged(false)),
+            EventTiming::Auto => whole.or_else(|| stepper(true)),
+            EventTiming::Located => stepper(true),
+            EventTiming::PerTick => whole.or_else(|| stepper(false)),
         }
     }
 }

@@ -195,9 +195,9 @@ impl Bounded {
     }
 
     /// The indicator at a place has vanished.
-    pub fn switch(&mut self, place: usize) {
+    pub fn switch(&mut self, index: usize) {
         let mode = match self.mode {
-            Mode::Holds => Mode::Gives(if place == 0 { 1.0 } else { -1.0 }),
+            Mode::Holds => Mode::Gives(if index == 0 { 1.0 } else { -1.0 }),
             Mode::Gives(_) => Mode::Holds,
         };
         self.stands = self.mode == Mode::Holds;

@@ -16,14 +16,14 @@ use super::KnownJoints;
 use super::ends::{Along, Ends, Pair};
 use super::law::{Freedom, Held, Law};
 use crate::constraints::{Kind as Holds, Row, Rows, Side};
-use crate::scene::{Entry, Kind, Outline, Report, SceneError};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, ForceOn, ForcePart, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 use std::sync::Arc;
 
 /// Reports joints that are not there, or one twice.
-pub(super) fn check(of: &(String, String), outline: &Outline, report: &mut Report) {
+pub(super) fn check(of: &(String, String), outline: &Outline, report: &mut Diagnostics) {
     for (name, path) in [(&of.0, "of[0]"), (&of.1, "of[1]")] {
         outline.require(Kind::JOINT, name, path, report);
     }

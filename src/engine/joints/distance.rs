@@ -13,7 +13,7 @@ use super::parts::Asked;
 use super::soft::Softness;
 use crate::forces::link::Partner;
 use crate::scene::units::{Force, Length, Position};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A rod without mass: `anchor_a` of `a` and `anchor_b` of `b` stay at one distance.
 #[derive(Deserialize, JsonSchema)]
@@ -59,7 +59,7 @@ impl Entry for Distance {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         model::check_ends(&self.a, &self.b, outline, report);
         report.positive_if_given("break_force", self.break_force);
         Softness::check(self.softness, report);

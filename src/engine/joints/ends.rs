@@ -20,7 +20,7 @@ pub struct Ends {
     /// In the frame of the body from its centre of mass; in the world for the world. In metres.
     pub anchors: [DVec2; 2],
     generation: u64,
-    places: Option<[Option<usize>; 2]>,
+    indices: Option<[Option<usize>; 2]>,
     /// A flag that all copies of these ends share: a broken joint has no ends.
     severed: Arc<AtomicBool>,
 }
@@ -73,22 +73,22 @@ impl End {
 impl Ends {
     /// Ends at anchors of bodies with these keys, `None` for the world.
     pub fn new(keys: [Option<u64>; 2], anchors: [DVec2; 2]) -> Self {
-        Self { keys, anchors, generation: 0, places: None, severed: Arc::default() }
+        Self { keys, anchors, generation: 0, indices: None, severed: Arc::default() }
     }
 
     /// Looks the bodies up again if some have come or gone.
     pub fn refresh(&mut self, bodies: &Bodies) {
         if self.generation != bodies.generation {
-            (self.generation, self.places) = (bodies.generation, self.look_up(bodies));
+            (self.generation, self.indices) = (bodies.generation, self.look_up(bodies));
         }
     }
 
     fn look_up(&self, bodies: &Bodies) -> Option<[Option<usize>; 2]> {
-        let place = |key: Option<u64>| match key {
+        let index = |key: Option<u64>| match key {
             Some(key) => bodies.key.find(key).map(Some),
             None => Some(None),
         };
-        Some([place(self.keys[0])?, place(self.keys[1])?])
+        Some([index(self.keys[0])?, index(self.keys[1])?])
     }
 
     /// If `severed`, these ends and all copies of them lose their effect.
@@ -106,7 +106,7 @@ impl Ends {
         if self.is_severed() {
             return None;
         }
-        let [a, b] = if self.generation == bodies.generation { self.places } else { self.look_up(bodies) }?;
+        let [a, b] = if self.generation == bodies.generation { self.indices } else { self.look_up(bodies) }?;
         Some(Pair { a: End::of(a, self.anchors[0], bodies), b: End::of(b, self.anchors[1], bodies) })
     }
 }

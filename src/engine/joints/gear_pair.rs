@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::coupling::{self, Asked, Member};
 use super::model;
 use crate::scene::units::Scalar;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and no force: a
 /// ratio names no place for teeth, so the bearings bear nothing of them.
@@ -35,7 +35,7 @@ impl Entry for GearPair {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         coupling::check(&self.of, outline, report);
         if report.finite("ratio", self.ratio) && self.ratio.si() == 0.0 {
             report.error("ratio", "nothing would be coupled").help("give `ratio` a value that is not zero");

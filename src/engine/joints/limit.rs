@@ -219,10 +219,10 @@ impl Limit {
     }
 
     /// The indicator at a place has vanished.
-    pub fn switch(&mut self, place: usize) {
+    pub fn switch(&mut self, index: usize) {
         match self.at {
             Some(_) => self.leave(),
-            None => self.reached = self.sides().nth(place),
+            None => self.reached = self.sides().nth(index),
         }
     }
 

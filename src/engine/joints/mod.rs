@@ -36,7 +36,7 @@ pub use weld::Fixed;
 
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::AfterLoad;
-use crate::world::Apart;
+use crate::world::IgnoredPairs;
 
 /// Closes joints after the whole scene is built.
 fn close_at_start(app: &mut App) {
@@ -52,11 +52,11 @@ struct Closing;
 
 /// The joints of a scene by their names, once they have begun: controllers find theirs here.
 #[derive(Resource, Default)]
-pub struct KnownJoints(Vec<Known>);
+pub struct KnownJoints(Vec<KnownJoint>);
 
 /// A joint as controllers see it.
 #[derive(Clone)]
-pub struct Known {
+pub struct KnownJoint {
     /// Its name.
     pub name: String,
     /// Its ends.
@@ -69,14 +69,14 @@ pub struct Known {
 
 impl KnownJoints {
     /// The joint of this name.
-    pub fn named(&self, name: &str) -> Option<&Known> {
+    pub fn named(&self, name: &str) -> Option<&KnownJoint> {
         self.0.iter().find(|known| known.name == name)
     }
 }
 
 /// Two bodies do not touch each other.
 fn keep_apart(app: &mut App, a: u64, b: u64) {
-    app.world_mut().get_resource_or_init::<Apart>().insert(a, b);
+    app.world_mut().get_resource_or_init::<IgnoredPairs>().insert(a, b);
 }
 
 /// Registers the joints of this folder. The order here is the order of the rows.

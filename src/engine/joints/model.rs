@@ -6,14 +6,14 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::Known;
+use super::KnownJoint;
 use super::ends::{Ends, Pair};
 use super::law::{Held, Law};
 use super::parts::{Asked, Parts};
 use super::soft::Soft;
 use crate::constraints::{Kind as Holds, Rows};
 use crate::forces::link::{DAMPING, Partner};
-use crate::scene::{Entry, Kind, Outline, Report, SceneError};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneError};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::{Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, anchor};
@@ -51,7 +51,7 @@ pub(super) fn declare(name: Option<&str>, outline: &mut Outline) {
 }
 
 /// Reports ends without a body, and two ends on one body.
-pub(super) fn check_ends(a: &Partner, b: &Partner, outline: &Outline, report: &mut Report) {
+pub(super) fn check_ends(a: &Partner, b: &Partner, outline: &Outline, report: &mut Diagnostics) {
     for (partner, field) in [(a, "a"), (b, "b")] {
         if let Partner::Body(name) = partner {
             outline.require(Kind::BODY, name, field, report);
@@ -73,7 +73,7 @@ pub(super) fn install<E: Entry>(app: &mut App, outline: &Outline, setups: impl I
     let mentions = outline.entries(E::SECTION).iter().filter(|mention| mention.name == E::NAME);
     for (setup, mention) in setups.zip(mentions) {
         let key = |partner: &Partner| match partner {
-            Partner::Body(name) => outline.position(Kind::BODY, name).map(|place| place as u64),
+            Partner::Body(name) => outline.position(Kind::BODY, name).map(|index| index as u64),
             Partner::World => None,
         };
         let keys = [key(&setup.partners[0]), key(&setup.partners[1])];
@@ -155,7 +155,7 @@ impl Joint {
         for side in 0..2 {
             let (Some(key), Some(anchor)) = (self.ends.keys[side], self.setup.anchors[side]) else { continue };
             let bodies = &world.resource::<State>().bodies;
-            let Some(entity) = bodies.key.find(key).map(|place| bodies.entity[place]) else { continue };
+            let Some(entity) = bodies.key.find(key).map(|index| bodies.entity[index]) else { continue };
             let path = format!("{}.{}", self.path, ["anchor_a", "anchor_b"][side]);
             self.ends.anchors[side] = anchor::from_center(world, entity, path, anchor);
         }
@@ -271,7 +271,7 @@ impl Model for Joint {
         self.soft = self.setup.asked.softness.map(|softness| Soft::new(softness, &*self.law, &pair, bodies));
         self.look_at_start(world, &pair);
         let limited = self.parts.has_limits();
-        let known = Known { name: self.name.clone(), ends: self.ends.clone(), law: self.law.clone(), limited };
+        let known = KnownJoint { name: self.name.clone(), ends: self.ends.clone(), law: self.law.clone(), limited };
         world.get_resource_or_init::<super::KnownJoints>().0.push(known);
     }
 

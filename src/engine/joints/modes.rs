@@ -12,7 +12,7 @@ impl Events for Joint {
 
     fn switch(&mut self, state: &mut State, fired: &[usize]) {
         // From the last one on: each may change how many there are.
-        fired.iter().rev().for_each(|place| self.parts.switch(*place, state.evaluation().time));
+        fired.iter().rev().for_each(|index| self.parts.switch(*index, state.evaluation().time));
         self.see_whether_broken();
     }
 

@@ -7,9 +7,9 @@ use super::ends::Pair;
 use super::law::Law;
 use super::limit::{Arrival, Limit, Press};
 use crate::constraints::{Kind, Rows};
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Dimension, Quantity, Scalar};
-use crate::tick::{Blow, Indicator, State, Style};
+use crate::tick::{Blow, EvaluationMode, Indicator, State};
 
 /// The request of the scene, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,7 +27,7 @@ pub(super) struct Asked {
 }
 
 /// Reports limits that are no two finite numbers in order.
-pub(super) fn check_limits<D: Dimension>(limits: Option<&(Quantity<D>, Quantity<D>)>, report: &mut Report) {
+pub(super) fn check_limits<D: Dimension>(limits: Option<&(Quantity<D>, Quantity<D>)>, report: &mut Diagnostics) {
     let Some(limits) = limits else { return };
     let (low, high) = (limits.0.si(), limits.1.si());
     if report.finite("limits[0]", low) && report.finite("limits[1]", high) && low >= high {
@@ -37,7 +37,7 @@ pub(super) fn check_limits<D: Dimension>(limits: Option<&(Quantity<D>, Quantity<
 }
 
 /// Reports a restitution that is no share, or that has no limits to come back from.
-pub(super) fn check_restitution(restitution: Scalar, has_limits: bool, report: &mut Report) {
+pub(super) fn check_restitution(restitution: Scalar, has_limits: bool, report: &mut Diagnostics) {
     if report.between("restitution", restitution, 0.0, 1.0) && restitution.si() > 0.0 && !has_limits {
         report
             .error("restitution", "the joint has no limits to come back from")
@@ -46,7 +46,7 @@ pub(super) fn check_restitution(restitution: Scalar, has_limits: bool, report: &
 }
 
 /// Reports a friction below zero.
-pub(super) fn check_friction<D: Dimension>(friction: Option<Quantity<D>>, report: &mut Report) {
+pub(super) fn check_friction<D: Dimension>(friction: Option<Quantity<D>>, report: &mut Diagnostics) {
     if let Some(friction) = friction {
         report.not_negative("friction", friction);
     }
@@ -144,7 +144,7 @@ impl Parts {
     /// Before a step. Returns whether a mode has changed; [`Parts::broken`] shows whether the joint has broken.
     pub fn begin_step(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &mut State) -> bool {
         let now = state.span().begin;
-        let located = state.evaluation().style == Style::Frozen;
+        let located = state.evaluation().mode == EvaluationMode::Frozen;
         if !located && self.breaks(force, now) {
             return true;
         }
@@ -211,17 +211,17 @@ impl Parts {
     }
 
     /// The indicator at a place has vanished.
-    pub fn switch(&mut self, place: usize, now: f64) {
+    pub fn switch(&mut self, index: usize, now: f64) {
         let breaking = usize::from(self.break_force.is_some());
         let limits = breaking + self.limit.as_ref().map_or(0, Limit::count);
         match (&mut self.limit, &mut self.friction) {
-            _ if place < breaking => self.broken = Some(now),
-            (Some(limit), friction) if place < limits => {
+            _ if index < breaking => self.broken = Some(now),
+            (Some(limit), friction) if index < limits => {
                 let held = limit.holds();
-                limit.switch(place - breaking);
+                limit.switch(index - breaking);
                 friction.iter_mut().filter(|_| held).for_each(Bounded::hold);
             }
-            (_, Some(friction)) => friction.switch(place - limits),
+            (_, Some(friction)) => friction.switch(index - limits),
             _ => {}
         }
     }

@@ -16,7 +16,7 @@ use super::soft::Softness;
 use super::weld::hold_angle;
 use crate::forces::link::Partner;
 use crate::scene::units::{Force, Length, Position, Scalar};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`. Body `b` does not turn against
 /// `a`. Its travel is measured from `anchor_a` along the line.
@@ -70,7 +70,7 @@ impl Entry for Prismatic {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         model::check_ends(&self.a, &self.b, outline, report);
         parts::check_limits(self.limits.as_ref(), report);
         parts::check_restitution(self.restitution, self.limits.is_some(), report);

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::coupling::{self, Asked, Member};
 use super::model;
 use crate::scene::units::Length;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A pinion and a rack. The travel of the second joint, a slide, is `radius` times the angle of the first, a hinge,
 /// without play. The teeth push along the slide at the pitch point, which lies `radius` from the pin. The bearings bear
@@ -36,7 +36,7 @@ impl Entry for Rack {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         coupling::check(&self.of, outline, report);
         if report.finite("radius", self.radius) && self.radius.si() == 0.0 {
             report.error("radius", "nothing would be coupled").help("give `radius` a value that is not zero");

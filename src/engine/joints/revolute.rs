@@ -14,7 +14,7 @@ use super::parts::{self, Asked};
 use super::soft::Softness;
 use crate::forces::link::Partner;
 use crate::scene::units::{Angle, Force, Position, Scalar, Torque};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A hinge: `anchor_a` of `a` and `anchor_b` of `b` coincide, and the bodies turn about them. Its angle is that of `b`
 /// minus that of `a`, counter-clockwise, over full turns.
@@ -68,7 +68,7 @@ impl Entry for Revolute {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         model::check_ends(&self.a, &self.b, outline, report);
         parts::check_limits(self.limits.as_ref(), report);
         parts::check_restitution(self.restitution, self.limits.is_some(), report);

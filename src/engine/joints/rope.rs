@@ -14,7 +14,7 @@ use super::model::{self, Absent, Setup};
 use super::parts::Asked;
 use crate::forces::link::Partner;
 use crate::scene::units::{Force, Length, Position, Scalar};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A rope without mass: `anchor_a` of `a` and `anchor_b` of `b` are at most its length apart.
 #[derive(Deserialize, JsonSchema)]
@@ -57,7 +57,7 @@ impl Entry for Rope {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         model::check_ends(&self.a, &self.b, outline, report);
         report.between("restitution", self.restitution, 0.0, 1.0);
         report.positive_if_given("break_force", self.break_force);

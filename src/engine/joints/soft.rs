@@ -12,9 +12,9 @@ use serde::Deserialize;
 use super::ends::Pair;
 use super::law::{Held, Law};
 use crate::constraints::Kind;
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Rate, Scalar};
-use crate::tick::{State, SteadySpring, response};
+use crate::tick::{State, SteadySpring, critical_step};
 use crate::world::Bodies;
 
 /// A frequency and a damping ratio, as a scene writes them.
@@ -28,7 +28,7 @@ impl Softness {
     }
 
     /// Reports a frequency that is not positive, or a damping ratio below zero.
-    pub fn check(softness: Option<Self>, report: &mut Report) {
+    pub fn check(softness: Option<Self>, report: &mut Diagnostics) {
         let Some(Self(frequency, ratio)) = softness else { return };
         report.positive("softness[0]", frequency);
         report.not_negative("softness[1]", ratio);
@@ -99,7 +99,7 @@ impl Soft {
             let normal = held.along.sides[1].0;
             let turns = turns(&held);
             let of = |applies: bool, amount: f64| if applies { amount } else { 0.0 };
-            let spring = response::Spring {
+            let spring = critical_step::Spring {
                 a,
                 b,
                 normal: if turns { DVec2::X } else { normal.normalize() },

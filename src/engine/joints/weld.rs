@@ -15,7 +15,7 @@ use super::revolute::hold_point;
 use super::soft::Softness;
 use crate::forces::link::Partner;
 use crate::scene::units::{Force, Position};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// Holds two bodies in their relative pose at the start.
 #[derive(Deserialize, JsonSchema)]
@@ -60,7 +60,7 @@ impl Entry for Weld {
         model::declare(self.name.as_deref(), outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         model::check_ends(&self.a, &self.b, outline, report);
         report.positive_if_given("break_force", self.break_force);
         Softness::check(self.softness, report);

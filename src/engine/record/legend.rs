@@ -41,14 +41,14 @@ pub fn legend(world: &World) -> Legend {
     let mut lines: Vec<Line> = Vec::new();
     let mut known_lines: BTreeMap<(String, bool), usize> = BTreeMap::new();
     let mut moving = 0;
-    for place in 0..bodies.len() {
-        let fixed = world.get::<Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
+    for index in 0..bodies.len() {
+        let fixed = world.get::<Body>(bodies.entity[index]).is_some_and(|body| body.motion == Motion::Fixed);
         moving += usize::from(!fixed);
-        let material = bodies.atoms_of(place).next().map(|first| bodies.atom_material(first));
-        let shared = material.and_then(|index| {
+        let material = bodies.atoms_of(index).next().map(|first| bodies.atom_material(first));
+        let shared = material.and_then(|material| {
             let materials = materials?;
-            materials.by_index.get(index.place())?.color.as_ref()?;
-            materials.names.get(index.place()).cloned()
+            materials.by_index.get(material.index())?.color.as_ref()?;
+            materials.names.get(material.index()).cloned()
         });
         let known = shared.as_ref().and_then(|material| known_lines.get(&(material.clone(), fixed)).copied());
         if let Some(line) = known {
@@ -58,8 +58,8 @@ pub fn legend(world: &World) -> Legend {
         if let Some(material) = &shared {
             known_lines.insert((material.clone(), fixed), lines.len());
         }
-        let name = world.get::<Name>(bodies.entity[place]).map(Name::to_string).unwrap_or_default();
-        lines.push(Line { name, shared, fixed, place, bodies: 1 });
+        let name = world.get::<Name>(bodies.entity[index]).map(Name::to_string).unwrap_or_default();
+        lines.push(Line { name, shared, fixed, index, bodies: 1 });
     }
     lines.sort_by_key(|line| line.fixed);
     // Fixed and moving bodies of a material have a line each.
@@ -73,7 +73,7 @@ pub fn legend(world: &World) -> Legend {
             Some(material) if line.bodies > 1 => material,
             _ => line.name,
         },
-        mark: LegendMark::Body(line.place),
+        mark: LegendMark::Body(line.index),
     };
     let added = world.get_resource::<Added>().map_or(&[][..], |added| &added.0);
     let more = lines.len().saturating_sub(MOST_LINES);
@@ -87,7 +87,7 @@ struct Line {
     /// The material whose bodies share the line.
     shared: Option<String>,
     fixed: bool,
-    place: usize,
+    index: usize,
     bodies: usize,
 }
 
@@ -143,7 +143,7 @@ mod tests {
                 app.add_legend(added.clone());
             });
         let legend = super::legend(simulation.unwrap_or_else(|errors| panic!("{errors}")).unpublished_world());
-        let line = |label: &str, place| LegendEntry { label: label.into(), mark: LegendMark::Body(place) };
+        let line = |label: &str, index| LegendEntry { label: label.into(), mark: LegendMark::Body(index) };
         // Bodies without a colour of their own get one each, so they have a line each.
         let bodies = [line("first", 1), line("second", 2), line("third", 3), line("gas", 4), line("pegs", 0)];
         assert_eq!(legend.entries, [&bodies[..], &[arrow]].concat());

@@ -4,6 +4,6 @@ pub mod layers;
 mod legend;
 pub mod sections;
 
-pub use jostle_frames::{Mark, MarkShape, Schedule, follow, frame, plot, spool};
+pub use jostle_frames::{Mark, MarkShape, Schedule, follow_camera, frame, frame_spool, plot};
 pub use layers::{FilmAppExt, Layer};
 pub use legend::{LegendAppExt, legend};

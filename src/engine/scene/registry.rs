@@ -9,7 +9,7 @@ use jostle_language::{Described, ReadEntries, ReadSection, Registry};
 
 use super::embed::Embedding;
 use super::section::{Entry, Section, Written};
-use super::{Arity, Outline, Report};
+use super::{Arity, Diagnostics, Outline};
 
 /// The names of the scene language and their readers. Plugins fill it through [`SceneAppExt`] before a scene is loaded.
 #[derive(Resource, Clone, Default)]
@@ -36,7 +36,7 @@ impl<S: Section> ReadSection<App> for Whole<S> {
         self.0.declare(outline);
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.0.check(outline, report);
     }
 
@@ -58,7 +58,7 @@ impl<E: Entry> ReadEntries<App> for Entries<E> {
         self.0[which].value.declare(outline);
     }
 
-    fn check(&self, which: usize, outline: &Outline, report: &mut Report) {
+    fn check(&self, which: usize, outline: &Outline, report: &mut Diagnostics) {
         self.0[which].value.check(outline, report);
     }
 

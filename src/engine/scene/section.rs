@@ -5,7 +5,7 @@ use bevy_app::App;
 use schemars::{Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
-use super::{Outline, Report};
+use super::{Diagnostics, Outline};
 
 /// A top-level section of the scene, `name: value`.
 ///
@@ -30,7 +30,7 @@ pub trait Section: DeserializeOwned + Send + Sync + 'static {
     fn declare(&self, _outline: &mut Outline) {}
 
     /// Reports every mistake that the types alone cannot exclude; paths are relative to the section.
-    fn check(&self, _outline: &Outline, _report: &mut Report) {}
+    fn check(&self, _outline: &Outline, _report: &mut Diagnostics) {}
 
     /// Turns the section into entities, resources and systems. Called only when nothing was reported; sections and
     /// entries are installed in the order of their registration.
@@ -56,7 +56,7 @@ pub trait Entry: DeserializeOwned + Send + Sync + 'static {
     fn declare(&self, _outline: &mut Outline) {}
 
     /// Reports every mistake that the types alone cannot exclude; paths are relative to the entry.
-    fn check(&self, _outline: &Outline, _report: &mut Report) {}
+    fn check(&self, _outline: &Outline, _report: &mut Diagnostics) {}
 
     /// Installs all entries of this kind at once, in the order of the file. `texts` are the entries as they were
     /// written. Called only when nothing was reported.

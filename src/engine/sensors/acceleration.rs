@@ -9,8 +9,8 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, known};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
-use crate::tick::{State, place_of};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::tick::{State, index_of};
 use crate::world::Bodies;
 
 const QUANTITIES: &[&str] = &["acceleration.x", "acceleration.y", "angular_acceleration"];
@@ -33,7 +33,7 @@ impl Entry for Acceleration {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
     }
 
@@ -56,7 +56,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let entity = body_named(world, owner)?;
     let value = move |world: &World| {
         let state = world.resource::<State>();
-        place_of(world, entity).map_or(f64::NAN, |place| known(state, read(state.bodies(), place)))
+        index_of(world, entity).map_or(f64::NAN, |index| known(state, read(state.bodies(), index)))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, value))
 }

@@ -10,9 +10,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{State, place_of};
+use crate::tick::{State, index_of};
 use crate::world::{Bodies, Intangible, PackedWall};
 use jostle_shapes::{Hull, Pose, distance};
 
@@ -50,7 +50,7 @@ impl Entry for Clearance {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require_any(&[Kind::BODY], &self.a, "a", report);
         outline.require_any(&[Kind::BODY, Kind::WALL], &self.b, "b", report);
         if self.a == self.b {
@@ -100,7 +100,7 @@ struct Surface {
 
 impl<'a> Side<'a> {
     fn of(world: &'a World, entity: Entity) -> Option<Self> {
-        let (bodies, body) = (world.resource::<State>().bodies(), place_of(world, entity)?);
+        let (bodies, body) = (world.resource::<State>().bodies(), index_of(world, entity)?);
         let intangible = world.get::<Intangible>(entity).filter(|_| bodies.atoms_of(body).is_empty());
         Some(Self { body, intangible: intangible.map_or(&[], |intangible| &intangible.hulls) })
     }

@@ -8,8 +8,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
-use crate::tick::{State, place_of};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::tick::{State, index_of};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
 
@@ -31,7 +31,7 @@ impl Entry for ContactForce {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require_any(&[Kind::WALL, Kind::BODY], &self.on, "on", report);
     }
 
@@ -53,10 +53,10 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let force = move |world: &World| {
         let State { bodies, contact_forces: Some(forces), .. } = world.resource() else { return None };
         if wall.is_some() {
-            let place = bodies.walls.iter().position(|wall| wall.entity == entity)?;
-            return forces.on_wall.get(place).copied();
+            let index = bodies.walls.iter().position(|wall| wall.entity == entity)?;
+            return forces.on_wall.get(index).copied();
         }
-        forces.on_body.get(place_of(world, entity)?).copied()
+        forces.on_body.get(index_of(world, entity)?).copied()
     };
     let value = move |world: &World| component(force(world).unwrap_or(DVec2::ZERO));
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "N", value))

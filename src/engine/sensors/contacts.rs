@@ -12,7 +12,7 @@ use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::add_packed_observer;
 use crate::tick::kept::SnapshotAppExt;
 
@@ -33,14 +33,14 @@ struct Contacts {
 struct Begun(Vec<(Entity, u64)>);
 
 /// Names of bodies, `*` matches, and of walls, which are named in full: each once, in the order of the file.
-pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Report) -> Vec<String> {
+pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Diagnostics) -> Vec<String> {
     let mut owners: Vec<String> = Vec::new();
     for (pattern, path) in names.with_paths(field) {
         let bodies = outline.matching(Kind::BODY, pattern);
         if bodies.is_empty() && outline.require_any(&[Kind::WALL, Kind::BODY], pattern, &path, report) {
             owners.push(pattern.clone());
         }
-        owners.extend(bodies.into_iter().map(|place| outline.names(Kind::BODY)[place].clone()));
+        owners.extend(bodies.into_iter().map(|index| outline.names(Kind::BODY)[index].clone()));
     }
     let mut known = BTreeSet::new();
     owners.retain(|owner| known.insert(owner.clone()));
@@ -61,13 +61,13 @@ impl Entry for Contacts {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         owners(&self.of, "of", outline, report);
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let owners = owners(&entry.value.of, "of", outline, &mut Report::new());
+            let owners = owners(&entry.value.of, "of", outline, &mut Diagnostics::new());
             let names = owners.iter().flat_map(|owner| QUANTITIES.iter().map(move |q| format!("{owner}.{q}")));
             add_found(app.world_mut(), names);
         }
@@ -92,12 +92,12 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     }
     let mut begun = world.resource_mut::<Begun>();
     let known = begun.0.iter().position(|(counted, _)| *counted == entity);
-    let place = known.unwrap_or(begun.0.len());
+    let index = known.unwrap_or(begun.0.len());
     if known.is_none() {
         begun.0.push((entity, 0));
     }
     let count = move |world: &World| {
-        let begun = world.get_resource::<Begun>().and_then(|begun| begun.0.get(place));
+        let begun = world.get_resource::<Begun>().and_then(|begun| begun.0.get(index));
         begun.map_or(f64::NAN, |(_, count)| *count as f64)
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "", count))

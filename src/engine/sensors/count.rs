@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::sections::Region;
@@ -45,7 +45,7 @@ impl Entry for Count {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         group::check(&self.of, self.within.as_ref(), outline, report);
     }
 
@@ -60,7 +60,7 @@ impl Entry for Count {
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let place = world.get_resource::<Asked>()?.0.iter().position(|(name, _)| name == owner)?;
+    let index = world.get_resource::<Asked>()?.0.iter().position(|(name, _)| name == owner)?;
     let (unit, is_mass) = match quantity {
         "count" => ("", false),
         "mass" => ("kg", true),
@@ -68,7 +68,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     };
     let read = move |world: &World| {
         let bodies = world.resource::<State>().bodies();
-        let group = world.get_resource::<Asked>().and_then(|asked| asked.0.get(place));
+        let group = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
         let of = |(_, body): (usize, usize)| if is_mass { bodies.mass[body] } else { 1.0 };
         group.map_or(f64::NAN, |(_, group)| group.present(world).map(of).fold(0.0, |sum, more| sum + more))
     };

@@ -15,7 +15,7 @@ use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::units::Position;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{add_looker, add_packed_observer};
 
@@ -74,7 +74,7 @@ impl Entry for Counter {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
         if let Some(touching) = &self.touching {
             owners(touching, "touching", outline, report);
@@ -97,14 +97,14 @@ impl Entry for Counter {
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
         for Written { value: Self { name, of, touching, gate }, .. } in entries {
-            let places = of.matching(Kind::BODY, outline).into_iter();
+            let indices = of.matching(Kind::BODY, outline).into_iter();
             let bodies: Vec<Entity> =
-                places.filter_map(|place| body_named(world, &outline.names(Kind::BODY)[place])).collect();
+                indices.filter_map(|index| body_named(world, &outline.names(Kind::BODY)[index])).collect();
             let looked = match (touching, gate) {
                 (_, Some(ends)) => Looked::Gate(Gate::new(ends, bodies)),
                 (touching, None) => {
-                    let names =
-                        touching.map_or_else(Vec::new, |names| owners(&names, "touching", outline, &mut Report::new()));
+                    let names = touching
+                        .map_or_else(Vec::new, |names| owners(&names, "touching", outline, &mut Diagnostics::new()));
                     let entity = |name: &String| body_named(world, name).or_else(|| wall_named(world, name));
                     Looked::Contacts(sorted(bodies), sorted(names.iter().filter_map(entity).collect()))
                 }
@@ -162,13 +162,13 @@ fn count_passages(world: &mut World) {
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
     let counted = &world.get_resource::<Counted>()?.0;
-    let place = counted.iter().position(|(name, _)| name == owner)?;
+    let index = counted.iter().position(|(name, _)| name == owner)?;
     let is_net = quantity == "count.net";
-    if is_net && !matches!(counted[place].1, Looked::Gate(..)) {
+    if is_net && !matches!(counted[index].1, Looked::Gate(..)) {
         return None;
     }
     let read = move |world: &World| {
-        let count = world.get_resource::<Counts>().and_then(|counts| counts.0.get(place));
+        let count = world.get_resource::<Counts>().and_then(|counts| counts.0.get(index));
         count.map_or(f64::NAN, |count| if is_net { count.net as f64 } else { count.count as f64 })
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "", read))

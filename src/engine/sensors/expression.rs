@@ -13,7 +13,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, check_channel, find, missing};
-use crate::scene::{Entry, Formula, Kind, Mistake, Outline, Report, SceneAppExt, SceneError, Written};
+use crate::scene::{Diagnostics, Entry, Formula, Kind, Mistake, Outline, SceneAppExt, SceneError, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{AfterLoad, LoadErrors};
 
@@ -65,7 +65,7 @@ impl Entry for Expression {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         match Formula::new(self.of.as_str()).names() {
             Ok(names) if names.is_empty() => {
                 let help = "name a channel in it, such as `ball.position.x`";

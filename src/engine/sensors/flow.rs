@@ -15,7 +15,7 @@ use super::gate::{self, Gate};
 use super::{Channel, SensorAppExt, add_found, bodies_named};
 use crate::scene::units::{Position, Time};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{Clock, State, add_looker};
 
@@ -127,7 +127,7 @@ impl Entry for Flow {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
         gate::check(self.gate, report);
         report.positive("window", self.window);
@@ -184,7 +184,7 @@ impl Passed {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
-    let place = world.get_resource::<Asked>()?.0.iter().position(|meter| meter.name == owner)?;
+    let index = world.get_resource::<Asked>()?.0.iter().position(|meter| meter.name == owner)?;
     let of: fn(&Amount) -> f64 =
         if quantity.starts_with("count") { |amount| amount.count as f64 } else { |amount| amount.mass };
     let unit = match quantity {
@@ -195,8 +195,8 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     };
     let is_rate = quantity.ends_with("rate");
     let read = move |world: &World| {
-        let meter = world.get_resource::<Asked>().and_then(|asked| asked.0.get(place));
-        let passed = world.get_resource::<Seen>().and_then(|seen| seen.0.get(place));
+        let meter = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
+        let passed = world.get_resource::<Seen>().and_then(|seen| seen.0.get(index));
         let Some((meter, passed)) = meter.zip(passed) else { return f64::NAN };
         if is_rate { passed.rate(meter, &world.resource::<State>().clock(), of) } else { of(&passed.all) }
     };

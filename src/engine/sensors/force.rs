@@ -8,8 +8,8 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, known};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
-use crate::tick::{ForcePart, State, place_of};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::tick::{ForcePart, State, index_of};
 
 /// What is told of the force on a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -70,7 +70,7 @@ impl Entry for Force {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
     }
 
@@ -97,32 +97,32 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         world.get_resource_or_init::<State>().contact_forces.get_or_insert_default();
     }
     let value = move |world: &World| {
-        let place = place_of(world, entity);
+        let index = index_of(world, entity);
         let state = world.resource();
-        let value = place.map_or(f64::NAN, |place| component(of(part, state, place)));
+        let value = index.map_or(f64::NAN, |index| component(of(part, state, index)));
         if part == Part::Weight { value } else { known(state, value) }
     };
     Some(Channel::of_resources(format!("{owner}.{name}.{axis}"), "N", value))
 }
 
 /// A part of the force on the body at a place, in newtons.
-fn of(part: Part, state: &State, place: usize) -> DVec2 {
+fn of(part: Part, state: &State, index: usize) -> DVec2 {
     let bodies = state.bodies();
     let told = |part: ForcePart| {
-        let forces = state.models().filter_map(|model| model.force_on(state, place));
+        let forces = state.models().filter_map(|model| model.force_on(state, index));
         forces.filter(|told| told.part == part).fold(DVec2::ZERO, |sum, told| sum + told.force)
     };
     match part {
-        Part::Weight if !bodies.dynamic[place] => DVec2::ZERO,
-        Part::Weight => state.gravity() * bodies.mass[place],
+        Part::Weight if !bodies.dynamic[index] => DVec2::ZERO,
+        Part::Weight => state.gravity() * bodies.mass[index],
         Part::Contact => {
-            let forces = state.contact_forces().and_then(|forces| forces.on_body.get(place));
+            let forces = state.contact_forces().and_then(|forces| forces.on_body.get(index));
             forces.copied().unwrap_or(DVec2::ZERO)
         }
         Part::Spring => told(ForcePart::Spring),
         Part::Joint => told(ForcePart::Joint),
-        Part::Total if bodies.dynamic[place] => bodies.force[place],
-        Part::Total => bodies.prescribed.acceleration(place).0 * bodies.mass[place],
+        Part::Total if bodies.dynamic[index] => bodies.force[index],
+        Part::Total => bodies.prescribed.acceleration(index).0 * bodies.mass[index],
     }
 }
 

@@ -6,9 +6,9 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::Position;
-use crate::tick::{State, place_of};
+use crate::tick::{State, index_of};
 
 /// A gate, and the bodies that are watched.
 pub(super) struct Gate {
@@ -27,7 +27,7 @@ pub(super) struct Passage {
 }
 
 /// Reports ends that make no gate.
-pub(super) fn check(ends: (Position, Position), report: &mut Report) {
+pub(super) fn check(ends: (Position, Position), report: &mut Diagnostics) {
     let (from, to) = (ends.0.si(), ends.1.si());
     let finite = report.finite_pair("gate", from) && report.finite_pair("gate", to);
     if finite && from == to {
@@ -45,12 +45,12 @@ impl Gate {
     /// The passages since the last look, in the order of the bodies. `before` holds where each body was then, in metres.
     pub fn passages(&self, before: &mut Vec<Option<DVec2>>, world: &World) -> Vec<Passage> {
         let bodies = world.resource::<State>().bodies();
-        let places: Vec<Option<usize>> = self.of.iter().map(|body| place_of(world, *body)).collect();
-        let now = places.iter().map(|place| place.map(|place| bodies.position[place])).collect();
+        let indices: Vec<Option<usize>> = self.of.iter().map(|body| index_of(world, *body)).collect();
+        let now = indices.iter().map(|index| index.map(|index| bodies.position[index])).collect();
         let before = std::mem::replace(before, now);
-        let ways = before.iter().zip(&places);
-        let passage = |(before, place): (&Option<DVec2>, &Option<usize>)| {
-            let (before, body) = before.zip(*place)?;
+        let ways = before.iter().zip(&indices);
+        let passage = |(before, index): (&Option<DVec2>, &Option<usize>)| {
+            let (before, body) = before.zip(*index)?;
             let is_left = self.crossing(before, bodies.position[body])?;
             Some(Passage { body, is_left })
         };

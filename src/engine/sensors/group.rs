@@ -4,8 +4,8 @@ use bevy_ecs::prelude::*;
 
 use super::bodies_named;
 use crate::scene::values::Names;
-use crate::scene::{Kind, Outline, Report};
-use crate::tick::{State, place_of};
+use crate::scene::{Diagnostics, Kind, Outline};
+use crate::tick::{State, index_of};
 use crate::world::sections::Region;
 
 /// Bodies, and the region in which their centres of mass have to be.
@@ -15,7 +15,7 @@ pub(super) struct Group {
 }
 
 /// Reports names that fit no body, and a region that is none.
-pub(super) fn check(of: &Names, within: Option<&Region>, outline: &Outline, report: &mut Report) {
+pub(super) fn check(of: &Names, within: Option<&Region>, outline: &Outline, report: &mut Diagnostics) {
     of.require(Kind::BODY, outline, "of", report);
     if let Some(within) = within {
         report.within("within", |report| within.check(report));
@@ -38,7 +38,7 @@ impl Group {
         let bodies = world.resource::<State>().bodies();
         let is_within =
             |body: usize| self.within.as_ref().is_none_or(|within| within.holds(bodies.position[body], 0.0));
-        let places = self.of.iter().enumerate().filter_map(|(number, body)| Some((number, place_of(world, *body)?)));
-        places.filter(move |(_, body)| is_within(*body))
+        let indices = self.of.iter().enumerate().filter_map(|(number, body)| Some((number, index_of(world, *body)?)));
+        indices.filter(move |(_, body)| is_within(*body))
     }
 }

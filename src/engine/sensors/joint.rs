@@ -10,7 +10,7 @@ use serde::Deserialize;
 use super::{Channel, SensorAppExt, add_found, known};
 use crate::joints::{self, Coupling};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "force", "drift"];
@@ -35,7 +35,7 @@ impl Entry for Joint {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::JOINT, outline, "of", report);
     }
 
@@ -61,8 +61,8 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         };
         return (quantity == gives).then(|| Channel::of_state(format!("{owner}.{quantity}"), unit, read));
     }
-    let place = state.models_of::<joints::Joint>().position(|joint| joint.name == owner)?;
-    let joint = state.models_of::<joints::Joint>().nth(place)?;
+    let index = state.models_of::<joints::Joint>().position(|joint| joint.name == owner)?;
+    let joint = state.models_of::<joints::Joint>().nth(index)?;
     let (freedom, free_unit) = joint.law.freedom_name();
     let (unit, read): (_, fn(&joints::Joint, &State) -> f64) = match quantity {
         "rate" => (if free_unit == "m" { "m/s" } else { "rad/s" }, |joint, state| of_freedom(joint, state).1),
@@ -77,7 +77,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let read = move |state: &State| {
         let mut joints = state.models_of::<joints::Joint>();
         // It stands where it stood, unless models came or went.
-        let found = joints.nth(place).filter(|joint| joint.name == name);
+        let found = joints.nth(index).filter(|joint| joint.name == name);
         let found = found.or_else(|| state.models_of::<joints::Joint>().find(|joint| joint.name == name));
         found.map_or(f64::NAN, |joint| read(joint, state))
     };

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found, check_quantity, find_all, require};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Name;
 use crate::world::sections::Region;
@@ -58,7 +58,7 @@ impl Entry for Mean {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         group::check(&self.of, self.within.as_ref(), outline, report);
         check_quantity(&self.quantity, "quantity", outline, report);
     }
@@ -109,10 +109,10 @@ impl Averaged {
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
     let asked = &world.get_resource::<Asked>()?.0;
-    let place = asked.iter().position(|averaged| averaged.name == owner)?;
-    let unit = asked[place].channels.first().map_or("", |channel| channel.unit);
+    let index = asked.iter().position(|averaged| averaged.name == owner)?;
+    let unit = asked[index].channels.first().map_or("", |channel| channel.unit);
     let read = move |world: &World| {
-        let averaged = world.get_resource::<Asked>().and_then(|asked| asked.0.get(place));
+        let averaged = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
         averaged.map_or(f64::NAN, |averaged| averaged.value(world, quantity))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, read))

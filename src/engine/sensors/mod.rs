@@ -32,9 +32,9 @@ use bevy_ecs::prelude::*;
 
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::{Names, Word};
-use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, SceneError, fits, suggest};
+use crate::scene::{Arity, Diagnostics, Kind, Outline, SceneAppExt, SceneError, fits, suggest};
 use crate::tick::energy::CHANNELS;
-use crate::tick::{LoadErrors, State, place_of};
+use crate::tick::{LoadErrors, State, index_of};
 use crate::world::{Bodies, Body, Name, Wall};
 
 /// One measured number: its name, its unit and how it is read.
@@ -154,7 +154,7 @@ fn add<'a>(app: &'a mut App, list: &'static str, words: &[&'static str], finder:
 }
 
 /// Reports a channel name that cannot be right.
-pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Report) {
+pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     if outline.word(CHANNELS, name).is_some() {
         return;
     }
@@ -175,7 +175,7 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Rep
 
 /// Reports a choice of channels that cannot be right: a channel's name, in which `*` stands for any letters of the names
 /// of bodies.
-pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut Report) {
+pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     match pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) {
         Some((owner, quantity)) => {
             if check_quantity(quantity, path, outline, report) {
@@ -187,7 +187,7 @@ pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut
 }
 
 /// Reports what cannot be measured of a body or wall. Returns whether it can.
-pub fn check_quantity(quantity: &str, path: &str, outline: &Outline, report: &mut Report) -> bool {
+pub fn check_quantity(quantity: &str, path: &str, outline: &Outline, report: &mut Diagnostics) -> bool {
     Word(quantity.to_owned()).check(outline, QUANTITIES, path, report)
 }
 
@@ -196,7 +196,7 @@ pub fn chosen(pattern: &str, outline: &Outline) -> Vec<String> {
     let Some((owner, quantity)) = pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) else {
         return vec![pattern.to_owned()];
     };
-    let bodies = outline.matching(Kind::BODY, owner).into_iter().map(|place| &outline.names(Kind::BODY)[place]);
+    let bodies = outline.matching(Kind::BODY, owner).into_iter().map(|index| &outline.names(Kind::BODY)[index]);
     bodies.map(|body| format!("{body}.{quantity}")).collect()
 }
 
@@ -262,7 +262,7 @@ pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
 
 /// The bodies that names mean, in the order of [`Names::matching`].
 fn bodies_named(world: &mut World, names: &Names, outline: &Outline) -> Vec<Entity> {
-    let names = names.matching(Kind::BODY, outline).into_iter().map(|place| &outline.names(Kind::BODY)[place]);
+    let names = names.matching(Kind::BODY, outline).into_iter().map(|index| &outline.names(Kind::BODY)[index]);
     with_index(world, |world| names.filter_map(|name| body_named(world, name)).collect())
 }
 
@@ -322,7 +322,7 @@ fn of_body(
     let entity = body_named(world, name)?;
     let value = move |world: &World| {
         let bodies = &world.resource::<State>().bodies;
-        place_of(world, entity).map_or(f64::NAN, |place| read(bodies, place))
+        index_of(world, entity).map_or(f64::NAN, |index| read(bodies, index))
     };
     Some(Channel::of_resources(format!("{name}.{quantity}"), unit, value))
 }

@@ -10,7 +10,7 @@ use super::{Channel, SensorAppExt, add_found, known};
 use crate::controllers::Output;
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["torque", "power"];
@@ -33,14 +33,14 @@ impl Entry for Motor {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(CONTROLLER, outline, "of", report);
     }
 
     fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
             let found = entry.value.of.matching(CONTROLLER, outline).into_iter();
-            let names = found.map(|place| &outline.names(CONTROLLER)[place]);
+            let names = found.map(|index| &outline.names(CONTROLLER)[index]);
             let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }
@@ -49,14 +49,14 @@ impl Entry for Motor {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let state = world.get_resource::<State>()?;
-    let place = state.models_of::<Output>().position(|output| output.name == owner)?;
+    let index = state.models_of::<Output>().position(|output| output.name == owner)?;
     let (unit, read): (_, fn(&Output) -> f64) = match quantity {
         "torque" => ("N m", |output| output.values.0),
         "power" => ("W", |output| output.values.1),
         _ => return None,
     };
     let value = move |state: &State| {
-        let output = state.models_of::<Output>().nth(place);
+        let output = state.models_of::<Output>().nth(index);
         output.map_or(f64::NAN, |output| known(state, read(output)))
     };
     Some(Channel::of_state(format!("{owner}.{quantity}"), unit, value))

@@ -9,7 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, check_channel, require};
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, add_looker};
 
@@ -62,7 +62,7 @@ impl Entry for Period {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_channel(&self.of, "of", outline, report);
         report.finite("crossing", self.crossing);
     }
@@ -142,9 +142,9 @@ impl Meter {
     fn interpolated(&self, time: f64) -> f64 {
         let mut values: Vec<f64> = self.samples.iter().map(|(_, value)| *value).collect();
         for width in 1..values.len() {
-            for place in 0..values.len() - width {
-                let (from, to) = (self.samples[place].0, self.samples[place + width].0);
-                values[place] = (values[place] * (to - time) + values[place + 1] * (time - from)) / (to - from);
+            for index in 0..values.len() - width {
+                let (from, to) = (self.samples[index].0, self.samples[index + width].0);
+                values[index] = (values[index] * (to - time) + values[index + 1] * (time - from)) / (to - from);
             }
         }
         values[0]
@@ -163,10 +163,10 @@ impl Meter {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
-    let place = world.get_resource::<Followed>()?.0.iter().position(|(name, ..)| name == owner)?;
+    let index = world.get_resource::<Followed>()?.0.iter().position(|(name, ..)| name == owner)?;
     let unit = if quantity == "crossings" { "" } else { "s" };
     let read = move |world: &World| {
-        let meter = world.get_resource::<Meters>().and_then(|meters| meters.0.get(place));
+        let meter = world.get_resource::<Meters>().and_then(|meters| meters.0.get(index));
         meter.map_or(f64::NAN, |meter| meter.value(quantity))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, read))

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 
 const QUANTITIES: &[&str] = &["position.x", "position.y", "angle"];
 
@@ -28,7 +28,7 @@ impl Entry for Pose {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(Kind::BODY, outline, "of", report);
     }
 

@@ -12,9 +12,9 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named};
 use crate::scene::units::{Angle, Length, Position};
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{State, place_of};
+use crate::tick::{State, index_of};
 use crate::world::{Bodies, PackedLine, anchor};
 use jostle_shapes::{Hull, Pose, ray};
 
@@ -66,7 +66,7 @@ impl Entry for Range {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require_any(&[Kind::BODY], &self.of, "of", report);
         if let Some(at) = self.at {
             report.finite_pair("at", at.si());
@@ -99,7 +99,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let (_, beam) = *world.get_resource::<Beams>()?.0.iter().find(|(name, _)| name == owner)?;
     let value = move |world: &World| {
         let bodies = world.resource::<State>().bodies();
-        place_of(world, beam.body).map_or(f64::NAN, |body| beam.range(bodies, body))
+        index_of(world, beam.body).map_or(f64::NAN, |body| beam.range(bodies, body))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "m", value))
 }

@@ -20,7 +20,7 @@ use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::units::{Length, Scalar, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Entry, Kind, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Bodies;
@@ -86,7 +86,7 @@ impl Entry for Repose {
         outline.declare(Kind::SENSOR, &self.name, "name");
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         group::check(&self.of, self.within.as_ref(), outline, report);
         report.positive_if_given("slower_than", self.slower_than);
         report.positive_if_given("column", self.column);
@@ -178,7 +178,7 @@ fn slope(points: &[DVec2]) -> f64 {
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let place = world.get_resource::<Asked>()?.0.iter().position(|heap| heap.name == owner)?;
+    let index = world.get_resource::<Asked>()?.0.iter().position(|heap| heap.name == owner)?;
     let read: fn([f64; 2]) -> f64 = match quantity {
         "repose" => |[left, right]| match (left.is_nan(), right.is_nan()) {
             (true, _) => right,
@@ -190,7 +190,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         _ => return None,
     };
     let value = move |world: &World| {
-        let heap = world.get_resource::<Asked>().and_then(|asked| asked.0.get(place));
+        let heap = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
         heap.map_or(f64::NAN, |heap| read(heap.flanks(world)))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "rad", value))

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Length, Mass, Stiffness};
 
 /// One disc.
@@ -25,7 +25,7 @@ pub struct OneDisc {
 
 impl OneDisc {
     /// Reports numbers that are not above zero.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         report.positive("radius", self.radius);
         report.positive_if_given("mass", self.mass);
         report.positive_if_given("stiffness", self.stiffness);

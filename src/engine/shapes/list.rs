@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Length, Mass, Position, Stiffness};
 
 /// One disc of a list.
@@ -30,7 +30,7 @@ pub struct DiscList(pub Vec<ListedDisc>);
 
 impl DiscList {
     /// Reports an empty list and numbers that are not above zero.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         if self.0.is_empty() {
             report.error("", "a body needs at least one atom").help("for example: List([(at: (0, 0), radius: 0.1)])");
         }

@@ -17,7 +17,7 @@ use jostle_shapes::{AreaMoments, Hull, mark_inner};
 
 use super::outline::Part;
 use super::{AtomSpec, union};
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::Inertia;
 
 /// The origin of the coordinates of a body's atoms.
@@ -97,7 +97,7 @@ pub struct MassProperties {
 
 impl MassProperties {
     /// Reports atoms, at `atoms`, that are so large that results are infinite.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         let sizes = [self.mass, self.inertia, self.center.x, self.center.y];
         if report.is_clean() && !sizes.iter().all(|size| size.is_finite()) {
             let message = "its mass or moment of inertia is too large to be a number";

@@ -17,7 +17,7 @@ use mass_properties::InertiaRule;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 
 /// One atom as a shape gives it, in the shape's own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ macro_rules! shapes {
 
         impl Atoms {
             /// Reports what its type cannot exclude; paths are relative to the shape.
-            pub fn check(&self, report: &mut Report) {
+            pub fn check(&self, report: &mut Diagnostics) {
                 match self {
                     $(Self::$name(shape) => shape.check(report),)*
                 }

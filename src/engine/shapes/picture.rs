@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Length, Mass, Stiffness};
 
 /// Equal discs on a square grid; neighbours just touch.
@@ -33,7 +33,7 @@ pub struct Picture {
 
 impl Picture {
     /// Reports a picture without atoms, letters that mean nothing, and numbers that are not above zero.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         report.positive("spacing", self.spacing);
         report.positive_if_given("mass", self.mass);
         report.positive_if_given("stiffness", self.stiffness);

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::AtomSpec;
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Length, Stiffness};
 use crate::scene::values::WholeNumber;
 
@@ -46,7 +46,7 @@ impl Png {
     pub const EXAMPLE: &'static str = "atoms: Png(file: \"example:cow.png\", height: 1.5, count: 60)";
 
     /// Reports numbers that are not above zero, and a picture that was not read.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         if self.numbers_are_good(report) && self.discs.is_empty() {
             let message = "the picture was not read";
             report.error("file", message).help("`Png` stands in `atoms` of a scene");
@@ -54,7 +54,7 @@ impl Png {
     }
 
     /// Reports numbers that are not above zero. Returns whether all are.
-    pub(crate) fn numbers_are_good(&self, report: &mut Report) -> bool {
+    pub(crate) fn numbers_are_good(&self, report: &mut Diagnostics) -> bool {
         report.all_good(|report| {
             report.positive("height", self.height);
             report.positive_if_given("radius", self.radius);

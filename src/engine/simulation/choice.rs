@@ -312,9 +312,9 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
             SceneError::new("clock.events", message).with_help("write `events: Auto`, or leave it out"),
         ));
     };
-    let style = made.0.style();
+    let mode = made.0.mode();
     let state = world.resource::<State>();
-    if let Some(objection) = state.models().find_map(|model| model.objection(style)) {
+    if let Some(objection) = state.models().find_map(|model| model.objection(mode)) {
         let error = SceneError::new(objection.path, objection.message);
         return Err(Box::new(error.with_help(objection.help)));
     }
@@ -329,7 +329,7 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
             "{name} brings states back onto the joints behind each step: it keeps its order, but is not symplectic here"
         ));
     }
-    world.insert_resource(ChosenMethod { name: method.name, located, style });
+    world.insert_resource(ChosenMethod { name: method.name, located, mode });
     crate::tick::set_method(world, made);
     Ok(())
 }

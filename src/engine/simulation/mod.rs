@@ -325,8 +325,8 @@ impl Simulation {
     ///
     /// # Panics
     /// As [`Self::state`].
-    pub fn name(&self, place: usize) -> String {
-        let name = self.bodies().entity.get(place).and_then(|&entity| self.unpublished_world().get::<Name>(entity));
+    pub fn name(&self, index: usize) -> String {
+        let name = self.bodies().entity.get(index).and_then(|&entity| self.unpublished_world().get::<Name>(entity));
         name.map(Name::to_string).unwrap_or_default()
     }
 

@@ -9,7 +9,7 @@ use crate::record::frame::{BodyLook, Cast, Disc, Frame, HullLook, Pose, WallLook
 use crate::record::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
-use crate::world::between::{Moment, angle_between, position_between};
+use crate::world::between::{MotionSample, angle_between, position_between};
 use crate::world::{Bodies, Intangible, Line, Materials, Motion, Name, Wall};
 
 /// Takes frames of a running simulation.
@@ -17,7 +17,7 @@ use crate::world::{Bodies, Intangible, Line, Materials, Motion, Name, Wall};
 pub struct Recorder {
     cast: Arc<Cast>,
     generation: Option<u64>,
-    before: Vec<(u64, Moment)>,
+    before: Vec<(u64, MotionSample)>,
     /// Poses alone: no layers.
     bare: bool,
     /// The last tick at which layers looked.
@@ -47,13 +47,13 @@ impl Recorder {
         self.look_on_the_way(simulation, tick, time)?;
         simulation.run_to_tick(tick)?;
         if !on_tick && simulation.clock().ticks == tick {
-            self.before = moments(simulation.bodies(), simulation.clock().time());
+            self.before = samples(simulation.bodies(), simulation.clock().time());
             simulation.run_to_tick(tick + 1)?;
         }
         self.refresh_cast(simulation);
-        let after = moments(simulation.bodies(), simulation.clock().time());
-        let pose = |&(key, after): &(u64, Moment)| {
-            let before = self.before.binary_search_by_key(&key, |(key, _)| *key).ok().map(|place| self.before[place].1);
+        let after = samples(simulation.bodies(), simulation.clock().time());
+        let pose = |&(key, after): &(u64, MotionSample)| {
+            let before = self.before.binary_search_by_key(&key, |(key, _)| *key).ok().map(|index| self.before[index].1);
             let before = before.filter(|before| !on_tick && before.time <= time).unwrap_or(after);
             Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
         };
@@ -87,8 +87,8 @@ impl Recorder {
     }
 }
 
-fn moments(bodies: &Bodies, time: f64) -> Vec<(u64, Moment)> {
-    (0..bodies.len()).map(|place| (bodies.key.at(place), Moment::of(bodies, place, time))).collect()
+fn samples(bodies: &Bodies, time: f64) -> Vec<(u64, MotionSample)> {
+    (0..bodies.len()).map(|index| (bodies.key.at(index), MotionSample::of(bodies, index, time))).collect()
 }
 
 fn look(hull: &Hull) -> HullLook {
@@ -101,24 +101,24 @@ fn cast_of(simulation: &Simulation) -> Cast {
     let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
     let materials = world.get_resource::<Materials>();
     let color = |material: crate::world::MaterialIndex| {
-        materials.and_then(|materials| materials.by_index.get(material.place())?.color.clone())
+        materials.and_then(|materials| materials.by_index.get(material.index())?.color.clone())
     };
     let name = |entity: Entity| world.get::<Name>(entity).map(Name::to_string).unwrap_or_default();
-    let body = |place: usize| {
-        let atoms = bodies.atoms_of(place);
+    let body = |index: usize| {
+        let atoms = bodies.atoms_of(index);
         let discs = atoms
             .clone()
             .filter(|a| !bodies.is_corner(*a))
             .map(|a| Disc { offset: bodies.atom_offset(a), radius: bodies.atom_radius[a] });
-        let intangible = world.get::<Intangible>(bodies.entity[place]);
+        let intangible = world.get::<Intangible>(bodies.entity[index]);
         let parts = intangible.map_or(&[][..], |intangible| &intangible.hulls);
         let (round, sided) = parts.iter().partition::<Vec<&Hull>, _>(|hull| hull.corners().len() == 1);
         let seen = round.iter().map(|disc| Disc { offset: disc.corners()[0], radius: disc.radius() });
-        let hulls = bodies.hulls_of(place).map(|packed| &packed.hull).chain(sided).map(look);
+        let hulls = bodies.hulls_of(index).map(|packed| &packed.hull).chain(sided).map(look);
         let fixed =
-            world.get::<crate::world::Body>(bodies.entity[place]).is_some_and(|body| body.motion == Motion::Fixed);
+            world.get::<crate::world::Body>(bodies.entity[index]).is_some_and(|body| body.motion == Motion::Fixed);
         BodyLook {
-            name: name(bodies.entity[place]),
+            name: name(bodies.entity[index]),
             color: (atoms.clone().next().map(|first| bodies.atom_material(first)))
                 .or(intangible.map(|intangible| intangible.material))
                 .and_then(color),
@@ -127,14 +127,14 @@ fn cast_of(simulation: &Simulation) -> Cast {
             fixed,
         }
     };
-    let wall = |place: usize| {
-        let entity = bodies.walls[place].entity;
+    let wall = |index: usize| {
+        let entity = bodies.walls[index].entity;
         let Wall { left, right, thickness, material, .. } = *world.get::<Wall>(entity)?;
         let points = world.get::<Line>(entity).filter(|_| thickness.is_none());
         let points = points.map_or_else(Vec::new, |Line(points)| points.clone());
         Some(WallLook { name: name(entity), left, right, thickness, points, color: color(material) })
     };
-    let walls = (0..bodies.walls.len()).filter(|place| bodies.whole_wall(*place) == *place);
+    let walls = (0..bodies.walls.len()).filter(|index| bodies.whole_wall(*index) == *index);
     Cast {
         title: simulation.header().title.clone().unwrap_or_default(),
         bodies: (0..bodies.len()).map(body).collect(),

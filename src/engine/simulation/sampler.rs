@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::record::plot::names::{common, headed, with_unit};
+use crate::record::plot::curve_names::{common, headed, with_unit};
 use crate::record::plot::pairs;
 use crate::record::plot::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
 use crate::record::sections::PlotEntry;
@@ -76,12 +76,12 @@ impl Sampler {
         let (next, last) = (tick(from), tick(to).min(simulation.ticks()));
         let every = (last.saturating_sub(next)).div_ceil(READINGS).max(1);
         let outline = simulation.header().outline.clone();
-        let sampled = plots.iter().enumerate().map(|(place, entry)| {
-            let gauge = gauge(simulation, entry, &outline).map_err(|channel| Missing { plot: place, channel })?;
+        let sampled = plots.iter().enumerate().map(|(index, entry)| {
+            let gauge = gauge(simulation, entry, &outline).map_err(|channel| Missing { plot: index, channel })?;
             Ok(Sampled { entry: entry.clone(), gauge })
         });
         let plots = sampled.collect::<Result<_, _>>()?;
-        let bodies = (0..simulation.bodies().len()).map(|place| (simulation.name(place).to_owned(), place)).collect();
+        let bodies = (0..simulation.bodies().len()).map(|index| (simulation.name(index).to_owned(), index)).collect();
         Ok(Self { plots, from, to, next, last, every, readings: 0, bodies })
     }
 

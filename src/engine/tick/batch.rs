@@ -4,12 +4,12 @@ use bevy_ecs::change_detection::{DetectChanges, DetectChangesMut, Tick as Change
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleCleanupPolicy, ScheduleLabel, Schedules};
 
-use super::balance::Totals;
 use super::components::{
     clear_forces, collect_forces, components_differ, load_state, make_pushable, publish_components,
 };
 use super::failure::{Failure, Trouble, Wrong};
-use super::flight;
+use super::flight_permission;
+use super::ledger::Totals;
 use super::progress::Progress;
 use super::registered::{Kind, Registered};
 use super::stages::schedule_stages;
@@ -78,7 +78,7 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     let mut sim = match kept {
         Some(sim) => {
             if looked_at {
-                flight::note_looks(world);
+                flight_permission::note_looks(world);
             }
             sim
         }
@@ -256,7 +256,7 @@ fn prepare(world: &mut World) -> Schedule {
     let now = (world.resource_ref::<Schedules>().last_changed(), world.resource::<State>().progress.version);
     if world.get_resource_or_init::<Others>().known_at == Some(now) {
         if world.resource::<State>().progress.looked_at {
-            flight::note_looks(world);
+            flight_permission::note_looks(world);
         }
         return take(world, SimTick);
     }
@@ -270,7 +270,7 @@ fn prepare(world: &mut World) -> Schedule {
         apply_only_what_is_deferred(world, schedule);
     }
     let flies = world.resource::<State>().progress.method.as_ref().is_some_and(|method| method.0.flies());
-    flight::allow(world, flies, &sim, [&evaluate, &modes]);
+    flight_permission::allow(world, flies, &sim, [&evaluate, &modes]);
     let alone = world.resource::<Registered>().none_writes(SimTick, &sim);
     let looked_at = sim.graph().systems.len() > 1;
     let mut others = world.resource_mut::<Others>();

@@ -79,7 +79,7 @@ impl Bounds {
             return;
         }
         let known = self.generation == bodies.generation && !self.stale;
-        let follows = !evaluation.style.is_staged();
+        let follows = !evaluation.mode.is_staged();
         self.age += 1;
         // Between two checks no body can have moved farther than the sum of all ways.
         let moved_by_step = follows && evaluation.elapsed > 0.0;

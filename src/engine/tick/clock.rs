@@ -37,7 +37,7 @@ pub struct Evaluation {
     /// Seconds since the state that was last accepted: how far `Bodies::drift` reaches back.
     pub elapsed: f64,
     /// How contacts and other models with a history are to be evaluated.
-    pub style: Style,
+    pub mode: EvaluationMode,
     /// How often forces were evaluated so far: the cost of a method.
     // It depends on how a run is cut into batches, and decides nothing.
     #[serde(skip)]
@@ -56,7 +56,7 @@ pub struct Evaluation {
 
 /// How models with a history are evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Style {
+pub enum EvaluationMode {
     /// The state follows the one before: history continues, and candidate lists are renewed when necessary.
     #[default]
     Following,
@@ -67,7 +67,7 @@ pub enum Style {
     Instant,
 }
 
-impl Style {
+impl EvaluationMode {
     /// Whether the state is a stage of a step, from which no history may be made.
     pub fn is_staged(self) -> bool {
         self != Self::Following

@@ -33,7 +33,7 @@ impl Written {
 pub(super) fn components_differ(state: Res<State>, poses: Query<Pose, With<Body>>, ticks: SystemChangeTick) -> bool {
     let (bodies, written) = (&state.bodies, Written::since(&state, &ticks));
     poses.iter().any(|(entity, position, rotation, velocity, spin)| {
-        let Some(body) = bodies.place(entity) else { return false };
+        let Some(body) = bodies.index(entity) else { return false };
         bodies.position[body] != position.0 && written.has(&position)
             || bodies.angle[body] != rotation.0 && written.has(&rotation)
             || bodies.velocity[body] != velocity.0 && written.has(&velocity)
@@ -46,14 +46,14 @@ pub(super) fn load_state(mut state: ResMut<State>, poses: Query<Pose, With<Body>
     let written = Written::since(&state, &ticks);
     let bodies = &mut state.bodies;
     for (entity, position, rotation, velocity, spin) in &poses {
-        let Some(body) = bodies.place(entity) else { continue };
+        let Some(body) = bodies.index(entity) else { continue };
         if bodies.position[body] != position.0 && written.has(&position) {
             bodies.position[body] = position.0;
-            bodies.position_rest[body] = DVec2::ZERO;
+            bodies.position_residual[body] = DVec2::ZERO;
         }
         if bodies.angle[body] != rotation.0 && written.has(&rotation) {
             bodies.angle[body] = rotation.0;
-            bodies.angle_rest[body] = 0.0;
+            bodies.angle_residual[body] = 0.0;
         }
         let moved = bodies.velocity[body] != velocity.0 && written.has(&velocity);
         let turned = bodies.spin[body] != spin.0 && written.has(&spin);
@@ -85,7 +85,7 @@ pub(super) fn publish_components(
     let bodies = &state.bodies;
     for (entity, mut position, mut rotation, mut velocity, mut spin) in &mut poses {
         // Spawned since the last rebuild: its components are the truth.
-        let Some(body) = bodies.place(entity) else { continue };
+        let Some(body) = bodies.index(entity) else { continue };
         position.0 = bodies.position[body];
         rotation.0 = bodies.angle[body];
         velocity.0 = bodies.velocity[body];
@@ -116,24 +116,24 @@ pub(super) fn collect_forces(
     forces: Query<(Entity, &Force, &Torque)>,
     mut found: Local<Vec<(u32, DVec2, f64)>>,
 ) {
-    let State { bodies, balance, .. } = &mut *state;
+    let State { bodies, rates, .. } = &mut *state;
     found.clear();
-    let place = |entity| bodies.place(entity).map(|place| place as u32);
-    found.extend(forces.iter().filter_map(|(entity, force, torque)| Some((place(entity)?, force.0, torque.0))));
+    let index = |entity| bodies.index(entity).map(|index| index as u32);
+    found.extend(forces.iter().filter_map(|(entity, force, torque)| Some((index(entity)?, force.0, torque.0))));
     // Query order depends on archetypes; the order of sums must not.
-    found.sort_unstable_by_key(|(place, ..)| *place);
-    for &(place, force, torque) in &*found {
-        let body = place as usize;
+    found.sort_unstable_by_key(|(index, ..)| *index);
+    for &(index, force, torque) in &*found {
+        let body = index as usize;
         if bodies.dynamic[body] && (force != DVec2::ZERO || torque != 0.0) {
             bodies.force[body] += force;
             bodies.torque[body] += torque;
-            balance.outside(bodies.position[body], force, torque);
-            balance.work += force.dot(bodies.velocity[body]) + torque * bodies.spin[body];
+            rates.outside(bodies.position[body], force, torque);
+            rates.work += force.dot(bodies.velocity[body]) + torque * bodies.spin[body];
         }
     }
 }
 
 /// Index of the body of an entity, if it still exists.
-pub fn place_of(world: &World, entity: Entity) -> Option<usize> {
-    world.get::<Body>(entity).and_then(|_| world.get_resource::<State>()?.bodies.place(entity))
+pub fn index_of(world: &World, entity: Entity) -> Option<usize> {
+    world.get::<Body>(entity).and_then(|_| world.get_resource::<State>()?.bodies.index(entity))
 }

@@ -6,7 +6,7 @@ use super::failure::{Trouble, Wrong};
 use super::model::Indicator;
 use super::progress::{LocatedEvents, Progress, StepCount};
 use super::stopwatch::Part;
-use super::{Balance, Clock, Evaluation, Span, State, Style};
+use super::{Clock, Evaluation, EvaluationMode, Rates, Span, State};
 use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 use crate::world::motion::Travel;
@@ -21,7 +21,7 @@ pub struct Tick<'a> {
     /// The schedules, if they contain systems of users.
     pub(super) users: Option<Users<'a>>,
     pub(super) velocity_dependent: bool,
-    pub(super) style: Style,
+    pub(super) mode: EvaluationMode,
     /// Whether the state was changed by others since the last tick, or is the first of all.
     pub(super) fresh: bool,
     /// Whether systems in the tick may look at forces.
@@ -139,10 +139,10 @@ impl Tick<'_> {
 
     /// Bodies are posed.
     fn run_evaluation(&mut self, state: Evaluation) {
-        self.state.balance = Balance::default();
-        let style = self.style;
+        self.state.rates = Rates::default();
+        let mode = self.mode;
         let evaluation = &mut self.state.evaluation;
-        *evaluation = Evaluation { style, count: evaluation.count + 1, ..state };
+        *evaluation = Evaluation { mode, count: evaluation.count + 1, ..state };
         match &mut self.users {
             Some(users) => users.run(self.state, |users| users.evaluate.run(users.world)),
             None => {
@@ -168,7 +168,7 @@ impl Tick<'_> {
             let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
             // On another piece of a path what rides on it has other forces from its first moment on.
             let passed = bodies.prescribed.next_point(before) < middle;
-            if passed && self.style.is_staged() {
+            if passed && self.mode.is_staged() {
                 self.evaluate_stage(begin);
             }
         }
@@ -182,7 +182,7 @@ impl Tick<'_> {
             }
             self.state.take_blows(begin);
             // Forces of held contacts depend on all other forces.
-            if self.state.evaluation.stale && self.style.is_staged() {
+            if self.state.evaluation.stale && self.mode.is_staged() {
                 self.evaluate_stage(begin);
                 self.settle();
             } else if self.state.evaluation.other_rows {
@@ -244,8 +244,8 @@ impl Tick<'_> {
             let mut tries = false;
             self.state.each_with_events(|model, state| {
                 let end = first + counts.next().copied().unwrap_or_default();
-                let own = |place: &&usize| (first..end).contains(*place);
-                let own: Vec<usize> = fired.iter().filter(own).map(|place| place - first).collect();
+                let own = |index: &&usize| (first..end).contains(*index);
+                let own: Vec<usize> = fired.iter().filter(own).map(|index| index - first).collect();
                 if own.is_empty() {
                     tries |= model.look_again();
                 } else {
@@ -352,7 +352,7 @@ impl Tick<'_> {
             self.bodies().kick(dt);
             return self.state.hold_at_end();
         }
-        if self.may_wait && !self.style.is_staged() { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
+        if self.may_wait && !self.mode.is_staged() { self.packed().kick_later(dt) } else { self.bodies().kick(dt) }
     }
 
     /// Velocities change by the current forces over `kick` seconds, which the ledger books. Then positions change by
@@ -367,22 +367,22 @@ impl Tick<'_> {
     }
 
     fn book(&mut self, dt: f64) {
-        let balance: Balance = self.state.balance;
-        self.alert |= balance.alert;
-        self.state.ledger.book(&balance, dt);
+        let rates: Rates = self.state.rates;
+        self.alert |= rates.alert;
+        self.state.ledger.book(&rates, dt);
         self.state.book_losses(dt);
     }
 
     /// Whether a model holds more than can be resolved exactly in steps from event to event.
-    pub(crate) fn is_crowded(&mut self) -> bool {
-        let mut crowded = false;
-        self.state.each_with_events(|model, _| crowded |= model.is_crowded());
-        crowded
+    pub(crate) fn is_overloaded(&mut self) -> bool {
+        let mut overloaded = false;
+        self.state.each_with_events(|model, _| overloaded |= model.is_overloaded());
+        overloaded
     }
 
     /// The change of models when states become stages of steps, or begin to follow one another.
-    pub(super) fn hand_over(&mut self, style: Style) {
-        self.state.each_with_events(|model, state| model.hand_over(state, style));
+    pub(super) fn hand_over(&mut self, mode: EvaluationMode) {
+        self.state.each_with_events(|model, state| model.hand_over(state, mode));
     }
 
     /// Bounding boxes, if there are any.

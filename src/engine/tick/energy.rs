@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::State;
-use crate::tick::balance::Totals;
+use crate::tick::ledger::Totals;
 use crate::tick::{Ledger, energy_seen};
 
 /// The open list of channels that belong to no body, such as `energy.total`.

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::model::Events;
-use super::{Balance, FromOutside, State, Tick};
+use super::{FromOutside, Rates, State, Tick};
 use crate::tick::Flow;
 
 /// Accounts at the end of a state, behind those of models: drag, work, friction, inelasticity, impulse (2), angular impulse.
@@ -55,12 +55,12 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     }
 
     /// Places of the accounts in a state.
-    pub fn places_of_accounts(&self) -> std::ops::Range<usize> {
+    pub fn indices_of_accounts(&self) -> std::ops::Range<usize> {
         self.dimension - ACCOUNTS - self.others..self.dimension
     }
 
     /// Places of what models keep of their own.
-    fn places_of_own(&self) -> std::ops::Range<usize> {
+    fn indices_of_own(&self) -> std::ops::Range<usize> {
         let begin = 6 * self.dynamic.len();
         begin..begin + self.own
     }
@@ -86,7 +86,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
             state.extend([bodies.velocity[body].x, bodies.velocity[body].y, bodies.spin[body]]);
         }
         state.resize(self.dimension, 0.0);
-        let own = self.places_of_own();
+        let own = self.indices_of_own();
         self.each_own(&mut state[own], |model, _, numbers| model.read(numbers));
     }
 
@@ -94,14 +94,14 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     pub fn write(&mut self, state: &[f64]) {
         let bodies = self.tick.bodies();
         let velocities = 3 * self.dynamic.len();
-        for (place, &body) in self.dynamic.iter().enumerate() {
-            let (q, v) = (&state[3 * place..], &state[velocities + 3 * place..]);
+        for (index, &body) in self.dynamic.iter().enumerate() {
+            let (q, v) = (&state[3 * index..], &state[velocities + 3 * index..]);
             bodies.position[body] = DVec2::new(q[0], q[1]);
             bodies.angle[body] = q[2];
             bodies.velocity[body] = DVec2::new(v[0], v[1]);
             bodies.spin[body] = v[2];
         }
-        let (mut lengths, mut own) = (self.blocks.iter(), &state[self.places_of_own()]);
+        let (mut lengths, mut own) = (self.blocks.iter(), &state[self.indices_of_own()]);
         self.tick.state.each_with_events(|model, _| {
             let (numbers, others) = own.split_at(next_length(&mut lengths));
             model.write(numbers);
@@ -113,16 +113,16 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     pub fn read_rates(&mut self, rates: &mut [f64]) {
         let bodies = &self.tick.state.bodies;
         let velocities = 3 * self.dynamic.len();
-        for (place, &body) in self.dynamic.iter().enumerate() {
+        for (index, &body) in self.dynamic.iter().enumerate() {
             let (velocity, force) = (bodies.velocity[body], bodies.force[body] * bodies.inverse_mass(body));
             let turning = bodies.torque[body] * bodies.inverse_inertia(body);
-            rates[3 * place..3 * place + 3].copy_from_slice(&[velocity.x, velocity.y, bodies.spin[body]]);
-            rates[velocities + 3 * place..velocities + 3 * place + 3].copy_from_slice(&[force.x, force.y, turning]);
+            rates[3 * index..3 * index + 3].copy_from_slice(&[velocity.x, velocity.y, bodies.spin[body]]);
+            rates[velocities + 3 * index..velocities + 3 * index + 3].copy_from_slice(&[force.x, force.y, turning]);
         }
-        let own = self.places_of_own();
+        let own = self.indices_of_own();
         self.each_own(&mut rates[own], |model, state, rates| model.rates(state, rates));
-        let Balance { force, torque, drag, work, friction, inelasticity, .. } = self.tick.state.balance;
-        let (others, accounts) = rates[self.places_of_accounts()].split_at_mut(self.others);
+        let Rates { force, torque, drag, work, friction, inelasticity, .. } = self.tick.state.rates;
+        let (others, accounts) = rates[self.indices_of_accounts()].split_at_mut(self.others);
         others.fill(0.0);
         self.tick.state.add_losses(others);
         accounts.copy_from_slice(&[drag, work, friction, inelasticity, force.x, force.y, torque]);
@@ -183,19 +183,19 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         sizes.clear();
         sizes.extend(self.dynamic.iter().flat_map(|&body| [distance, distance, turns(distance, body)]));
         sizes.extend(self.dynamic.iter().flat_map(|&body| [speed, speed, turns(speed, body)]));
-        sizes.resize(self.places_of_accounts().start, distance);
+        sizes.resize(self.indices_of_accounts().start, distance);
         sizes.resize(self.dimension, f64::INFINITY);
     }
 
     /// The same for states of models that have their own units of errors. At least this share of them is allowed.
     pub fn measure_own(&mut self, share: f64, sizes: &mut [f64]) {
-        let places = self.places_of_own();
-        if places.is_empty() {
+        let indices = self.indices_of_own();
+        if indices.is_empty() {
             return;
         }
-        let mut own = vec![0.0; places.len()];
+        let mut own = vec![0.0; indices.len()];
         self.each_own(&mut own, |model, _, numbers| model.measures(numbers));
-        sizes[places].iter_mut().zip(own).for_each(|(size, own)| *size = size.max(share * own));
+        sizes[indices].iter_mut().zip(own).for_each(|(size, own)| *size = size.max(share * own));
     }
 
     /// Brings the state just written back onto the joints; `change` and `state` follow, with the impulse from outside.
@@ -212,15 +212,15 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
     fn follow(&self, FromOutside { impulse, angular, .. }: FromOutside, change: &mut [f64], state: &mut [f64]) {
         let bodies = &self.tick.state.bodies;
         let coordinates = 3 * self.dynamic.len();
-        let mut set = |place: usize, held: f64| {
-            change[place] += held - state[place];
-            state[place] = held;
+        let mut set = |index: usize, held: f64| {
+            change[index] += held - state[index];
+            state[index] = held;
         };
-        for (place, &body) in self.dynamic.iter().enumerate() {
+        for (index, &body) in self.dynamic.iter().enumerate() {
             let (position, velocity) = (bodies.position[body], bodies.velocity[body]);
             let numbers = [position.x, position.y, bodies.angle[body], velocity.x, velocity.y, bodies.spin[body]];
             for (number, held) in numbers.into_iter().enumerate() {
-                set(3 * place + number % 3 + if number < 3 { 0 } else { coordinates }, held);
+                set(3 * index + number % 3 + if number < 3 { 0 } else { coordinates }, held);
             }
         }
         let impulses = self.dimension - IMPULSES;
@@ -229,7 +229,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
 
     /// Books the change of the accounts by a step.
     pub fn book(&mut self, change: &[f64]) {
-        let (others, accounts) = change[self.places_of_accounts()].split_at(self.others);
+        let (others, accounts) = change[self.indices_of_accounts()].split_at(self.others);
         let &[drag, work, friction, inelasticity, x, y, angular] = accounts else { return };
         let ledger = &mut self.tick.state.ledger;
         ledger.accounts.iter_mut().zip(others).for_each(|((_, sum), lost)| sum.add(*lost));

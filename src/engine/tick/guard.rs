@@ -89,7 +89,7 @@ impl EnergyGuard {
         let put_in = start.kinetic + start.elastic + self.released + ledger.put_in() + rounding;
         let energy = now.energy() + lost - work - start.energy();
         let unstable =
-            state.responses().fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(&state.stability));
+            state.time_scales().fastest.is_some_and(|fastest| clock.dt > fastest.critical_tick(&state.stability));
         let too_much = if unstable { BEYOND } else { ENORMOUS } * (put_in + IDLE * idle);
         // In this form NaN and infinite energies are too much. Without any input there is no scale.
         if first && energy.is_finite() || put_in == 0.0 || energy <= too_much && put_in.is_finite() {

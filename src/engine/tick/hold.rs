@@ -77,11 +77,11 @@ fn keep_places(rows: &mut Rows) {
 /// Adds the rows of joints in the present places and velocities of bodies.
 pub(super) fn find_rows(
     models: &mut [Box<dyn Model>],
-    places: &[usize],
+    indices: &[usize],
     (bodies, time): (&Bodies, f64),
     rows: &mut Rows,
 ) {
-    places.iter().for_each(|place| models[*place].add_rows(bodies, time, rows));
+    indices.iter().for_each(|index| models[*index].add_rows(bodies, time, rows));
 }
 
 impl State {
@@ -186,12 +186,12 @@ impl State {
     fn model_of(&mut self, row: usize, time: f64) -> usize {
         let Self { models, roles, bodies, .. } = self;
         let mut rows = Rows::default();
-        let mut adds = |place: &usize| {
-            find_rows(models, &[*place], (bodies, time), &mut rows);
+        let mut adds = |index: &usize| {
+            find_rows(models, &[*index], (bodies, time), &mut rows);
             keep_places(&mut rows);
             rows.len() > row
         };
-        roles.rows.iter().copied().find(|place| adds(place)).unwrap_or_default()
+        roles.rows.iter().copied().find(|index| adds(index)).unwrap_or_default()
     }
 
     /// Sees whether a loop has passed a dead point.

@@ -1,7 +1,7 @@
 //! The interface of an integration method to the tick.
 
 use super::snapshot::{Memory, Unfit};
-use super::{Style, Tick};
+use super::{EvaluationMode, Tick};
 
 /// A method that advances the state by one tick.
 pub trait Integrator: Send + Sync + 'static {
@@ -9,8 +9,8 @@ pub trait Integrator: Send + Sync + 'static {
     fn advance(&mut self, tick: &mut Tick);
 
     /// How it wants models with a history to be evaluated.
-    fn style(&self) -> Style {
-        Style::Following
+    fn mode(&self) -> EvaluationMode {
+        EvaluationMode::Following
     }
 
     /// Whether each tick is one step of velocity Verlet. Then a body moves along a parabola while only its weight acts

@@ -27,22 +27,23 @@
 //! announces it with [`Bodies::touched`](crate::world::Bodies::touched).
 
 pub mod after_load;
-pub mod balance;
 mod batch;
 mod blows;
 pub mod bounds;
 pub mod clock;
 mod components;
 mod context;
+pub mod critical_step;
 mod drifted;
 pub mod energy;
 mod failure;
-mod flight;
+mod flight_permission;
 pub mod flow;
 mod following;
 mod guard;
 mod hold;
 pub mod kept;
+pub mod ledger;
 mod method;
 mod model;
 mod notes;
@@ -50,7 +51,6 @@ mod ode;
 pub mod pairs;
 mod progress;
 mod registered;
-pub mod response;
 mod roles;
 pub mod snapshot;
 pub mod stability;
@@ -68,18 +68,18 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 pub use after_load::{AfterLoad, LoadErrors};
-pub use balance::{Balance, Ledger, Totals};
 pub use batch::step;
 pub(crate) use batch::{advance, foresee_components, open, rebuild};
 pub use blows::Blow;
-pub use clock::{Clock, Evaluation, Span, Style};
-pub use components::place_of;
+pub use clock::{Clock, Evaluation, EvaluationMode, Span};
+pub use components::index_of;
 pub use context::Tick;
 pub use failure::{Failure, Wrong};
-pub(crate) use flight::{add_observer_of_ticks, look_at_ticks};
+pub(crate) use flight_permission::{add_observer_of_ticks, look_at_ticks};
 pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
 pub use hold::{FromOutside, JointDrift, Noted};
+pub use ledger::{Ledger, Rates, Totals};
 pub use method::{Integrator, Method};
 pub use model::{
     Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
@@ -89,7 +89,7 @@ pub use ode::Flow;
 pub use progress::{LocatedEvents, StepCount};
 pub(crate) use registered::systems_of_users;
 use registered::{Kind, register};
-pub use stability::{Briefest, Fastest, Foreseen, Holder, Responses, Stability};
+pub use stability::{Briefest, Fastest, Foreseen, Holder, Stability, TimeScales};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
 pub use step::{energy_seen, set_method};

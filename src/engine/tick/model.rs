@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::snapshot::{Memory, Unfit};
 use super::touch::ContactPoint;
-use super::{Responses, State, SteadySpring, Style};
+use super::{EvaluationMode, State, SteadySpring, TimeScales};
 use crate::constraints::Rows;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -84,7 +84,7 @@ pub trait Model: Any + Send + Sync {
     }
 
     /// The power that it took in the last evaluation, if it has a separate account. Drag, friction and inelasticity
-    /// have theirs in [`Balance`](super::Balance). Default: no separate account.
+    /// have theirs in [`Rates`](super::Rates). Default: no separate account.
     fn loss(&self) -> Option<Loss> {
         None
     }
@@ -143,7 +143,7 @@ pub trait Model: Any + Send + Sync {
     /// Velocities have jumped before the step ([`State::strike`]): what holds only as long as a bounded force suffices may give way.
     fn after_blow(&mut self, _: &mut State) {}
 
-    /// Before a step over [`State::span`]: chooses the modes that stay fixed in it. In [`Style::Frozen`] only events
+    /// Before a step over [`State::span`]: chooses the modes that stay fixed in it. In [`EvaluationMode::Frozen`] only events
     /// change the modes of a model that has [`Model::events`]. Such a model does nothing. See [`Model::has_modes`].
     fn begin_step(&mut self, _: &mut State) {}
 
@@ -166,8 +166,8 @@ pub trait Model: Any + Send + Sync {
     }
 
     /// Its measured responses. Default: none.
-    fn responses(&self) -> Responses {
-        Responses::default()
+    fn time_scales(&self) -> TimeScales {
+        TimeScales::default()
     }
 
     /// States of the model and events, for methods with several stages. Default: none.
@@ -186,12 +186,12 @@ pub trait Model: Any + Send + Sync {
     }
 
     /// The reason why it cannot be evaluated in a style, if there is one.
-    fn objection(&self, _: Style) -> Option<Objection> {
+    fn objection(&self, _: EvaluationMode) -> Option<Objection> {
         None
     }
 
     /// Its departures in a style from the request of the scene.
-    fn departures(&self, _: &State, _: Style) -> Vec<Departure> {
+    fn departures(&self, _: &State, _: EvaluationMode) -> Vec<Departure> {
         Vec::new()
     }
 
@@ -297,10 +297,10 @@ pub trait Events {
     }
 
     /// Adapts modes when states become stages of steps, or follow one another from then on. Default: they stay.
-    fn hand_over(&mut self, _: &State, _: Style) {}
+    fn hand_over(&mut self, _: &State, _: EvaluationMode) {}
 
     /// Whether it holds more than can be resolved exactly in steps from event to event. Default: it does not.
-    fn is_crowded(&self) -> bool {
+    fn is_overloaded(&self) -> bool {
         false
     }
 }

@@ -38,10 +38,10 @@ pub trait Flow {
     fn drift(&mut self, time: f64, length: f64, state: &mut [f64], change: &mut [f64]) {
         let _ = time;
         let coordinates = self.coordinates();
-        for place in 0..coordinates {
-            let by = length * state[place + coordinates];
-            change[place] += by;
-            state[place] += by;
+        for index in 0..coordinates {
+            let by = length * state[index + coordinates];
+            change[index] += by;
+            state[index] += by;
         }
     }
 

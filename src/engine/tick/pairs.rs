@@ -96,9 +96,9 @@ impl SurfacePair {
     /// The surface.
     #[inline(always)]
     pub fn surface(self, bodies: &Bodies) -> Surface {
-        let place = self.surface as usize;
-        match place.checked_sub(bodies.walls.len()) {
-            None => Surface::Wall(place),
+        let index = self.surface as usize;
+        match index.checked_sub(bodies.walls.len()) {
+            None => Surface::Wall(index),
             Some(hull) => Surface::Hull(hull),
         }
     }
@@ -106,9 +106,9 @@ impl SurfacePair {
     /// The probe.
     #[inline(always)]
     pub fn probe(self, bodies: &Bodies) -> Probe {
-        let place = self.probe as usize;
-        match place.checked_sub(bodies.atom_count()) {
-            None => Probe::Atom(place),
+        let index = self.probe as usize;
+        match index.checked_sub(bodies.atom_count()) {
+            None => Probe::Atom(index),
             Some(end) => Probe::End(end / 2, end % 2 == 1),
         }
     }
@@ -119,8 +119,8 @@ impl SurfacePair {
         let hull = |hull: usize| bodies.hulls[hull].half_width;
         match (self.surface(bodies), self.probe(bodies)) {
             (Surface::Wall(_), _) => bodies.size_of_atom(self.probe as usize),
-            (Surface::Hull(place), Probe::Atom(atom)) => hull(place).min(bodies.size_of_atom(atom)),
-            (Surface::Hull(place), Probe::End(..)) => hull(place),
+            (Surface::Hull(index), Probe::Atom(atom)) => hull(index).min(bodies.size_of_atom(atom)),
+            (Surface::Hull(index), Probe::End(..)) => hull(index),
         }
     }
 

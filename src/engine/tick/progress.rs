@@ -4,10 +4,10 @@ use bevy_ecs::change_detection::Tick;
 use bevy_ecs::prelude::*;
 
 use super::Method;
-use super::balance::Totals;
 use super::batch::Running;
 use super::failure::{Trouble, Wrong};
 use super::guard::EnergyGuard;
+use super::ledger::Totals;
 use super::travel::FarTravel;
 use serde::{Deserialize, Serialize};
 

@@ -31,22 +31,22 @@ pub(super) struct Roles {
 
 impl Roles {
     pub fn of(models: &mut [Box<dyn Model>]) -> Self {
-        let with_events = models.iter_mut().enumerate().filter_map(|(place, model)| model.events().map(|_| place));
+        let with_events = models.iter_mut().enumerate().filter_map(|(index, model)| model.events().map(|_| index));
         let events = with_events.collect();
-        let places = |is: fn(&dyn Model) -> bool| -> Vec<usize> {
-            models.iter().enumerate().filter(|(_, model)| is(&***model)).map(|(place, _)| place).collect()
+        let indices = |is: fn(&dyn Model) -> bool| -> Vec<usize> {
+            models.iter().enumerate().filter(|(_, model)| is(&***model)).map(|(index, _)| index).collect()
         };
         let others = models.iter().filter(|model| !belongs_to_contacts(&***model)).count();
         let depends =
             |models: &[Box<dyn Model>], on: &[Dependence]| models.iter().any(|m| on.contains(&m.dependence()));
         Self {
-            find_pairs: places(|model| model.finds_pairs()),
-            rows: places(|model| model.has_rows()),
-            settle: places(|model| model.settles()),
-            begin_step: places(|model| model.has_modes()),
-            end_tick: places(|model| model.looks_at_ticks()),
+            find_pairs: indices(|model| model.finds_pairs()),
+            rows: indices(|model| model.has_rows()),
+            settle: indices(|model| model.settles()),
+            begin_step: indices(|model| model.has_modes()),
+            end_tick: indices(|model| model.looks_at_ticks()),
             events,
-            edges: places(|model| model.has_edges()),
+            edges: indices(|model| model.has_edges()),
             accounts: Vec::new(),
             others,
             velocity_dependent: depends(models, &[Dependence::Velocity]),

@@ -75,7 +75,7 @@ impl Default for Stability {
 
 /// The fastest measured responses of a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Responses {
+pub struct TimeScales {
     /// Of everything that held bodies at once.
     pub fastest: Option<Fastest>,
     /// Of a single pair.
@@ -106,7 +106,7 @@ pub struct Briefest {
     pub time: f64,
 }
 
-impl Responses {
+impl TimeScales {
     /// The fastest of all.
     pub(super) fn of_all(all: impl Iterator<Item = Self>) -> Self {
         all.fold(Self::default(), |known, found| {

@@ -6,18 +6,18 @@ use std::ops::Range;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::balance::Totals;
 use super::blows::Blow;
 use super::bounds::Bounds;
 use super::failure::{Trouble, Wrong};
 use super::hold::JointDrift;
+use super::ledger::Totals;
 use super::model::{Energies, Model};
 use super::pairs::CandidatePairs;
 use super::progress::{LocatedEvents, Progress, StepCount};
 use super::roles::{Roles, belongs_to_contacts};
 use super::stopwatch::{Part, Stopwatch};
 use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
-use super::{Balance, Clock, Evaluation, Ledger, Responses, Span, Stability, SteadySprings};
+use super::{Clock, Evaluation, Ledger, Rates, Span, Stability, SteadySprings, TimeScales};
 use crate::constraints::{Cancelled, DeadPoints, Projection, Rows};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Resource, Default, Serialize, Deserialize)]
 pub struct State {
     pub(crate) bodies: Bodies,
-    pub(crate) balance: Balance,
+    pub(crate) rates: Rates,
     pub(crate) ledger: Ledger,
     /// The constraints of models in the current evaluation.
     pub(crate) rows: Rows,
@@ -69,11 +69,11 @@ pub struct State {
 
 /// Lets some models act on the state that holds them.
 macro_rules! each {
-    ($state:ident, $places:ident, $model:ident => $act:expr) => {
-        if !$state.roles.$places.is_empty() {
+    ($state:ident, $indices:ident, $model:ident => $act:expr) => {
+        if !$state.roles.$indices.is_empty() {
             let mut models = std::mem::take(&mut $state.models);
-            for number in 0..$state.roles.$places.len() {
-                let $model = &mut models[$state.roles.$places[number]];
+            for number in 0..$state.roles.$indices.len() {
+                let $model = &mut models[$state.roles.$indices[number]];
                 $act;
             }
             $state.models = models;
@@ -122,13 +122,13 @@ impl State {
         }
         self.turn_to(Part::Constraints);
         self.rows.solve(&self.bodies);
-        if !self.evaluation.style.is_staged() {
+        if !self.evaluation.mode.is_staged() {
             self.rows.give_way(&self.bodies);
         }
         each!(self, rows, model => model.take_rows(self));
-        let Self { rows, bodies, balance, .. } = self;
+        let Self { rows, bodies, rates, .. } = self;
         rows.cancel(bodies, |bodies, Cancelled { body, force, torque }| {
-            balance.outside(bodies.position[body], force, torque);
+            rates.outside(bodies.position[body], force, torque);
         });
     }
 
@@ -215,8 +215,8 @@ impl State {
     /// # Panics
     /// While models act: a model cannot add another one. A system in [`Stage::Begin`](super::Stage::Begin) can.
     pub fn add_model(&mut self, model: impl Model) {
-        let place = if belongs_to_contacts(&model) { self.models.len() } else { self.roles.others };
-        self.insert_model(place, model);
+        let index = if belongs_to_contacts(&model) { self.models.len() } else { self.roles.others };
+        self.insert_model(index, model);
     }
 
     /// Adds a model before all others.
@@ -224,14 +224,14 @@ impl State {
         self.insert_model(0, model);
     }
 
-    fn insert_model(&mut self, place: usize, model: impl Model) {
+    fn insert_model(&mut self, index: usize, model: impl Model) {
         assert!(
-            place <= self.models.len(),
+            index <= self.models.len(),
             "a model cannot add another one while it acts: a system in `Stage::Begin` can"
         );
         self.note_change();
         self.roles.others += usize::from(!belongs_to_contacts(&model));
-        self.models.insert(place, Box::new(model));
+        self.models.insert(index, Box::new(model));
         self.progress.version += 1;
     }
 
@@ -259,8 +259,8 @@ impl State {
         if self.roles.version != Some(self.progress.version) {
             self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models) };
             let Self { models, ledger, roles, .. } = self;
-            let losses = models.iter().enumerate().filter_map(|(place, model)| Some((place, model.loss()?.account)));
-            roles.accounts.extend(losses.map(|(place, account)| (place, ledger.account(account))));
+            let losses = models.iter().enumerate().filter_map(|(index, model)| Some((index, model.loss()?.account)));
+            roles.accounts.extend(losses.map(|(index, account)| (index, ledger.account(account))));
         }
     }
 
@@ -289,10 +289,10 @@ impl State {
             let own: &dyn std::any::Any = model;
             own.is::<T>() || model.inner().is_some_and(|inner| inner.is::<T>())
         };
-        let place = self.models.iter().position(|model| has(&**model))?;
+        let index = self.models.iter().position(|model| has(&**model))?;
         self.note_change();
         self.progress.version += 1;
-        let model = &mut *self.models[place];
+        let model = &mut *self.models[index];
         if (model as &dyn std::any::Any).is::<T>() {
             return (model as &mut dyn std::any::Any).downcast_mut();
         }
@@ -351,7 +351,7 @@ impl State {
 
     /// The first of them after a time in seconds, or infinity.
     pub(crate) fn next_edge(&self, now: f64) -> f64 {
-        self.roles.edges.iter().map(|place| self.models[*place].next_edge(now)).fold(f64::INFINITY, f64::min)
+        self.roles.edges.iter().map(|index| self.models[*index].next_edge(now)).fold(f64::INFINITY, f64::min)
     }
 
     /// The name of the contact law, if there is one.
@@ -396,9 +396,9 @@ impl State {
     }
 
     /// The measured responses of all models.
-    pub fn responses(&self) -> Responses {
-        let models = self.models.iter().map(|model| model.responses());
-        Responses::of_all(models.chain([self.springs.found()]))
+    pub fn time_scales(&self) -> TimeScales {
+        let models = self.models.iter().map(|model| model.time_scales());
+        TimeScales::of_all(models.chain([self.springs.found()]))
     }
 }
 
@@ -427,35 +427,35 @@ impl State {
     /// Applies the forces of some rows to their bodies, with the external part. A model calls it in
     /// [`Model::take_rows`] with the indices of its rows.
     pub fn apply_rows(&mut self, indices: Range<usize>) {
-        let Self { rows, bodies, balance, .. } = self;
+        let Self { rows, bodies, rates, .. } = self;
         for index in indices {
             let (row, amount) = (rows.row(index), rows.force(index));
-            balance.work += amount * row.powers(bodies)[2];
+            rates.work += amount * row.powers(bodies)[2];
             let inside = row.is_inside(bodies);
             for side in row.sides.iter().flatten() {
                 let (force, torque) = (side.force * amount, side.torque * amount);
                 bodies.force[side.body] += force;
                 bodies.torque[side.body] += torque;
                 if !inside && bodies.dynamic[side.body] {
-                    balance.outside(bodies.position[side.body], force, torque);
+                    rates.outside(bodies.position[side.body], force, torque);
                 }
             }
         }
     }
 
     /// Bodies and the rates of energy and momentum at once: forces add to both.
-    pub fn bodies_and_rates(&mut self) -> (&mut Bodies, &mut Balance) {
-        (&mut self.bodies, &mut self.balance)
+    pub fn bodies_and_rates(&mut self) -> (&mut Bodies, &mut Rates) {
+        (&mut self.bodies, &mut self.rates)
     }
 
     /// The same with the candidate pairs: contact laws go by them.
-    pub fn bodies_rates_and_pairs(&mut self) -> (&mut Bodies, &mut Balance, Option<&CandidatePairs>) {
-        (&mut self.bodies, &mut self.balance, self.pairs.as_ref())
+    pub fn bodies_rates_and_pairs(&mut self) -> (&mut Bodies, &mut Rates, Option<&CandidatePairs>) {
+        (&mut self.bodies, &mut self.rates, self.pairs.as_ref())
     }
 
     /// Rates of energy and momentum of the present evaluation.
-    pub fn rates(&self) -> &Balance {
-        &self.balance
+    pub fn rates(&self) -> &Rates {
+        &self.rates
     }
 
     /// The sums since the beginning.

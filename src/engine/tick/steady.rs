@@ -7,8 +7,8 @@
 //! Damping counts as stiffness, in proportion to the unknown frequency (see [`Stability::weight_of_damping`]). So the
 //! frequency is a fixed point. Each of `ROUNDS` rounds halves the remaining error at least.
 
-use super::response::{Spring, Springs};
-use super::{Fastest, Foreseen, Holder, Responses, Stability, State};
+use super::critical_step::{Spring, Springs};
+use super::{Fastest, Foreseen, Holder, Stability, State, TimeScales};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +38,7 @@ pub struct SteadySprings {
     /// The tick after which they are looked at again.
     next: u64,
     alert: bool,
-    found: Responses,
+    found: TimeScales,
 }
 
 impl SteadySprings {
@@ -58,7 +58,7 @@ impl SteadySprings {
     }
 
     /// Their measured responses.
-    pub fn found(&self) -> Responses {
+    pub fn found(&self) -> TimeScales {
         self.found
     }
 

@@ -6,7 +6,7 @@ use bevy_ecs::prelude::*;
 use super::batch::{Others, Running, take_up};
 use super::context::{Tick, Users};
 use super::failure::{Failure, Trouble, Wrong};
-use super::flight;
+use super::flight_permission;
 use super::stopwatch::Part;
 use super::{Method, State};
 use crate::world::{Name, finite};
@@ -39,7 +39,7 @@ pub(super) fn integrate_among_systems(world: &mut World) {
     let mut state = std::mem::take(&mut *world.resource_mut::<State>());
     state.integrate(Some(world));
     *world.resource_mut::<State>() = state;
-    flight::note_looks(world);
+    flight_permission::note_looks(world);
 }
 
 impl State {
@@ -50,7 +50,7 @@ impl State {
         self.find_roles();
         let mut running = self.progress.running.take().expect("ticks run inside `step`");
         let Running { method, schedules, alone, looked_at: seen } = &mut *running;
-        let (style, clock) = (method.0.style(), self.clock);
+        let (mode, clock) = (method.0.mode(), self.clock);
         let touched = std::mem::take(&mut self.bodies.touched);
         let before = self.progress.before.take();
         let fresh = !self.progress.current || touched || before.is_some();
@@ -64,7 +64,7 @@ impl State {
             state: self,
             users,
             velocity_dependent,
-            style,
+            mode,
             fresh,
             looked_at,
             may_wait,
@@ -76,7 +76,7 @@ impl State {
         if tick.fresh {
             tick.state.bodies.wake_all();
         }
-        if tick.fresh && style.is_staged() {
+        if tick.fresh && mode.is_staged() {
             tick.begin_anew();
             tick.state.each_with_events(|model, state| model.begin_account(state));
         } else if tick.fresh {
@@ -87,7 +87,7 @@ impl State {
         }
         // If all bodies sleep, the end of the tick equals its beginning.
         if !tick.state.bodies.all_asleep() {
-            if !style.is_staged() {
+            if !mode.is_staged() {
                 tick.choose_modes(tick.begin, tick.end);
             }
             method.0.advance(&mut tick);
@@ -147,14 +147,14 @@ pub(super) fn refresh(world: &mut World) {
     let mut state = std::mem::take(&mut *world.resource_mut::<State>());
     let mut running = state.progress.running.take().expect("put there by `step`");
     let Running { method, schedules, .. } = &mut *running;
-    let (style, now, dt, velocity_dependent) =
-        (method.0.style(), state.clock.time(), state.clock.dt, state.velocity_dependent());
+    let (mode, now, dt, velocity_dependent) =
+        (method.0.mode(), state.clock.time(), state.clock.dt, state.velocity_dependent());
     let users = schedules.as_mut().map(|[evaluate, modes]| Users { world, evaluate, modes });
     let mut tick = Tick {
         state: &mut state,
         users,
         velocity_dependent,
-        style,
+        mode,
         fresh: false,
         looked_at: true,
         may_wait: false,

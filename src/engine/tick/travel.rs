@@ -50,7 +50,7 @@ impl Tick<'_> {
             sum += travel;
         }
         let smallest = bodies.smallest_radius;
-        let alert = self.state.balance.alert;
+        let alert = self.state.rates.alert;
         self.alert |= alert;
         self.note_travel(Travel { greatest, sum }, smallest);
     }

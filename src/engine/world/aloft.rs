@@ -12,17 +12,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
     pub position: DVec2,
-    pub position_rest: DVec2,
+    pub position_residual: DVec2,
     pub velocity: DVec2,
     pub angle: f64,
-    pub angle_rest: f64,
+    pub angle_residual: f64,
 }
 
 impl Start {
     pub fn record(self) -> Record {
-        let Self { position, position_rest, velocity, angle, angle_rest } = self;
-        let (place, rest) = (position.to_array(), position_rest.to_array());
-        Record([place[0], place[1], rest[0], rest[1], velocity.x, velocity.y, angle, angle_rest])
+        let Self { position, position_residual, velocity, angle, angle_residual } = self;
+        let (place, rest) = (position.to_array(), position_residual.to_array());
+        Record([place[0], place[1], rest[0], rest[1], velocity.x, velocity.y, angle, angle_residual])
     }
 }
 
@@ -39,9 +39,9 @@ pub(super) struct Air {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aloft<V> {
     pub position: (V, V),
-    pub position_rest: (V, V),
+    pub position_residual: (V, V),
     pub angle: V,
-    pub angle_rest: V,
+    pub angle_residual: V,
     /// Velocity half a tick earlier: that of the last drift.
     pub drifted: (V, V),
     pub velocity: (V, V),
@@ -59,18 +59,18 @@ impl Air {
     /// Flights `time` seconds after they began.
     #[inline(always)]
     pub fn after<V: Lanes>(&self, start: [V; BLOCK], time: V, spin: V) -> Aloft<V> {
-        let [x, y, rest_x, rest_y, u, v, angle, angle_rest] = start;
+        let [x, y, rest_x, rest_y, u, v, angle, angle_residual] = start;
         let field = (V::splat(self.field.x), V::splat(self.field.y));
         let fallen = V::splat(0.5) * time * time;
         let (x, rest_x) = later(x, rest_x, u * time + field.0 * fallen);
         let (y, rest_y) = later(y, rest_y, v * time + field.1 * fallen);
-        let (angle, angle_rest) = later(angle, angle_rest, spin * time);
+        let (angle, angle_residual) = later(angle, angle_residual, spin * time);
         let middle = time - V::splat(0.5 * self.dt);
         Aloft {
             position: (x, y),
-            position_rest: (rest_x, rest_y),
+            position_residual: (rest_x, rest_y),
             angle,
-            angle_rest,
+            angle_residual,
             drifted: (u + field.0 * middle, v + field.1 * middle),
             velocity: (u + field.0 * time, v + field.1 * time),
         }
@@ -108,10 +108,10 @@ impl Land<'_> {
     /// made in the tick.
     #[inline(always)]
     pub fn some<V: Lanes>(&mut self, first: usize) -> f64 {
-        let (mut time, mut places) = ([0.0; BLOCK], [0_u32; BLOCK]);
+        let (mut time, mut indices) = ([0.0; BLOCK], [0_u32; BLOCK]);
         for (lane, &since) in self.since[first..first + V::COUNT].iter().enumerate() {
             let flown = if since == BOUND { -1.0 } else { f64::from(self.ticks - since) };
-            (time[lane], places[lane]) = (flown * self.air.dt, (first + lane) as u32);
+            (time[lane], indices[lane]) = (flown * self.air.dt, (first + lane) as u32);
         }
         let time = V::load(&time);
         let flies = !time.lt(V::splat(0.0));
@@ -120,11 +120,11 @@ impl Land<'_> {
         }
         let bodies = &mut *self.bodies;
         let spin = V::load(&bodies.spin[first..]);
-        let aloft = self.air.after(V::records(self.starts, &places), time, spin);
+        let aloft = self.air.after(V::records(self.starts, &indices), time, spin);
         put_pairs(flies, aloft.position, &mut bodies.position[first..]);
-        put_pairs(flies, aloft.position_rest, &mut bodies.position_rest[first..]);
+        put_pairs(flies, aloft.position_residual, &mut bodies.position_residual[first..]);
         put(flies, aloft.angle, &mut bodies.angle[first..]);
-        put(flies, aloft.angle_rest, &mut bodies.angle_rest[first..]);
+        put(flies, aloft.angle_residual, &mut bodies.angle_residual[first..]);
         let drifted = if self.kicked { aloft.velocity } else { aloft.drifted };
         // While an evaluation sees estimates these have taken the place of velocities.
         let (own, estimated) = if bodies.estimating { (aloft.velocity, drifted) } else { (drifted, aloft.velocity) };
@@ -177,10 +177,10 @@ mod tests {
         let air = Air { field: DVec2::new(0.5, -2.0), dt: 0.125 };
         let start = Start {
             position: DVec2::new(3.0, -1.0),
-            position_rest: DVec2::ZERO,
+            position_residual: DVec2::ZERO,
             velocity: DVec2::new(-4.0, 0.25),
             angle: 1.0,
-            angle_rest: 0.0,
+            angle_residual: 0.0,
         };
         let (mut position, mut velocity, mut angle, spin) = (start.position, start.velocity, start.angle, 0.75);
         for tick in 1..50 {

@@ -25,8 +25,8 @@ pub struct Anchor {
 
 impl Anchor {
     /// The index of its body, and where in the world the anchor is, in metres. `None`: the body is gone.
-    pub fn place(&self, bodies: &Bodies) -> Option<(usize, DVec2)> {
-        let body = bodies.place(self.body)?;
+    pub fn index(&self, bodies: &Bodies) -> Option<(usize, DVec2)> {
+        let body = bodies.index(self.body)?;
         let (sin, cos) = libm::sincos(bodies.angle[body]);
         Some((body, bodies.position[body] + DVec2::new(cos, sin).rotate(self.at)))
     }

@@ -5,14 +5,14 @@ use glam::DVec2;
 
 /// Pairs of bodies that do not touch each other, by their keys.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Apart(Vec<(u64, u64)>);
+pub struct IgnoredPairs(Vec<(u64, u64)>);
 
-impl Apart {
+impl IgnoredPairs {
     /// Adds a pair.
     pub fn insert(&mut self, a: u64, b: u64) {
         let pair = (a.min(b), a.max(b));
-        if let Err(place) = self.0.binary_search(&pair) {
-            self.0.insert(place, pair);
+        if let Err(index) = self.0.binary_search(&pair) {
+            self.0.insert(index, pair);
         }
     }
 

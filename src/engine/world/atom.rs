@@ -128,6 +128,6 @@ mod tests {
         assert_eq!(told(&mut world), (true, (0, 0..1, 1, 1), shape));
         assert_eq!(shape, (DVec2::ZERO, DVec2::ZERO, 0.5, 1e3));
         let packed = packed::rebuild(&mut world, Bodies::default());
-        assert_eq!(bodies.map(|body| packed.place(body)), [Some(0), None, None]);
+        assert_eq!(bodies.map(|body| packed.index(body)), [Some(0), None, None]);
     }
 }

@@ -8,7 +8,7 @@ use crate::world::Bodies;
 
 /// Pose and velocity of a body at a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Moment {
+pub struct MotionSample {
     /// Time in seconds.
     pub time: f64,
     /// Centre of mass in metres.
@@ -21,21 +21,21 @@ pub struct Moment {
     pub spin: f64,
 }
 
-impl Moment {
+impl MotionSample {
     /// The present moment of the body at `place`.
-    pub fn of(bodies: &Bodies, place: usize, time: f64) -> Self {
+    pub fn of(bodies: &Bodies, index: usize, time: f64) -> Self {
         Self {
             time,
-            position: bodies.position[place],
-            velocity: bodies.velocity[place],
-            angle: bodies.angle[place],
-            spin: bodies.spin[place],
+            position: bodies.position[index],
+            velocity: bodies.velocity[index],
+            angle: bodies.angle[index],
+            spin: bodies.spin[index],
         }
     }
 }
 
 /// Position at `time`, in metres; at the ends exactly theirs.
-pub fn position_between(before: &Moment, after: &Moment, time: f64) -> DVec2 {
+pub fn position_between(before: &MotionSample, after: &MotionSample, time: f64) -> DVec2 {
     let Some(w) = weights(before, after, time) else { return after.position };
     before.position
         + (after.position - before.position) * w.change
@@ -44,7 +44,7 @@ pub fn position_between(before: &Moment, after: &Moment, time: f64) -> DVec2 {
 }
 
 /// Angle at `time`, in radians; at the ends exactly theirs.
-pub fn angle_between(before: &Moment, after: &Moment, time: f64) -> f64 {
+pub fn angle_between(before: &MotionSample, after: &MotionSample, time: f64) -> f64 {
     let Some(w) = weights(before, after, time) else { return after.angle };
     before.angle + (after.angle - before.angle) * w.change + before.spin * w.slope_before + after.spin * w.slope_after
 }
@@ -55,7 +55,7 @@ struct Weights {
     slope_after: f64,
 }
 
-fn weights(before: &Moment, after: &Moment, time: f64) -> Option<Weights> {
+fn weights(before: &MotionSample, after: &MotionSample, time: f64) -> Option<Weights> {
     let length = after.time - before.time;
     let s = (time - before.time) / length;
     if length <= 0.0 || s >= 1.0 {
@@ -76,7 +76,7 @@ mod tests {
     /// A cubic is met exactly; a quartic is missed by (t - t0)^2 (t - t1)^2 x/4!. Source: Hermite interpolation error.
     #[test]
     fn a_cubic_is_met_exactly() {
-        let cubic = |t: f64| Moment {
+        let cubic = |t: f64| MotionSample {
             time: t,
             position: DVec2::new(t * t * t, 1.0 - t),
             velocity: DVec2::new(3.0 * t * t, -1.0),

@@ -39,8 +39,8 @@ impl Bodies {
         }
         resize!(bodies, Entity::PLACEHOLDER, entity);
         resize!(bodies, false, dynamic moves collides);
-        resize!(bodies, 0.0, mass inertia angle angle_rest spin torque);
-        resize!(bodies, DVec2::ZERO, position position_rest velocity force);
+        resize!(bodies, 0.0, mass inertia angle angle_residual spin torque);
+        resize!(bodies, DVec2::ZERO, position position_residual velocity force);
         resize!(atoms, 0.0, atom_radius);
         if !self.estimated_velocity.is_empty() || !self.estimated_spin.is_empty() {
             resize!(bodies, DVec2::ZERO, estimated_velocity);

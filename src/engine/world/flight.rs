@@ -13,9 +13,9 @@
 use glam::DVec2;
 
 use super::aloft::{Air, Aloft, Land, Start};
+use super::chunk::PerBody;
 use super::motion::Travel;
 use super::packed::Bodies;
-use super::part::PerBody;
 use jostle_simd::Record;
 use serde::{Deserialize, Serialize};
 
@@ -205,8 +205,8 @@ impl Bodies {
         flights.weighed.0 -= self.mass[body];
         flights.weighed.1.iter_mut().zip(moment).for_each(|(sum, moment)| *sum -= moment);
         flights.since[body] = BOUND;
-        let place = flights.bound.partition_point(|&bound| (bound as usize) < body);
-        flights.bound.insert(place, body as u32);
+        let index = flights.bound.partition_point(|&bound| (bound as usize) < body);
+        flights.bound.insert(index, body as u32);
         flights.newly_bound.push(body as u32);
     }
 
@@ -278,11 +278,11 @@ impl Bodies {
         flights.since[body] = flights.ticks;
         flights.starts[body] = Start {
             position: self.position[body],
-            position_rest: self.position_rest[body],
+            position_residual: self.position_residual[body],
             // Includes the kick that ends the tick.
             velocity: drifted + field * (0.5 * dt),
             angle: self.angle[body],
-            angle_rest: self.angle_rest[body],
+            angle_residual: self.angle_residual[body],
         }
         .record();
         let moment = flights.moment(body, self.mass[body]);

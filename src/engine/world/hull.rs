@@ -149,14 +149,14 @@ impl Bodies {
     }
 
     /// The places of the hulls of a body.
-    pub fn places_of_hulls(&self, body: usize) -> std::ops::Range<usize> {
+    pub fn indices_of_hulls(&self, body: usize) -> std::ops::Range<usize> {
         let first = |body: usize| self.hulls.partition_point(|hull| (hull.body as usize) < body);
         first(body)..first(body + 1)
     }
 
     /// The hulls of a body.
     pub fn hulls_of(&self, body: usize) -> impl Iterator<Item = &PackedHull> {
-        self.hulls[self.places_of_hulls(body)].iter()
+        self.hulls[self.indices_of_hulls(body)].iter()
     }
 
     /// Half the width in metres of the owner of an atom. For a disc it is the radius, for a corner half the least width

@@ -23,10 +23,10 @@ impl Keys {
     ///
     /// # Panics
     /// If there are fewer.
-    pub fn at(&self, place: usize) -> u64 {
-        assert!(place < self.len, "no key {place} among {}", self.len);
-        let (first, key) = self.runs[self.runs.partition_point(|&(first, _)| first <= place) - 1];
-        key + (place - first) as u64
+    pub fn at(&self, index: usize) -> u64 {
+        assert!(index < self.len, "no key {index} among {}", self.len);
+        let (first, key) = self.runs[self.runs.partition_point(|&(first, _)| first <= index) - 1];
+        key + (index - first) as u64
     }
 
     /// How many there are.
@@ -39,7 +39,7 @@ impl Keys {
         let run = self.runs.partition_point(|&(_, begin)| begin <= key).checked_sub(1)?;
         let (first, begin) = self.runs[run];
         let end = self.runs.get(run + 1).map_or(self.len, |&(next, _)| next);
-        usize::try_from(key - begin).ok().map(|further| first + further).filter(|&place| place < end)
+        usize::try_from(key - begin).ok().map(|further| first + further).filter(|&index| index < end)
     }
 
     /// All of them.
@@ -67,6 +67,6 @@ mod tests {
         for key in (0..12).chain([u64::MAX - 1, u64::MAX]) {
             assert_eq!(keys.find(key), listed.iter().position(|&listed| listed == key), "{key}");
         }
-        assert_eq!((0..listed.len()).map(|place| keys.at(place)).collect::<Vec<_>>(), listed);
+        assert_eq!((0..listed.len()).map(|index| keys.at(index)).collect::<Vec<_>>(), listed);
     }
 }

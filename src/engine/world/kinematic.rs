@@ -207,7 +207,7 @@ impl Prescribed {
     /// Acceleration in m/s2 and rate of the spin in rad/s2 of body `body`. Zero if its motion is not prescribed.
     pub fn acceleration(&self, body: usize) -> (DVec2, f64) {
         match self.motions.binary_search_by_key(&body, |motion| motion.0) {
-            Ok(place) => self.motions[place].1.acceleration(self.time, self.middle),
+            Ok(index) => self.motions[index].1.acceleration(self.time, self.middle),
             Err(_) => (DVec2::ZERO, 0.0),
         }
     }
@@ -221,8 +221,8 @@ impl Prescribed {
 
     /// The state of body `body` in `ahead` seconds, if its motion is prescribed.
     pub fn ahead(&self, body: usize, ahead: f64) -> Option<PrescribedState> {
-        let place = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;
-        Some(self.motions[place].1.state(self.time + ahead))
+        let index = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;
+        Some(self.motions[index].1.state(self.time + ahead))
     }
 }
 

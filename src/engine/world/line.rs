@@ -158,7 +158,7 @@ impl PackedLine {
     /// are not if the line bends towards its open side.
     pub(crate) fn round_ends(&self, wall: usize) -> [bool; 2] {
         let piece = wall - self.first as usize;
-        [piece + 1, piece].map(|place| self.joints[place].is_none_or(|joint| joint.tangent < 0.0))
+        [piece + 1, piece].map(|index| self.joints[index].is_none_or(|joint| joint.tangent < 0.0))
     }
 
     /// The places of its pieces among the walls.
@@ -171,16 +171,16 @@ impl PackedLine {
         self.descend(self.boxes.len(), 0, (at, reach * reach), see);
     }
 
-    fn descend(&self, level: usize, place: usize, (at, square): (DVec2, f64), see: &mut impl FnMut(usize)) {
+    fn descend(&self, level: usize, index: usize, (at, square): (DVec2, f64), see: &mut impl FnMut(usize)) {
         if level == 0 {
-            return see(place);
+            return see(index);
         }
-        let (low, high) = self.boxes[level - 1][place];
+        let (low, high) = self.boxes[level - 1][index];
         if at.distance_squared(at.clamp(low, high)) > square {
             return;
         }
         let below = if level == 1 { self.count as usize } else { self.boxes[level - 2].len() };
-        for child in IN_BOX * place..below.min(IN_BOX * (place + 1)) {
+        for child in IN_BOX * index..below.min(IN_BOX * (index + 1)) {
             self.descend(level - 1, child, (at, square), see);
         }
     }

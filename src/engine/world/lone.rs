@@ -24,22 +24,22 @@ pub(crate) struct Surface {
 pub(super) struct Surfaces {
     list: Vec<Surface>,
     /// Places in the list, by the bits of the stiffness and the place of the material.
-    places: BTreeMap<(u64, usize), u32>,
+    indices: BTreeMap<(u64, usize), u32>,
 }
 
 impl Surfaces {
     /// The place of the surface of an atom in the list.
-    pub fn place(&mut self, Atom { stiffness, material, .. }: Atom) -> u32 {
-        *self.places.entry((stiffness.to_bits(), material.place())).or_insert_with(|| {
+    pub fn index(&mut self, Atom { stiffness, material, .. }: Atom) -> u32 {
+        *self.indices.entry((stiffness.to_bits(), material.index())).or_insert_with(|| {
             self.list.push(Surface { stiffness, material });
             self.list.len() as u32 - 1
         })
     }
 
     /// The list, and the index of each atom in it. The indices are empty if all atoms have the same surface.
-    pub fn listed(self, places: Vec<u32>) -> (Vec<Surface>, Vec<u32>) {
-        let places = if self.list.len() == 1 { Vec::new() } else { places };
-        (self.list, places)
+    pub fn listed(self, indices: Vec<u32>) -> (Vec<Surface>, Vec<u32>) {
+        let indices = if self.list.len() == 1 { Vec::new() } else { indices };
+        (self.list, indices)
     }
 }
 
@@ -77,7 +77,7 @@ impl Bodies {
     }
 
     fn surface(&self, atom: usize) -> &Surface {
-        &self.surfaces[self.atom_surface.get(atom).map_or(0, |&place| place as usize)]
+        &self.surfaces[self.atom_surface.get(atom).map_or(0, |&index| index as usize)]
     }
 
     /// Stiffness of an atom in N/m.

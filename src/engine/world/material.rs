@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
-use crate::scene::{Kind, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Outline, Section};
 
 /// The name of the default material. It always exists, and a scene may redefine it.
 pub const DEFAULT: &str = "default";
@@ -76,12 +76,12 @@ pub struct MaterialIndex(u32);
 
 impl MaterialIndex {
     /// The material at `place`.
-    pub fn new(place: usize) -> Self {
-        Self(place as u32)
+    pub fn new(index: usize) -> Self {
+        Self(index as u32)
     }
 
     /// The place.
-    pub fn place(self) -> usize {
+    pub fn index(self) -> usize {
         self.0 as usize
     }
 }
@@ -264,7 +264,7 @@ impl<'de> Deserialize<'de> for Friction {
 }
 
 impl Friction {
-    fn check(&self, report: &mut Report) {
+    fn check(&self, report: &mut Diagnostics) {
         if !self.both {
             report.not_negative("friction", self.sticking);
             return;
@@ -279,7 +279,7 @@ impl Friction {
     }
 }
 
-fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, report: &mut Report) {
+fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, report: &mut Diagnostics) {
     if let Some(restitution) = restitution {
         report.between("restitution", restitution, 0.0, 1.0);
     }
@@ -326,7 +326,7 @@ impl MaterialEntry {
         }
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.positive_if_given("stiffness", self.stiffness);
         if let Some(friction) = &self.friction {
             friction.check(report);
@@ -367,7 +367,7 @@ impl Section for MaterialsSection {
     }
 
     /// Reports numbers out of their range and unknown colours.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         for (name, entry) in &self.0.0 {
             report.within(&format!("[\"{name}\"]"), |report| entry.check(outline, report));
         }
@@ -409,7 +409,7 @@ impl Section for PairsSection {
     }
 
     /// Reports unknown materials, duplicate or empty pairs, and numbers out of range.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         let mut seen: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for (index, pair) in self.0.iter().enumerate() {
             let (a, b) = (pair.between.0.as_str(), pair.between.1.as_str());
@@ -441,13 +441,13 @@ impl Section for PairsSection {
 }
 
 /// Reports a material's name that is unknown, at the path `material`. `None` is the default material.
-pub fn require(name: Option<&str>, outline: &Outline, report: &mut Report) {
+pub fn require(name: Option<&str>, outline: &Outline, report: &mut Diagnostics) {
     if let Some(name) = name {
         require_at(name, "material", outline, report);
     }
 }
 
-fn require_at(name: &str, path: &str, outline: &Outline, report: &mut Report) {
+fn require_at(name: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     if name != DEFAULT {
         outline.require(Kind::MATERIAL, name, path, report);
     }

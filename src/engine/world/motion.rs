@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
+use super::begin_evaluation::Pose;
+use super::chunk::{Part, PerBody, parts_of};
 use super::packed::{Bodies, Moved};
-use super::part::{Part, PerBody, parts_of};
-use super::pose::Pose;
 use jostle_simd::{BLOCK, Kernel, Lanes, Vectors};
 
 /// The ways of bodies.
@@ -152,10 +152,10 @@ fn compensated<N: Copy + Add<Output = N> + Sub<Output = N>>(before: N, rest: N, 
 impl PerBody for Advance {
     #[inline(always)]
     fn fetch(part: &Part, first: usize) {
-        Part::fetch_pairs([part.velocity, part.force, part.position, part.position_rest], first);
+        Part::fetch_pairs([part.velocity, part.force, part.position, part.position_residual], first);
         Part::fetch_pairs([part.estimated_velocity], first);
         Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
-        Part::fetch_numbers([part.angle, part.angle_rest, part.extent, part.estimated_spin], first);
+        Part::fetch_numbers([part.angle, part.angle_residual, part.extent, part.estimated_spin], first);
     }
 
     #[inline(always)]
@@ -187,14 +187,15 @@ impl PerBody for Advance {
             drift.store(&mut part.drift[first..]);
             turn.store(&mut part.turn[first..]);
         }
-        let (position, rest) = (Vectors::load(&part.position[first..]), Vectors::load(&part.position_rest[first..]));
+        let (position, rest) =
+            (Vectors::load(&part.position[first..]), Vectors::load(&part.position_residual[first..]));
         let (position, rest) = compensated(position, rest, drift);
         position.store(&mut part.position[first..]);
-        rest.store(&mut part.position_rest[first..]);
-        let (angle, rest) = (V::load(&part.angle[first..]), V::load(&part.angle_rest[first..]));
+        rest.store(&mut part.position_residual[first..]);
+        let (angle, rest) = (V::load(&part.angle[first..]), V::load(&part.angle_residual[first..]));
         let (angle, rest) = compensated(angle, rest, turn);
         angle.store(&mut part.angle[first..]);
-        rest.store(&mut part.angle_rest[first..]);
+        rest.store(&mut part.angle_residual[first..]);
         if !part.records.is_empty() {
             let radius = V::load(&part.extent[first..]);
             V::store_records([position, drift, seen, Vectors::of(turn, radius)], &mut part.records[first..]);

@@ -7,7 +7,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::apart::Apart;
+use super::apart::IgnoredPairs;
 use super::atom::{atoms_of, count_atoms};
 use super::body::{Body, Mass, Motion, Position, Rotation, Spin, Velocity};
 use super::fitting::Counts;
@@ -55,7 +55,7 @@ pub struct Bodies {
     /// Entity of each body.
     pub entity: Vec<Entity>,
     /// Index of the body of each entity, by the number of the entity. The values of other entities are meaningless.
-    pub(crate) places: Vec<u32>,
+    pub(crate) indices: Vec<u32>,
     /// Key of each body, ascending.
     pub key: Keys,
     /// Whether the body moves by forces.
@@ -82,11 +82,11 @@ pub struct Bodies {
     /// Centre of mass in metres.
     pub position: Vec<DVec2>,
     /// Rounding remainder of the position (compensated summation, Kahan 1965).
-    pub position_rest: Vec<DVec2>,
+    pub position_residual: Vec<DVec2>,
     /// Angle in radians, continuous.
     pub angle: Vec<f64>,
     /// Rounding remainder of the angle.
-    pub angle_rest: Vec<f64>,
+    pub angle_residual: Vec<f64>,
     /// Velocity in m/s.
     pub velocity: Vec<DVec2>,
     /// Angular velocity in rad/s.
@@ -202,9 +202,9 @@ impl Bodies {
     /// Index of the body of an entity. `None` for entities without a body, and for bodies that came after the arrays
     /// were filled.
     #[inline]
-    pub fn place(&self, entity: Entity) -> Option<usize> {
-        let place = *self.places.get(entity.index_u32() as usize)? as usize;
-        (self.entity.get(place) == Some(&entity)).then_some(place)
+    pub fn index(&self, entity: Entity) -> Option<usize> {
+        let index = *self.indices.get(entity.index_u32() as usize)? as usize;
+        (self.entity.get(index) == Some(&entity)).then_some(index)
     }
 
     /// How many bodies move by forces.
@@ -257,8 +257,8 @@ impl Bodies {
         if self.asleep.is_empty() {
             return first..last;
         }
-        let place = |block: usize| self.awake.partition_point(|&awake| (awake as usize) < block);
-        place(first)..place(last)
+        let index = |block: usize| self.awake.partition_point(|&awake| (awake as usize) < block);
+        index(first)..index(last)
     }
 
     /// Velocity of a point that moves with body `body`, `arm` metres from its centre of mass.
@@ -410,8 +410,8 @@ impl Bodies {
             return;
         }
         self.atom_hull = vec![NO_HULL; self.atom_count()];
-        for (place, hull) in self.hulls.iter().enumerate() {
-            self.atom_hull[hull.corners()].fill(place as u32);
+        for (index, hull) in self.hulls.iter().enumerate() {
+            self.atom_hull[hull.corners()].fill(index as u32);
         }
     }
 
@@ -421,11 +421,11 @@ impl Bodies {
         for list in [&mut self.dynamic, &mut self.moves, &mut self.collides] {
             list.reserve_exact(bodies);
         }
-        let Self { mass, inertia, angle, angle_rest, spin, torque, .. } = self;
-        for list in [mass, inertia, angle, angle_rest, spin, torque] {
+        let Self { mass, inertia, angle, angle_residual, spin, torque, .. } = self;
+        for list in [mass, inertia, angle, angle_residual, spin, torque] {
             list.reserve_exact(bodies);
         }
-        for list in [&mut self.position, &mut self.position_rest, &mut self.velocity, &mut self.force] {
+        for list in [&mut self.position, &mut self.position_residual, &mut self.velocity, &mut self.force] {
             list.reserve_exact(bodies);
         }
         self.atom_radius.reserve_exact(atoms);
@@ -463,26 +463,26 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         threads: previous.threads,
         field: previous.field,
         flights: previous.flights.ended(),
-        apart: world.get_resource::<Apart>().map(|apart| apart.pairs().to_vec()).unwrap_or_default(),
+        apart: world.get_resource::<IgnoredPairs>().map(|apart| apart.pairs().to_vec()).unwrap_or_default(),
         lone_discs: found.iter().all(|&(_, entity)| is_lone_disc(world, entity)),
         ..Default::default()
     };
     let last = found.iter().map(|(_, entity)| entity.index_u32() as usize).max();
-    bodies.places = vec![0; last.map_or(0, |last| last + 1)];
+    bodies.indices = vec![0; last.map_or(0, |last| last + 1)];
     bodies.make_room(found.len(), count_atoms(world));
     let mut surfaces = Surfaces::default();
-    for (place, &(key, entity)) in found.iter().enumerate() {
+    for (index, &(key, entity)) in found.iter().enumerate() {
         let body = world.entity(entity);
         let &Body { motion, collides, .. } = body.get::<Body>().expect("queried with Body");
         let &Mass { mass, inertia } = body.get::<Mass>().expect("Body requires Mass");
         let dynamic = motion == Motion::Dynamic;
         bodies.entity.push(entity);
-        bodies.places[entity.index_u32() as usize] = place as u32;
+        bodies.indices[entity.index_u32() as usize] = index as u32;
         bodies.key.push(key);
         bodies.dynamic.push(dynamic);
         let prescribed = body.get::<Kinematic>().filter(|_| motion == Motion::Kinematic);
         bodies.moves.push(dynamic || prescribed.is_some());
-        bodies.prescribed.motions.extend(prescribed.map(|motion| (place, motion.clone())));
+        bodies.prescribed.motions.extend(prescribed.map(|motion| (index, motion.clone())));
         bodies.collides.push(collides);
         bodies.mass.push(mass);
         bodies.inertia.push(inertia);
@@ -493,9 +493,9 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         let position_kept = kept(before.is_some_and(|b| previous.position[b] == position));
         let angle_kept = kept(before.is_some_and(|b| previous.angle[b] == angle));
         bodies.position.push(position);
-        bodies.position_rest.push(position_kept.map_or(DVec2::ZERO, |b| previous.position_rest[b]));
+        bodies.position_residual.push(position_kept.map_or(DVec2::ZERO, |b| previous.position_residual[b]));
         bodies.angle.push(angle);
-        bodies.angle_rest.push(angle_kept.map_or(0.0, |b| previous.angle_rest[b]));
+        bodies.angle_residual.push(angle_kept.map_or(0.0, |b| previous.angle_residual[b]));
         let velocity = body.get::<Velocity>().expect("Body requires Velocity").0;
         let spin = body.get::<Spin>().expect("Body requires Spin").0;
         bodies.velocity.push(velocity);
@@ -510,11 +510,11 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         let (mut extent, first_atom) = (0.0_f64, bodies.atom_count() as u32);
         for atom in atoms_of(world, entity) {
             bodies.atom_radius.push(atom.radius);
-            bodies.atom_surface.push(surfaces.place(atom));
+            bodies.atom_surface.push(surfaces.index(atom));
             if !bodies.lone_discs {
                 extent = extent.max(atom.offset.length() + atom.radius);
                 bodies.atom_offset.push(atom.offset);
-                bodies.atom_body.push(place as u32);
+                bodies.atom_body.push(index as u32);
             }
         }
         if !bodies.lone_discs {
@@ -525,7 +525,7 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
             bodies.first_atom.push(first_atom);
         }
         if let Some(hulls) = body.get::<Hulls>() {
-            bodies.hulls.extend(PackedHull::of_body(place, hulls, bodies.atom_radius.len()));
+            bodies.hulls.extend(PackedHull::of_body(index, hulls, bodies.atom_radius.len()));
         }
     }
     bodies.list_corners();
@@ -537,8 +537,8 @@ pub fn rebuild(world: &mut World, previous: Bodies) -> Bodies {
         for body in 0..bodies.len() {
             let (pose, atoms) = ((bodies.position[body], bodies.angle[body]), bodies.atoms_of(body));
             let turned = place_atoms::<f64>(pose, &bodies.atom_offset[atoms.clone()], &mut bodies.atom_position[atoms]);
-            if let (Some(turned), Some(place)) = (turned, bodies.turned.get_mut(body)) {
-                *place = turned;
+            if let (Some(turned), Some(slot)) = (turned, bodies.turned.get_mut(body)) {
+                *slot = turned;
             }
         }
     }

@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::delta::Patch;
-use super::part::{PartFile, Unfinished};
+use super::partial_file::{PartFile, Unfinished};
 use super::stream::{Closed, Sink, Stream};
 use super::{FilmSettings, Format, Opened, OutputError};
 use crate::raster::View;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
-use super::part::{PartFile, Unfinished};
+use super::partial_file::{PartFile, Unfinished};
 use super::raw::STANDARD_OUTPUT;
 
 /// A table in the making: a `.part` file until it is complete, or standard output.

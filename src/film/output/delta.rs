@@ -26,7 +26,7 @@ impl Patch {
             // Only what lies outside the box so far can widen it.
             left = before[..left].iter().zip(&after[..left]).position(differ).unwrap_or(left);
             let beyond = before[right..].iter().zip(&after[right..]).rposition(differ);
-            right = beyond.map_or(right, |place| right + place + 1);
+            right = beyond.map_or(right, |index| right + index + 1);
         }
         Some(Patch { left, top, width: right - left, height: bottom + 1 - top })
     }

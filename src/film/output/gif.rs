@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::delta::Patch;
 use super::lzw::Packer;
 use super::palette::{Histogram, Matcher, Palette};
-use super::part::{PartFile, Unfinished};
+use super::partial_file::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
 use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, Written, crew};
 use crate::raster::{Painter, View};
@@ -130,14 +130,14 @@ impl Worker {
 /// The parts that never move, as palette indices.
 struct Scenery {
     painter: Arc<Painter>,
-    places: Vec<u8>,
+    indices: Vec<u8>,
 }
 
 /// One frame on its way.
 struct Job {
     frame: Frame,
     scenery: Arc<Scenery>,
-    places: Vec<u8>,
+    indices: Vec<u8>,
 }
 
 struct Packed {
@@ -171,10 +171,10 @@ impl Gif {
         let first = self.studio.painter(&self.waiting[0])?;
         let pinned = first.flat_colors();
         let count = self.waiting.len().min(SAMPLED_FROM);
-        let mut places: Vec<usize> = (0..SAMPLES).map(|sample| sample * count / SAMPLES).collect();
-        places.dedup();
+        let mut indices: Vec<usize> = (0..SAMPLES).map(|sample| sample * count / SAMPLES).collect();
+        indices.dedup();
         let mut jobs = Vec::new();
-        for frame in places.into_iter().map(|place| &self.waiting[place]) {
+        for frame in indices.into_iter().map(|index| &self.waiting[index]) {
             jobs.push((frame, self.studio.painter(frame)?, Histogram::default()));
         }
         crew::share_out(&mut self.workers, &mut jobs, |worker, (frame, painter, histogram)| {
@@ -202,19 +202,19 @@ impl Gif {
         let mut jobs = Vec::with_capacity(frames.len());
         for frame in frames {
             let scenery = self.scenery(&frame, palette)?;
-            jobs.push(Job { frame, scenery, places: vec![0; self.width * self.height] });
+            jobs.push(Job { frame, scenery, indices: vec![0; self.width * self.height] });
         }
         crew::share_out(&mut self.workers, &mut jobs, |worker, job| {
-            let Scenery { painter, places } = &*job.scenery;
+            let Scenery { painter, indices } = &*job.scenery;
             worker.easel.paint(painter, &job.frame);
-            let backdrop = (painter.backdrop().data(), places.as_slice());
-            worker.matcher.match_over(palette, worker.easel.picture.data(), backdrop, &mut job.places);
+            let backdrop = (painter.backdrop().data(), indices.as_slice());
+            worker.matcher.match_over(palette, worker.easel.picture.data(), backdrop, &mut job.indices);
         });
         let last = std::mem::take(&mut self.last);
-        let before = std::iter::once(last.as_slice()).chain(jobs.iter().map(|job| job.places.as_slice()));
+        let before = std::iter::once(last.as_slice()).chain(jobs.iter().map(|job| job.indices.as_slice()));
         let mut pairs: Vec<_> = before.zip(&jobs).map(|(before, job)| (before, job, None)).collect();
         crew::share_out(&mut self.workers, &mut pairs, |worker, (before, job, packed)| {
-            *packed = Some(worker.pack(before, &job.places, self.width, palette));
+            *packed = Some(worker.pack(before, &job.indices, self.width, palette));
         });
         for packed in pairs.into_iter().filter_map(|(_, _, packed)| packed) {
             let frame = gif::Frame {
@@ -234,7 +234,7 @@ impl Gif {
                 return Err(OutputError::TooLarge { path: self.path.clone(), bytes, frames: self.frames });
             }
         }
-        self.last = jobs.pop().map(|job| job.places).unwrap_or_default();
+        self.last = jobs.pop().map(|job| job.indices).unwrap_or_default();
         Ok(())
     }
 
@@ -244,9 +244,9 @@ impl Gif {
             return Ok(scenery.clone());
         }
         let painter = self.studio.painter(frame)?;
-        let mut places = vec![0; self.width * self.height];
-        Matcher::default().match_all(palette, painter.backdrop().data(), &mut places);
-        let scenery = Arc::new(Scenery { painter, places });
+        let mut indices = vec![0; self.width * self.height];
+        Matcher::default().match_all(palette, painter.backdrop().data(), &mut indices);
+        let scenery = Arc::new(Scenery { painter, indices });
         self.scenery = Some(scenery.clone());
         Ok(scenery)
     }

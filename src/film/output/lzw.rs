@@ -36,22 +36,22 @@ impl Packer {
         let mut output = Bits { bytes: vec![bits as u8], pending: 0, count: 0, width: bits + 1 };
         output.push(clear);
         let mut next = self.forget(clear);
-        let mut place = 0;
-        while let Some(&first) = symbols.get(place) {
-            let (mut code, length) = self.longest_run(&symbols[place..], first);
-            place += length;
+        let mut index = 0;
+        while let Some(&first) = symbols.get(index) {
+            let (mut code, length) = self.longest_run(&symbols[index..], first);
+            index += length;
             // Prolong the match as far as known.
             let missing = loop {
-                let Some(&symbol) = symbols.get(place) else { break None };
+                let Some(&symbol) = symbols.get(index) else { break None };
                 let prolonged = self.find(code, symbol).or_else(|| {
-                    let other = (symbol == loose).then(|| alternatives.get(place)).flatten()?;
+                    let other = (symbol == loose).then(|| alternatives.get(index)).flatten()?;
                     self.find(code, *other)
                 });
                 match prolonged {
                     Some(longer) => code = longer,
                     None => break Some(symbol),
                 }
-                place += 1;
+                index += 1;
             };
             output.push(code);
             // The reader's table is one entry behind: it widens its codes when this many are known.
@@ -200,7 +200,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(2);
         // A pattern with random gaps. With the alternatives an encoder finds the pattern again, and without them it
         // sees noise.
-        let alternatives: Vec<u8> = (0..50_000).map(|place| [0, 1, 2, 0, 3, 1, 1][place % 7]).collect();
+        let alternatives: Vec<u8> = (0..50_000).map(|index| [0, 1, 2, 0, 3, 1, 1][index % 7]).collect();
         let gap = |symbol: &u8| if random.next_u32() % 10 == 0 { 7 } else { *symbol };
         let symbols: Vec<u8> = alternatives.iter().map(gap).collect();
         let mut packer = Packer::default();

@@ -12,7 +12,7 @@ mod error;
 mod gif;
 mod lzw;
 mod palette;
-mod part;
+mod partial_file;
 mod png;
 mod raw;
 pub mod sheet;
@@ -23,11 +23,11 @@ mod whole;
 
 use std::path::{Path, PathBuf};
 
-use part::PartFile;
+use partial_file::PartFile;
 
 pub use self::png::{flat_picture, write_picture};
 pub use error::OutputError;
-pub use part::behind_links;
+pub use partial_file::behind_links;
 pub use whole::{may_be_written, write_new, write_whole};
 
 use crate::raster::View;

@@ -67,7 +67,7 @@ impl Palette {
             }
         }
         let mut by_green: Vec<(Rgb, u8)> = colors.iter().copied().zip(0..=u8::MAX).collect();
-        by_green.sort_by_key(|(color, place)| (color.1, *place));
+        by_green.sort_by_key(|(color, index)| (color.1, *index));
         Palette { colors, by_green }
     }
 
@@ -92,8 +92,8 @@ impl Palette {
     fn nearest(&self, color: Rgb) -> u8 {
         let (below, above) = self.by_green.split_at(self.by_green.partition_point(|(own, _)| own.1 < color.1));
         let mut best = u32::MAX;
-        let mut try_on = |&(own, place): &(Rgb, u8)| {
-            best = best.min(error(color, own) << 8 | u32::from(place));
+        let mut try_on = |&(own, index): &(Rgb, u8)| {
+            best = best.min(error(color, own) << 8 | u32::from(index));
             // Further on the green alone is worse than the best so far.
             error(Rgb(0, color.1, 0), Rgb(0, own.1, 0)) <= best >> 8
         };
@@ -156,29 +156,35 @@ impl Default for Matcher {
 
 impl Matcher {
     /// The place of each pixel (four bytes).
-    pub(super) fn match_all(&mut self, palette: &Palette, pixels: &[u8], places: &mut [u8]) {
+    pub(super) fn match_all(&mut self, palette: &Palette, pixels: &[u8], indices: &mut [u8]) {
         let mut last = ([0; 4], 0);
-        for (pixel, place) in pixels.as_chunks::<4>().0.iter().zip(places) {
+        for (pixel, index) in pixels.as_chunks::<4>().0.iter().zip(indices) {
             if *pixel != last.0 {
-                last = (*pixel, self.place(palette, *pixel));
+                last = (*pixel, self.index(palette, *pixel));
             }
-            *place = last.1;
+            *index = last.1;
         }
     }
 
     /// The place of each pixel, given a backdrop whose places are known: most of a frame is backdrop.
-    pub(super) fn match_over(&mut self, palette: &Palette, pixels: &[u8], backdrop: (&[u8], &[u8]), places: &mut [u8]) {
+    pub(super) fn match_over(
+        &mut self,
+        palette: &Palette,
+        pixels: &[u8],
+        backdrop: (&[u8], &[u8]),
+        indices: &mut [u8],
+    ) {
         let known = backdrop.0.chunks(4 * BLOCK).zip(backdrop.1.chunks(BLOCK));
-        for ((pixels, places), known) in pixels.chunks(4 * BLOCK).zip(places.chunks_mut(BLOCK)).zip(known) {
+        for ((pixels, indices), known) in pixels.chunks(4 * BLOCK).zip(indices.chunks_mut(BLOCK)).zip(known) {
             if pixels == known.0 {
-                places.copy_from_slice(known.1);
+                indices.copy_from_slice(known.1);
             } else {
-                self.match_all(palette, pixels, places);
+                self.match_all(palette, pixels, indices);
             }
         }
     }
 
-    fn place(&mut self, palette: &Palette, pixel: [u8; 4]) -> u8 {
+    fn index(&mut self, palette: &Palette, pixel: [u8; 4]) -> u8 {
         let color = number(pixel);
         let slot = &mut self.memory[(color.wrapping_mul(0x9E37_79B1) >> (32 - SLOTS.trailing_zeros())) as usize];
         if *slot >> 8 != color || *slot == u32::MAX {
@@ -210,8 +216,8 @@ mod tests {
         let palette = Palette::new(&pinned, histogram, MOST_COLORS);
         assert_eq!(palette.colors.len(), MOST_COLORS);
         assert_eq!((palette.transparent(), palette.bits(), palette.table().len()), (255, 8, 768));
-        for (place, color) in pinned.into_iter().enumerate() {
-            assert_eq!(usize::from(palette.nearest(color)), place);
+        for (index, color) in pinned.into_iter().enumerate() {
+            assert_eq!(usize::from(palette.nearest(color)), index);
         }
         // 512 colours share 252 places: no grey is more than two levels off.
         for level in 0..=255 {
@@ -229,10 +235,10 @@ mod tests {
     #[test]
     fn places_are_the_same_with_and_without_backdrop_and_memory() {
         let palette = Palette::new(&[Rgb(250, 249, 246)], grey_ramp(), MOST_COLORS);
-        let backdrop: Vec<u8> = (0..1000_u32).flat_map(|place| [(place / 5) as u8, 7, 9, 255]).collect();
+        let backdrop: Vec<u8> = (0..1000_u32).flat_map(|index| [(index / 5) as u8, 7, 9, 255]).collect();
         let mut pixels = backdrop.clone();
-        for place in (0..4000).step_by(37) {
-            pixels[place] = pixels[place].wrapping_add(91);
+        for index in (0..4000).step_by(37) {
+            pixels[index] = pixels[index].wrapping_add(91);
         }
         let mut matcher = Matcher::default();
         let (mut known, mut all, mut over) = (vec![0; 1000], vec![0; 1000], vec![0; 1000]);
@@ -240,11 +246,11 @@ mod tests {
         matcher.match_all(&palette, &pixels, &mut all);
         Matcher::default().match_over(&palette, &pixels, (&backdrop, &known), &mut over);
         assert_eq!(all, over);
-        for (pixel, place) in pixels.chunks_exact(4).zip(all) {
+        for (pixel, index) in pixels.chunks_exact(4).zip(all) {
             let off = |own: &Rgb| error(*own, Rgb(pixel[0], pixel[1], pixel[2]));
             // `min_by_key` gives the first of equals.
             let nearest = palette.colors.iter().enumerate().min_by_key(|(_, own)| off(own));
-            assert_eq!(nearest.map(|(nearest, _)| nearest), Some(usize::from(place)));
+            assert_eq!(nearest.map(|(nearest, _)| nearest), Some(usize::from(index)));
         }
     }
 }

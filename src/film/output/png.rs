@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use tiny_skia::Pixmap;
 
-use super::part::{PartFile, Unfinished, sync_folder};
+use super::partial_file::{PartFile, Unfinished, sync_folder};
 use super::studio::{Easel, Studio};
 use super::whole::write_whole;
 use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, Written, crew};
@@ -113,8 +113,8 @@ impl Job {
 }
 
 impl Sequence {
-    fn file(&self, place: u64) -> PathBuf {
-        self.path.join(format!("frame_{place:05}.png"))
+    fn file(&self, index: u64) -> PathBuf {
+        self.path.join(format!("frame_{index:05}.png"))
     }
 
     /// Marks the sequence as broken, and adds the path of its first frames to the error.
@@ -160,7 +160,7 @@ impl Film for Sequence {
             return Err(OutputError::NoFrames { path: self.path });
         }
         sync_folder(&self.path).map_err(|cause| OutputError::io(&self.path, cause))?;
-        let left_over = (self.frames..).take_while(|place| self.file(*place).exists()).count() as u64;
+        let left_over = (self.frames..).take_while(|index| self.file(*index).exists()).count() as u64;
         let seconds = self.frames as f64 / self.frames_per_second;
         let written = Written { path: self.path, frames: self.frames, bytes: self.bytes, seconds, left_over };
         Ok(Draft { written, file: None })

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
-use super::part::{PartFile, Unfinished};
+use super::partial_file::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
 use super::{Draft, Film, OutputError, Target, Written, png};
 use crate::raster::View;

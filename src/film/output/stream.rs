@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::part::PartFile;
+use super::partial_file::PartFile;
 use super::studio::{Easel, Studio};
 use super::{Draft, Film, FilmSettings, OutputError, Written, crew};
 use crate::raster::{Painter, View};

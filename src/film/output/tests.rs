@@ -66,8 +66,8 @@ fn frames(count: usize) -> Vec<Frame> {
         color: None,
     };
     let cast = Arc::new(Cast { title: "Test".to_owned(), bodies, walls: vec![floor] });
-    let frame = |place: usize| {
-        let time = 0.04 * place as f64;
+    let frame = |index: usize| {
+        let time = 0.04 * index as f64;
         let pose = |x, y, angle| Pose { position: DVec2::new(x, y), angle };
         let poses = vec![pose(2.0, 0.5, 0.0), pose(0.5 + time, 1.5, 2.0 * time), pose(3.5 - time, 2.0, -time)];
         Frame { time, cast: cast.clone(), poses, marks: vec![Mark::plain(MarkShape::Time)], center: None }
@@ -154,8 +154,8 @@ fn an_apng_shows_exactly_the_frames_that_were_drawn() {
     let path = folder.path("film.apng");
     for (count, threads) in [(1, 1), (4, 2), (11, 3)] {
         let mut frames = frames(count);
-        for place in 5..8.min(count) {
-            frames[place] = frames[4].clone();
+        for index in 5..8.min(count) {
+            frames[index] = frames[4].clone();
         }
         let written = film(&path, threads, &frames).expect("a film");
         assert_eq!((written.frames, written.seconds), (count as u64, count as f64 / 30.0));
@@ -271,8 +271,8 @@ fn a_sequence_holds_each_frame_exactly() {
     let written = film(&target, 2, &frames).expect("pictures");
     assert_eq!((written.frames, written.left_over), (11, 0));
     let mut bytes = 0;
-    for (place, frame) in frames.iter().enumerate() {
-        let file = fs::read(target.join(format!("frame_{place:05}.png"))).expect("a picture");
+    for (index, frame) in frames.iter().enumerate() {
+        let file = fs::read(target.join(format!("frame_{index:05}.png"))).expect("a picture");
         bytes += file.len() as u64;
         assert_eq!(Pixmap::decode_png(&file).expect("a PNG"), drawn(frame));
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::JoinHandle;
 
-use super::part::{PartFile, Unfinished};
+use super::partial_file::{PartFile, Unfinished};
 use super::stream::{Closed, Sink, Stream};
 use super::{FilmSettings, Format, Opened, OutputError};
 use crate::raster::View;
@@ -85,7 +85,7 @@ impl Video {
             return Ok(());
         }
         let said = said.trim();
-        let begin = said.char_indices().rev().map(|(place, _)| place).take(SAID).last().unwrap_or(0);
+        let begin = said.char_indices().rev().map(|(index, _)| index).take(SAID).last().unwrap_or(0);
         Err(OutputError::Encoder {
             path: self.path.clone(),
             ended: format!("ended with {status}"),

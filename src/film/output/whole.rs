@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use super::OutputError;
-use super::part::{self, PartFile, Unfinished};
+use super::partial_file::{self, PartFile, Unfinished};
 
 /// Writes a file so that a reader finds the old one or the whole new one, never a part. An existing file keeps its
 /// permissions, and a link stays a link. A read-only file is not changed.
@@ -20,7 +20,7 @@ pub fn write_whole(path: &Path, content: impl AsRef<[u8]>) -> Result<(), OutputE
 /// # Errors
 /// If it is read-only, a folder, a device or a pipe.
 pub fn may_be_written(path: &Path) -> Result<(), OutputError> {
-    part::look_at(path).map_err(|cause| OutputError::io(path, cause))
+    partial_file::look_at(path).map_err(|cause| OutputError::io(path, cause))
 }
 
 /// Writes a file with an unused name. If another file takes the name meanwhile, that file stays.

@@ -50,13 +50,13 @@ const fn power(x: f64) -> f64 {
 const fn values() -> [u8; 4097] {
     let light = light();
     let mut table = [0; 4097];
-    let (mut place, mut value) = (0, 0);
-    while place < 4097 {
-        while value < 255 && 32 * place as u32 >= light[value] as u32 + light[value + 1] as u32 {
+    let (mut index, mut value) = (0, 0);
+    while index < 4097 {
+        while value < 255 && 32 * index as u32 >= light[value] as u32 + light[value + 1] as u32 {
             value += 1;
         }
-        table[place] = value as u8;
-        place += 1;
+        table[index] = value as u8;
+        index += 1;
     }
     table
 }

@@ -5,9 +5,9 @@
 
 mod camera;
 mod canvas;
+mod font;
 mod layers;
 mod light;
-mod outline;
 mod plots;
 mod silhouette;
 mod text;
@@ -131,9 +131,9 @@ impl Painter {
         let picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
         let weights = Weights::of(view.size());
         let colors = fills(cast, theme);
-        let figure = |place: usize| Figure::new(&cast.bodies[place], colors[place], camera, theme, weights.line);
-        let all = (0..cast.bodies.len()).map(|place| (place, figure(place)));
-        let (fixed, figures): (Vec<_>, Vec<_>) = all.partition(|(place, _)| cast.bodies[*place].fixed);
+        let figure = |index: usize| Figure::new(&cast.bodies[index], colors[index], camera, theme, weights.line);
+        let all = (0..cast.bodies.len()).map(|index| (index, figure(index)));
+        let (fixed, figures): (Vec<_>, Vec<_>) = all.partition(|(index, _)| cast.bodies[*index].fixed);
 
         let clock = Clock::new(weights.clock, view.frame_step, theme);
         // Walls pass by a camera that moves: its labels keep to the corner.
@@ -283,8 +283,8 @@ impl Painter {
 /// Draws bodies at their poses in the frame.
 fn paint_figures(figures: &[(usize, Figure)], frame: &Frame, camera: &Camera, picture: &mut Pixmap, field: &mut Field) {
     let mut canvas = Canvas::new(picture);
-    for (place, figure) in figures {
-        if let Some(pose) = frame.poses.get(*place) {
+    for (index, figure) in figures {
+        if let Some(pose) = frame.poses.get(*index) {
             figure.draw(pose, camera, &mut canvas, field);
         }
     }
@@ -329,8 +329,8 @@ impl Weights {
 }
 
 #[cfg(test)]
-mod tests;
+mod supersampled;
 #[cfg(test)]
-mod truth;
+mod tests;
 #[cfg(test)]
 mod vision;

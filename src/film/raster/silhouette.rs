@@ -338,8 +338,8 @@ fn closures(discs: &[Disc], bonds: &[(usize, usize)]) -> Vec<(usize, usize)> {
     // Each diagonal with a corner that sees both its ends.
     let mut corners = Vec::new();
     for (corner, around) in neighbors.iter().enumerate().filter(|(_, around)| around.len() <= NEIGHBORS_OF_A_LATTICE) {
-        for (place, &a) in around.iter().enumerate() {
-            for &b in &around[place + 1..] {
+        for (index, &a) in around.iter().enumerate() {
+            for &b in &around[index + 1..] {
                 let longest = 2.0 * std::f64::consts::SQRT_2 * discs[a].radius * (1.0 + TOUCH);
                 let near = discs[a].offset.distance(discs[b].offset) <= longest;
                 if near && !neighbors[a].contains(&b) {

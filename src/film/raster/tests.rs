@@ -97,7 +97,7 @@ fn only_the_clock_changes_when_nothing_moves() {
     };
     let (one, two) = (draw(1.11), draw(1.18));
     let changed = one.pixels().iter().zip(two.pixels()).enumerate().filter(|(_, (a, b))| a != b);
-    let columns: Vec<usize> = changed.map(|(place, _)| place % 240).collect();
+    let columns: Vec<usize> = changed.map(|(index, _)| index % 240).collect();
     let spread = columns.iter().max().expect("the clock goes") - columns.iter().min().expect("the clock goes");
     assert!(spread < 12, "only the last digit changes, not {spread} columns");
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use tiny_skia::{Path, PathBuilder, Transform};
 
-use super::outline::{Font, Letter};
+use super::font::{Font, Letter};
 
 /// The weights of the shipped font, Inter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

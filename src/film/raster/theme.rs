@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Deserializer, de};
 
+use jostle_frames::color_names::{COLOR_NAMES, THEMES};
 use jostle_frames::frame::Rgb;
-use jostle_frames::palette::{COLOR_NAMES, THEMES};
 
 /// Every colour of a film.
 #[derive(Clone, Debug, Deserialize, PartialEq)]

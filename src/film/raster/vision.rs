@@ -100,8 +100,8 @@ fn the_colours_of_bodies_stay_apart_for_all_eyes() {
         let colors = cycle(&theme);
         assert!(colors.len() >= 6, "{name}");
         for (eyes, matrix) in &EYES {
-            for (place, (a, first)) in colors.iter().enumerate() {
-                for (b, second) in &colors[place + 1..] {
+            for (index, (a, first)) in colors.iter().enumerate() {
+                for (b, second) in &colors[index + 1..] {
                     let found = distance(matrix, *first, *second);
                     assert!(found >= APART, "{name}: {a} and {b} are {found:.3} apart with {eyes}");
                 }

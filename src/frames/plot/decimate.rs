@@ -64,12 +64,12 @@ mod tests {
     /// chosen, never computed.
     #[test]
     fn the_extremes_of_every_column_are_kept() {
-        let noise = |place: u32| {
-            let word = place.wrapping_mul(2_654_435_761) >> 7;
-            f64::from(word % 1000) * libm::sin(f64::from(place) * 0.01)
+        let noise = |index: u32| {
+            let word = index.wrapping_mul(2_654_435_761) >> 7;
+            f64::from(word % 1000) * libm::sin(f64::from(index) * 0.01)
         };
         let all: Vec<Sample> =
-            (0..10_000).map(|place| Sample { time: f64::from(place), x: f64::from(place), y: noise(place) }).collect();
+            (0..10_000).map(|index| Sample { time: f64::from(index), x: f64::from(index), y: noise(index) }).collect();
         for per_column in [1, 2, 7, 137, 20_000] {
             let mut decimator = Decimator::default();
             let column = |sample: &Sample| sample.x as i64 / per_column;
@@ -91,8 +91,8 @@ mod tests {
     #[test]
     fn what_is_no_number_hides_no_extreme() {
         let mut decimator = Decimator::default();
-        for (place, y) in [f64::NAN, 3.0, -1.0, f64::NAN].into_iter().enumerate() {
-            decimator.push(0, Sample { time: place as f64, x: 0.0, y });
+        for (index, y) in [f64::NAN, 3.0, -1.0, f64::NAN].into_iter().enumerate() {
+            decimator.push(0, Sample { time: index as f64, x: 0.0, y });
         }
         let kept: Vec<f64> = decimator.finish().iter().map(|sample| sample.y).collect();
         assert!(kept[0].is_nan() && kept[3].is_nan() && kept[1..3] == [3.0, -1.0]);

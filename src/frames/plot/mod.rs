@@ -1,14 +1,14 @@
 //! Plots as plain data, sampled from a run beforehand, or read from a file.
 
+pub mod curve_names;
 mod decimate;
 mod legend;
-pub mod names;
 pub mod pairs;
 pub mod table;
 
+pub use curve_names::{common, headed, with_unit};
 pub use decimate::Decimator;
 pub use legend::{Legend, LegendEntry, LegendMark};
-pub use names::{common, headed, with_unit};
 
 /// A point of a curve, with the time at which it was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,7 +57,7 @@ impl Bars {
     /// The counts at a time (s); before the first ones nothing.
     pub fn at(&self, time: f64) -> &[u64] {
         let later = self.counts.partition_point(|(from, _)| *from <= time);
-        later.checked_sub(1).map_or(&[], |place| &self.counts[place].1)
+        later.checked_sub(1).map_or(&[], |index| &self.counts[index].1)
     }
 }
 

@@ -40,7 +40,7 @@ impl std::error::Error for TableError {}
 /// A [`TableError`] names the first line that is not as it should be.
 pub fn read(text: &str) -> Result<Vec<Column>, TableError> {
     let text = text.trim_start_matches('\u{feff}');
-    let lines = text.lines().enumerate().map(|(place, line)| (place + 1, line));
+    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
     let fail = |line, message: String| Err(TableError { line, message });
     let Some((line, header)) = lines.next() else { return fail(1, "the file has no line of names".to_owned()) };

@@ -1,5 +1,5 @@
 //! The form of the sections that macros replace, and of `Repeat`. They are read as text
-//! ([`expand`](super::super::expand)); the types here only describe them.
+//! ([`expand`](super::super::macros)); the types here only describe them.
 
 use std::collections::BTreeMap;
 

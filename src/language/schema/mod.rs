@@ -6,15 +6,15 @@
 //! [`Language::of`] calls them.
 
 mod choices;
-mod instance;
 mod json;
+mod json_instance;
 mod kinds;
 mod made;
 mod manual;
 mod tidy;
 
 pub use choices::Choice;
-pub use instance::as_json;
+pub use json_instance::as_json;
 pub use manual::anchor;
 
 use schemars::generate::{SchemaGenerator, SchemaSettings};
@@ -128,8 +128,8 @@ impl Language {
             std::mem::take(&mut self.sections).into_iter().partition(|section| section.name.contains('.'));
         for list in inside {
             let parent = list.name.split('.').next();
-            let place = sections.iter().position(|section| Some(&*section.name) == parent);
-            sections.insert(place.map_or(sections.len(), |place| place + 1), list);
+            let index = sections.iter().position(|section| Some(&*section.name) == parent);
+            sections.insert(index.map_or(sections.len(), |index| index + 1), list);
         }
         self.sections = sections;
         let inside = self.sections.iter().map(|section| section.name.clone()).filter(|name| name.contains('.'));

@@ -82,7 +82,7 @@ pub(crate) fn number_length(text: &str) -> usize {
 /// The number times a power of ten, rounded once.
 fn decimal(number: &str, exponent: i32) -> Option<f64> {
     let (digits, power) = match number.find(['e', 'E']) {
-        Some(place) => (&number[..place], number[place + 1..].parse::<i32>().ok()?),
+        Some(index) => (&number[..index], number[index + 1..].parse::<i32>().ok()?),
         None => (number, 0),
     };
     format!("{digits}e{}", power.checked_add(exponent)?).parse().ok()

@@ -4,9 +4,9 @@
 //! that a slow phase of the computer affects both. The first round is not timed. A separate run measures the parts of a
 //! tick, because measuring takes time.
 
-mod cells;
+mod grid;
 mod memory;
-mod plain;
+mod plain_loop;
 mod spread;
 
 use crate::SimulationExt;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 
 pub use memory::resident;
-pub use plain::Plain;
+pub use plain_loop::Plain;
 pub use spread::Spread;
 
 use jostle_engine::scene::SceneErrors;

@@ -38,7 +38,7 @@ impl Growth {
         let Seen(seen) = seen;
         // NaN is useless too.
         let lost = seen.iter().position(|(_, far, _)| !(*far <= USELESS * motion || motion == 0.0));
-        let horizon = lost.map(|place| place.checked_sub(1).map_or(0.0, |before| seen[before].0));
+        let horizon = lost.map(|index| index.checked_sub(1).map_or(0.0, |before| seen[before].0));
         let told = &seen[..lost.unwrap_or(seen.len())];
         let distance = told.iter().fold(0.0_f64, |most, (_, far, _)| most.max(*far));
         Self { motion, distance, speed: mean(told), horizon, seen }

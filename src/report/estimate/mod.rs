@@ -6,11 +6,11 @@
 //! Rounding is estimated by runs with disturbed last bits. The error of soft contacts is estimated by a run with
 //! stiffer ones.
 
-pub mod check;
 mod growth;
-mod model;
+mod model_error;
 mod rounding;
 mod twins;
+pub mod validation;
 
 use std::time::Duration;
 
@@ -185,7 +185,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -
         rounding::estimate(simulation, &run, scene, &mut found)?;
     }
     if wanted.model {
-        model::estimate(simulation, &run, scene, &mut found)?;
+        model_error::estimate(simulation, &run, scene, &mut found)?;
     }
     simulation.world_mut().insert_resource(found);
     Ok(())

@@ -20,14 +20,14 @@ struct Means {
 /// The distance of means from those of the reference. Speeds are a share of themselves, and positions a share of the
 /// ways of bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Apart {
+pub struct MeanDeviation {
     /// Root mean square of speeds, over that of the reference, minus one.
     pub speed: f64,
     /// Distance of the mean places, over how far bodies go.
     pub place: f64,
 }
 
-impl Apart {
+impl MeanDeviation {
     /// The greater of each, without signs.
     fn or_greater(self, other: Self) -> Self {
         Self { speed: self.speed.abs().max(other.speed.abs()), place: self.place.max(other.place) }
@@ -50,7 +50,7 @@ pub(super) struct Beyond {
     /// How far bodies go, in m.
     motion: f64,
     /// How far reference runs are from each other.
-    pub scatter: Apart,
+    pub scatter: MeanDeviation,
 }
 
 fn means(run: &Trajectory, from: f64) -> Option<Means> {
@@ -67,18 +67,21 @@ impl Beyond {
     /// The common means of these runs after `from` seconds. Settings are compared with the first run.
     pub fn of(runs: &[&Trajectory], from: f64) -> Option<Self> {
         let first = runs.first()?;
-        let beyond = Self { from, means: means(first, from)?, motion: first.sizes().0, scatter: Apart::default() };
+        let beyond =
+            Self { from, means: means(first, from)?, motion: first.sizes().0, scatter: MeanDeviation::default() };
         let others = runs[1..].iter().filter_map(|run| beyond.compare(run));
-        let scatter = others.fold(Apart::default(), Apart::or_greater);
+        let scatter = others.fold(MeanDeviation::default(), MeanDeviation::or_greater);
         Some(Self { scatter, ..beyond })
     }
 
     /// How far a run is from them.
-    pub fn compare(&self, run: &Trajectory) -> Option<Apart> {
+    pub fn compare(&self, run: &Trajectory) -> Option<MeanDeviation> {
         let means = means(run, self.from)?;
         let (speed, motion) = (self.means.speed, self.motion);
-        let apart =
-            Apart { speed: means.speed / speed - 1.0, place: (means.place - self.means.place).length() / motion };
+        let apart = MeanDeviation {
+            speed: means.speed / speed - 1.0,
+            place: (means.place - self.means.place).length() / motion,
+        };
         (apart.speed.is_finite() && apart.place.is_finite()).then_some(apart)
     }
 }

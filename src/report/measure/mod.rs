@@ -1,7 +1,7 @@
 //! Measurement of a scene: the cost and error of a run, method by method and tick by tick.
 //!
 //! A run of far smaller error is the reference (`reference.rs`). Every method climbs a ladder of ticks from coarse to
-//! fine (`report/ladder`). `scene.rs` chooses the ticks and compares. `refine.rs` tries ticks between the advised ones
+//! fine (`report/work_precision`). `scene.rs` chooses the ticks and compares. `refine.rs` tries ticks between the advised ones
 //! and the next coarser.
 
 mod beyond;
@@ -11,10 +11,12 @@ mod scene;
 
 use std::time::Instant;
 
-pub use beyond::Apart;
+pub use beyond::MeanDeviation;
 pub use reference::{NoReference, Reference};
 
-use super::ladder::{Budget, Cost, Course, Legend, Outcome, Rules, Setting, Settings, USELESS, climb, timed};
+use super::work_precision::{
+    Budget, Cost, Course, DiagramLegend, Outcome, Rules, Setting, Settings, USELESS, climb, timed,
+};
 use jostle_engine::integrate::clock::EventTiming;
 use jostle_engine::integrate::{Detail, Pace};
 use jostle_engine::scene::SceneErrors;
@@ -77,13 +79,13 @@ impl Measured {
         let until = reference.filter(|reference| reference.until < self.duration);
         let until = until.map_or_else(String::new, |reference| format!(", until t = {:.3} s", reference.until));
         let claim = self.settings.claim.unwrap_or_default();
-        let legend = Legend {
+        let legend = DiagramLegend {
             title: format!("{name}: cost against error"),
             error: format!("error as a share of the motion{until}"),
             floor: format!("what the reference leaves unknown, {claim:.0e}"),
             useless: (USELESS, "failed, or useless".to_owned()),
         };
-        super::ladder::diagram(&self.settings, legend, &[])
+        super::work_precision::diagram(&self.settings, legend, &[])
     }
 }
 

@@ -5,7 +5,7 @@
 //! them, and its growing distance shows chaos. If locating contacts one by one takes too long, runs of velocity Verlet
 //! with finer and finer ticks replace them.
 
-use super::beyond::{Apart, Beyond};
+use super::beyond::{Beyond, MeanDeviation};
 use super::scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
 use jostle_engine::Simulation;
@@ -46,7 +46,7 @@ pub struct Reference {
     /// Why that is not the whole run.
     pub why_until: Option<String>,
     /// The difference of means over the rest of the run between reference runs, if there is a rest.
-    pub scatter: Option<Apart>,
+    pub scatter: Option<MeanDeviation>,
     /// A weakness of the reference.
     pub warning: Option<String>,
 }
@@ -101,7 +101,7 @@ pub(super) fn located(tick: f64, share: f64, duration: f64) -> Plan {
 
 /// Why runs with located events are no reference.
 enum Unfit {
-    Crowded,
+    Overloaded,
     /// Seconds that they would have taken, about.
     Slow(f64),
     Failed(Failure),
@@ -114,25 +114,25 @@ pub(super) fn find(load: Load, scene: &Scene, budget: &Budget) -> Result<Truth, 
         Err(unfit) => unfit,
     };
     let why = match &unfit {
-        Unfit::Crowded => "contacts are too many to be located one by one",
+        Unfit::Overloaded => "contacts are too many to be located one by one",
         Unfit::Slow(_) => "locating each event takes too long for the budget",
         Unfit::Failed(_) => "the run with located events goes wrong",
     };
     match by_ticks(load, scene, budget, why) {
         Err(NoReference::Short(needed)) => match unfit {
             Unfit::Slow(located) => Err(NoReference::Short(needed.min(located))),
-            Unfit::Crowded | Unfit::Failed(_) => Err(NoReference::Short(needed)),
+            Unfit::Overloaded | Unfit::Failed(_) => Err(NoReference::Short(needed)),
         },
         // The scene may not allow a method by whole ticks.
         Err(NoReference::Scene(errors)) => Err(match unfit {
             Unfit::Slow(needed) => NoReference::Short(needed),
             Unfit::Failed(failure) => NoReference::Failed(failure),
-            Unfit::Crowded => NoReference::Scene(errors),
+            Unfit::Overloaded => NoReference::Scene(errors),
         }),
         // The first of two failures is the one of the finer run.
         Err(NoReference::Failed(other)) => match unfit {
             Unfit::Failed(failure) => Err(NoReference::Failed(failure)),
-            Unfit::Crowded | Unfit::Slow(_) => Err(NoReference::Failed(other)),
+            Unfit::Overloaded | Unfit::Slow(_) => Err(NoReference::Failed(other)),
         },
         other => other,
     }
@@ -147,7 +147,7 @@ fn by_located(load: Load, scene: &Scene, budget: &Budget) -> Result<Attempt, Sce
         let mut simulation = load(Way::Plan(&located(tick, share, scene.duration)))?;
         change(&mut simulation);
         Ok(match Trajectory::while_it(&mut simulation, 1, &|| budget.within(LOCATED_BY)) {
-            Ok(Trajectory { crowded: true, .. }) => Err(Unfit::Crowded),
+            Ok(Trajectory { overloaded: true, .. }) => Err(Unfit::Overloaded),
             Ok(Trajectory { failure: Some(failure), .. }) => Err(Unfit::Failed(failure)),
             Ok(trajectory) => {
                 done += 1.0;

@@ -2,7 +2,7 @@
 //! twice as fine as needed.
 
 use super::scene::Compared;
-use crate::ladder::{Course, Setting, Settings, Subject, TARGETS};
+use crate::work_precision::{Course, Setting, Settings, Subject, TARGETS};
 use jostle_engine::scene::SceneErrors;
 
 /// The tries between two ticks for each error.
@@ -20,11 +20,11 @@ pub(super) fn refine(settings: &mut Settings, subject: &Compared) -> Result<(), 
     for which in (0..TARGETS.len()).flat_map(|which| [which; TIMES]) {
         let advice = settings.advice()[which];
         let advised = advice.reached.map(|setting| (setting.course, setting.tick, advice.target));
-        let Some((course, place, count)) = advised.and_then(|advised| between(settings, subject, advised)) else {
+        let Some((course, index, count)) = advised.and_then(|advised| between(settings, subject, advised)) else {
             continue;
         };
         let (setting, _) = subject.run(course, subject.scene.duration / count as f64)?;
-        settings.all.insert(place, setting);
+        settings.all.insert(index, setting);
     }
     Ok(())
 }
@@ -36,9 +36,9 @@ fn between(
     (course, tick, target): (Course, f64, f64),
 ) -> Option<(Course, usize, u64)> {
     let is_it = |setting: &Setting| setting.course == course && setting.tick == tick;
-    let place = settings.all.iter().position(is_it)?;
-    let coarser = settings.all[..place].last().filter(|coarser| coarser.course == course)?;
-    let (low, high) = (settings.claimed(&settings.all[place])?, coarser.error()?);
+    let index = settings.all.iter().position(is_it)?;
+    let coarser = settings.all[..index].last().filter(|coarser| coarser.course == course)?;
+    let (low, high) = (settings.claimed(&settings.all[index])?, coarser.error()?);
     if high <= target {
         return None;
     }
@@ -48,8 +48,8 @@ fn between(
     let duration = subject.scene.duration;
     let count = subject.scene.comparable((duration / longer).ceil() as u64);
     // It is run once to be compared, and timed.
-    let needed = 2.0 * duration * settings.all[place].seconds?;
+    let needed = 2.0 * duration * settings.all[index].seconds?;
     let tried = duration / count as f64;
     let wanted = tried > LONGER * tick && coarser.tick > LONGER * tried && needed < subject.budget.left();
-    wanted.then_some((course, place, count))
+    wanted.then_some((course, index, count))
 }

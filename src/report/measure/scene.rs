@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::reference::{self, Truth};
 use super::{Load, Way};
-use crate::ladder::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
+use crate::work_precision::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::{Description, Methods};
 use jostle_engine::scene::SceneErrors;

@@ -52,12 +52,12 @@ pub fn scene(setting: &Setting, duration: f64, count: usize, incoming: usize) ->
     let clock = setting.clock(duration);
     let stiffness = 2.0 * OMEGA * OMEGA;
     let mut bodies = String::new();
-    for place in 0..count {
-        let comes = if place < incoming { SPEED } else { 0.0 };
-        let x = 2.0 * RADIUS * place as f64 - comes * setting.shift;
+    for index in 0..count {
+        let comes = if index < incoming { SPEED } else { 0.0 };
+        let x = 2.0 * RADIUS * index as f64 - comes * setting.shift;
         let _ = write!(
             bodies,
-            "(name: \"disc_{place}\", at: ({x:?}, 0), velocity: ({comes:?}, 0), material: \"ivory\",
+            "(name: \"disc_{index}\", at: ({x:?}, 0), velocity: ({comes:?}, 0), material: \"ivory\",
               atoms: Disc(radius: {RADIUS:?}, mass: 1)),"
         );
     }

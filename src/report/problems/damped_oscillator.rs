@@ -50,15 +50,15 @@ const START: f64 = 0.1;
 fn scene(setting: &Setting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut springs) = (String::new(), String::new());
-    for (place, (ratio, _)) in RATIOS.into_iter().enumerate() {
+    for (index, (ratio, _)) in RATIOS.into_iter().enumerate() {
         let damping = 2.0 * ratio * OMEGA;
         let _ = write!(
             bodies,
-            "(name: \"mass_{place}\", at: ({START:?}, {place}), collides: false, atoms: Disc(radius: 0.01, mass: 1)),"
+            "(name: \"mass_{index}\", at: ({START:?}, {index}), collides: false, atoms: Disc(radius: 0.01, mass: 1)),"
         );
         let _ = write!(
             springs,
-            "Spring(a: \"mass_{place}\", b: World, anchor_b: (-1, {place}), stiffness: 100, damping: {damping:?}, length: 1),"
+            "Spring(a: \"mass_{index}\", b: World, anchor_b: (-1, {index}), stiffness: 100, damping: {damping:?}, length: 1),"
         );
     }
     format!("Scene({clock}, forces: [{springs}], bodies: [{bodies}])")
@@ -67,9 +67,9 @@ fn scene(setting: &Setting, duration: f64) -> String {
 /// The greatest, over the displacement at the start.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     let truth = Truth::read(TRUTH);
-    let of = |(place, (_, name)): (usize, (f64, &str))| {
+    let of = |(index, (_, name)): (usize, (f64, &str))| {
         let exact = truth.row(name, time).map_or(f64::NAN, |row| row[0]);
-        (simulation.bodies().position[place].x - exact).abs() / START
+        (simulation.bodies().position[index].x - exact).abs() / START
     };
     RATIOS.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })
 }

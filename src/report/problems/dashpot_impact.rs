@@ -81,13 +81,13 @@ fn scene(setting: &Setting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (height, stiffness) = (RADIUS + GAP - SPEED * setting.shift, OMEGA * OMEGA);
     let (mut bodies, mut materials, mut pairs) = (String::new(), String::new(), String::new());
-    for (place, ratio) in RATIOS.into_iter().enumerate() {
+    for (index, ratio) in RATIOS.into_iter().enumerate() {
         let restitution = contact(ratio, false).1;
-        let _ = write!(materials, "\"rubber_{place}\": (stiffness: {stiffness:?}),");
-        let _ = write!(pairs, "(between: (\"rubber_{place}\", \"floor\"), restitution: {restitution:?}),");
+        let _ = write!(materials, "\"rubber_{index}\": (stiffness: {stiffness:?}),");
+        let _ = write!(pairs, "(between: (\"rubber_{index}\", \"floor\"), restitution: {restitution:?}),");
         let _ = write!(
             bodies,
-            "(name: \"ball_{place}\", at: ({place}, {height:?}), velocity: (0, -{SPEED:?}), material: \"rubber_{place}\",
+            "(name: \"ball_{index}\", at: ({index}, {height:?}), velocity: (0, -{SPEED:?}), material: \"rubber_{index}\",
               atoms: Disc(radius: {RADIUS:?}, mass: 1)),"
         );
     }
@@ -99,8 +99,8 @@ fn scene(setting: &Setting, duration: f64) -> String {
 
 /// The greatest, over the way that a ball would have made in half a period without damping.
 fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
-    let of = |(place, ratio): (usize, f64)| {
-        let found = simulation.bodies().position[place].y - RADIUS;
+    let of = |(index, ratio): (usize, f64)| {
+        let found = simulation.bodies().position[index].y - RADIUS;
         (found - gap(time + shift, ratio)).abs() / (SPEED * PI / OMEGA)
     };
     RATIOS.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })

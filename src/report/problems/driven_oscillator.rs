@@ -54,15 +54,15 @@ const DRIVES: [(f64, &str, &str); 3] = [
 fn scene(setting: &Setting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut forces) = (String::new(), String::new());
-    for (place, (frequency, ..)) in DRIVES.into_iter().enumerate() {
+    for (index, (frequency, ..)) in DRIVES.into_iter().enumerate() {
         let _ = write!(
             bodies,
-            "(name: \"mass_{place}\", at: (0, {place}), collides: false, atoms: Disc(radius: 0.01, mass: 1)),"
+            "(name: \"mass_{index}\", at: (0, {index}), collides: false, atoms: Disc(radius: 0.01, mass: 1)),"
         );
         let _ = write!(
             forces,
-            "Spring(a: \"mass_{place}\", b: World, anchor_b: (0, {place}), stiffness: 25, damping: {DAMPING:?}, length: 0),
-             Drive(of: \"mass_{place}\", force: (2, 0),
+            "Spring(a: \"mass_{index}\", b: World, anchor_b: (0, {index}), stiffness: 25, damping: {DAMPING:?}, length: 0),
+             Drive(of: \"mass_{index}\", force: (2, 0),
                    course: Sine(angular_frequency: {frequency:?}, phase: {FRAC_PI_2:?})),"
         );
     }
@@ -72,9 +72,9 @@ fn scene(setting: &Setting, duration: f64) -> String {
 /// The greatest, each over its steady amplitude.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     let truth = Truth::read(TRUTH);
-    let of = |(place, (_, x, amplitude)): (usize, (f64, &str, &str))| {
+    let of = |(index, (_, x, amplitude)): (usize, (f64, &str, &str))| {
         let exact = truth.row(x, time).map_or(f64::NAN, |row| row[0]);
-        (simulation.bodies().position[place].x - exact).abs() / truth.number(amplitude)
+        (simulation.bodies().position[index].x - exact).abs() / truth.number(amplitude)
     };
     DRIVES.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })
 }

@@ -74,20 +74,20 @@ fn scene(setting: &Setting, duration: f64) -> String {
             at.x, at.y, velocity.x, velocity.y
         );
     };
-    for (place, degrees) in ANGLES.into_iter().enumerate() {
+    for (index, degrees) in ANGLES.into_iter().enumerate() {
         let (sin, cos) = libm::sincos(f64::from(degrees).to_radians());
         let velocity = DVec2::new(SPEED * sin, -SPEED * cos);
-        let at = DVec2::new(place as f64, RADII[0] - velocity.y * lead);
+        let at = DVec2::new(index as f64, RADII[0] - velocity.y * lead);
         disc(&format!("on_wall_{degrees}"), at, velocity, 0.0, "soft", 0);
     }
-    for (place, (degrees, spins)) in PAIRS.into_iter().enumerate() {
+    for (index, (degrees, spins)) in PAIRS.into_iter().enumerate() {
         // The first arrives along x; the line of centres points down to the right.
         let (sin, cos) = libm::sincos(f64::from(degrees).to_radians());
-        let (at, velocity) = (DVec2::new(place as f64 - 1.0, 1.0), DVec2::new(SPEED, 0.0));
+        let (at, velocity) = (DVec2::new(index as f64 - 1.0, 1.0), DVec2::new(SPEED, 0.0));
         let normal = DVec2::new(cos, -sin);
         let first = at - normal * (RADII[0] + RADII[1] + SPEED * cos * lead);
-        disc(&format!("striking_{place}"), first, velocity, f64::from(spins[0]) / SCALE, "hard", 0);
-        disc(&format!("struck_{place}"), at, DVec2::ZERO, f64::from(spins[1]) / SCALE, "hard", 1);
+        disc(&format!("striking_{index}"), first, velocity, f64::from(spins[0]) / SCALE, "hard", 0);
+        disc(&format!("struck_{index}"), at, DVec2::ZERO, f64::from(spins[1]) / SCALE, "hard", 1);
     }
     let stiff = 2.0 * STIFFNESS;
     format!(

@@ -59,19 +59,19 @@ pub fn state(degrees: f64, velocity: f64, time: f64) -> (f64, f64) {
 pub fn scene_of(setting: &Setting, duration: f64, blocks: &[(f64, f64)]) -> String {
     let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
     let (mut bodies, mut weights) = (String::new(), String::new());
-    for (place, (degrees, velocity)) in blocks.iter().enumerate() {
+    for (index, (degrees, velocity)) in blocks.iter().enumerate() {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         let height = RADIUS - GRAVITY * cos / STIFFNESS;
         let _ = write!(
             bodies,
-            "(name: \"block_{place}\", at: ({:?}, {height:?}), velocity: ({velocity:?}, 0), material: \"wood\", inertia: 1e300,
+            "(name: \"block_{index}\", at: ({:?}, {height:?}), velocity: ({velocity:?}, 0), material: \"wood\", inertia: 1e300,
               atoms: Disc(radius: {RADIUS:?}, mass: 1)),",
-            16.0 * place as f64
+            16.0 * index as f64
         );
         let (along, down) = (GRAVITY * sin, GRAVITY * cos);
         let _ = write!(
             weights,
-            "Drive(of: \"block_{place}\", force: ({along:?}, -{down:?}), course: Piecewise([(0, 1)])),"
+            "Drive(of: \"block_{index}\", force: ({along:?}, -{down:?}), course: Piecewise([(0, 1)])),"
         );
     }
     format!(
@@ -88,8 +88,8 @@ fn scene(setting: &Setting, duration: f64) -> String {
 
 /// The greatest of the blocks, in m.
 fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
-    let of = |(place, (degrees, velocity)): (usize, (f64, f64))| {
-        let way = simulation.bodies().position[place].x - 16.0 * place as f64;
+    let of = |(index, (degrees, velocity)): (usize, (f64, f64))| {
+        let way = simulation.bodies().position[index].x - 16.0 * index as f64;
         (way - state(degrees, velocity, time).0).abs()
     };
     BLOCKS.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })

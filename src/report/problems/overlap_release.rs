@@ -79,12 +79,12 @@ pub fn state(time: f64) -> [(DVec2, DVec2); 2] {
 fn scene(setting: &Setting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let stiffness = 2.0 * STIFFNESS;
-    let disc = |name: &str, place: usize| {
-        let (position, velocity) = state(setting.shift)[place];
+    let disc = |name: &str, index: usize| {
+        let (position, velocity) = state(setting.shift)[index];
         format!(
             "(name: \"{name}\", at: ({:?}, 0), velocity: ({:?}, 0), material: \"clay\",
               atoms: Disc(radius: {RADIUS:?}, mass: {:?}))",
-            position.x, velocity.x, MASSES[place]
+            position.x, velocity.x, MASSES[index]
         )
     };
     format!(
@@ -99,9 +99,9 @@ fn scene(setting: &Setting, duration: f64) -> String {
 fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     let bodies = simulation.bodies();
     let speed = rate() * OVERLAP;
-    let of = |(place, (position, velocity)): (usize, (DVec2, DVec2))| {
-        let off = (bodies.position[place] - position).length() / OVERLAP;
-        off.max((bodies.velocity[place] - velocity).length() / speed)
+    let of = |(index, (position, velocity)): (usize, (DVec2, DVec2))| {
+        let off = (bodies.position[index] - position).length() / OVERLAP;
+        off.max((bodies.velocity[index] - velocity).length() / speed)
     };
     state(time + shift).into_iter().enumerate().map(of).fold(0.0, f64::max)
 }

@@ -69,19 +69,19 @@ fn scene(setting: &Setting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let radius = radius();
     let (mut bodies, mut springs) = (String::new(), String::new());
-    for place in 0..COUNT {
-        let (sin, cos) = libm::sincos(2.0 * PI * place as f64 / COUNT as f64);
+    for index in 0..COUNT {
+        let (sin, cos) = libm::sincos(2.0 * PI * index as f64 / COUNT as f64);
         let at = DVec2::new(cos, sin) * radius;
         let velocity = at.perp() * SPIN;
         let _ = write!(
             bodies,
-            "(name: \"m{place}\", at: ({:?}, {:?}), velocity: ({:?}, {:?}), collides: false,
+            "(name: \"m{index}\", at: ({:?}, {:?}), velocity: ({:?}, {:?}), collides: false,
               atoms: Disc(radius: 0.01, mass: {MASS:?})),",
             at.x, at.y, velocity.x, velocity.y
         );
-        let next = (place + 1) % COUNT;
+        let next = (index + 1) % COUNT;
         let _ =
-            write!(springs, "Spring(a: \"m{place}\", b: \"m{next}\", stiffness: {STIFFNESS:?}, length: {LENGTH:?}),");
+            write!(springs, "Spring(a: \"m{index}\", b: \"m{next}\", stiffness: {STIFFNESS:?}, length: {LENGTH:?}),");
     }
     format!("Scene({clock}, forces: [{springs}], bodies: [{bodies}])")
 }

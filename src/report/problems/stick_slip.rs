@@ -83,28 +83,28 @@ fn scene(setting: &Setting, duration: f64) -> String {
     let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
     let height = RADIUS - GRAVITY / FLOOR;
     let (mut bodies, mut springs, mut materials) = (String::new(), String::new(), String::new());
-    for (place, friction) in STATIC.into_iter().enumerate() {
+    for (index, friction) in STATIC.into_iter().enumerate() {
         let (x, velocity) = state(friction, setting.shift);
         let _ = write!(
             bodies,
-            "(name: \"block_{place}\", at: ({:?}, {height:?}), velocity: ({velocity:?}, 0), material: \"wood_{place}\",
+            "(name: \"block_{index}\", at: ({:?}, {height:?}), velocity: ({velocity:?}, 0), material: \"wood_{index}\",
               inertia: 1e300, atoms: Disc(radius: {RADIUS:?}, mass: 1)),",
-            place as f64 + x
+            index as f64 + x
         );
         let _ = write!(
             springs,
-            "Spring(a: \"block_{place}\", b: World, anchor_b: ({place}, {height:?}), stiffness: {STIFFNESS:?}, length: 0),"
+            "Spring(a: \"block_{index}\", b: World, anchor_b: ({index}, {height:?}), stiffness: {STIFFNESS:?}, length: 0),"
         );
         let _ = write!(
             materials,
-            "\"wood_{place}\": (stiffness: {FLOOR:?}, friction: (static: {friction:?}, dynamic: {DYNAMIC:?}),
+            "\"wood_{index}\": (stiffness: {FLOOR:?}, friction: (static: {friction:?}, dynamic: {DYNAMIC:?}),
                                 inelasticity: 0.3),"
         );
     }
-    let pairs = STATIC.into_iter().enumerate().fold(String::new(), |mut pairs, (place, friction)| {
+    let pairs = STATIC.into_iter().enumerate().fold(String::new(), |mut pairs, (index, friction)| {
         let _ = write!(
             pairs,
-            "(between: (\"wood_{place}\", \"belt\"), friction: (static: {friction:?}, dynamic: {DYNAMIC:?})),"
+            "(between: (\"wood_{index}\", \"belt\"), friction: (static: {friction:?}, dynamic: {DYNAMIC:?})),"
         );
         pairs
     });
@@ -118,8 +118,8 @@ fn scene(setting: &Setting, duration: f64) -> String {
 
 /// The greater of both blocks, over the greatest place of the first.
 fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
-    let of = |(place, friction): (usize, f64)| {
-        let found = simulation.bodies().position[place].x - place as f64;
+    let of = |(index, friction): (usize, f64)| {
+        let found = simulation.bodies().position[index].x - index as f64;
         (found - state(friction, time + shift).0).abs() / round(STATIC[0]).2
     };
     STATIC.into_iter().enumerate().map(of).fold(0.0, |most, error| if error <= most { most } else { error })

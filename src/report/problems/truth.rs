@@ -50,9 +50,9 @@ impl Truth {
     /// When there is no such observable.
     pub fn row(&self, observable: &str, time: f64) -> Option<Vec<f64>> {
         let (times, numbers) = (self.times(observable), self.numbers(observable));
-        let place = times.iter().position(|&known| known == time)?;
+        let index = times.iter().position(|&known| known == time)?;
         let width = numbers.len() / times.len();
-        Some(numbers[place * width..(place + 1) * width].to_vec())
+        Some(numbers[index * width..(index + 1) * width].to_vec())
     }
 
     fn observable(&self, name: &str) -> &Value {

@@ -29,7 +29,7 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
         return Some(Cause { trust, what: format!("{share}: {what}"), remedy });
     }
     let why = [ticks::brief_contact, ticks::far_travel_unseen].into_iter().find_map(|cause| cause(evidence));
-    let why = why.map(|cause| cause.what).or_else(|| super::motion::began(evidence)).map_or_else(
+    let why = why.map(|cause| cause.what).or_else(|| super::trajectory_error::began(evidence)).map_or_else(
         || ": the tick is too long for the forces, or a plugin does not book its work".to_owned(),
         |why| format!(": {why}"),
     );

@@ -8,12 +8,12 @@
 mod ahead;
 mod asked;
 mod energy;
-mod motion;
 mod near;
+mod overlap;
 mod part;
 mod place;
-mod soft;
 mod ticks;
+mod trajectory_error;
 mod voice;
 
 use bevy_ecs::prelude::*;
@@ -65,14 +65,14 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     ticks::unseen_swing,
     energy::unaccounted,
     energy::given_back,
-    motion::tolerance_not_reached,
-    soft::deep,
+    trajectory_error::tolerance_not_reached,
+    overlap::deep,
     ticks::brief_contact,
     ticks::far_travel_unseen,
-    motion::chaos,
-    motion::inexact,
-    motion::not_run_again,
-    motion::unknown,
+    trajectory_error::chaos,
+    trajectory_error::inexact,
+    trajectory_error::not_run_again,
+    trajectory_error::unknown,
 ];
 
 impl Evidence<'_> {

@@ -17,7 +17,7 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     if EstimatedError::is_small(world) {
         return None;
     }
-    let fastest = world.resource::<State>().responses().fastest;
+    let fastest = world.resource::<State>().time_scales().fastest;
     let holder = fastest.map_or(Holder::Contacts, |fastest| fastest.holder);
     // Contacts that nothing came to did nothing.
     if holder == Holder::Contacts && card.largest_overlap.meters == 0.0 && critical > 0.0 {
@@ -54,7 +54,7 @@ pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let ticks = card.shortest_contact.filter(|_| card.by_ticks())? / card.tick;
-    let brief = world.resource::<State>().responses().briefest;
+    let brief = world.resource::<State>().time_scales().briefest;
     if EstimatedError::is_small(world) || brief.is_none() && card.located {
         return None;
     }

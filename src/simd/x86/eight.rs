@@ -61,13 +61,13 @@ impl F64x8 {
     /// # Safety
     /// The places are those of records.
     #[inline(always)]
-    unsafe fn last_two(records: &[Record], places: &[u32]) -> __m512d {
+    unsafe fn last_two(records: &[Record], indices: &[u32]) -> __m512d {
         // SAFETY: as the caller promises; a record has two numbers from the seventh on.
         unsafe {
-            let quarter = _mm512_castpd128_pd512(last_two_of(records, places[0]));
-            let half = _mm512_insertf64x2::<1>(quarter, last_two_of(records, places[2]));
-            let three = _mm512_insertf64x2::<2>(half, last_two_of(records, places[4]));
-            _mm512_insertf64x2::<3>(three, last_two_of(records, places[6]))
+            let quarter = _mm512_castpd128_pd512(last_two_of(records, indices[0]));
+            let half = _mm512_insertf64x2::<1>(quarter, last_two_of(records, indices[2]));
+            let three = _mm512_insertf64x2::<2>(half, last_two_of(records, indices[4]));
+            _mm512_insertf64x2::<3>(three, last_two_of(records, indices[6]))
         }
     }
 
@@ -151,8 +151,8 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
-        let row = |lane: usize| Self::load(&records[places[lane] as usize].0);
+    fn records(records: &[Record], indices: &[u32]) -> [Self; BLOCK] {
+        let row = |lane: usize| Self::load(&records[indices[lane] as usize].0);
         Self::transposed([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
     }
 
@@ -190,25 +190,25 @@ impl Lanes for F64x8 {
     }
 
     #[inline(always)]
-    unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
-        let places = &places[..BLOCK];
+    unsafe fn quads(quads: &[Quad], indices: &[u32]) -> [Self; QUAD] {
+        let indices = &indices[..BLOCK];
         // SAFETY: the indices are those of quads, as the caller promises.
         let row = |lane: usize| unsafe {
-            let low = _mm512_castpd256_pd512(quad_at(quads, places[lane]));
-            Self(_mm512_insertf64x4::<1>(low, quad_at(quads, places[lane + QUAD])))
+            let low = _mm512_castpd256_pd512(quad_at(quads, indices[lane]));
+            Self(_mm512_insertf64x4::<1>(low, quad_at(quads, indices[lane + QUAD])))
         };
         in_halves([row(0), row(1), row(2), row(3)])
     }
 
     #[inline(always)]
-    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], places: &[u32]) {
-        let (places, rows) = (&places[..BLOCK], in_halves(numbers));
+    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], indices: &[u32]) {
+        let (indices, rows) = (&indices[..BLOCK], in_halves(numbers));
         let mut lane = 0;
         while lane < QUAD {
             // SAFETY: likewise.
             unsafe {
-                put_quad(quads, places[lane], _mm512_castpd512_pd256(rows[lane].0));
-                put_quad(quads, places[lane + QUAD], _mm512_extractf64x4_pd::<1>(rows[lane].0));
+                put_quad(quads, indices[lane], _mm512_castpd512_pd256(rows[lane].0));
+                put_quad(quads, indices[lane + QUAD], _mm512_extractf64x4_pd::<1>(rows[lane].0));
             }
             lane += 1;
         }

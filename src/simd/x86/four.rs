@@ -77,11 +77,11 @@ impl Lanes for F64x4 {
     }
 
     #[inline(always)]
-    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
+    fn records(records: &[Record], indices: &[u32]) -> [Self; BLOCK] {
         let mut rows = [(Self::splat(0.0), Self::splat(0.0)); Self::COUNT];
         let mut lane = 0;
         while lane < Self::COUNT {
-            let row = &records[places[lane] as usize].0;
+            let row = &records[indices[lane] as usize].0;
             rows[lane] = (Self::load(row), Self::load(&row[Self::COUNT..]));
             lane += 1;
         }
@@ -125,20 +125,20 @@ impl Lanes for F64x4 {
     }
 
     #[inline(always)]
-    unsafe fn quads(quads: &[Quad], places: &[u32]) -> [Self; QUAD] {
-        let places = &places[..Self::COUNT];
+    unsafe fn quads(quads: &[Quad], indices: &[u32]) -> [Self; QUAD] {
+        let indices = &indices[..Self::COUNT];
         // SAFETY: the indices are those of quads, as the caller promises.
-        let row = |lane: usize| Self(unsafe { quad_at(quads, places[lane]) });
+        let row = |lane: usize| Self(unsafe { quad_at(quads, indices[lane]) });
         quarters([row(0), row(1), row(2), row(3)])
     }
 
     #[inline(always)]
-    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], places: &[u32]) {
-        let (places, rows) = (&places[..Self::COUNT], quarters(numbers));
+    unsafe fn store_quads(numbers: [Self; QUAD], quads: &mut [Quad], indices: &[u32]) {
+        let (indices, rows) = (&indices[..Self::COUNT], quarters(numbers));
         let mut lane = 0;
         while lane < Self::COUNT {
             // SAFETY: likewise.
-            unsafe { put_quad(quads, places[lane], rows[lane].0) };
+            unsafe { put_quad(quads, indices[lane], rows[lane].0) };
             lane += 1;
         }
     }

@@ -75,9 +75,9 @@ use {bit_operators, operators};
 /// # Safety
 /// The index is that of the first number of a record.
 #[inline(always)]
-unsafe fn record_at(records: &[Record], place: u32) -> &[f64; BLOCK] {
+unsafe fn record_at(records: &[Record], index: u32) -> &[f64; BLOCK] {
     // SAFETY: as the caller promises.
-    unsafe { &*records.as_ptr().cast::<f64>().add(place as usize).cast() }
+    unsafe { &*records.as_ptr().cast::<f64>().add(index as usize).cast() }
 }
 
 /// The numbers of a quad.
@@ -85,9 +85,9 @@ unsafe fn record_at(records: &[Record], place: u32) -> &[f64; BLOCK] {
 /// # Safety
 /// The index is that of a quad.
 #[inline(always)]
-unsafe fn quad_at(quads: &[Quad], place: u32) -> __m256d {
+unsafe fn quad_at(quads: &[Quad], index: u32) -> __m256d {
     // SAFETY: as the caller promises.
-    unsafe { _mm256_loadu_pd((*quads.as_ptr().add(place as usize)).0.as_ptr()) }
+    unsafe { _mm256_loadu_pd((*quads.as_ptr().add(index as usize)).0.as_ptr()) }
 }
 
 /// Writes the numbers of a quad.
@@ -95,9 +95,9 @@ unsafe fn quad_at(quads: &[Quad], place: u32) -> __m256d {
 /// # Safety
 /// Likewise.
 #[inline(always)]
-unsafe fn put_quad(quads: &mut [Quad], place: u32, numbers: __m256d) {
+unsafe fn put_quad(quads: &mut [Quad], index: u32, numbers: __m256d) {
     // SAFETY: as the caller promises; a quad has four numbers.
-    unsafe { _mm256_storeu_pd(quads.as_mut_ptr().add(place as usize).cast::<[f64; QUAD]>().cast(), numbers) }
+    unsafe { _mm256_storeu_pd(quads.as_mut_ptr().add(index as usize).cast::<[f64; QUAD]>().cast(), numbers) }
 }
 
 /// The last two numbers of a record.
@@ -105,7 +105,7 @@ unsafe fn put_quad(quads: &mut [Quad], place: u32, numbers: __m256d) {
 /// # Safety
 /// Likewise.
 #[inline(always)]
-unsafe fn last_two_of(records: &[Record], place: u32) -> __m128d {
+unsafe fn last_two_of(records: &[Record], index: u32) -> __m128d {
     // SAFETY: as the caller promises; a record has two numbers from the seventh on.
-    unsafe { _mm_loadu_pd(record_at(records, place).as_ptr().add(BLOCK - 2)) }
+    unsafe { _mm_loadu_pd(record_at(records, index).as_ptr().add(BLOCK - 2)) }
 }

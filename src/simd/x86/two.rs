@@ -47,8 +47,8 @@ impl Lanes for F64x2 {
     }
 
     #[inline(always)]
-    fn records(records: &[Record], places: &[u32]) -> [Self; BLOCK] {
-        let (first, second) = (&records[places[0] as usize].0, &records[places[1] as usize].0);
+    fn records(records: &[Record], indices: &[u32]) -> [Self; BLOCK] {
+        let (first, second) = (&records[indices[0] as usize].0, &records[indices[1] as usize].0);
         let mut transposed = [Self::splat(0.0); BLOCK];
         for pair in 0..BLOCK / 2 {
             let (first, second) = (Self::load(&first[2 * pair..]), Self::load(&second[2 * pair..]));

@@ -23,17 +23,17 @@ fn shrink(
 ) -> Vec<String> {
     let mut length = pieces.len().div_ceil(2);
     while length > 0 {
-        let (mut place, mut removed) = (0, false);
-        while place < pieces.len() {
+        let (mut index, mut removed) = (0, false);
+        while index < pieces.len() {
             if begin.elapsed() > time {
                 return pieces;
             }
-            let end = (place + length).min(pieces.len());
-            let rest: Vec<String> = pieces[..place].iter().chain(&pieces[end..]).cloned().collect();
+            let end = (index + length).min(pieces.len());
+            let rest: Vec<String> = pieces[..index].iter().chain(&pieces[end..]).cloned().collect();
             if fails(&rest.concat()) {
                 (pieces, removed) = (rest, true);
             } else {
-                place = end;
+                index = end;
             }
         }
         // A removal may make another one possible, down to single pieces until none is.

@@ -109,9 +109,9 @@ impl Chance {
     }
 
     /// A place for which `wanted` holds, if there is one.
-    fn place(&mut self, tokens: &[Token], wanted: impl Fn(&Token) -> bool) -> Option<usize> {
-        let places: Vec<usize> = (0..tokens.len()).filter(|&place| wanted(&tokens[place])).collect();
-        (!places.is_empty()).then(|| self.pick(&places))
+    fn index(&mut self, tokens: &[Token], wanted: impl Fn(&Token) -> bool) -> Option<usize> {
+        let indices: Vec<usize> = (0..tokens.len()).filter(|&index| wanted(&tokens[index])).collect();
+        (!indices.is_empty()).then(|| self.pick(&indices))
     }
 }
 
@@ -153,12 +153,12 @@ fn change(scene: &mut Vec<Token>, other: &[Token], chance: &mut Chance) {
         29..31 => remove(scene, chance),
         31..33 => splice(scene, other, chance),
         33..35 => {
-            let place = chance.below(scene.len());
-            scene.insert(place, token(Form::Other, chance.pick(&PIECES)));
+            let index = chance.below(scene.len());
+            scene.insert(index, token(Form::Other, chance.pick(&PIECES)));
         }
         35 => {
-            let place = chance.below(scene.len());
-            scene.remove(place);
+            let index = chance.below(scene.len());
+            scene.remove(index);
         }
         36 => {
             let (a, b) = (chance.below(scene.len()), chance.below(scene.len()));
@@ -166,7 +166,7 @@ fn change(scene: &mut Vec<Token>, other: &[Token], chance: &mut Chance) {
         }
         37 => nest(scene, chance),
         _ => {
-            if let Some(from) = chance.place(other, |token| token.form == Form::Word) {
+            if let Some(from) = chance.index(other, |token| token.form == Form::Word) {
                 replace(scene, Form::Word, &other[from].text, chance);
             }
         }
@@ -178,24 +178,24 @@ fn token(form: Form, text: &str) -> Token {
 }
 
 fn replace(scene: &mut [Token], form: Form, by: &str, chance: &mut Chance) {
-    if let Some(place) = chance.place(scene, |token| token.form == form) {
-        by.clone_into(&mut scene[place].text);
+    if let Some(index) = chance.index(scene, |token| token.form == form) {
+        by.clone_into(&mut scene[index].text);
     }
 }
 
 /// Makes a number larger or smaller by powers of ten, or negates it.
 fn scale(scene: &mut [Token], chance: &mut Chance) {
-    let Some(place) = chance.place(scene, |token| token.form == Form::Number) else { return };
-    let Ok(value) = scene[place].text.parse::<f64>() else { return };
+    let Some(index) = chance.index(scene, |token| token.form == Form::Number) else { return };
+    let Ok(value) = scene[index].text.parse::<f64>() else { return };
     let factor = [-1.0, 0.1, 0.5, 0.99, 1.01, 2.0, 10.0, 1e3, 1e-3, 1e6, 1e-6, 1e12, 1e-12];
-    scene[place].text = format!("{}", value * chance.pick(&factor));
+    scene[index].text = format!("{}", value * chance.pick(&factor));
 }
 
 /// Gives a field the value that a field of the same name has in another scene.
 fn graft(scene: &mut Vec<Token>, other: &[Token], chance: &mut Chance) {
-    let Some(into) = chance.place(scene, |token| token.form == Form::Word) else { return };
+    let Some(into) = chance.index(scene, |token| token.form == Form::Word) else { return };
     let same = |token: &Token| token.form == Form::Word && token.text == scene[into].text;
-    let Some(from) = chance.place(other, same) else { return };
+    let Some(from) = chance.index(other, same) else { return };
     let (into, from) = (value(scene, into), value(other, from));
     if let (Some(into), Some(from)) = (into, from) {
         scene.splice(into, other[from].iter().cloned());
@@ -204,26 +204,26 @@ fn graft(scene: &mut Vec<Token>, other: &[Token], chance: &mut Chance) {
 
 /// The pieces after `name:` up to the comma or bracket that ends the field.
 fn value(tokens: &[Token], name: usize) -> Option<std::ops::Range<usize>> {
-    let colon = (name + 1..tokens.len()).find(|&place| tokens[place].form != Form::Blank)?;
+    let colon = (name + 1..tokens.len()).find(|&index| tokens[index].form != Form::Blank)?;
     if tokens[colon].text != ":" {
         return None;
     }
-    let mut place = colon + 1;
-    while place < tokens.len() {
-        match tokens[place].form {
-            Form::Open => place = closing(tokens, place),
+    let mut index = colon + 1;
+    while index < tokens.len() {
+        match tokens[index].form {
+            Form::Open => index = closing(tokens, index),
             Form::Close => break,
-            Form::Other if tokens[place].text == "," => break,
+            Form::Other if tokens[index].text == "," => break,
             _ => {}
         }
-        place += 1;
+        index += 1;
     }
-    Some(colon + 1..place.min(tokens.len()))
+    Some(colon + 1..index.min(tokens.len()))
 }
 
 /// A pair of brackets with what stands in them and the name before them.
 fn group(scene: &[Token], chance: &mut Chance) -> Option<std::ops::Range<usize>> {
-    let open = chance.place(scene, |token| token.form == Form::Open)?;
+    let open = chance.index(scene, |token| token.form == Form::Open)?;
     let begin = if open > 0 && scene[open - 1].form == Form::Word { open - 1 } else { open };
     Some(begin..closing(scene, open) + 1)
 }
@@ -261,13 +261,13 @@ fn splice(scene: &mut Vec<Token>, other: &[Token], chance: &mut Chance) {
 
 /// Puts many brackets around a value or a group, or opens many and closes none.
 fn nest(scene: &mut Vec<Token>, chance: &mut Chance) {
-    let place = chance.below(scene.len());
+    let index = chance.below(scene.len());
     let depth = chance.pick(&[1, 2, 10, 100, 127, 128, 129, 1000, 20_000]);
     let (open, close) = chance.pick(&[("[", "]"), ("(", ")"), ("{", "}"), ("Some(", ")"), ("(a:", ")"), ("[(", ")]")]);
     if chance.below(4) > 0 {
-        scene.insert(place + 1, token(Form::Close, &close.repeat(depth)));
+        scene.insert(index + 1, token(Form::Close, &close.repeat(depth)));
     }
-    scene.insert(place, token(Form::Open, &open.repeat(depth)));
+    scene.insert(index, token(Form::Open, &open.repeat(depth)));
 }
 
 /// Changes single bytes; what is no longer UTF-8 becomes the sign for it.
@@ -277,12 +277,12 @@ fn scramble(text: &mut String, chance: &mut Chance) {
         if bytes.is_empty() {
             break;
         }
-        let place = chance.below(bytes.len());
+        let index = chance.below(bytes.len());
         match chance.below(4) {
-            0 => bytes[place] ^= 1 << chance.below(8),
-            1 => bytes[place] = chance.below(256) as u8,
-            2 => bytes.truncate(place),
-            _ => bytes.insert(place, chance.below(256) as u8),
+            0 => bytes[index] ^= 1 << chance.below(8),
+            1 => bytes[index] = chance.below(256) as u8,
+            2 => bytes.truncate(index),
+            _ => bytes.insert(index, chance.below(256) as u8),
         }
     }
     *text = String::from_utf8_lossy(&bytes).into_owned();

@@ -75,14 +75,14 @@ pub fn joined(tokens: &[Token]) -> String {
 /// The place of the bracket that closes the one at `open`, or of the last piece.
 pub fn closing(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0_usize;
-    for (place, token) in tokens.iter().enumerate().skip(open) {
+    for (index, token) in tokens.iter().enumerate().skip(open) {
         match token.form {
             Form::Open => depth += 1,
             Form::Close => depth = depth.saturating_sub(1),
             _ => {}
         }
         if depth == 0 {
-            return place;
+            return index;
         }
     }
     tokens.len() - 1

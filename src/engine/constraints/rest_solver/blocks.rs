@@ -93,7 +93,7 @@ pub(super) struct Blocks {
     /// Torques against rolling; empty where there are none.
     pub rolling: Vec<Springs>,
     /// For each contact eight times its block, and its lane.
-    pub places: Vec<usize>,
+    pub indices: Vec<usize>,
     /// The velocities of movers, and of copies of the one that never moves: both axes, spin, and 1/mass.
     pub quads: Vec<Quad>,
     /// For each mover the greatest tangential force and the greatest rolling torque of all its contacts.
@@ -104,10 +104,10 @@ impl Blocks {
     /// Takes up contacts for the `dt` seconds to come. `over`: the factor of over-relaxation.
     pub fn set_up(&mut self, contact: &[RestContact], movers: &[Mover], over: f64, dt: f64) {
         self.grip(contact, movers.len());
-        let Self { schedule, pairs, normals, tangential, rolling, places, grips, .. } = self;
+        let Self { schedule, pairs, normals, tangential, rolling, indices, grips, .. } = self;
         schedule.begin(movers.len());
-        places.clear();
-        places.extend(contact.iter().map(|contact| schedule.put(contact.ends, movers)));
+        indices.clear();
+        indices.extend(contact.iter().map(|contact| schedule.put(contact.ends, movers)));
         pairs.clear();
         schedule.blocks.iter().for_each(|block| pairs.push(*block));
         let rolls = contact.iter().any(|contact| contact.rolling.acts());
@@ -130,8 +130,8 @@ impl Blocks {
                 }
             }
         }
-        for (contact, &place) in contact.iter().zip(&*places) {
-            let (block, lane) = (place / BLOCK, place % BLOCK);
+        for (contact, &index) in contact.iter().zip(&*indices) {
+            let (block, lane) = (index / BLOCK, index % BLOCK);
             let sides = Sides::of(movers, contact.ends);
             let rows = Rows::of(contact, &sides);
             let grips = (grips[contact.ends.0], grips[contact.ends.1]);
@@ -157,9 +157,9 @@ impl Blocks {
         self.grips.clear();
         self.grips.resize(movers, [0.0; 2]);
         for RestContact { ends, band, tangential, rolling, .. } in contact {
-            for place in [ends.0, ends.1] {
-                self.grips[place][0] += tangential.limit * band.1;
-                self.grips[place][1] += rolling.limit * band.1;
+            for index in [ends.0, ends.1] {
+                self.grips[index][0] += tangential.limit * band.1;
+                self.grips[index][1] += rolling.limit * band.1;
             }
         }
     }
@@ -169,7 +169,7 @@ impl Blocks {
         self.quads.clear();
         let quad = |mover: &Mover| Quad([mover.velocity.x, mover.velocity.y, mover.spin, mover.inverse_mass]);
         self.quads.extend(movers.iter().map(quad));
-        self.quads.resize(self.schedule.places(), quad(&movers[0]));
+        self.quads.resize(self.schedule.indices(), quad(&movers[0]));
     }
 
     /// Copies the velocities of the quads back to the movers.

@@ -41,9 +41,9 @@ impl Gradients {
     ) {
         let Self { rows, still, moved, impulses, residual, scaled, search, response } = self;
         rows.clear();
-        for (contact, &place) in contact.iter().zip(&blocks.places) {
+        for (contact, &index) in contact.iter().zip(&blocks.indices) {
             let all = Rows::of(contact, &Sides::of(movers, contact.ends));
-            let free = [all.normal, all.tangent, all.turn].into_iter().zip(free(blocks, place));
+            let free = [all.normal, all.tangent, all.turn].into_iter().zip(free(blocks, index));
             rows.extend(free.filter(|(_, is)| *is).map(|(row, _)| (row, contact.ends)));
         }
         still.clear();
@@ -115,8 +115,8 @@ impl Gradients {
 }
 
 /// Which of the three rows of a contact are free of their bounds.
-fn free(blocks: &Blocks, place: usize) -> [bool; 3] {
-    let (block, lane) = (place / BLOCK, place % BLOCK);
+fn free(blocks: &Blocks, index: usize) -> [bool; 3] {
+    let (block, lane) = (index / BLOCK, index % BLOCK);
     let rolls = blocks.rolling.get(block).is_some_and(|rolling| rolling.is_free(lane));
     [(blocks.normals[block].at_limit >> lane) & 1 == 0, blocks.tangential[block].is_free(lane), rolls]
 }
@@ -132,10 +132,10 @@ fn take_over((blocks, contact): (&mut Blocks, &[RestContact]), movers: &mut [Mov
     let mut impulses = impulses.iter();
     let mut next = || impulses.next().map_or(0.0, |impulse| impulse / dt);
     for (number, contact) in contact.iter().enumerate() {
-        let place = blocks.places[number];
-        let (block, lane) = (place / BLOCK, place % BLOCK);
+        let index = blocks.indices[number];
+        let (block, lane) = (index / BLOCK, index % BLOCK);
         let mut sides = Sides::of(movers, contact.ends);
-        let (rows, free) = (Rows::of(contact, &sides), free(blocks, place));
+        let (rows, free) = (Rows::of(contact, &sides), free(blocks, index));
         let normals = &mut blocks.normals[block];
         if free[0] {
             let wanted = normals.force[lane] + next();

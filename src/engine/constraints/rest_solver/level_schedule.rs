@@ -40,7 +40,7 @@ impl LevelSchedule {
     }
 
     /// How many places the blocks name: all movers, then copies of the first of them.
-    pub fn places(&self) -> usize {
+    pub fn indices(&self) -> usize {
         self.after.len() + WORLDS
     }
 
@@ -81,7 +81,7 @@ mod tests {
 
     fn moving(count: usize) -> Vec<Mover> {
         let moves = Mover { velocity: DVec2::ZERO, spin: 0.0, inverse_mass: 1.0, inverse_inertia: 1.0 };
-        (0..count).map(|place| if place == 0 { Mover::default() } else { moves }).collect()
+        (0..count).map(|index| if index == 0 { Mover::default() } else { moves }).collect()
     }
 
     #[test]
@@ -91,12 +91,12 @@ mod tests {
         schedule.begin(movers.len());
         let pairs: Vec<(usize, usize)> = (0..3000).map(|k| (k * 7 % 400, (k * k + 3 * k + 1) % 400)).collect();
         let pairs: Vec<(usize, usize)> = pairs.into_iter().filter(|(a, b)| a != b).collect();
-        let places: Vec<usize> = pairs.iter().map(|&ends| schedule.put(ends, &movers)).collect();
+        let indices: Vec<usize> = pairs.iter().map(|&ends| schedule.put(ends, &movers)).collect();
         let mut last = vec![None; movers.len()];
-        for (place, &(a, b)) in places.iter().zip(&pairs) {
-            let (block, lane) = (place / BLOCK, place % BLOCK);
+        for (index, &(a, b)) in indices.iter().zip(&pairs) {
+            let (block, lane) = (index / BLOCK, index % BLOCK);
             let [first, second] = schedule.blocks[block];
-            let named = |place: u32| if place < 400 { place as usize } else { 0 };
+            let named = |index: u32| if index < 400 { index as usize } else { 0 };
             assert_eq!((named(first[lane]), named(second[lane])), (a, b));
             for end in [a, b].into_iter().filter(|&end| end > 0) {
                 assert!(last[end].is_none_or(|before| before < block));
@@ -111,7 +111,7 @@ mod tests {
         let movers = moving(60);
         let mut schedule = LevelSchedule::default();
         schedule.begin(movers.len());
-        let places: Vec<usize> = (2..60).map(|other| schedule.put((1, other), &movers)).collect();
-        assert!(places.iter().enumerate().all(|(number, &place)| place == BLOCK * number));
+        let indices: Vec<usize> = (2..60).map(|other| schedule.put((1, other), &movers)).collect();
+        assert!(indices.iter().enumerate().all(|(number, &index)| index == BLOCK * number));
     }
 }

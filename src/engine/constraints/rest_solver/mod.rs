@@ -136,15 +136,15 @@ impl Island {
     /// The outcome of each contact for the `dt` seconds to come, in their order.
     pub fn outcomes(&self, dt: f64) -> impl Iterator<Item = Outcome> + '_ {
         let Self { blocks, contacts, begin, movers, .. } = self;
-        let places = contacts.iter().zip(&blocks.places);
-        places.map(move |(contact, &place)| Found { blocks, contact, place, movers: [begin, movers], dt }.outcome())
+        let indices = contacts.iter().zip(&blocks.indices);
+        indices.map(move |(contact, &index)| Found { blocks, contact, index, movers: [begin, movers], dt }.outcome())
     }
 
     /// For each mover the sum of the forces of its contacts and joints in newtons. Its rounding is judged by that.
     pub fn loads(&self) -> Vec<f64> {
         let mut loads = vec![0.0; self.movers.len()];
-        for (contact, &place) in self.contacts.iter().zip(&self.blocks.places) {
-            let force = self.blocks.normals[place / BLOCK].force[place % BLOCK];
+        for (contact, &index) in self.contacts.iter().zip(&self.blocks.indices) {
+            let force = self.blocks.normals[index / BLOCK].force[index % BLOCK];
             for end in [contact.ends.0, contact.ends.1] {
                 loads[end] += force + contact.noise / ROUNDING;
             }

@@ -12,7 +12,7 @@ pub(super) struct Found<'a> {
     pub blocks: &'a Blocks,
     pub contact: &'a RestContact,
     /// Where it stands in the blocks.
-    pub place: usize,
+    pub index: usize,
     /// All movers at the beginning of the tick, and at its end.
     pub movers: [&'a [Mover]; 2],
     pub dt: f64,
@@ -22,7 +22,7 @@ impl Found<'_> {
     /// The outcome for the tick to come.
     #[inline]
     pub fn outcome(&self) -> Outcome {
-        let (block, lane) = (self.place / BLOCK, self.place % BLOCK);
+        let (block, lane) = (self.index / BLOCK, self.index % BLOCK);
         let (normals, tangential, contact) =
             (&self.blocks.normals[block], &self.blocks.tangential[block], self.contact);
         let normal = normals.force[lane];
@@ -36,7 +36,7 @@ impl Found<'_> {
 
     /// The same for a contact with a force at its limit, or with rolling resistance.
     fn looked_at(&self, at_limit: bool) -> Outcome {
-        let (block, lane) = (self.place / BLOCK, self.place % BLOCK);
+        let (block, lane) = (self.index / BLOCK, self.index % BLOCK);
         let (normals, tangential, contact) =
             (&self.blocks.normals[block], &self.blocks.tangential[block], self.contact);
         let [begin, end] = self.movers.map(|movers| Sides::of(movers, contact.ends));

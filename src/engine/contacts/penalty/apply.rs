@@ -6,19 +6,19 @@ use glam::DVec2;
 
 use super::Penalty;
 use super::contact::Losses;
+use super::contact_list::ContactList;
+use super::contact_stages;
 use super::coulomb::Slider;
 use super::critical::Watch;
 use super::held::Held;
-use super::kernel::{self, Moment};
-use super::law::{LawTable, Side};
-use super::list::ContactList;
+use super::kernel::{self, EvaluationTime};
 use super::meetings::Meetings;
 use super::normal::{Approach, NormalForce};
+use super::pair_law::{LawTable, PairSide};
 use super::records::Records;
 use super::rest::{Rest, Sleep};
 use super::rolling::RollingContacts;
 use super::search_schedule::SearchSchedule;
-use super::staged;
 use super::surfaces::follow_surfaces;
 use super::switching::Told;
 use crate::constraints::Rows;
@@ -27,7 +27,7 @@ use crate::contacts::geometry::{End, PairGeometry, Shares, SideA, arms};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface};
 use crate::contacts::{ContactPoint, Other};
 use crate::tick::pairs::NEW;
-use crate::tick::{Balance, Evaluation, Ledger};
+use crate::tick::{Evaluation, Ledger, Rates};
 use crate::world::{Bodies, Materials};
 use jostle_simd::BLOCK;
 use serde::{Deserialize, Serialize};
@@ -105,18 +105,18 @@ impl PenaltyContacts {
 fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let same = std::mem::replace(&mut contacts.generation, bodies.generation) == bodies.generation;
-    let side = |atom: u32| Side {
+    let side = |atom: u32| PairSide {
         stiffness: bodies.atom_stiffness(atom as usize),
         material: bodies.atom_material(atom as usize),
     };
     let PenaltyContacts { laws, materials, settings, atoms, surfaces, .. } = contacts;
-    atoms.carry(&pairs.atoms_before, same, |place| {
-        let pair = pairs.atoms[place];
-        laws.place::<N>(side(pair.a), side(pair.b), materials, settings)
+    atoms.carry(&pairs.atoms_before, same, |index| {
+        let pair = pairs.atoms[index];
+        laws.index::<N>(side(pair.a), side(pair.b), materials, settings)
     });
     atoms.pairs.list(pairs.atoms.iter().map(|pair| (pair.a, pair.b)));
     // Between discs that turn about their centres no lever arm changes.
-    let changes = |place: &u32| laws.get(*place).damping.depends_on_mobility();
+    let changes = |index: &u32| laws.get(*index).damping.depends_on_mobility();
     if N::DEPENDS_ON_VELOCITY && bodies.lone_discs && !atoms.is_empty() && changes(&atoms.get(0).law) {
         let mobility = |pair: &AtomPair| bodies.inverse_mass(pair.a as usize) + bodies.inverse_mass(pair.b as usize);
         let damping = |law: &u32, pair| N::response(laws.get(*law), mobility(pair)).1;
@@ -127,26 +127,26 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
             }
         }
     }
-    let wall = |wall: usize| Side { stiffness: f64::INFINITY, material: bodies.walls[wall].material };
-    surfaces.carry(&pairs.surfaces_before, same, |place| {
-        let pair = pairs.surfaces[place];
+    let wall = |wall: usize| PairSide { stiffness: f64::INFINITY, material: bodies.walls[wall].material };
+    surfaces.carry(&pairs.surfaces_before, same, |index| {
+        let pair = pairs.surfaces[index];
         let surface = match pair.surface(bodies) {
-            Surface::Wall(place) => wall(place),
+            Surface::Wall(index) => wall(index),
             Surface::Hull(hull) => side(bodies.hulls[hull].first_atom),
         };
         let (a, b) = match pair.probe(bodies) {
             Probe::Atom(atom) => (surface, side(atom as u32)),
-            Probe::End(place, _) => (wall(place), surface),
+            Probe::End(index, _) => (wall(index), surface),
         };
-        laws.place::<N>(a, b, materials, settings)
+        laws.index::<N>(a, b, materials, settings)
     });
     if bodies.hulls.is_empty() {
         return;
     }
     surfaces.remembered.resize(pairs.surfaces.len());
-    for (place, (&pair, &before)) in pairs.surfaces.iter().zip(&pairs.surfaces_before).enumerate() {
+    for (index, (&pair, &before)) in pairs.surfaces.iter().zip(&pairs.surfaces_before).enumerate() {
         if !same || before == NEW {
-            surfaces.remembered.name(place, bodies, pair);
+            surfaces.remembered.name(index, bodies, pair);
         }
     }
 }
@@ -161,7 +161,7 @@ pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2)
 /// The recipients of contact forces.
 pub(super) struct Sink<'a> {
     pub bodies: &'a mut Bodies,
-    pub balance: &'a mut Balance,
+    pub rates: &'a mut Rates,
     pub forces: Option<&'a mut ContactForces>,
 }
 
@@ -170,7 +170,7 @@ pub(super) struct Sink<'a> {
 #[inline]
 pub(super) fn account(
     bodies: &Bodies,
-    (balance, forces): (&mut Balance, Option<&mut ContactForces>),
+    (rates, forces): (&mut Rates, Option<&mut ContactForces>),
     (a, b): (&End, &End),
     (arm_a, arm_b): (DVec2, DVec2),
     force: DVec2,
@@ -184,12 +184,12 @@ pub(super) fn account(
         if bodies.moves[end.body] { force.dot(bodies.velocity_at(end.body, arm)) } else { 0.0 }
     };
     if !bodies.dynamic[a.body] {
-        balance.outside(bodies.position[b.body] + arm_b, force, 0.0);
-        balance.work += driven(a, arm_a, force);
+        rates.outside(bodies.position[b.body] + arm_b, force, 0.0);
+        rates.work += driven(a, arm_a, force);
     }
     if !bodies.dynamic[b.body] {
-        balance.outside(bodies.position[a.body] + arm_a, -force, 0.0);
-        balance.work += driven(b, arm_b, -force);
+        rates.outside(bodies.position[a.body] + arm_a, -force, 0.0);
+        rates.work += driven(b, arm_b, -force);
     }
 }
 
@@ -201,7 +201,7 @@ impl Sink<'_> {
         self.bodies.push(a.body, arm_a, -force);
         self.bodies.push(b.body, arm_b, force);
         let (arms, forces) = (arms((a, b), normal, overlap, shares), self.forces.as_deref_mut());
-        account(self.bodies, (self.balance, forces), (a, b), arms, force);
+        account(self.bodies, (self.rates, forces), (a, b), arms, force);
     }
 
     /// `force` acts on an atom at its contact with the wall, `height` metres from its centre.
@@ -209,9 +209,9 @@ impl Sink<'_> {
     pub fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
         let arm = end.arm - normal * height;
         self.bodies.push(end.body, arm, force);
-        self.balance.outside(self.bodies.position[end.body] + arm, force, 0.0);
+        self.rates.outside(self.bodies.position[end.body] + arm, force, 0.0);
         if let Some(&belt) = self.bodies.belts.get(wall as usize) {
-            self.balance.work += force.dot(belt);
+            self.rates.work += force.dot(belt);
         }
         if let Some(forces) = &mut self.forces {
             forces.on_body[end.body] += force;
@@ -223,7 +223,7 @@ impl Sink<'_> {
 /// The state that contacts act on.
 pub(super) struct Shared<'a> {
     pub bodies: &'a mut Bodies,
-    pub balance: &'a mut Balance,
+    pub rates: &'a mut Rates,
     pub ledger: &'a mut Ledger,
     pub evaluation: &'a Evaluation,
     pub rows: &'a mut Rows,
@@ -239,7 +239,7 @@ pub(super) struct Own<'a> {
 
 /// All contacts follow the state, or are evaluated as in a stage of a step.
 pub(super) fn apply<N: NormalForce>(
-    Shared { bodies, balance, ledger, evaluation, rows }: Shared,
+    Shared { bodies, rates, ledger, evaluation, rows }: Shared,
     Own { pairs, contacts, mut rolling, mut forces }: Own,
     deepest: &mut DeepestOverlap,
     touches: Option<&mut Touches>,
@@ -260,12 +260,12 @@ pub(super) fn apply<N: NormalForce>(
         forces.clear(bodies);
     }
     let mut losses = Losses::default();
-    let mut sink = Sink { bodies, balance, forces };
-    if evaluation.style.is_staged() {
+    let mut sink = Sink { bodies, rates, forces };
+    if evaluation.mode.is_staged() {
         if let Some(rolling) = &mut rolling {
             rolling.carry(pairs);
         }
-        staged::evaluate::<N>(contacts, rolling, pairs, evaluation.style, (&mut sink, rows));
+        contact_stages::evaluate::<N>(contacts, rolling, pairs, evaluation.mode, (&mut sink, rows));
         if let Some(touches) = touches {
             note_touches(contacts, sink.bodies, pairs, touches);
         }
@@ -280,7 +280,7 @@ pub(super) fn apply<N: NormalForce>(
         if !some_fly {
             records.update(sink.bodies, &pairs.atoms, atoms, path);
         }
-        let moment = Moment { path, time, elapsed };
+        let evaluation_time = EvaluationTime { path, time, elapsed };
         losses = kernel::follow_pairs::<N>(
             &records.list,
             (&pairs.atoms, pairs.group_ends),
@@ -288,7 +288,7 @@ pub(super) fn apply<N: NormalForce>(
             laws,
             &mut sink,
             deepest,
-            moment,
+            evaluation_time,
         );
         records.lendable = !some_fly;
     }
@@ -297,7 +297,7 @@ pub(super) fn apply<N: NormalForce>(
         laws,
         (&mut sink, &mut losses),
         deepest,
-        Moment { path, time, elapsed },
+        EvaluationTime { path, time, elapsed },
     );
     ledger.friction.add(losses.friction);
     ledger.inelasticity.add(losses.inelasticity);
@@ -310,12 +310,12 @@ pub(super) fn apply<N: NormalForce>(
 fn note_touches(contacts: &PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs, touches: &mut Touches) {
     let body = |atom: u32| bodies.atom_body(atom as usize);
     touches.clear();
-    for place in contacts.atoms.touching() {
-        let AtomPair { a, b } = pairs.atoms[place];
+    for index in contacts.atoms.touching() {
+        let AtomPair { a, b } = pairs.atoms[index];
         touches.bodies(body(a), body(b));
     }
-    for place in contacts.surfaces.touching() {
-        let pair = pairs.surfaces[place];
+    for index in contacts.surfaces.touching() {
+        let pair = pairs.surfaces[index];
         match (pair.bodies(bodies), pair.wall(bodies)) {
             ((Some(a), b), _) => touches.bodies(a, b),
             ((None, b), Some(wall)) => touches.wall(b, wall as u32),
@@ -334,9 +334,9 @@ impl PenaltyContacts {
         if !bodies.may_fly() {
             return;
         }
-        let of_atoms = self.atoms.touching().map(|place| pairs.atoms[place]).flat_map(|pair| [pair.a, pair.b]);
+        let of_atoms = self.atoms.touching().map(|index| pairs.atoms[index]).flat_map(|pair| [pair.a, pair.b]);
         let mut touching: Vec<u32> =
-            of_atoms.chain(self.surfaces.touching().map(|place| pairs.surfaces[place].probe)).collect();
+            of_atoms.chain(self.surfaces.touching().map(|index| pairs.surfaces[index].probe)).collect();
         touching.sort_unstable();
         touching.iter().for_each(|&body| bodies.bind(body as usize));
         if elapsed > 0.0 {
@@ -350,14 +350,14 @@ impl PenaltyContacts {
         bodies: &Bodies,
         pairs: &CandidatePairs,
     ) -> impl Iterator<Item = (usize, ContactPoint)> {
-        self.atoms.touching().map(|place| {
-            let (pair, contact) = (pairs.atoms[place], self.atoms.get(place));
+        self.atoms.touching().map(|index| {
+            let (pair, contact) = (pairs.atoms[index], self.atoms.get(index));
             let (law, ends) = (self.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
             let normal = pair.normal(bodies);
             let (_, arm) = arms(ends, normal, contact.overlap, law.shares());
             let force = contact.force(law, normal);
             let point = bodies.position[ends.1.body] + arm;
-            (place, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force, normal })
+            (index, ContactPoint { body: ends.1.body, other: Other::Body(ends.0.body), point, force, normal })
         })
     }
 
@@ -367,9 +367,9 @@ impl PenaltyContacts {
         bodies: &Bodies,
         pairs: &CandidatePairs,
     ) -> impl Iterator<Item = (usize, ContactPoint)> {
-        self.surfaces.touching().map(|place| {
+        self.surfaces.touching().map(|index| {
             let (pair, contact) =
-                (PairGeometry::surface(bodies, place, pairs.surfaces[place]).pair, self.surfaces.get(place));
+                (PairGeometry::surface(bodies, index, pairs.surfaces[index]).pair, self.surfaces.get(index));
             let law = self.laws.get(contact.law);
             let (_, arm) = pair.arms(law.shares(), contact.overlap);
             let (force, body) = (contact.force(law, pair.normal), pair.b.body);
@@ -377,7 +377,7 @@ impl PenaltyContacts {
                 SideA::Atom(a) | SideA::Hull(a) => Other::Body(a.body),
                 SideA::Wall(wall) => Other::Wall(wall as usize),
             };
-            (place, ContactPoint { body, other, point: bodies.position[body] + arm, force, normal: pair.normal })
+            (index, ContactPoint { body, other, point: bodies.position[body] + arm, force, normal: pair.normal })
         })
     }
 }
@@ -385,12 +385,12 @@ impl PenaltyContacts {
 impl PenaltyContacts {
     /// Elastic energy of all contacts in J.
     pub fn energy(&self) -> f64 {
-        let of = |list: &ContactList, place: usize| {
-            let contact = list.get(place);
+        let of = |list: &ContactList, index: usize| {
+            let contact = list.get(index);
             contact.energy(self.laws.get(contact.law))
         };
-        let atoms = self.atoms.touching().map(|place| of(&self.atoms, place));
-        let surfaces = self.surfaces.touching().map(|place| of(&self.surfaces, place));
+        let atoms = self.atoms.touching().map(|index| of(&self.atoms, index));
+        let surfaces = self.surfaces.touching().map(|index| of(&self.surfaces, index));
         atoms.chain(surfaces).fold(0.0, |sum, energy| sum + energy)
     }
 }

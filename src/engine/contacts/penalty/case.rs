@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::apply::Sink;
 use super::contact::Contact;
-use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
+use super::pair_law::PairLaw;
 use crate::constraints::islands::Link;
 use crate::contacts::geometry::{Pair, SideA};
 use crate::world::Bodies;

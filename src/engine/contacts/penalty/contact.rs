@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::coulomb::Slider;
-use super::law::PairLaw;
 use super::normal::{Approach, Mode, NormalForce, elastic_energy};
+use super::pair_law::PairLaw;
 use crate::constraints::rest_solver::Friction;
 
 /// History of a candidate pair.

@@ -7,14 +7,14 @@
 //! risen clearly.
 
 use super::apply::PenaltyContacts;
-use super::law::PairLaw;
 use super::normal::NormalForce;
+use super::pair_law::PairLaw;
 use super::rolling;
 use crate::contacts::geometry::{End, PairGeometry, arms};
 use crate::contacts::{AtomPair, CandidatePairs};
-use crate::tick::response::{Spring, Springs};
+use crate::tick::critical_step::{Spring, Springs};
 use crate::tick::steady::SteadySprings;
-use crate::tick::{Balance, Briefest, Clock, Fastest, Holder, Responses, Stability};
+use crate::tick::{Briefest, Clock, Fastest, Holder, Rates, Stability, TimeScales};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -44,7 +44,7 @@ pub(super) struct Watch {
     /// The greatest bound whose eigenvalue was worked out.
     bound: f64,
     springs: Springs,
-    pub found: Responses,
+    pub found: TimeScales,
 }
 
 impl PenaltyContacts {
@@ -56,7 +56,7 @@ impl PenaltyContacts {
         pairs: &CandidatePairs,
         clock: &Clock,
         stability: &Stability,
-        balance: &mut Balance,
+        rates: &mut Rates,
         steady: &SteadySprings,
     ) {
         let touching = self.atoms.touching_count() + self.surfaces.touching_count();
@@ -70,7 +70,7 @@ impl PenaltyContacts {
         if changed || clock.ticks >= watch.next {
             self.measure::<N>(bodies, pairs, clock, stability, steady);
             let fastest = self.watch.found.fastest.map_or(0.0, |fastest| fastest.angular_frequency);
-            balance.alert |= clock.dt * fastest > ALERT;
+            rates.alert |= clock.dt * fastest > ALERT;
         }
     }
 
@@ -105,9 +105,9 @@ impl PenaltyContacts {
             let (a, b) = watch.springs.pair(bound.pair);
             let wall = || {
                 let number = bound.pair - self.atoms.touching_count();
-                let place = self.surfaces.touching().nth(number).expect("the pair is one of those that were gathered");
+                let index = self.surfaces.touching().nth(number).expect("the pair is one of those that were gathered");
                 let wall =
-                    pairs.surfaces[place].wall(bodies).expect("a contact without another body is one with a wall");
+                    pairs.surfaces[index].wall(bodies).expect("a contact without another body is one with a wall");
                 bodies.walls[wall].entity
             };
             let between = (a.map_or_else(wall, entity), entity(b));
@@ -149,11 +149,11 @@ impl PenaltyContacts {
             let (stiffness, damping) = N::response(law, mobility);
             (stiffness, law.held_across(), damping * weight)
         };
-        let atoms = self.atoms.touching().map(move |place| {
-            let AtomPair { a, b } = pairs.atoms[place];
-            let normal = pairs.atoms[place].normal(bodies);
+        let atoms = self.atoms.touching().map(move |index| {
+            let AtomPair { a, b } = pairs.atoms[index];
+            let normal = pairs.atoms[index].normal(bodies);
             let (a, b) = (End::of(bodies, a), End::of(bodies, b));
-            let contact = self.atoms.get(place);
+            let contact = self.atoms.get(index);
             let law = self.laws.get(contact.law);
             let (arm_a, arm_b) = arms((&a, &b), normal, contact.overlap, law.shares());
             let mobility = a.mobility(bodies, normal) + b.mobility(bodies, normal);
@@ -163,10 +163,10 @@ impl PenaltyContacts {
             let turning = rolling::stiffness(ratio, law.stiffness, radius);
             Spring { a, b, normal, stiffness: (stiffness, across), damped, turning }
         });
-        let surfaces = self.surfaces.touching().map(move |place| {
-            let pair = PairGeometry::surface(bodies, place, pairs.surfaces[place]).pair;
+        let surfaces = self.surfaces.touching().map(move |index| {
+            let pair = PairGeometry::surface(bodies, index, pairs.surfaces[index]).pair;
             let (normal, end) = (pair.normal, pair.b);
-            let contact = self.surfaces.get(place);
+            let contact = self.surfaces.get(index);
             let law = self.laws.get(contact.law);
             let (arm_a, arm_b) = pair.arms(law.shares(), contact.overlap);
             let mobility = pair.other_end().map_or(0.0, |a| a.mobility(bodies, normal)) + end.mobility(bodies, normal);

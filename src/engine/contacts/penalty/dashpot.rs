@@ -15,8 +15,8 @@
 
 use super::Penalty;
 use super::inelasticity::restitution_of;
-use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, lost_work};
+use super::pair_law::PairLaw;
 use jostle_simd::Lanes;
 use serde::{Deserialize, Serialize};
 

@@ -10,7 +10,7 @@ use jostle_shapes::{Feature, Hull, beyond};
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
-use super::list::ContactList;
+use super::contact_list::ContactList;
 use super::normal::Mode;
 use super::rolling::RollingContacts;
 use super::switching::{Told, View, What};
@@ -31,11 +31,11 @@ pub(super) fn keep(pairs: &mut CandidatePairs, touching: &ContactList, bodies: &
         return;
     }
     pairs.keeps = true;
-    for place in 0..pairs.surfaces.len() {
-        let pair = pairs.surfaces[place];
+    for index in 0..pairs.surfaces.len() {
+        let pair = pairs.surfaces[index];
         let found = || Seen::of(pair, bodies).and_then(|seen| seen.nearest());
-        let kept = touching.is_touching(place).then(|| pair.kept().or_else(found));
-        pairs.surfaces[place].keep(kept.flatten());
+        let kept = touching.is_touching(index).then(|| pair.kept().or_else(found));
+        pairs.surfaces[index].keep(kept.flatten());
     }
 }
 
@@ -81,13 +81,13 @@ impl<'a> Seen<'a> {
 
     /// The hull and the feature to which the probe has come.
     fn beyond(&self, feature: Feature, passed: [bool; 2], bodies: &'a Bodies) -> Option<(usize, Feature)> {
-        let places = bodies.places_of_hulls(self.packed.body as usize);
-        let first = places.start;
+        let indices = bodies.indices_of_hulls(self.packed.body as usize);
+        let first = indices.start;
         let shape = |packed: &'a PackedHull| match &packed.rounded {
             Some(rounded) if self.is_rounded() => &rounded.hull,
             _ => &packed.hull,
         };
-        let hulls: Vec<&Hull> = bodies.hulls[places].iter().map(shape).collect();
+        let hulls: Vec<&Hull> = bodies.hulls[indices].iter().map(shape).collect();
         let second = self.shape.passed_second(feature, self.place, passed);
         beyond(&hulls, self.hull - first, feature, second).map(|(part, feature)| (first + part, feature))
     }
@@ -95,15 +95,15 @@ impl<'a> Seen<'a> {
 
 impl View<'_> {
     /// Adds the indicators of the borders of the feature that a contact keeps. `place` counts all contacts.
-    pub(super) fn tell_borders(&self, place: usize, what: &mut Told, told: &mut Vec<Indicator>) {
-        let Some(surface) = place.checked_sub(self.contacts.atoms.len()) else { return };
+    pub(super) fn tell_borders(&self, index: usize, what: &mut Told, told: &mut Vec<Indicator>) {
+        let Some(surface) = index.checked_sub(self.contacts.atoms.len()) else { return };
         let pair = self.pairs.surfaces[surface];
         let Some(feature) = pair.kept() else { return };
         let Some(seen) = Seen::of(pair, self.bodies) else { return };
         let rounding = 4.0 * f64::EPSILON * (seen.place.abs().max_element() + seen.packed.extent);
         let borders = seen.shape.borders(feature, seen.place, seen.velocity).into_iter().flatten();
         for (second, (value, slope)) in [false, true].into_iter().zip(borders) {
-            what.push((place as u32, What::Border(second)));
+            what.push((index as u32, What::Border(second)));
             told.push(Indicator { value, slope, rounding, ..Indicator::default() });
         }
     }
@@ -119,49 +119,49 @@ pub(super) fn cross(
     let atoms = contacts.atoms.len();
     let told = std::mem::take(&mut contacts.told);
     let mut passed: Vec<(usize, [bool; 2])> = Vec::new();
-    for &(place, what) in fired.iter().map(|place| &told[*place]) {
+    for &(index, what) in fired.iter().map(|index| &told[*index]) {
         if let What::Border(second) = what {
-            let place = place as usize - atoms;
-            let known = passed.last_mut().filter(|(other, _)| *other == place);
+            let index = index as usize - atoms;
+            let known = passed.last_mut().filter(|(other, _)| *other == index);
             match known {
                 Some((_, both)) => both[usize::from(second)] = true,
-                None => passed.push((place, [!second, second])),
+                None => passed.push((index, [!second, second])),
             }
         }
     }
     contacts.told = told;
-    for (place, borders) in passed {
-        let pair = pairs.surfaces[place];
+    for (index, borders) in passed {
+        let pair = pairs.surfaces[index];
         let Some((feature, seen)) = pair.kept().zip(Seen::of(pair, bodies)) else { continue };
-        if contacts.surfaces.get(place).mode == Mode::Open {
+        if contacts.surfaces.get(index).mode == Mode::Open {
             continue;
         }
         let next = seen.beyond(feature, borders, bodies);
-        pairs.surfaces[place].keep(None);
+        pairs.surfaces[index].keep(None);
         match next {
-            Some((hull, feature)) if hull == seen.hull => pairs.surfaces[place].keep(Some(feature)),
+            Some((hull, feature)) if hull == seen.hull => pairs.surfaces[index].keep(Some(feature)),
             Some((hull, feature)) => {
                 let other = SurfacePair::new((bodies.walls.len() + hull) as u32, pair.probe);
                 let found = pairs.surfaces.binary_search_by_key(&other.names(), SurfacePair::names).ok();
                 let free = found.filter(|found| contacts.surfaces.get(*found).mode == Mode::Open);
                 if let Some(to) = free {
                     pairs.surfaces[to].keep(Some(feature));
-                    let history = contacts.surfaces.get(place);
+                    let history = contacts.surfaces.get(index);
                     let law = contacts.surfaces.get(to).law;
                     contacts.surfaces.set(to, &Contact { law, ..history });
                     if let Some(rolling) = &mut rolling {
-                        rolling.surfaces[to] = std::mem::take(&mut rolling.surfaces[place]);
+                        rolling.surfaces[to] = std::mem::take(&mut rolling.surfaces[index]);
                     }
                 }
-                open(contacts, place);
+                open(contacts, index);
             }
-            None => open(contacts, place),
+            None => open(contacts, index),
         }
     }
 }
 
 /// The outline ends there, and another contact bears the load, or none does.
-fn open(contacts: &mut PenaltyContacts, place: usize) {
-    let law = contacts.surfaces.get(place).law;
-    contacts.surfaces.set(place, &Contact::open(law));
+fn open(contacts: &mut PenaltyContacts, index: usize) {
+    let law = contacts.surfaces.get(index).law;
+    contacts.surfaces.set(index, &Contact::open(law));
 }

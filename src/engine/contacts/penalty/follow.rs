@@ -1,10 +1,10 @@
 //! The effect of a motion on contacts, one or several side by side: springs are stretched, yield and release.
 
 use super::contact::Contact;
+use super::contact_list::Phases;
 use super::coulomb::{Grip, Slider};
-use super::law::PairLaw;
-use super::list::Phases;
 use super::normal::{Approach, Mode, NormalForce, lost_work};
+use super::pair_law::PairLaw;
 use jostle_simd::Lanes;
 
 /// Geometry of touches of side A and side B.
@@ -56,7 +56,7 @@ impl<V: Lanes> Touch<V> {
     }
 }
 
-/// The history of contacts, in the form of [`super::list::ContactList`].
+/// The history of contacts, in the form of [`super::contact_list::ContactList`].
 #[derive(Clone, Copy)]
 pub(super) struct Followed<V: Lanes> {
     pub overlap: V,

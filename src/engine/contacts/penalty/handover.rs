@@ -1,4 +1,4 @@
-//! Transfer of contacts between their two ways of evaluation. These are stages of steps ([`super::staged`]), and
+//! Transfer of contacts between their two ways of evaluation. These are stages of steps ([`super::contact_stages`]), and
 //! following from state to state ([`super::apply`]).
 //!
 //! Both have the same modes. A slipping spring has the same elongation in both. Friction that sticks without a spring
@@ -9,12 +9,12 @@
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
-use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
+use super::pair_law::PairLaw;
 use super::rolling::RollingContacts;
 use super::switching::View;
 use crate::contacts::geometry::PairGeometry;
-use crate::tick::Style;
+use crate::tick::EvaluationMode;
 
 /// Rows of held contacts that are solved together; they cost the third power of their number.
 const MOST_ROWS: usize = 64;
@@ -23,37 +23,37 @@ const MOST_ROWS: usize = 64;
 const ROUNDING: f64 = 1e-9;
 
 /// Whether more contacts are held than rows can be solved for.
-pub(super) fn crowded(contacts: &PenaltyContacts, rolling: Option<&RollingContacts>) -> bool {
+pub(super) fn overloaded(contacts: &PenaltyContacts, rolling: Option<&RollingContacts>) -> bool {
     let rows =
         |contact: Contact| usize::from(contact.mode == Mode::Hold) + usize::from(contact.tangential.grip == Grip::Hold);
-    let atoms = contacts.atoms.touching().map(|place| contacts.atoms.get(place));
-    let surfaces = contacts.surfaces.touching().map(|place| contacts.surfaces.get(place));
+    let atoms = contacts.atoms.touching().map(|index| contacts.atoms.get(index));
+    let surfaces = contacts.surfaces.touching().map(|index| contacts.surfaces.get(index));
     let rolling = rolling.into_iter().flat_map(|rolling| rolling.atoms.iter().chain(&rolling.surfaces));
     let rolling = rolling.filter(|slider| slider.grip == Grip::Hold).count();
     atoms.chain(surfaces).map(rows).sum::<usize>() + rolling > MOST_ROWS
 }
 
 /// The way in which contacts are evaluated changes.
-pub(super) fn hand_over<N: NormalForce>(view: &mut View, style: Style, dt: f64) {
+pub(super) fn hand_over<N: NormalForce>(view: &mut View, mode: EvaluationMode, dt: f64) {
     view.contacts.rest.clear();
-    if style == Style::Following {
+    if mode == EvaluationMode::Following {
         view.contacts.held.clear();
         let slip = |slider: &mut Slider| {
             if slider.grip == Grip::Slide {
                 slider.grip = Grip::Slip;
             }
         };
-        for place in 0..view.len() {
-            slip(&mut view.contact(place).0.tangential);
+        for index in 0..view.len() {
+            slip(&mut view.contact(index).0.tangential);
         }
         let rolling = view.rolling.as_deref_mut().into_iter();
         rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.surfaces)).for_each(slip);
         return;
     }
     view.contacts.held_before = Some(view.stored(|_| true));
-    for place in 0..view.len() {
-        let (geometry, bodies) = (view.look(place), view.bodies);
-        let (mut contact, law, roller) = view.whole(place, &geometry);
+    for index in 0..view.len() {
+        let (geometry, bodies) = (view.look(index), view.bodies);
+        let (mut contact, law, roller) = view.whole(index, &geometry);
         if contact.mode == Mode::Open {
             continue;
         }

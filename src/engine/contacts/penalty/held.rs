@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::contact::Contact;
-use super::law::PairLaw;
+use super::pair_law::PairLaw;
 use crate::constraints::islands::Link;
 use crate::constraints::{LostTo, Row, Rows, Share, Side};
 use crate::contacts::geometry::PairGeometry;

@@ -10,11 +10,11 @@ use glam::DVec2;
 
 use super::apply::{Sink, account};
 use super::contact::Losses;
+use super::contact_list::{ContactList, lanes};
 use super::follow::Touch;
-use super::kernel::Moment;
-use super::law::LawTable;
-use super::list::{ContactList, lanes};
+use super::kernel::EvaluationTime;
 use super::normal::{Approach, NormalForce};
+use super::pair_law::LawTable;
 use super::remembered::{Sides, TRUSTED};
 use crate::contacts::geometry::{End, PairGeometry, SideA, arms};
 use crate::contacts::{DeepestOverlap, SurfacePair};
@@ -30,7 +30,7 @@ type Numbers = [f64; BLOCK];
 pub(super) struct Waiting {
     count: usize,
     /// Places in the list of contacts.
-    place: [u32; BLOCK],
+    index: [u32; BLOCK],
     law: [u32; BLOCK],
     /// Side A is a hull of the first body, side B an atom of the second.
     sides: [Sides; BLOCK],
@@ -66,9 +66,9 @@ struct Effects {
 impl Waiting {
     /// Appends a contact; returns whether the block is full.
     #[inline(always)]
-    pub fn add(&mut self, bodies: &Bodies, (place, pair): (usize, SurfacePair), law: u32, sides: Sides) -> bool {
+    pub fn add(&mut self, bodies: &Bodies, (index, pair): (usize, SurfacePair), law: u32, sides: Sides) -> bool {
         let lane = self.count;
-        (self.place[lane], self.law[lane], self.sides[lane]) = (place as u32, law, sides);
+        (self.index[lane], self.law[lane], self.sides[lane]) = (index as u32, law, sides);
         let [first, second] = sides.bodies.map(|body| body as usize);
         let (at, pose) = (bodies.atom_place(pair.probe as usize), bodies.pose_with_hulls(first));
         let other = bodies.position[second];
@@ -95,14 +95,15 @@ impl Waiting {
         laws: &LawTable,
         (sink, losses): (&mut Sink, &mut Losses),
         deepest: &mut DeepestOverlap,
-        moment: Moment,
+        evaluation_time: EvaluationTime,
     ) {
         if self.count == 0 {
             return;
         }
         let bodies = &*sink.bodies;
         let law = PhantomData::<N>;
-        let effects = jostle_simd::run(bodies.level, Follow { waiting: self, list, pairs, laws, bodies, moment, law });
+        let effects =
+            jostle_simd::run(bodies.level, Follow { waiting: self, list, pairs, laws, bodies, evaluation_time, law });
         for lane in 0..self.count {
             losses.friction += effects.friction[lane];
             losses.inelasticity += effects.inelasticity[lane];
@@ -111,7 +112,7 @@ impl Waiting {
             let Sides { bodies: [first, second], size } = self.sides[lane];
             let [first, second] = [first as usize, second as usize];
             let entity = &sink.bodies.entity;
-            deepest.note(effects.overlap[lane], size, moment.time, || (entity[first], entity[second]));
+            deepest.note(effects.overlap[lane], size, evaluation_time.time, || (entity[first], entity[second]));
             let force = DVec2::new(effects.force[0][lane], effects.force[1][lane]);
             sink.bodies.force[first] += -force;
             sink.bodies.torque[first] += effects.torque[0][lane];
@@ -133,14 +134,14 @@ impl Waiting {
         let (a, b, law) = (end(0), end(1), laws.get(self.law[lane]));
         let normal = DVec2::new(self.normal[0][lane], self.normal[1][lane]);
         let arms = arms((&a, &b), normal, self.overlap[lane], law.shares());
-        account(sink.bodies, (sink.balance, sink.forces.as_deref_mut()), (&a, &b), arms, force);
+        account(sink.bodies, (sink.rates, sink.forces.as_deref_mut()), (&a, &b), arms, force);
     }
 
     /// Computes the positions of the sides of one contact.
     #[inline(never)]
     fn look(&mut self, lane: usize, list: &mut ContactList, pair: SurfacePair, bodies: &Bodies) {
-        let place = self.place[lane] as usize;
-        let (geometry, _) = PairGeometry::near(bodies, place, pair);
+        let index = self.index[lane] as usize;
+        let (geometry, _) = PairGeometry::near(bodies, index, pair);
         let SideA::Hull(a) = geometry.pair.a else { unreachable!("ends of walls are followed one by one") };
         let b = geometry.pair.b;
         for (side, end) in [a, b].into_iter().enumerate() {
@@ -151,7 +152,7 @@ impl Waiting {
         (self.overlap[lane], self.distance[lane]) = (geometry.overlap, geometry.distance);
         self.flat = self.flat & !(1 << lane) | u8::from(geometry.is_flat()) << lane;
         if geometry.is_flat() {
-            list.remembered.touch(place, bodies, pair);
+            list.remembered.touch(index, bodies, pair);
         }
     }
 }
@@ -203,7 +204,7 @@ struct Follow<'a, N> {
     pairs: &'a [SurfacePair],
     laws: &'a LawTable,
     bodies: &'a Bodies,
-    moment: Moment,
+    evaluation_time: EvaluationTime,
     law: PhantomData<N>,
 }
 
@@ -221,7 +222,7 @@ impl<N: NormalForce> Kernel for Follow<'_, N> {
         self.waiting.flat = over;
         let rest = ((1_u16 << count) - 1) as u8 & !over;
         for lane in lanes(rest) {
-            let pair = self.pairs[self.waiting.place[lane] as usize];
+            let pair = self.pairs[self.waiting.index[lane] as usize];
             self.waiting.look(lane, self.list, pair, self.bodies);
         }
         let mut lane = 0;
@@ -237,9 +238,9 @@ impl<N: NormalForce> Follow<'_, N> {
     /// Finds out where probes are that are over the sides they touched before. Returns which are.
     #[inline(always)]
     fn over_sides<V: Lanes>(&mut self, lane: usize) -> u8 {
-        let Waiting { poses, normal, overlap, arm, radius, place, .. } = &mut *self.waiting;
+        let Waiting { poses, normal, overlap, arm, radius, index, .. } = &mut *self.waiting;
         let [normal_x, normal_y, corner_x, corner_y, from, to, radius_a, radius_b] =
-            V::records(&self.list.remembered.records, &place[lane..]);
+            V::records(&self.list.remembered.records, &index[lane..]);
         let [at_x, at_y, x, y, cos, sin, other_x, other_y] = load_all::<V>(poses, lane);
         let away = (at_x - x, at_y - y);
         let local = (cos * away.0 + sin * away.1, cos * away.1 - sin * away.0);
@@ -282,10 +283,10 @@ impl<N: NormalForce> Follow<'_, N> {
         let (rolled_a, rolled_b) = ((radius_a, a.turn), (radius_b, b.turn));
         let touch = Touch { normal, overlap, approach, displacement, swing, rolled_a, rolled_b };
         let among = (((1_u16 << waiting.count.min(lane + V::COUNT)) - 1) >> lane) as u8;
-        let places = &waiting.place[lane..];
-        let mut contacts = self.list.gather::<V>(places);
-        let lost = contacts.follow::<N>(&law, &touch, self.moment.elapsed, V::mask(among));
-        self.list.scatter(places, among, &contacts);
+        let indices = &waiting.index[lane..];
+        let mut contacts = self.list.gather::<V>(indices);
+        let lost = contacts.follow::<N>(&law, &touch, self.evaluation_time.elapsed, V::mask(among));
+        self.list.scatter(indices, among, &contacts);
         lost.friction.store(&mut effects.friction[lane..]);
         lost.inelasticity.store(&mut effects.inelasticity[lane..]);
         contacts.overlap.store(&mut effects.overlap[lane..]);

@@ -3,8 +3,8 @@
 
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
-use super::law::PairLaw;
 use super::normal::{Change, Mode, NormalForce};
+use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::switching::{View, What};
 use crate::contacts::geometry::PairGeometry;
@@ -58,12 +58,12 @@ impl View<'_> {
     pub fn tell<N: NormalForce>(&mut self, told: &mut Vec<Indicator>) {
         let mut what = std::mem::take(&mut self.contacts.told);
         what.clear();
-        for place in 0..self.len() {
-            let geometry = self.look(place);
+        for index in 0..self.len() {
+            let geometry = self.look(index);
             let bodies = self.bodies;
-            let (contact, law, roller) = self.whole(place, &geometry);
+            let (contact, law, roller) = self.whole(index, &geometry);
             if contact.mode == Mode::Open {
-                what.push((place as u32, What::Touch));
+                what.push((index as u32, What::Touch));
                 let (value, slope, bend) = (-geometry.overlap, geometry.parting(), geometry.bend(bodies));
                 told.push(Indicator { value, slope, bend, ..Indicator::default() });
                 continue;
@@ -71,7 +71,7 @@ impl View<'_> {
             let change = geometry.change(law, bodies);
             let pressure = Pressure::of::<N>(&contact, law, &geometry, bodies, change);
             let mut say = |event: What, indicator: Indicator| {
-                what.push((place as u32, event));
+                what.push((index as u32, event));
                 told.push(indicator);
             };
             // For fast bodies the line of centres turns faster than springs swing.
@@ -100,7 +100,7 @@ impl View<'_> {
                 rolling_stages::tell(&roller, &contact, pressure, &geometry, bodies, say);
             }
             drop(contact);
-            self.tell_borders(place, &mut what, told);
+            self.tell_borders(index, &mut what, told);
         }
         self.contacts.told = what;
     }

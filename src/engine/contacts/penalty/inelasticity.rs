@@ -10,8 +10,8 @@
 //! forces determines it ([`crate::constraints::rest_solver`]).
 
 use super::Penalty;
-use super::law::PairLaw;
 use super::normal::{Approach, Change, Mode, NormalForce, elastic_energy};
+use super::pair_law::PairLaw;
 use crate::world::Materials;
 use crate::world::material::Rebound;
 use jostle_simd::Lanes;

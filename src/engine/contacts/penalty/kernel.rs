@@ -10,21 +10,21 @@ use glam::DVec2;
 
 use super::apply::{Sink, account};
 use super::contact::Losses;
+use super::contact_list::{ContactList, ListPart, Phases, lanes};
 use super::dashpot::Damping;
 use super::follow::{Followed, Touch};
-use super::law::{LawTable, PairLaw};
-use super::list::{ContactList, ListPart, Phases, lanes};
 use super::normal::{Approach, NormalForce};
+use super::pair_law::{LawTable, PairLaw};
 use crate::contacts::geometry::{End, arms};
 use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
-use crate::tick::Balance;
+use crate::tick::Rates;
 use crate::world::Bodies;
-use crate::world::part::{cut, parts_of};
+use crate::world::chunk::{cut, parts_of};
 use jostle_simd::{BLOCK, Kernel, Lanes, Level, PairBlock, PairedRecords, Pushes, Record};
 
 /// The other data of an evaluation.
 #[derive(Clone, Copy)]
-pub(super) struct Moment {
+pub(super) struct EvaluationTime {
     /// The greatest possible way of any point of a body since the beginning, in metres; NaN if it is unknown.
     pub path: f64,
     /// Time of the state in seconds.
@@ -46,7 +46,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
     laws: &LawTable,
     sink: &mut Sink,
     deepest: &mut DeepestOverlap,
-    moment: Moment,
+    evaluation_time: EvaluationTime,
 ) -> Losses {
     // If each block has only a few pairs to be evaluated, they are evaluated one by one.
     let sparse = list.is_sparse();
@@ -55,21 +55,21 @@ pub(super) fn follow_pairs<N: NormalForce>(
     let count = parts_of(pairs.len(), FEWEST);
     let (mut force, mut torque) = (std::mem::take(&mut sink.bodies.force), std::mem::take(&mut sink.bodies.torque));
     let bodies = &*sink.bodies;
-    let start = Found { balance: *sink.balance, deepest: *deepest, ..Found::default() };
+    let start = Found { rates: *sink.rates, deepest: *deepest, ..Found::default() };
     let follow = |(list, share, found): (ListPart, Share, Found), forces: Option<&mut ContactForces>| {
         let (sides, law) = (list.pairs.records(records), PhantomData::<N>);
-        let pairs = Pairs { sides, list, laws, bodies, plain, sparse, moment, law };
+        let pairs = Pairs { sides, list, laws, bodies, plain, sparse, evaluation_time, law };
         jostle_simd::run(level, FollowPairs { pairs, share, found, forces })
     };
     let mut losses = Losses::default();
     if count == 1 {
         let share = Share { first: 0, force: &mut force, torque: &mut torque };
         let found = follow((list.whole(), share, start), sink.forces.as_deref_mut());
-        (*sink.balance, *deepest, losses) = (found.balance, found.deepest, found.losses);
+        (*sink.rates, *deepest, losses) = (found.rates, found.deepest, found.losses);
         (sink.bodies.force, sink.bodies.torque) = (force, torque);
         return losses;
     }
-    *sink.balance = Balance::default();
+    *sink.rates = Rates::default();
     let mut found = Vec::new();
     // Each group is sorted, so that parts of it have bodies of their own.
     let [touching, close] = group_ends.map(|end| end.div_ceil(BLOCK));
@@ -103,7 +103,7 @@ pub(super) fn follow_pairs<N: NormalForce>(
     }
     (sink.bodies.force, sink.bodies.torque) = (force, torque);
     for part in found {
-        sink.balance.add(&part.balance);
+        sink.rates.add(&part.rates);
         losses.friction += part.losses.friction;
         losses.inelasticity += part.losses.inelasticity;
         deepest.merge(&part.deepest);
@@ -124,7 +124,7 @@ struct Share<'a> {
 struct Found {
     /// Forces and torques for bodies of other parts.
     others: Vec<(u32, DVec2, f64)>,
-    balance: Balance,
+    rates: Rates,
     deepest: DeepestOverlap,
     losses: Losses,
 }
@@ -149,7 +149,7 @@ struct Pairs<'a, N> {
     plain: bool,
     /// Few pairs of each block have to be looked at, and others are left out.
     sparse: bool,
-    moment: Moment,
+    evaluation_time: EvaluationTime,
     law: PhantomData<N>,
 }
 
@@ -252,7 +252,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
                 let block = if PLAIN { number } else { pairs.list.awake_block(number) };
                 number += 1;
                 // No pair can have come near since its last evaluation.
-                if pairs.list.is_early(block, pairs.moment.path) {
+                if pairs.list.is_early(block, pairs.evaluation_time.path) {
                     continue;
                 }
                 pairs.sides.fetch(pairs.list.first + block + FETCHED);
@@ -275,7 +275,7 @@ impl<N: NormalForce> FollowPairs<'_, N> {
                 let sides = pairs.sides.pairs(pairs.list.first + block);
                 if deeper != 0 {
                     let overlaps = pairs.list.histories[block].overlap;
-                    note_deepest(&mut found.deepest, pairs.bodies, sides, deeper, overlaps, pairs.moment.time);
+                    note_deepest(&mut found.deepest, pairs.bodies, sides, deeper, overlaps, pairs.evaluation_time.time);
                 }
                 if touching == 0 {
                     continue;
@@ -351,7 +351,7 @@ impl<N: NormalForce> Pairs<'_, N> {
             for lane in 0..self.list.count_in(block) {
                 gap = gap.min(-geometry.overlap[lane]);
             }
-            self.list.due[block] = self.moment.path + 0.5 * gap;
+            self.list.due[block] = self.evaluation_time.path + 0.5 * gap;
         }
     }
 
@@ -402,7 +402,7 @@ impl<N: NormalForce> Pairs<'_, N> {
             slips: V::mask(phases.slips >> lane),
             slides: V::mask(phases.slides >> lane),
         };
-        let losses = contacts.follow::<N>(&law, &touch, self.moment.elapsed, among);
+        let losses = contacts.follow::<N>(&law, &touch, self.evaluation_time.elapsed, among);
         add(&mut lost.friction[lane..], losses.friction);
         add(&mut lost.inelasticity[lane..], losses.inelasticity);
         contacts.overlap.store(&mut history.overlap[lane..]);
@@ -515,7 +515,7 @@ fn push_and_account(
             let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
             let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
             let arms = arms(ends, normal, overlaps[lane], laws.get(law[lane]).shares());
-            account(bodies, (&mut found.balance, forces.as_deref_mut()), ends, arms, force);
+            account(bodies, (&mut found.rates, forces.as_deref_mut()), ends, arms, force);
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The limits of a penalty law, and the response of a single contact, before the first tick.
 
 use super::inelasticity::{largest_inelasticity, restitution_of};
-use super::law::PairLaw;
 use super::normal::NormalForce;
+use super::pair_law::PairLaw;
 use super::{NormalLaw, Penalty, TangentialLaw, dashpot, rolling};
 use crate::tick::Stability;
 use crate::world::{Bodies, Materials};

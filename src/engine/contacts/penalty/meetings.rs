@@ -5,7 +5,7 @@
 //! ways of bodies. So each pair has its next meeting, and is not evaluated before. When a body is bound, the meetings
 //! of its pairs become invalid.
 
-use super::list::ContactList;
+use super::contact_list::ContactList;
 use super::records::record;
 use crate::contacts::AtomPair;
 use crate::world::{Bodies, Passing};
@@ -28,7 +28,7 @@ pub(super) struct Meetings {
     /// The soonest of each block of pairs.
     blocks: Vec<Meeting>,
     /// Places of the pairs in which bodies are, body by body, and where those of each body begin.
-    places: Vec<u32>,
+    indices: Vec<u32>,
     first: Vec<u32>,
 }
 
@@ -61,9 +61,9 @@ impl Meetings {
             self.begin(bodies.len(), pairs);
         } else {
             for &body in bound {
-                let places = self.first[body as usize] as usize..self.first[body as usize + 1] as usize;
-                for &place in &self.places[places] {
-                    (self.pairs[place as usize], self.blocks[place as usize / BLOCK]) = (Meeting::NOW, Meeting::NOW);
+                let indices = self.first[body as usize] as usize..self.first[body as usize + 1] as usize;
+                for &index in &self.indices[indices] {
+                    (self.pairs[index as usize], self.blocks[index as usize / BLOCK]) = (Meeting::NOW, Meeting::NOW);
                 }
             }
         }
@@ -80,8 +80,8 @@ impl Meetings {
                 let touches = touching >> lane & 1 != 0;
                 if touches || meeting.has_come(bodies) {
                     let sides = [side(bodies, pair.a), side(bodies, pair.b)];
-                    let places = list.pairs.side(block).get(lane);
-                    (records[places.0 as usize], records[places.1 as usize]) = (sides[0].0, sides[1].0);
+                    let indices = list.pairs.side(block).get(lane);
+                    (records[indices.0 as usize], records[indices.1 as usize]) = (sides[0].0, sides[1].0);
                     let next = next_meeting(bodies, sides);
                     *meeting = next.filter(|_| !touches).unwrap_or(Meeting::NOW);
                     looked_at |= u8::from(*meeting == Meeting::NOW) << lane;
@@ -102,11 +102,11 @@ impl Meetings {
         for body in 2..self.first.len() {
             self.first[body] += self.first[body - 1];
         }
-        self.places.resize(2 * pairs.len(), 0);
-        for (place, pair) in pairs.iter().enumerate() {
+        self.indices.resize(2 * pairs.len(), 0);
+        for (index, pair) in pairs.iter().enumerate() {
             for body in [pair.a, pair.b] {
                 let next = &mut self.first[body as usize + 1];
-                self.places[*next as usize] = place as u32;
+                self.indices[*next as usize] = index as u32;
                 *next += 1;
             }
         }

@@ -4,6 +4,8 @@
 pub mod apply;
 mod case;
 pub mod contact;
+pub mod contact_list;
+mod contact_stages;
 pub mod coulomb;
 mod critical;
 pub mod dashpot;
@@ -16,14 +18,13 @@ mod indicators;
 pub mod inelasticity;
 mod joined;
 mod kernel;
-pub mod law;
 mod limits;
-pub mod list;
 mod meetings;
 mod model;
 mod modes;
 pub mod normal;
 mod one_by_one;
+pub mod pair_law;
 mod records;
 mod remembered;
 mod rest;
@@ -31,7 +32,6 @@ pub mod rolling;
 mod rolling_stages;
 mod search_schedule;
 mod settling;
-mod staged;
 mod surfaces;
 mod switching;
 mod watched;
@@ -50,7 +50,7 @@ pub use rolling::RollingContacts;
 
 use super::search;
 use crate::scene::units::{Damping, Rate};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::TickAppExt;
 use crate::world::Materials;
 
@@ -179,7 +179,7 @@ impl Entry for Penalty {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Diagnostics) {
         if let TangentialLaw::Spring { ratio } = self.tangential {
             report.positive("tangential.ratio", ratio);
         }

@@ -10,12 +10,13 @@ use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
 use super::{
-    Penalty, RollingLaw, TangentialLaw, features, handover, limits, meetings, search_schedule, staged, watched,
+    Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, search_schedule, watched,
 };
 use crate::tick::snapshot::{Memory, Unfit, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
-    Dependence, Energies, Events, Foreseen, Holder, Model, Notes, Objection, Responses, State, SteadySpring, Style,
+    Dependence, Energies, EvaluationMode, Events, Foreseen, Holder, Model, Notes, Objection, State, SteadySpring,
+    TimeScales,
 };
 use crate::world::Materials;
 use serde::{Deserialize, Serialize};
@@ -104,7 +105,7 @@ impl<N: NormalForce> Model for Contacts<N> {
     /// It measures how fast contacts respond by itself.
     fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
-    fn responses(&self) -> Responses {
+    fn time_scales(&self) -> TimeScales {
         self.own.contacts.watch.found
     }
 
@@ -113,17 +114,17 @@ impl<N: NormalForce> Model for Contacts<N> {
     }
 
     fn begin_step(&mut self, state: &mut State) {
-        let State { bodies, balance, ledger, evaluation, rows, clock, span, pairs: Some(pairs), .. } = state else {
+        let State { bodies, rates, ledger, evaluation, rows, clock, span, pairs: Some(pairs), .. } = state else {
             return;
         };
         let (forces, known) = (state.contact_forces.as_mut(), (&state.stability, &state.springs));
         let PenaltyState { contacts, rolling } = &mut self.own;
-        if evaluation.style == Style::Frozen {
+        if evaluation.mode == EvaluationMode::Frozen {
             features::keep(pairs, &contacts.surfaces, bodies);
         } else {
             features::release(pairs);
         }
-        let shared = Shared { bodies, balance, ledger, evaluation, rows };
+        let shared = Shared { bodies, rates, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
         let changed = choose::<N>(shared, (clock, span), own, known, &mut self.scratch);
         // Joints still have the forces of the state before. A motor with a limit would take the difference by an
@@ -135,16 +136,16 @@ impl<N: NormalForce> Model for Contacts<N> {
 
     fn apply_forces(&mut self, state: &mut State) {
         let alone = state.is_alone();
-        let State { bodies, balance, ledger, evaluation, rows, pairs: Some(pairs), .. } = state else { return };
+        let State { bodies, rates, ledger, evaluation, rows, pairs: Some(pairs), .. } = state else { return };
         let PenaltyState { contacts, rolling } = &mut self.own;
-        let shared = Shared { bodies, balance, ledger, evaluation, rows };
+        let shared = Shared { bodies, rates, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces: state.contact_forces.as_mut() };
         apply::<N>(shared, own, &mut state.deepest, state.touches.as_mut());
         if alone {
             contacts.records.lend(bodies);
         }
         if let Some(rolling) = rolling {
-            let shared = Shared { bodies, balance, ledger, evaluation, rows };
+            let shared = Shared { bodies, rates, ledger, evaluation, rows };
             rolling::apply(shared, pairs, contacts, rolling);
         }
     }
@@ -155,9 +156,9 @@ impl<N: NormalForce> Model for Contacts<N> {
 
     fn take_rows(&mut self, state: &mut State) {
         let PenaltyState { contacts, rolling } = &mut self.own;
-        let State { bodies, balance, rows, .. } = state;
-        let mut sink = Sink { bodies, balance, forces: state.contact_forces.as_mut() };
-        staged::take_rows(contacts, rolling.as_mut(), rows, &mut sink);
+        let State { bodies, rates, rows, .. } = state;
+        let mut sink = Sink { bodies, rates, forces: state.contact_forces.as_mut() };
+        contact_stages::take_rows(contacts, rolling.as_mut(), rows, &mut sink);
     }
 
     fn settles(&self) -> bool {
@@ -165,19 +166,19 @@ impl<N: NormalForce> Model for Contacts<N> {
     }
 
     fn settle(&mut self, state: &mut State) {
-        let changing = state.changing_forces() || state.evaluation.style.is_staged();
-        let State { bodies, balance, pairs: Some(pairs), .. } = state else { return };
+        let changing = state.changing_forces() || state.evaluation.mode.is_staged();
+        let State { bodies, rates, pairs: Some(pairs), .. } = state else { return };
         let forces = state.contact_forces.as_mut();
-        self.own.contacts.settle((bodies, balance), pairs, forces, changing);
+        self.own.contacts.settle((bodies, rates), pairs, forces, changing);
     }
 
     fn events(&mut self) -> Option<&mut dyn Events> {
         Some(self)
     }
 
-    fn objection(&self, style: Style) -> Option<Objection> {
+    fn objection(&self, mode: EvaluationMode) -> Option<Objection> {
         let PenaltyContacts { settings, materials, .. } = &self.own.contacts;
-        watched::objection(settings, materials, style)
+        watched::objection(settings, materials, mode)
     }
 
     fn remarks(&self, state: &State) -> Vec<String> {
@@ -202,6 +203,6 @@ impl<N: NormalForce> Model for Contacts<N> {
 }
 
 /// Whether contacts are too many to be resolved from event to event.
-pub(super) fn is_crowded(own: &PenaltyState) -> bool {
-    handover::crowded(&own.contacts, own.rolling.as_ref())
+pub(super) fn is_overloaded(own: &PenaltyState) -> bool {
+    handover::overloaded(&own.contacts, own.rolling.as_ref())
 }

@@ -4,11 +4,11 @@ use glam::DVec2;
 
 use super::apply::{Own, PenaltyContacts, Shared, Sink, approach};
 use super::contact::{Contact, Losses};
+use super::contact_list::Edited;
 use super::coulomb::{Slider, SliderLaw};
 use super::joined::{Joined, find_joined, joint_row};
-use super::law::PairLaw;
-use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
+use super::pair_law::PairLaw;
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use super::search_schedule::{Found, MANY};
@@ -37,17 +37,17 @@ pub(super) struct Scratch {
 /// Touching pairs choose loading, unloading or hold for the coming step. If that changes a force, the sums are corrected by the
 /// difference. Returns whether a force has changed on a body that joints hold.
 pub(super) fn choose<N: NormalForce>(
-    Shared { bodies, balance, ledger, evaluation, rows }: Shared,
+    Shared { bodies, rates, ledger, evaluation, rows }: Shared,
     (clock, span): (&Clock, &Span),
     Own { pairs, contacts, rolling, forces }: Own,
     (stability, steady): (&Stability, &SteadySprings),
     scratch: &mut Scratch,
 ) -> bool {
-    contacts.watch::<N>(bodies, pairs, clock, stability, balance, steady);
-    if evaluation.style.is_staged() {
+    contacts.watch::<N>(bodies, pairs, clock, stability, rates, steady);
+    if evaluation.mode.is_staged() {
         return false;
     }
-    let sink = Sink { bodies, balance, forces };
+    let sink = Sink { bodies, rates, forces };
     let Scratch { touching, cases, joined, moved, islands, members, island } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
     let thorough = contacts.schedule.tries_thoroughly(ticks);
@@ -65,21 +65,21 @@ pub(super) fn choose<N: NormalForce>(
     cases.clear();
     moved.forget(choice.sink.bodies.len());
     touching.clear();
-    touching.extend(choice.contacts.atoms.awake_touching().map(|place| place as u32));
-    for &place in &*touching {
-        let pair = pairs.atoms[place as usize];
+    touching.extend(choice.contacts.atoms.awake_touching().map(|index| index as u32));
+    for &index in &*touching {
+        let pair = pairs.atoms[index as usize];
         let (a, b) = (End::of(choice.sink.bodies, pair.a), End::of(choice.sink.bodies, pair.b));
         if !(choice.stands(a.body) && choice.stands(b.body)) {
             let normal = pair.normal(choice.sink.bodies);
-            choice.first_look::<N>(Pair { index: place, normal, a: SideA::Atom(a), b }, cases, moved);
+            choice.first_look::<N>(Pair { index, normal, a: SideA::Atom(a), b }, cases, moved);
         }
     }
     touching.clear();
-    touching.extend(choice.contacts.surfaces.awake_touching().map(|place| place as u32));
-    for &place in &*touching {
-        let pair = pairs.surfaces[place as usize];
+    touching.extend(choice.contacts.surfaces.awake_touching().map(|index| index as u32));
+    for &index in &*touching {
+        let pair = pairs.surfaces[index as usize];
         if choice.moves(pair) {
-            let geometry = PairGeometry::surface(choice.sink.bodies, place as usize, pair);
+            let geometry = PairGeometry::surface(choice.sink.bodies, index as usize, pair);
             choice.first_look::<N>(geometry.pair, cases, moved);
         }
     }
@@ -141,8 +141,8 @@ impl Choice<'_> {
         }
         self.sink.bodies.catch_up();
         let bodies = &*self.sink.bodies;
-        let ends = |place: usize| {
-            let AtomPair { a, b } = pairs.atoms[place];
+        let ends = |index: usize| {
+            let AtomPair { a, b } = pairs.atoms[index];
             (bodies.atom_body(a as usize), bodies.atom_body(b as usize))
         };
         let moves = |body: usize, rest: &Rest| {
@@ -151,12 +151,12 @@ impl Choice<'_> {
         };
         while woke {
             woke = false;
-            for place in atoms.touching() {
-                let (a, b) = ends(place);
+            for index in atoms.touching() {
+                let (a, b) = ends(index);
                 woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
             }
-            for place in surfaces.touching() {
-                if let (Some(a), b) = pairs.surfaces[place].bodies(bodies) {
+            for index in surfaces.touching() {
+                if let (Some(a), b) = pairs.surfaces[index].bodies(bodies) {
                     woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
                 }
             }
@@ -233,31 +233,31 @@ impl Choice<'_> {
         }
         let bodies = &*self.sink.bodies;
         let moves = |atom: u32| !self.stands(bodies.atom_body(atom as usize));
-        let of_atoms = atoms.count_touching(MANY, |place| moves(pairs.atoms[place].a) || moves(pairs.atoms[place].b));
-        of_atoms + surfaces.count_touching(MANY, |place| self.moves(pairs.surfaces[place]))
+        let of_atoms = atoms.count_touching(MANY, |index| moves(pairs.atoms[index].a) || moves(pairs.atoms[index].b));
+        of_atoms + surfaces.count_touching(MANY, |index| self.moves(pairs.surfaces[index]))
     }
 
     /// Held contacts follow their law again, except those of bodies at rest.
     fn let_go<N: NormalForce>(&mut self, pairs: &CandidatePairs, held: &mut Vec<u32>) {
         held.clear();
-        held.extend(self.contacts.atoms.awake_held().map(|place| place as u32));
-        for &place in &*held {
-            let pair = pairs.atoms[place as usize];
+        held.extend(self.contacts.atoms.awake_held().map(|index| index as u32));
+        for &index in &*held {
+            let pair = pairs.atoms[index as usize];
             let (a, b) = (End::of(self.sink.bodies, pair.a), End::of(self.sink.bodies, pair.b));
             if !(self.stands(a.body) && self.stands(b.body)) {
                 self.sink.bodies.catch_up();
                 let normal = pair.normal(self.sink.bodies);
                 let approach = approach(self.sink.bodies, Some(&a), &b, normal);
-                self.choose_by_velocity::<N>(&Pair { index: place, normal, a: SideA::Atom(a), b }, approach);
+                self.choose_by_velocity::<N>(&Pair { index, normal, a: SideA::Atom(a), b }, approach);
             }
         }
         held.clear();
-        held.extend(self.contacts.surfaces.awake_held().map(|place| place as u32));
-        for &place in &*held {
-            let pair = pairs.surfaces[place as usize];
+        held.extend(self.contacts.surfaces.awake_held().map(|index| index as u32));
+        for &index in &*held {
+            let pair = pairs.surfaces[index as usize];
             if self.moves(pair) {
                 self.sink.bodies.catch_up();
-                let geometry = PairGeometry::surface(self.sink.bodies, place as usize, pair);
+                let geometry = PairGeometry::surface(self.sink.bodies, index as usize, pair);
                 self.choose_by_velocity::<N>(&geometry.pair, geometry.approach(self.sink.bodies));
             }
         }
@@ -289,7 +289,7 @@ impl Choice<'_> {
                 let before = slider.force(&rolling_law);
                 losses.friction += slider.take_on(&rolling_law, rolling, after.normal_force);
                 let difference = slider.force(&rolling_law) - before;
-                twist(self.sink.bodies, self.sink.balance, case.other_end(), &case.b, difference);
+                twist(self.sink.bodies, self.sink.rates, case.other_end(), &case.b, difference);
                 changed |= difference != 0.0;
             }
             let jointed = &self.sink.bodies.jointed;
@@ -367,7 +367,7 @@ impl Choice<'_> {
         };
         if let Some(frame) = frame {
             let each = island.movers.iter_mut().enumerate();
-            each.for_each(|(place, mover)| frame.enter(mover, place_of(place, self.sink.bodies)));
+            each.for_each(|(index, mover)| frame.enter(mover, place_of(index, self.sink.bodies)));
         }
         let affordable = !N::SET_VALUED || island.is_small();
         let tries = may_rest && !affordable && self.thorough && island.is_slow(self.dt);
@@ -401,7 +401,7 @@ impl Choice<'_> {
         }
         if let Some(frame) = frame {
             let each = island.movers.iter_mut().enumerate();
-            each.for_each(|(place, mover)| frame.leave(mover, place_of(place, self.sink.bodies)));
+            each.for_each(|(index, mover)| frame.leave(mover, place_of(index, self.sink.bodies)));
         }
         let loads = island.loads();
         let bodies = &*self.sink.bodies;
@@ -423,11 +423,11 @@ impl Choice<'_> {
     fn frame(&self, island: &[Pair], members: &[usize], movers: &[Mover]) -> Option<Frame> {
         let bodies = &*self.sink.bodies;
         let carries = |mover: &Mover| mover.inverse_mass == 0.0 && (mover.velocity != DVec2::ZERO || mover.spin != 0.0);
-        let place = movers.iter().position(carries)?;
+        let index = movers.iter().position(carries)?;
         // A wall has no centre to turn about.
         let turns = island.iter().all(|case| case.other_body().is_some());
-        let Mover { velocity, spin, .. } = movers[place];
-        let origin = members.get(place).map_or(DVec2::ZERO, |&body| bodies.position[body]);
+        let Mover { velocity, spin, .. } = movers[index];
+        let origin = members.get(index).map_or(DVec2::ZERO, |&body| bodies.position[body]);
         Some(Frame { origin, velocity, spin: if turns { spin } else { 0.0 } })
     }
 
@@ -444,7 +444,7 @@ impl Choice<'_> {
             ledger.impulse[1].add(-momentum.y);
             ledger.angular_impulse.add(-bodies.position[body].perp_dot(momentum) - angular);
             self.losses.inelasticity += 0.5 * (momentum.dot(bodies.velocity[body]) + angular * bodies.spin[body]);
-            self.sink.balance.outside(bodies.position[body], -bodies.force[body], -bodies.torque[body]);
+            self.sink.rates.outside(bodies.position[body], -bodies.force[body], -bodies.torque[body]);
             self.contacts.rest.lay(body, load, bodies);
         }
     }

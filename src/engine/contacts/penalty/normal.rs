@@ -1,7 +1,7 @@
 //! The interface of normal laws. Each law is one file: [`super::inelasticity`], [`super::dashpot`].
 
 use super::Penalty;
-use super::law::PairLaw;
+use super::pair_law::PairLaw;
 use jostle_simd::Lanes;
 use serde::{Deserialize, Serialize};
 

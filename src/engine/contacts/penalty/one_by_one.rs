@@ -1,7 +1,7 @@
 //! Evaluation of contacts one by one: the time at which each is due, and histories at scattered indices.
 
+use super::contact_list::{ContactList, Phases, lanes, split};
 use super::follow::Followed;
-use super::list::{ContactList, Phases, lanes, split};
 use jostle_simd::{BLOCK, Lanes};
 
 impl ContactList {
@@ -26,11 +26,11 @@ impl ContactList {
 
     /// The histories of contacts at some places.
     #[inline(always)]
-    pub(super) fn gather<V: Lanes>(&self, places: &[u32]) -> Followed<V> {
+    pub(super) fn gather<V: Lanes>(&self, indices: &[u32]) -> Followed<V> {
         let mut numbers = [[0.0; BLOCK]; 4];
         let mut bits = Phases::default();
         for lane in 0..V::COUNT {
-            let (block, from) = split(places[lane] as usize);
+            let (block, from) = split(indices[lane] as usize);
             let (history, phases) = (&self.histories[block], self.phases[block]);
             numbers[0][lane] = history.overlap[from];
             numbers[1][lane] = history.normal_force[from];
@@ -55,7 +55,7 @@ impl ContactList {
 
     /// Writes the histories of contacts at some places, of those `among`.
     #[inline(always)]
-    pub(super) fn scatter<V: Lanes>(&mut self, places: &[u32], among: u8, contacts: &Followed<V>) {
+    pub(super) fn scatter<V: Lanes>(&mut self, indices: &[u32], among: u8, contacts: &Followed<V>) {
         let mut numbers = [[0.0; BLOCK]; 4];
         contacts.overlap.store(&mut numbers[0]);
         contacts.normal_force.store(&mut numbers[1]);
@@ -64,7 +64,7 @@ impl ContactList {
         let (loading, unloading) = (V::bits(contacts.loading), V::bits(contacts.unloading));
         let (slips, slides) = (V::bits(contacts.slips), V::bits(contacts.slides));
         for lane in lanes(among) {
-            let (block, to) = split(places[lane] as usize);
+            let (block, to) = split(indices[lane] as usize);
             let history = &mut self.histories[block];
             history.overlap[to] = numbers[0][lane];
             history.normal_force[to] = numbers[1][lane];

@@ -5,13 +5,13 @@
 
 use std::ops::Range;
 
+use super::contact_list::ContactList;
 use super::kernel::FEWEST;
-use super::list::ContactList;
 use crate::contacts::AtomPair;
 use crate::contacts::geometry::End;
 use crate::world::Bodies;
+use crate::world::chunk::parts_of;
 use crate::world::packed::Moved;
-use crate::world::part::parts_of;
 use jostle_simd::{BLOCK, Record};
 use serde::{Deserialize, Serialize};
 
@@ -76,9 +76,9 @@ impl Records {
         }
         self.sparse = few && bodies.lone_discs && bodies.all_dynamic;
         if self.sparse {
-            let mut place = vec![0; needed.len()];
-            self.needed.iter().zip(0..).for_each(|(&atom, number)| place[atom as usize] = number);
-            contacts.pairs.find_records(&place, count);
+            let mut index = vec![0; needed.len()];
+            self.needed.iter().zip(0..).for_each(|(&atom, number)| index[atom as usize] = number);
+            contacts.pairs.find_records(&index, count);
             self.list.reserve_exact(count);
             self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
             return;
@@ -88,7 +88,7 @@ impl Records {
         self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
     }
 
-    /// Fills in the current state for all pairs that have to be evaluated; see [`super::kernel::Moment::path`].
+    /// Fills in the current state for all pairs that have to be evaluated; see [`super::kernel::EvaluationTime::path`].
     pub fn update(&mut self, bodies: &Bodies, pairs: &[AtomPair], list: &ContactList, path: f64) {
         let is_due = |block: &usize| !list.is_early(*block, path);
         let blocks = || (0..list.awake_blocks()).map(|number| list.awake_block(number)).filter(is_due);
@@ -131,8 +131,8 @@ impl Records {
                     *own = record(bodies, atom as usize);
                 }
             } else {
-                let place = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
-                for &atom in &needed[place(atoms.start)..place(atoms.end)] {
+                let index = |atom: usize| needed.partition_point(|&needed| (needed as usize) < atom);
+                for &atom in &needed[index(atoms.start)..index(atoms.end)] {
                     part[atom as usize - first] = record(bodies, atom as usize);
                 }
             }

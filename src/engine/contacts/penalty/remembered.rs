@@ -54,44 +54,44 @@ impl Remembered {
     }
 
     /// Takes note of the bodies of a pair.
-    pub fn name(&mut self, place: usize, bodies: &Bodies, pair: SurfacePair) {
+    pub fn name(&mut self, index: usize, bodies: &Bodies, pair: SurfacePair) {
         if let (Some(first), second) = pair.bodies(bodies) {
-            self.sides[place] = Sides { bodies: [first as u32, second as u32], size: pair.size(bodies) };
+            self.sides[index] = Sides { bodies: [first as u32, second as u32], size: pair.size(bodies) };
         }
     }
 
     /// Takes over what an older list knew of a pair.
-    pub fn carry(&mut self, place: usize, (old, from): (&Self, usize)) {
-        (self.records[place], self.sides[place]) = (old.records[from], old.sides[from]);
+    pub fn carry(&mut self, index: usize, (old, from): (&Self, usize)) {
+        (self.records[index], self.sides[index]) = (old.records[from], old.sides[from]);
     }
 
     /// By how many metres at least an atom is apart from the hull; not positive: not known.
     #[inline(always)]
-    pub fn gap(&self, place: usize, bodies: &Bodies, atom: usize) -> f64 {
-        let Record([x, y, _, height, from, ..]) = self.records[place];
-        let at = bodies.pose_with_hulls(self.sides[place].bodies[0] as usize).point_to_local(bodies.atom_place(atom));
+    pub fn gap(&self, index: usize, bodies: &Bodies, atom: usize) -> f64 {
+        let Record([x, y, _, height, from, ..]) = self.records[index];
+        let at = bodies.pose_with_hulls(self.sides[index].bodies[0] as usize).point_to_local(bodies.atom_place(atom));
         if from == f64::INFINITY { x * at.x + y * at.y - height } else { f64::NEG_INFINITY }
     }
 
     /// Sets the line through the nearest point of a hull, perpendicular to the way to the probe. Ends of walls have
     /// none. If the `gap` in metres is too small, there is none either.
-    pub fn part(&mut self, place: usize, bodies: &Bodies, pair: SurfacePair, (geometry, gap): (&PairGeometry, f64)) {
+    pub fn part(&mut self, index: usize, bodies: &Bodies, pair: SurfacePair, (geometry, gap): (&PairGeometry, f64)) {
         let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return };
         let packed = &bodies.hulls[hull];
         let trusted = TRUSTED * packed.extent;
-        self.records[place] = line(0.0, 0.0, f64::INFINITY);
+        self.records[index] = line(0.0, 0.0, f64::INFINITY);
         if gap > trusted {
             let (pose, b) = (bodies.pose_with_hulls(packed.body as usize), &geometry.pair.b);
             let normal = pose.direction_to_local(geometry.pair.normal);
             let at = pose.point_to_local(bodies.atom_place(atom));
             // A sharp corner that meets as a round one is not where its atom is.
             let center = pose.point_to_local(b.arm + bodies.position[b.body]);
-            self.records[place] = line(normal.x, normal.y, normal.dot(at) - gap + at.distance(center) + trusted);
+            self.records[index] = line(normal.x, normal.y, normal.dot(at) - gap + at.distance(center) + trusted);
         }
     }
 
     /// Stores the side of a touched hull over which an atom is, if there is one.
-    pub fn touch(&mut self, place: usize, bodies: &Bodies, pair: SurfacePair) {
+    pub fn touch(&mut self, index: usize, bodies: &Bodies, pair: SurfacePair) {
         let (Surface::Hull(hull), Probe::Atom(atom)) = (pair.surface(bodies), pair.probe(bodies)) else { return };
         let (shape, at, radius) = bodies.meeting(hull, atom);
         let packed = &bodies.hulls[hull];
@@ -115,7 +115,7 @@ impl Remembered {
             }
         }
         let (normal, own) = (found.normal, shape.radius());
-        self.records[place] = Record([normal.x, normal.y, begin.x, begin.y, from, to, own, radius]);
+        self.records[index] = Record([normal.x, normal.y, begin.x, begin.y, from, to, own, radius]);
     }
 }
 
@@ -179,16 +179,16 @@ mod tests {
             let state = simulation.state();
             let (contacts, pairs) = (&state.model::<PenaltyState>().unwrap().contacts, state.pairs.as_ref().unwrap());
             let (list, bodies) = (&contacts.surfaces, state.bodies());
-            for (place, &pair) in pairs.surfaces.iter().enumerate() {
-                let (geometry, apart) = PairGeometry::near(bodies, place, pair);
+            for (index, &pair) in pairs.surfaces.iter().enumerate() {
+                let (geometry, apart) = PairGeometry::near(bodies, index, pair);
                 let Probe::Atom(atom) = pair.probe(bodies) else { continue };
-                if list.is_touching(place) {
-                    let overlap = list.get(place).overlap;
-                    assert_eq!(overlap.to_bits(), geometry.overlap.max(0.0).to_bits(), "overlap of pair {place}");
+                if list.is_touching(index) {
+                    let overlap = list.get(index).overlap;
+                    assert_eq!(overlap.to_bits(), geometry.overlap.max(0.0).to_bits(), "overlap of pair {index}");
                     touching += 1;
                 } else {
-                    let gap = list.remembered.gap(place, bodies, atom);
-                    assert!(gap <= 0.0 || geometry.overlap < 0.0 && gap <= apart, "{place}: {gap} m of {apart} m");
+                    let gap = list.remembered.gap(index, bodies, atom);
+                    assert!(gap <= 0.0 || geometry.overlap < 0.0 && gap <= apart, "{index}: {gap} m of {apart} m");
                     parted += usize::from(gap > 0.0);
                 }
             }

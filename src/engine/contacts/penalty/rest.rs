@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::apply::PenaltyContacts;
 use crate::contacts::Other;
 use crate::contacts::{CandidatePairs, ContactForces};
-use crate::tick::Balance;
+use crate::tick::Rates;
 use crate::world::Bodies;
 use jostle_simd::BLOCK;
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,7 @@ impl Rest {
 
     /// After an evaluation: bodies without a change stay at rest. The bodies that carry them supply the rounding
     /// remainder of their balance. The others wake. Sleeping bodies have received no force except that of new touches.
-    pub fn settle(&mut self, bodies: &mut Bodies, balance: &mut Balance) {
+    pub fn settle(&mut self, bodies: &mut Bodies, rates: &mut Rates) {
         if self.resting.is_empty() {
             return;
         }
@@ -128,7 +128,7 @@ impl Rest {
             let stays = resting.unchanged(bodies);
             if stays {
                 let (force, torque) = (bodies.force[body], bodies.torque[body]);
-                balance.outside(bodies.position[body], -force, -torque);
+                rates.outside(bodies.position[body], -force, -torque);
                 bodies.force[body] = DVec2::ZERO;
                 bodies.torque[body] = 0.0;
             } else {
@@ -142,7 +142,7 @@ impl Rest {
         if self.resting.len() >= bodies.dynamic_count() && all(&self.still) {
             // No body moves. So the external forces cancel, and the rounding of their sum must not accumulate over the
             // ticks.
-            (balance.force, balance.torque) = (DVec2::ZERO, 0.0);
+            (rates.force, rates.torque) = (DVec2::ZERO, 0.0);
         }
     }
 
@@ -192,10 +192,10 @@ impl PenaltyContacts {
             let body = bodies.atom_body(atom as usize);
             !bodies.moves[body] || bodies.is_asleep(body)
         };
-        atoms.lay_asleep(|place| stands(pairs.atoms[place].a) && stands(pairs.atoms[place].b));
+        atoms.lay_asleep(|index| stands(pairs.atoms[index].a) && stands(pairs.atoms[index].b));
         let body_stands = |body: usize| !bodies.moves[body] || bodies.is_asleep(body);
-        surfaces.lay_asleep(|place| {
-            let (a, b) = pairs.surfaces[place].bodies(bodies);
+        surfaces.lay_asleep(|index| {
+            let (a, b) = pairs.surfaces[index].bodies(bodies);
             body_stands(b) && a.is_none_or(body_stands)
         });
         let mut awake = vec![false; bodies.asleep.len()];
@@ -227,16 +227,16 @@ impl PenaltyContacts {
         bodies.awake = (0..awake.len()).filter(|&block| awake[block]).map(|block| block as u32).collect();
         if let Some(forces) = forces {
             let mut asleep = (vec![DVec2::ZERO; bodies.len()], vec![DVec2::ZERO; bodies.walls.len()]);
-            for (place, point) in self.atom_points(bodies, pairs) {
+            for (index, point) in self.atom_points(bodies, pairs) {
                 if let Other::Body(other) = point.other
-                    && self.atoms.is_asleep(place)
+                    && self.atoms.is_asleep(index)
                 {
                     asleep.0[other] -= point.force;
                     asleep.0[point.body] += point.force;
                 }
             }
-            for (place, point) in self.surface_points(bodies, pairs) {
-                if self.surfaces.is_asleep(place) {
+            for (index, point) in self.surface_points(bodies, pairs) {
+                if self.surfaces.is_asleep(index) {
                     asleep.0[point.body] += point.force;
                     match point.other {
                         Other::Body(other) => asleep.0[other] -= point.force,
@@ -254,7 +254,7 @@ impl PenaltyContacts {
     #[inline]
     pub(super) fn settle(
         &mut self,
-        (bodies, balance): (&mut Bodies, &mut Balance),
+        (bodies, rates): (&mut Bodies, &mut Rates),
         pairs: &CandidatePairs,
         forces: Option<&mut ContactForces>,
         changing: bool,
@@ -264,7 +264,7 @@ impl PenaltyContacts {
         }
         let woken_by_others = bodies.asleep.is_empty() && self.sleep == Sleep::Allowed;
         let new = self.rest.changed || woken_by_others;
-        self.rest.settle(bodies, balance);
+        self.rest.settle(bodies, rates);
         if !bodies.disturbed && (new || self.rest.changed) {
             // Joints find their forces from all forces on their bodies, so these have to be there.
             let jointed = |resting: &Resting| bodies.jointed.get(resting.body).is_some_and(|jointed| *jointed);

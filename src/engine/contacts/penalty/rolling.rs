@@ -11,11 +11,11 @@ use glam::DVec2;
 use super::apply::{PenaltyContacts, Shared};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
-use super::law::PairLaw;
 use super::normal::Mode;
+use super::pair_law::PairLaw;
 use crate::contacts::geometry::{End, PairGeometry};
 use crate::contacts::{AtomPair, CandidatePairs};
-use crate::tick::Balance;
+use crate::tick::Rates;
 use crate::tick::pairs::NEW;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -71,10 +71,10 @@ impl RollingContacts {
             let (a, b) = (End::of(bodies, a), End::of(bodies, b));
             energy += slider.energy(&self.law(contacts.laws.get(contact.law), Some(&a), &b));
         }
-        for (place, (&pair, (slider, contact))) in
+        for (index, (&pair, (slider, contact))) in
             pairs.surfaces.iter().zip(self.surfaces.iter().zip(contacts.surfaces.iter())).enumerate()
         {
-            let pair = PairGeometry::surface(bodies, place, pair).pair;
+            let pair = PairGeometry::surface(bodies, index, pair).pair;
             energy += slider.energy(&self.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b));
         }
         energy
@@ -95,26 +95,26 @@ pub(super) fn stiffness(ratio: f64, normal: f64, radius: f64) -> f64 {
 
 /// `torque` acts on side A, the opposite on side B. A side that does not move by forces takes it from outside, and does
 /// work as it turns.
-pub(super) fn twist(bodies: &mut Bodies, balance: &mut Balance, a: Option<&End>, b: &End, torque: f64) {
+pub(super) fn twist(bodies: &mut Bodies, rates: &mut Rates, a: Option<&End>, b: &End, torque: f64) {
     bodies.torque[b.body] -= torque;
     match a {
         Some(a) => {
             bodies.torque[a.body] += torque;
             for (end, given) in [(a, -torque), (b, torque)] {
                 if !bodies.dynamic[end.body] {
-                    balance.outside(DVec2::ZERO, DVec2::ZERO, given);
-                    balance.work += given * bodies.spin[end.body];
+                    rates.outside(DVec2::ZERO, DVec2::ZERO, given);
+                    rates.work += given * bodies.spin[end.body];
                 }
             }
         }
-        None => balance.outside(DVec2::ZERO, DVec2::ZERO, -torque),
+        None => rates.outside(DVec2::ZERO, DVec2::ZERO, -torque),
     }
 }
 
 /// Updates the springs of a list: those of open pairs release, and the others follow the turn.
 struct Follow<'a> {
     bodies: &'a mut Bodies,
-    balance: &'a mut Balance,
+    rates: &'a mut Rates,
     elapsed: f64,
     losses: Losses,
 }
@@ -130,47 +130,47 @@ impl Follow<'_> {
         let turn = turn_of(b) - a.map_or(0.0, turn_of);
         let turn = (self.elapsed > 0.0).then_some(turn);
         self.losses.friction += slider.follow(law, turn, contact.normal_force);
-        twist(self.bodies, self.balance, a, b, slider.force(law));
+        twist(self.bodies, self.rates, a, b, slider.force(law));
     }
 }
 
 fn carried(before: &[u32], old: &[Slider]) -> Vec<Slider> {
-    before.iter().map(|&place| if place == NEW { Slider::default() } else { old[place as usize] }).collect()
+    before.iter().map(|&index| if index == NEW { Slider::default() } else { old[index as usize] }).collect()
 }
 
 /// All rolling springs follow the state, behind their contacts.
 pub(super) fn apply(
-    Shared { bodies, balance, ledger, evaluation, .. }: Shared,
+    Shared { bodies, rates, ledger, evaluation, .. }: Shared,
     pairs: &CandidatePairs,
     contacts: &PenaltyContacts,
     rolling: &mut RollingContacts,
 ) {
     rolling.carry(pairs);
-    if evaluation.style.is_staged() {
+    if evaluation.mode.is_staged() {
         // They have acted with their contacts.
         return;
     }
     let (mut atoms, mut surfaces) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.surfaces));
-    let mut follow = Follow { bodies, balance, elapsed: evaluation.elapsed, losses: Losses::default() };
-    for (place, slider) in atoms.iter_mut().enumerate() {
-        let contact = contacts.atoms.get(place);
-        if contacts.atoms.is_asleep(place) {
+    let mut follow = Follow { bodies, rates, elapsed: evaluation.elapsed, losses: Losses::default() };
+    for (index, slider) in atoms.iter_mut().enumerate() {
+        let contact = contacts.atoms.get(index);
+        if contacts.atoms.is_asleep(index) {
             continue;
         }
         if contact.mode != Mode::Open || *slider != Slider::default() {
-            let AtomPair { a, b } = pairs.atoms[place];
+            let AtomPair { a, b } = pairs.atoms[index];
             let (a, b) = (End::of(follow.bodies, a), End::of(follow.bodies, b));
             let law = rolling.law(contacts.laws.get(contact.law), Some(&a), &b);
             follow.pair(slider, &law, &contact, Some(&a), &b);
         }
     }
-    for (place, slider) in surfaces.iter_mut().enumerate() {
-        let contact = contacts.surfaces.get(place);
-        if contacts.surfaces.is_asleep(place) {
+    for (index, slider) in surfaces.iter_mut().enumerate() {
+        let contact = contacts.surfaces.get(index);
+        if contacts.surfaces.is_asleep(index) {
             continue;
         }
         if contact.mode != Mode::Open || *slider != Slider::default() {
-            let pair = PairGeometry::surface(follow.bodies, place, pairs.surfaces[place]).pair;
+            let pair = PairGeometry::surface(follow.bodies, index, pairs.surfaces[index]).pair;
             let law = rolling.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b);
             follow.pair(slider, &law, &contact, pair.other_end(), &pair.b);
         }

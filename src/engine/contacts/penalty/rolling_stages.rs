@@ -6,8 +6,8 @@ use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
 use super::held::Held;
 use super::indicators::{Ends, Motion, Pressure, tell_slider};
-use super::law::PairLaw;
 use super::normal::Mode;
+use super::pair_law::PairLaw;
 use super::rolling::{RollingContacts, twist};
 use super::switching::{Base, What};
 use crate::constraints::{Rows, Share};
@@ -113,9 +113,9 @@ pub(super) fn slip(slider: &mut Slider, law: &SliderLaw, normal_force: f64) {
 /// Lets the spring act, and books what slipping takes.
 pub(super) fn push(slider: &Slider, law: &SliderLaw, geometry: &PairGeometry, sink: &mut Sink) {
     let torque = slider.force(law);
-    twist(sink.bodies, sink.balance, geometry.pair.other_end(), &geometry.pair.b, torque);
+    twist(sink.bodies, sink.rates, geometry.pair.other_end(), &geometry.pair.b, torque);
     if slider.grip == Grip::Slide {
-        sink.balance.friction += torque * geometry.turning();
+        sink.rates.friction += torque * geometry.turning();
     }
 }
 

@@ -2,8 +2,8 @@
 //! behind an event, at which forces have jumped.
 
 use super::coulomb::{Grip, Slider, SliderLaw};
-use super::law::PairLaw;
 use super::normal::{Mode, NormalForce};
+use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::switching::{Base, View, standing};
 use crate::contacts::geometry::PairGeometry;
@@ -46,10 +46,10 @@ impl View<'_> {
     fn settle_normals<N: NormalForce>(&mut self) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
-        for place in 0..self.len() {
-            let before = springs.get(place).copied().unwrap_or_default();
-            let (geometry, bodies) = (self.look(place), self.bodies);
-            let (mut contact, law, mut roller) = self.whole(place, &geometry);
+        for index in 0..self.len() {
+            let before = springs.get(index).copied().unwrap_or_default();
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (mut contact, law, mut roller) = self.whole(index, &geometry);
             if contact.mode != Mode::Hold {
                 continue;
             }
@@ -94,10 +94,10 @@ impl View<'_> {
     fn settle_friction<N: NormalForce>(&mut self, which: impl Fn(Grip) -> bool) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
-        for place in 0..self.len() {
-            let before = springs.get(place).copied().unwrap_or_default();
-            let (geometry, bodies) = (self.look(place), self.bodies);
-            let (mut contact, law, roller) = self.whole(place, &geometry);
+        for index in 0..self.len() {
+            let before = springs.get(index).copied().unwrap_or_default();
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (mut contact, law, roller) = self.whole(index, &geometry);
             if contact.mode == Mode::Open {
                 continue;
             }
@@ -123,9 +123,9 @@ impl View<'_> {
 
     /// Chooses all modes of a state that did not follow from the one before.
     pub fn take_stock<N: NormalForce>(&mut self) {
-        for place in 0..self.len() {
-            let geometry = self.look(place);
-            let (mut contact, law, roller) = self.whole(place, &geometry);
+        for index in 0..self.len() {
+            let geometry = self.look(index);
+            let (mut contact, law, roller) = self.whole(index, &geometry);
             if contact.mode == Mode::Open && geometry.overlap > 0.0 {
                 contact.overlap = geometry.overlap;
                 contact.begin::<N>(law, &geometry, None);

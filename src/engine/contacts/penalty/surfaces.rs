@@ -5,12 +5,12 @@
 
 use super::apply::{Sink, approach};
 use super::contact::Losses;
+use super::contact_list::{ContactList, lanes};
 use super::follow::Touch;
 use super::hull_kernel::Waiting;
-use super::kernel::Moment;
-use super::law::LawTable;
-use super::list::{ContactList, lanes};
+use super::kernel::EvaluationTime;
 use super::normal::{Approach, Mode, NormalForce};
+use super::pair_law::LawTable;
 use crate::contacts::geometry::{End, PairGeometry};
 use crate::contacts::{DeepestOverlap, Probe, Surface, SurfacePair};
 use crate::world::{Bodies, NearestPoint};
@@ -27,12 +27,12 @@ pub(super) fn follow_surfaces<N: NormalForce>(
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
-    moment: Moment,
+    evaluation_time: EvaluationTime,
 ) {
     if sink.bodies.hulls.is_empty() {
-        follow_near::<N>((list, pairs), None, laws, (sink, losses), deepest, moment);
+        follow_near::<N>((list, pairs), None, laws, (sink, losses), deepest, evaluation_time);
     } else {
-        follow_with_hulls::<N>((list, pairs), laws, (sink, losses), deepest, moment);
+        follow_with_hulls::<N>((list, pairs), laws, (sink, losses), deepest, evaluation_time);
     }
 }
 
@@ -43,12 +43,12 @@ fn follow_with_hulls<N: NormalForce>(
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
-    moment: Moment,
+    evaluation_time: EvaluationTime,
 ) {
     let mut waiting = Waiting::default();
     list.tell_each();
-    follow_near::<N>((list, pairs), Some(&mut waiting), laws, (sink, losses), deepest, moment);
-    waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, moment);
+    follow_near::<N>((list, pairs), Some(&mut waiting), laws, (sink, losses), deepest, evaluation_time);
+    waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, evaluation_time);
 }
 
 /// Pairs that may touch follow their motion. Pairs that touch hulls join those `waiting`, which are empty without
@@ -60,9 +60,9 @@ fn follow_near<N: NormalForce>(
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
-    moment: Moment,
+    evaluation_time: EvaluationTime,
 ) {
-    let path = moment.path;
+    let path = evaluation_time.path;
     for number in 0..list.awake_blocks() {
         let block = list.awake_block(number);
         // No pair can have come near since its last evaluation.
@@ -75,21 +75,21 @@ fn follow_near<N: NormalForce>(
         let mut gap = f64::INFINITY;
         let early = if waiting.is_some() { list.early_in(block, path) } else { 0 };
         for lane in lanes(list.awake_in(block) & !early) {
-            let (pair, place) = (own[lane], BLOCK * block + lane);
+            let (pair, index) = (own[lane], BLOCK * block + lane);
             let Surface::Wall(wall) = pair.surface(sink.bodies) else {
                 let Some(waiting) = &mut waiting else { continue };
-                let found = look(list, place, pair, sink.bodies);
+                let found = look(list, index, pair, sink.bodies);
                 match found {
                     Found::Apart(_) => {}
                     Found::Touch => {
-                        let (law, sides) = (list.law[block][lane], list.remembered.sides[place]);
-                        if waiting.add(sink.bodies, (place, pair), law, sides) {
-                            waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, moment);
+                        let (law, sides) = (list.law[block][lane], list.remembered.sides[index]);
+                        if waiting.add(sink.bodies, (index, pair), law, sides) {
+                            waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, evaluation_time);
                         }
                     }
                     Found::End => {
-                        waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, moment);
-                        follow_end::<N>((list, place), pair, laws, (sink, losses), deepest, moment);
+                        waiting.follow::<N>((list, pairs), laws, (sink, losses), deepest, evaluation_time);
+                        follow_end::<N>((list, index), pair, laws, (sink, losses), deepest, evaluation_time);
                     }
                 }
                 let way = if let Found::Apart(apart) = found { WAY * apart.max(0.0) } else { f64::NEG_INFINITY };
@@ -102,14 +102,14 @@ fn follow_near<N: NormalForce>(
             let (at, radius) = sink.bodies.meeting_wall(&sink.bodies.walls[wall], atom);
             let at = sink.bodies.passing(atom).map_or(at, |passing| passing.position);
             let apart = sink.bodies.nearest_on_wall(wall, atom, at).height - radius;
-            if apart >= 0.0 && !list.is_touching(place) {
+            if apart >= 0.0 && !list.is_touching(index) {
                 // Half of it: more than rounding can take.
                 gap = gap.min(0.5 * apart);
             } else {
                 near = true;
                 // A touching body does not fly.
                 sink.bodies.bind(atom);
-                follow_wall::<N>((list, place), (wall, pair.probe), laws, (sink, losses), deepest, moment);
+                follow_wall::<N>((list, index), (wall, pair.probe), laws, (sink, losses), deepest, evaluation_time);
             }
         }
         list.due[block] = if near { f64::NEG_INFINITY } else { path + gap.min(list.way_left(block, early, path)) };
@@ -129,30 +129,30 @@ enum Found {
 
 /// Looks whether a probe near a hull touches it, or did.
 #[inline(always)]
-fn look(list: &mut ContactList, place: usize, pair: SurfacePair, bodies: &Bodies) -> Found {
-    let is_touching = list.is_touching(place);
+fn look(list: &mut ContactList, index: usize, pair: SurfacePair, bodies: &Bodies) -> Found {
+    let is_touching = list.is_touching(index);
     if let Probe::Atom(atom) = pair.probe(bodies) {
         if is_touching {
             return Found::Touch;
         }
-        let gap = list.remembered.gap(place, bodies, atom);
+        let gap = list.remembered.gap(index, bodies, atom);
         if gap > 0.0 {
             return Found::Apart(gap);
         }
     }
-    look_closely((list, is_touching), place, pair, bodies)
+    look_closely((list, is_touching), index, pair, bodies)
 }
 
 #[inline(never)]
 fn look_closely(
     (list, is_touching): (&mut ContactList, bool),
-    place: usize,
+    index: usize,
     pair: SurfacePair,
     bodies: &Bodies,
 ) -> Found {
-    let (geometry, apart) = PairGeometry::near(bodies, place, pair);
+    let (geometry, apart) = PairGeometry::near(bodies, index, pair);
     if geometry.overlap <= 0.0 && !is_touching {
-        list.remembered.part(place, bodies, pair, (&geometry, apart));
+        list.remembered.part(index, bodies, pair, (&geometry, apart));
         return Found::Apart(apart);
     }
     if let Probe::End(..) = pair.probe(bodies) { Found::End } else { Found::Touch }
@@ -160,15 +160,15 @@ fn look_closely(
 
 /// A hull near an end of a wall follows its motion.
 fn follow_end<N: NormalForce>(
-    (list, place): (&mut ContactList, usize),
+    (list, index): (&mut ContactList, usize),
     pair: SurfacePair,
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
-    Moment { time, elapsed, .. }: Moment,
+    EvaluationTime { time, elapsed, .. }: EvaluationTime,
 ) {
-    let geometry = PairGeometry::surface(sink.bodies, place, pair);
-    let mut contact = list.get(place);
+    let geometry = PairGeometry::surface(sink.bodies, index, pair);
+    let mut contact = list.get(index);
     let law = laws.get(contact.law);
     let approach = if N::DEPENDS_ON_VELOCITY { geometry.approach(sink.bodies) } else { Approach::default() };
     let b = &geometry.pair.b;
@@ -186,7 +186,7 @@ fn follow_end<N: NormalForce>(
     let lost = contact.follow::<N>(law, &touch, elapsed);
     losses.friction += lost.friction;
     losses.inelasticity += lost.inelasticity;
-    list.set(place, &contact);
+    list.set(index, &contact);
     if contact.mode != Mode::Open {
         deepest.note(contact.overlap, pair.size(sink.bodies), time, || geometry.pair.entities(sink.bodies));
         geometry.pair.push(sink, law, geometry.overlap, contact.force(law, normal));
@@ -196,17 +196,17 @@ fn follow_end<N: NormalForce>(
 /// An atom near a wall follows its motion.
 #[inline]
 fn follow_wall<N: NormalForce>(
-    (list, place): (&mut ContactList, usize),
+    (list, index): (&mut ContactList, usize),
     (wall, atom): (usize, u32),
     laws: &LawTable,
     (sink, losses): (&mut Sink, &mut Losses),
     deepest: &mut DeepestOverlap,
-    Moment { time, elapsed, .. }: Moment,
+    EvaluationTime { time, elapsed, .. }: EvaluationTime,
 ) {
     let (end, place_of_atom) = End::at_wall(sink.bodies, wall, atom);
     let NearestPoint { height, normal, distance } = sink.bodies.nearest_on_wall(wall, atom as usize, place_of_atom);
     let wall = sink.bodies.whole_wall(wall);
-    let mut contact = list.get(place);
+    let mut contact = list.get(index);
     let law = laws.get(contact.law);
     let (mut displacement, turn) = end.displacement(sink.bodies);
     if let Some(&belt) = sink.bodies.belts.get(wall) {
@@ -225,7 +225,7 @@ fn follow_wall<N: NormalForce>(
     let lost = contact.follow::<N>(law, &touch, elapsed);
     losses.friction += lost.friction;
     losses.inelasticity += lost.inelasticity;
-    list.set(place, &contact);
+    list.set(index, &contact);
     if contact.mode != Mode::Open {
         let size = sink.bodies.size_of_atom(atom as usize);
         deepest.note(contact.overlap, size, time, || (sink.bodies.entity[end.body], sink.bodies.walls[wall].entity));

@@ -16,10 +16,10 @@
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
+use super::contact_list::Edited;
 use super::coulomb::{Grip, Slider, SliderLaw};
-use super::law::{LawTable, PairLaw};
-use super::list::Edited;
 use super::normal::{Approach, Mode, NormalForce};
+use super::pair_law::{LawTable, PairLaw};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use crate::constraints::{Booking, LostTo, Rows};
@@ -27,7 +27,7 @@ use crate::contacts::Touches;
 use crate::contacts::geometry::{PairGeometry, SideA};
 use crate::contacts::{CandidatePairs, DeepestOverlap};
 use crate::tick::Ledger;
-use crate::tick::balance::{angular_momentum, momentum};
+use crate::tick::ledger::{angular_momentum, momentum};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -65,27 +65,27 @@ impl View<'_> {
         self.contacts.atoms.len() + self.contacts.surfaces.len()
     }
 
-    pub fn look(&self, place: usize) -> PairGeometry {
+    pub fn look(&self, index: usize) -> PairGeometry {
         let atoms = self.contacts.atoms.len();
-        match place.checked_sub(atoms) {
-            None => PairGeometry::atoms(self.bodies, place, self.pairs.atoms[place]),
-            Some(place) => PairGeometry::surface(self.bodies, place, self.pairs.surfaces[place]),
+        match index.checked_sub(atoms) {
+            None => PairGeometry::atoms(self.bodies, index, self.pairs.atoms[index]),
+            Some(index) => PairGeometry::surface(self.bodies, index, self.pairs.surfaces[index]),
         }
     }
 
     /// A contact with its law, and its rolling spring in scenes that have them.
-    pub fn whole(&mut self, place: usize, geometry: &PairGeometry) -> (Edited<'_>, &PairLaw, Option<Roller<'_>>) {
+    pub fn whole(&mut self, index: usize, geometry: &PairGeometry) -> (Edited<'_>, &PairLaw, Option<Roller<'_>>) {
         let PenaltyContacts { laws, atoms, surfaces, .. } = &mut *self.contacts;
         let count = atoms.len();
-        let contact = if place < count { atoms.edit(place) } else { surfaces.edit(place - count) };
+        let contact = if index < count { atoms.edit(index) } else { surfaces.edit(index - count) };
         let law = laws.get(contact.law);
         (contact, law, self.rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law)))
     }
 
-    pub fn contact(&mut self, place: usize) -> (Edited<'_>, &PairLaw) {
+    pub fn contact(&mut self, index: usize) -> (Edited<'_>, &PairLaw) {
         let PenaltyContacts { laws, atoms, surfaces, .. } = &mut *self.contacts;
         let count = atoms.len();
-        let contact = if place < count { atoms.edit(place) } else { surfaces.edit(place - count) };
+        let contact = if index < count { atoms.edit(index) } else { surfaces.edit(index - count) };
         let law = laws.get(contact.law);
         (contact, law)
     }
@@ -118,11 +118,11 @@ pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
     let PenaltyContacts { atoms, surfaces, laws, .. } = contacts;
     let mut states = state.iter();
     for list in [atoms, surfaces] {
-        for place in 0..list.len() {
-            if is_spring(&list.get(place), laws)
+        for index in 0..list.len() {
+            if is_spring(&list.get(index), laws)
                 && let Some(&state) = states.next()
             {
-                list.edit(place).tangential.elongation = state;
+                list.edit(index).tangential.elongation = state;
             }
         }
     }
@@ -132,13 +132,13 @@ pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
 pub(super) fn rates((bodies, pairs): (&Bodies, &CandidatePairs), contacts: &PenaltyContacts, rates: &mut [f64]) {
     let of_atoms = contacts.atoms.iter().zip(&pairs.atoms).enumerate();
     let of_atoms =
-        of_atoms.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
-            PairGeometry::atoms(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
+        of_atoms.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(index, (contact, pair))| {
+            PairGeometry::atoms(bodies, index, *pair).sliding(contacts.laws.get(contact.law).shares())
         });
     let of_surfaces = contacts.surfaces.iter().zip(&pairs.surfaces).enumerate();
     let of_surfaces =
-        of_surfaces.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(place, (contact, pair))| {
-            PairGeometry::surface(bodies, place, *pair).sliding(contacts.laws.get(contact.law).shares())
+        of_surfaces.filter(|(_, (contact, _))| is_spring(contact, &contacts.laws)).map(|(index, (contact, pair))| {
+            PairGeometry::surface(bodies, index, *pair).sliding(contacts.laws.get(contact.law).shares())
         });
     rates.iter_mut().zip(of_atoms.chain(of_surfaces)).for_each(|(rate, sliding)| *rate = sliding);
 }
@@ -161,8 +161,8 @@ impl View<'_> {
         // Energy that springs held before and lose by the change is lost. It is booked when all modes have settled.
         self.contacts.held_before = Some(self.stored(|_| true));
         self.note_springs();
-        for &place in fired {
-            let (pair, what) = self.contacts.told[place];
+        for &index in fired {
+            let (pair, what) = self.contacts.told[index];
             let geometry = self.look(pair as usize);
             let bodies = self.bodies;
             let (mut contact, law, roller) = self.whole(pair as usize, &geometry);
@@ -182,9 +182,9 @@ impl View<'_> {
     fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
-        for place in 0..self.len() {
-            let geometry = self.look(place);
-            let (contact, law, roller) = self.whole(place, &geometry);
+        for index in 0..self.len() {
+            let geometry = self.look(index);
+            let (contact, law, roller) = self.whole(index, &geometry);
             let noted = |slider: &Slider| match (contact.mode, slider.grip) {
                 (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Hold | Grip::Slip) => None,
                 _ => Some(*slider),
@@ -198,8 +198,8 @@ impl View<'_> {
     /// Notes the bodies that begin to touch, for their observers. They are those of open contacts that now touch, if no
     /// other contact between the two holds.
     fn note_begun(&mut self, fired: &[usize], touches: &mut Touches) {
-        let between = |view: &Self, place: usize| {
-            let case = view.look(place).pair;
+        let between = |view: &Self, index: usize| {
+            let case = view.look(index).pair;
             match case.a {
                 SideA::Atom(other) => (false, other.body, case.b.body),
                 SideA::Hull(other) => (false, other.body.min(case.b.body), other.body.max(case.b.body)),
@@ -208,16 +208,16 @@ impl View<'_> {
         };
         let touched: Vec<usize> = fired
             .iter()
-            .map(|&place| self.contacts.told[place])
+            .map(|&index| self.contacts.told[index])
             .filter(|told| matches!(told.1, What::Touch))
             .map(|told| told.0 as usize)
             .collect();
-        let mut begun: Vec<_> = touched.into_iter().map(|place| between(self, place)).collect();
+        let mut begun: Vec<_> = touched.into_iter().map(|index| between(self, index)).collect();
         begun.sort_unstable();
         begun.dedup();
-        for place in 0..if begun.is_empty() { 0 } else { self.len() } {
-            if self.contact(place).0.mode != Mode::Open {
-                let pair = between(self, place);
+        for index in 0..if begun.is_empty() { 0 } else { self.len() } {
+            if self.contact(index).0.mode != Mode::Open {
+                let pair = between(self, index);
                 begun.retain(|other| *other != pair);
             }
         }
@@ -229,8 +229,8 @@ impl View<'_> {
     /// Energy in J of those tangential and rolling springs whose grip is asked for.
     pub fn stored(&mut self, which: impl Fn(Grip) -> bool) -> f64 {
         let mut sum = 0.0;
-        for place in 0..self.len() {
-            let (contact, law) = self.contact(place);
+        for index in 0..self.len() {
+            let (contact, law) = self.contact(index);
             if contact.mode == Mode::Open {
                 continue;
             }
@@ -239,8 +239,8 @@ impl View<'_> {
             }
             drop(contact);
             if self.rolling.is_some() {
-                let geometry = self.look(place);
-                if let (_, _, Some((slider, law))) = self.whole(place, &geometry)
+                let geometry = self.look(index);
+                if let (_, _, Some((slider, law))) = self.whole(index, &geometry)
                     && which(slider.grip)
                 {
                     sum += slider.energy(&law);
@@ -345,12 +345,12 @@ pub(super) fn stand_still(
 
 impl View<'_> {
     fn note_overlaps(&mut self, time: f64, deepest: &mut DeepestOverlap) {
-        for place in 0..self.len() {
-            if self.contact(place).0.mode == Mode::Open {
+        for index in 0..self.len() {
+            if self.contact(index).0.mode == Mode::Open {
                 continue;
             }
-            let geometry = self.look(place);
-            let size = match place.checked_sub(self.contacts.atoms.len()) {
+            let geometry = self.look(index);
+            let size = match index.checked_sub(self.contacts.atoms.len()) {
                 Some(surface) => self.pairs.surfaces[surface].size(self.bodies),
                 None => geometry.pair.other_end().map_or(f64::INFINITY, |a| a.radius).min(geometry.pair.b.radius),
             };

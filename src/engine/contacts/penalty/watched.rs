@@ -2,28 +2,28 @@
 //! indicators.
 
 use super::handover;
-use super::model::{Contacts, PenaltyState, is_crowded};
+use super::model::{Contacts, PenaltyState, is_overloaded};
 use super::normal::NormalForce;
 use super::switching::{self, View};
 use super::{Penalty, RollingLaw, TangentialLaw, features, rolling_stages};
-use crate::tick::{Events, Indicator, Objection, State, Style};
+use crate::tick::{EvaluationMode, Events, Indicator, Objection, State};
 use crate::world::Materials;
 
 /// The abilities that these contacts lack.
-pub(super) fn objection(settings: &Penalty, materials: &Materials, style: Style) -> Option<Objection> {
+pub(super) fn objection(settings: &Penalty, materials: &Materials, mode: EvaluationMode) -> Option<Objection> {
     let friction = materials.any_friction();
-    let (path, message, help) = match (style, settings.tangential) {
-        (Style::Following, TangentialLaw::Exact) => (
+    let (path, message, help) = match (mode, settings.tangential) {
+        (EvaluationMode::Following, TangentialLaw::Exact) => (
             "contacts.Penalty.tangential",
             "`Exact` friction needs a method that locates events inside a tick",
             "write `clock: (.., method: RungeKutta4)`, `method: Dop853` or `events: Located`; or `tangential: Spring(ratio: 0.8)`",
         ),
-        (Style::Instant, TangentialLaw::Spring { .. }) if friction => (
+        (EvaluationMode::Instant, TangentialLaw::Spring { .. }) if friction => (
             "clock.events",
             "tangential springs need their events located under a method with several stages",
             "write `events: Located`, or `tangential: Exact` or `None`, or `method: VelocityVerlet`",
         ),
-        (Style::Instant, _) if settings.rolling != RollingLaw::None => (
+        (EvaluationMode::Instant, _) if settings.rolling != RollingLaw::None => (
             "clock.events",
             "rolling springs need their events located under a method with several stages",
             "write `events: Located`, or `rolling: None`, or `method: VelocityVerlet`",
@@ -120,13 +120,13 @@ impl<N: NormalForce> Events for Contacts<N> {
             && switching::tidy((bodies, ledger, rows), times, (pairs, contacts, rolling.as_mut()), deepest)
     }
 
-    fn hand_over(&mut self, state: &State, style: Style) {
+    fn hand_over(&mut self, state: &State, mode: EvaluationMode) {
         if let Some(mut view) = view(&mut self.own, state) {
-            handover::hand_over::<N>(&mut view, style, state.clock.dt);
+            handover::hand_over::<N>(&mut view, mode, state.clock.dt);
         }
     }
 
-    fn is_crowded(&self) -> bool {
-        is_crowded(&self.own)
+    fn is_overloaded(&self) -> bool {
+        is_overloaded(&self.own)
     }
 }

@@ -63,13 +63,13 @@ impl Overlaps {
         });
         let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
         let looked_at = if touching.is_empty() { 0 } else { MOST_LOOKS / touching.len() };
-        for place in bodies.single_walls().take(looked_at) {
-            let wall = &bodies.walls[place];
+        for index in bodies.single_walls().take(looked_at) {
+            let wall = &bodies.walls[index];
             let height = |at: DVec2| wall.nearest(at).height;
             let near = touching.iter().filter(|&&body| height(bodies.position[body]) < bodies.extent(body));
             for atom in near.flat_map(|&body| bodies.atoms_of(body)).filter(|&atom| bodies.probes(atom)) {
                 let (at, radius) = bodies.meeting_wall(wall, atom);
-                let whose = Pair::Wall(bodies.atom_body(atom) as u32, place as u32);
+                let whose = Pair::Wall(bodies.atom_body(atom) as u32, index as u32);
                 found.add(radius - height(at), bodies.size_of_atom(atom), whose);
             }
         }
@@ -79,7 +79,7 @@ impl Overlaps {
             let whose = Pair::Wall(bodies.atom_body(atom) as u32, line as u32);
             found.add(bodies.atom_radius[atom] - height, bodies.size_of_atom(atom), whose);
         });
-        let apart = super::places_apart(bodies);
+        let apart = super::indices_apart(bodies);
         // Bars may cross without a corner of one inside the other.
         hulls::each_pair_of_hulls(bodies, &apart, found.most, |a, b| {
             let [first, second] = [a, b].map(|hull| &bodies.hulls[hull]);

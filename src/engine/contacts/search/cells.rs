@@ -12,7 +12,7 @@ use glam::DVec2;
 use super::AtomPair;
 use crate::threads::Threads;
 use crate::world::Bodies;
-use crate::world::part::parts_of;
+use crate::world::chunk::parts_of;
 use serde::{Deserialize, Serialize};
 
 /// Atoms of the smallest part of a search.
@@ -95,14 +95,14 @@ impl Sorted {
     /// Shows pairs of which one at least is large, until `see` has seen enough.
     fn each_of_large(&self, bodies: &Bodies, mut see: impl FnMut(AtomPair) -> bool) {
         let mut more = true;
-        for (place, entry) in self.large.iter().enumerate() {
+        for (index, entry) in self.large.iter().enumerate() {
             let mut look = |other: &Entry| {
                 if more && moves(bodies, entry.body, other.body) {
                     more = see(entry.with(other));
                 }
             };
             self.cells.near(entry, self.cells.reach, &mut look);
-            self.large[place + 1..].iter().filter(|other| are_near(entry, other)).for_each(look);
+            self.large[index + 1..].iter().filter(|other| are_near(entry, other)).for_each(look);
             if !more {
                 break;
             }
@@ -210,9 +210,9 @@ pub(super) fn overlapping(bodies: &Bodies, mut looks: usize, mut see: impl FnMut
             return false;
         }
     }
-    for (place, entry) in large.iter().enumerate() {
+    for (index, entry) in large.iter().enumerate() {
         cells.around(entry, cells.reach, |others| _ = look(entry, others, false));
-        if !look(entry, &large[place + 1..], false) {
+        if !look(entry, &large[index + 1..], false) {
             return false;
         }
     }
@@ -415,12 +415,12 @@ impl Cells {
             } else {
                 0..0
             };
-            for place in own {
+            for index in own {
                 if found.len() > most {
                     return;
                 }
-                let entry = &self.entries[place];
-                for other in self.entries[place + 1..beside].iter().chain(&self.entries[above.clone()]) {
+                let entry = &self.entries[index];
+                for other in self.entries[index + 1..beside].iter().chain(&self.entries[above.clone()]) {
                     if are_near(entry, other) && wanted(entry.body, other.body) {
                         found.push(entry.with(other));
                     }
@@ -460,7 +460,7 @@ pub(super) mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
 
-    use super::super::{Search, suiting, sweep};
+    use super::super::{Search, sort_and_sweep, suiting};
     use super::*;
     use crate::tick::bounds::Bounds;
 
@@ -498,11 +498,11 @@ pub(super) mod tests {
     #[test]
     fn what_lies_far_away_does_not_crowd_the_cells() {
         let crowd = |origin: DVec2| {
-            (0..2500).map(move |place| Entry {
-                center: origin + DVec2::new(f64::from(place % 50), f64::from(place / 50)),
+            (0..2500).map(move |index| Entry {
+                center: origin + DVec2::new(f64::from(index % 50), f64::from(index / 50)),
                 reach: 0.5,
-                atom: place as u32,
-                body: place as u32,
+                atom: index as u32,
+                body: index as u32,
             })
         };
         let far = DVec2::new(-1e5, 3e4);
@@ -534,7 +534,7 @@ pub(super) mod tests {
                 (bounds.low[0], bounds.high[0]) = (bounds.low[0] + far, bounds.high[0] + far);
             }
             let found = Sorted::of(&bodies, bounds.margin).pairs(&bodies, usize::MAX);
-            assert_eq!(found, sweep::pairs(&bodies, &bounds), "seed {seed}");
+            assert_eq!(found, sort_and_sweep::pairs(&bodies, &bounds), "seed {seed}");
             assert!(count < 10 || found.len() > 10, "{} pairs", found.len());
         }
         assert_eq!(suiting(&Bodies::default()), Search::Sweep);

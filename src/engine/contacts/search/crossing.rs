@@ -172,7 +172,7 @@ impl Crossings {
         let pose = |body: usize| Pose::new(self.seen[body].0, self.seen[body].1);
         let touches = |body: usize| bodies.collides[body];
         let went = |body: usize| self.seen[body] != (bodies.position[body], bodies.angle[body]);
-        for (place, packed) in bodies.hulls.iter().enumerate().filter(|(_, packed)| touches(packed.body as usize)) {
+        for (index, packed) in bodies.hulls.iter().enumerate().filter(|(_, packed)| touches(packed.body as usize)) {
             let own = packed.body as usize;
             let (began, ends) = (pose(own), bodies.pose_with_hulls(own));
             let others =
@@ -182,7 +182,7 @@ impl Crossings {
                 let before = began.point_to_local(pose(body).point_to_world(offset));
                 let now = ends.point_to_local(bodies.atom_place(atom));
                 if has_passed(packed, before, now) {
-                    return Some((body, place));
+                    return Some((body, index));
                 }
             }
         }

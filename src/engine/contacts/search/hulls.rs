@@ -127,9 +127,9 @@ pub(super) fn each_pair_of_hulls(
         return;
     }
     let near = Neighbours::of(bodies, 0.0, apart, most);
-    for (place, packed) in bodies.hulls.iter().enumerate() {
+    for (index, packed) in bodies.hulls.iter().enumerate() {
         let others = near.of_hull(packed).iter().filter_map(|&other| bodies.hull_of(other as usize));
-        others.filter(|other| *other > place).for_each(|other| see(place, other));
+        others.filter(|other| *other > index).for_each(|other| see(index, other));
     }
 }
 
@@ -153,12 +153,12 @@ pub(super) fn each_pair(
         .map(|(number, (center, half))| (number, center, half))
         .collect();
     let (walls, ends_from) = (bodies.walls.len() as u32, bodies.atom_count() as u32);
-    for (place, packed) in bodies.hulls.iter().enumerate() {
+    for (index, packed) in bodies.hulls.iter().enumerate() {
         let body = packed.body as usize;
         if !bodies.collides[body] {
             continue;
         }
-        let surface = walls + place as u32;
+        let surface = walls + index as u32;
         let pose = bodies.pose_with_hulls(body);
         let (center, circle) = (pose.point_to_world(packed.circle.0), packed.circle.1 + margin);
         let is_near = |at: DVec2, reach: f64| {
@@ -169,7 +169,7 @@ pub(super) fn each_pair(
             let other = other as usize;
             let atoms = bodies.hull_of(other).map_or(other..other + 1, |hull| bodies.hulls[hull].corners());
             for atom in atoms.filter(|&atom| bodies.probes(atom)) {
-                if is_near(bodies.atom_place(atom), bodies.atom_radius[atom] + bodies.spread(place, atom)) {
+                if is_near(bodies.atom_place(atom), bodies.atom_radius[atom] + bodies.spread(index, atom)) {
                     see(SurfacePair::new(surface, atom as u32));
                 }
             }

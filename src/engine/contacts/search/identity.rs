@@ -34,17 +34,17 @@ impl Identities {
     }
 
     /// The place of an atom: key of its body, number within it.
-    fn place(&self, key: u64, number: u32) -> Option<u32> {
+    fn index(&self, key: u64, number: u32) -> Option<u32> {
         let run = self.0.get(self.0.partition_point(|run| run.key <= key).checked_sub(1)?)?;
         let body = key - run.key;
         (body < u64::from(run.bodies) && number < run.atoms).then(|| run.first + body as u32 * run.atoms + number)
     }
 
     /// For each atom its index among others, or [`NEW`] if it is not among them.
-    pub fn places_in(&self, others: &Self) -> Vec<u32> {
+    pub fn indices_in(&self, others: &Self) -> Vec<u32> {
         let of_body = |run: Run, body: u32| (0..run.atoms).map(move |number| (run.key + u64::from(body), number));
         let all = self.0.iter().flat_map(|&run| (0..run.bodies).flat_map(move |body| of_body(run, body)));
-        all.map(|(key, number)| others.place(key, number).unwrap_or(NEW)).collect()
+        all.map(|(key, number)| others.index(key, number).unwrap_or(NEW)).collect()
     }
 }
 
@@ -65,9 +65,9 @@ mod tests {
     #[test]
     fn atoms_are_found_again_by_key_and_number() {
         let before = bodies(&[(0, 1), (1, 1), (2, 3), (3, 0), (5, 2), (6, 2), (7, 2)]);
-        assert_eq!(before.places_in(&before), (0..11).collect::<Vec<_>>());
+        assert_eq!(before.indices_in(&before), (0..11).collect::<Vec<_>>());
         // Body 1 is gone, 2 has one atom less, 4 is new, 6 is gone.
         let after = bodies(&[(0, 1), (2, 2), (3, 0), (4, 1), (5, 2), (7, 2)]);
-        assert_eq!(before.places_in(&after), [0, NEW, 1, 2, NEW, 4, 5, NEW, NEW, 6, 7]);
+        assert_eq!(before.indices_in(&after), [0, NEW, 1, 2, NEW, 4, 5, NEW, NEW, 6, 7]);
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn known(
         return Vec::new();
     }
     let now = |pair: &SurfacePair| renamed(*pair).map(|pair| present(pair, bodies));
-    let mut known: Vec<_> = (0..).zip(old).filter_map(|(place, pair)| Some((now(pair)?, place))).collect();
+    let mut known: Vec<_> = (0..).zip(old).filter_map(|(index, pair)| Some((now(pair)?, index))).collect();
     known.sort_unstable();
     known
 }
@@ -36,9 +36,9 @@ fn present(pair: SurfacePair, bodies: &Bodies) -> SurfacePair {
 }
 
 /// The place in the list before of a pair, or [`NEW`].
-pub(super) fn place(known: &[(SurfacePair, u32)], pair: SurfacePair) -> u32 {
+pub(super) fn index(known: &[(SurfacePair, u32)], pair: SurfacePair) -> u32 {
     let first = known.partition_point(|(other, _)| *other < pair);
-    known.get(first).filter(|(other, _)| *other == pair).map_or(NEW, |(_, place)| *place)
+    known.get(first).filter(|(other, _)| *other == pair).map_or(NEW, |(_, index)| *index)
 }
 
 /// Gives the atoms near lines: line by line, each in the order of the atoms. If bodies have just `begun`, corners may
@@ -65,7 +65,7 @@ pub(super) fn each_place(
             line.each_near(bodies.position[body], bodies.extent(body) + margin, &mut |_| is_near = true);
             for atom in bodies.atoms_of(body).filter(|&atom| is_near && bodies.probes(atom)) {
                 let pair = |piece: usize| SurfacePair::new(piece as u32, atom as u32);
-                let was_near = |piece: usize| place(known, pair(piece)) != NEW;
+                let was_near = |piece: usize| index(known, pair(piece)) != NEW;
                 let reach = (atom, margin, behind);
                 bodies.each_place_on_line(line, reach, was_near, |piece, height| see(pair(piece), height));
             }

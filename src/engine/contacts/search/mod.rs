@@ -14,9 +14,9 @@ mod crossing;
 mod hulls;
 mod identity;
 mod lines;
+mod sort_and_sweep;
 mod still;
 mod sunk;
-mod sweep;
 
 pub use at_start::OverlapAtStart;
 
@@ -135,8 +135,9 @@ impl PairSearch {
             // Corners touch hulls, not discs.
             _ => Sorted::among(bodies, bounds.margin, (0..bodies.atom_count()).filter(|atom| !bodies.is_corner(*atom))),
         });
-        pairs.atoms = sorted.as_ref().map_or_else(|| sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies, most));
-        let apart = places_apart(bodies);
+        pairs.atoms =
+            sorted.as_ref().map_or_else(|| sort_and_sweep::pairs(bodies, bounds), |sorted| sorted.pairs(bodies, most));
+        let apart = indices_apart(bodies);
         if !apart.is_empty() {
             let body = |atom: u32| bodies.atom_body(atom as usize);
             pairs.atoms.retain(|pair| apart.binary_search(&ordered(body(pair.a), body(pair.b))).is_err());
@@ -146,11 +147,11 @@ impl PairSearch {
             pairs.atoms.retain(|pair| !corner(pair.a) && !corner(pair.b));
         }
         let same = self.generation == bodies.generation;
-        let renamed = if same { None } else { Some(self.identities.places_in(&Identities::of(bodies))) };
-        let place = |old: u32| {
+        let renamed = if same { None } else { Some(self.identities.indices_in(&Identities::of(bodies))) };
+        let index = |old: u32| {
             renamed
                 .as_ref()
-                .map_or(Some(old), |places: &Vec<u32>| Some(places[old as usize]).filter(|&place| place != NEW))
+                .map_or(Some(old), |indices: &Vec<u32>| Some(indices[old as usize]).filter(|&index| index != NEW))
         };
         // Walls do not come and go one by one. If their number changes, the history of surfaces starts again.
         let old_wall_count = std::mem::replace(&mut self.wall_count, bodies.walls.len());
@@ -163,11 +164,11 @@ impl PairSearch {
         let surface = |old: u32| match old.checked_sub(walls) {
             None => Some(old),
             Some(hull) => Some(
-                bodies.walls.len() as u32 + bodies.hull_of(place(old_first_atoms[hull as usize])? as usize)? as u32,
+                bodies.walls.len() as u32 + bodies.hull_of(index(old_first_atoms[hull as usize])? as usize)? as u32,
             ),
         };
         let probe = |old: u32| match old.checked_sub(old_atoms_count) {
-            None => place(old),
+            None => index(old),
             Some(end) => Some(bodies.atom_count() as u32 + end),
         };
         let old_surface =
@@ -199,11 +200,11 @@ impl PairSearch {
         }
         bounds.candidates = pairs.atoms.len() + pairs.surfaces.len();
         let groups = [&old_atoms[..touching], &old_atoms[touching..close], &old_atoms[close..]];
-        pairs.atoms_before = carry(&pairs.atoms, groups, |old| Some(AtomPair { a: place(old.a)?, b: place(old.b)? }));
+        pairs.atoms_before = carry(&pairs.atoms, groups, |old| Some(AtomPair { a: index(old.a)?, b: index(old.b)? }));
         pairs.surfaces_before = if bodies.lines.is_empty() {
             carry(&pairs.surfaces, [&old_surfaces], old_surface)
         } else {
-            pairs.surfaces.iter().map(|pair| lines::place(&known, *pair)).collect()
+            pairs.surfaces.iter().map(|pair| lines::index(&known, *pair)).collect()
         };
         if pairs.keeps {
             for (pair, before) in pairs.surfaces.iter_mut().zip(&pairs.surfaces_before) {
@@ -245,9 +246,9 @@ fn body_with_most(pairs: &CandidatePairs, bodies: &Bodies) -> usize {
 }
 
 /// The places of bodies that do not touch each other, the lower one first, in order.
-fn places_apart(bodies: &Bodies) -> Vec<(usize, usize)> {
-    let place = |(a, b): &(u64, u64)| Some(ordered(bodies.key.find(*a)?, bodies.key.find(*b)?));
-    let mut apart: Vec<_> = bodies.apart.iter().filter_map(place).collect();
+fn indices_apart(bodies: &Bodies) -> Vec<(usize, usize)> {
+    let index = |(a, b): &(u64, u64)| Some(ordered(bodies.key.find(*a)?, bodies.key.find(*b)?));
+    let mut apart: Vec<_> = bodies.apart.iter().filter_map(index).collect();
     apart.sort_unstable();
     apart
 }
@@ -270,13 +271,13 @@ fn carry<P: Ord + Copy, const GROUPS: usize>(
     let mut groups = old.map(|group| {
         let begin = first;
         first += group.len() as u32;
-        (begin..).zip(group).filter_map(|(place, &pair)| Some((place, renamed(pair)?))).peekable()
+        (begin..).zip(group).filter_map(|(index, &pair)| Some((index, renamed(pair)?))).peekable()
     });
     let find = |pair: &P| {
         let mut found = NEW;
         for rest in &mut groups {
             while rest.next_if(|(_, old)| old < pair).is_some() {}
-            found = rest.next_if(|(_, old)| old == pair).map_or(found, |(place, _)| place);
+            found = rest.next_if(|(_, old)| old == pair).map_or(found, |(index, _)| index);
         }
         found
     };
@@ -313,8 +314,8 @@ fn each_wall_pair(
     among: impl Iterator<Item = usize> + Clone,
     mut see: impl FnMut(SurfacePair),
 ) {
-    for place in bodies.single_walls() {
-        let wall = &bodies.walls[place];
+    for index in bodies.single_walls() {
+        let wall = &bodies.walls[index];
         for body in among.clone().filter(|&body| bodies.dynamic[body] && bodies.collides[body]) {
             if wall.nearest(bodies.position[body]).height > bodies.extent(body) + margin {
                 continue;
@@ -322,7 +323,7 @@ fn each_wall_pair(
             for atom in bodies.atoms_of(body).filter(|&atom| bodies.probes(atom)) {
                 let (at, radius) = bodies.meeting_wall(wall, atom);
                 if wall.nearest(at).height < radius + margin {
-                    see(SurfacePair::new(place as u32, atom as u32));
+                    see(SurfacePair::new(index as u32, atom as u32));
                 }
             }
         }

@@ -108,9 +108,9 @@ mod tests {
         for seed in 1..=40 {
             let (mut bodies, mut bounds) = cells::tests::strewn(seed, 400, 30.0);
             bodies.moves.clone_from(&bodies.dynamic);
-            for place in 0..20 {
-                let (entity, point) = (Entity::PLACEHOLDER, DVec2::splat(1.5 * f64::from(place)));
-                let normal = if place % 2 == 0 { DVec2::Y } else { -DVec2::X };
+            for index in 0..20 {
+                let (entity, point) = (Entity::PLACEHOLDER, DVec2::splat(1.5 * f64::from(index)));
+                let normal = if index % 2 == 0 { DVec2::Y } else { -DVec2::X };
                 let material = MaterialIndex::default();
                 bodies.walls.push(PackedWall { entity, point, normal, ends: None, line: None, material });
             }

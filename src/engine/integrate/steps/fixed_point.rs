@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use super::settling::{LIMIT, Settling};
+use super::convergence::{Convergence, LIMIT};
 /// Working memory of the iteration.
 #[derive(Default)]
 pub(super) struct FixedPoint {
@@ -24,37 +24,37 @@ impl FixedPoint {
     pub(super) fn find(
         &mut self,
         mut evaluate: impl FnMut(&[f64], &mut [f64]),
-        places: Range<usize>,
+        indices: Range<usize>,
         middle: impl Fn(usize, f64) -> f64,
         state: &mut [f64],
         rates: &mut [f64],
     ) {
-        self.images.resize(places.len(), 0.0);
-        self.residuals.resize(places.len(), 0.0);
-        for place in places.clone() {
-            state[place] = middle(place, rates[place]);
+        self.images.resize(indices.len(), 0.0);
+        self.residuals.resize(indices.len(), 0.0);
+        for index in indices.clone() {
+            state[index] = middle(index, rates[index]);
         }
-        let mut settling = Settling::default();
+        let mut settling = Convergence::default();
         for number in 0..LIMIT {
             evaluate(state, rates);
-            let arrived = settling.arrived(places.clone().map(|place| {
-                let image = middle(place, rates[place]);
-                (image - state[place], image)
+            let arrived = settling.arrived(indices.clone().map(|index| {
+                let image = middle(index, rates[index]);
+                (image - state[index], image)
             }));
             if arrived {
                 return;
             }
             let (mut above, mut below) = (0.0, 0.0);
-            for (place, before) in places.clone().zip(&self.residuals) {
-                let residual = middle(place, rates[place]) - state[place];
+            for (index, before) in indices.clone().zip(&self.residuals) {
+                let residual = middle(index, rates[index]) - state[index];
                 above += residual * (residual - before);
                 below += (residual - before) * (residual - before);
             }
             let share = if number == 0 || below == 0.0 { 0.0 } else { above / below };
-            for ((place, before), residual) in places.clone().zip(&mut self.images).zip(&mut self.residuals) {
-                let image = middle(place, rates[place]);
-                *residual = image - state[place];
-                state[place] = image - share * (image - *before);
+            for ((index, before), residual) in indices.clone().zip(&mut self.images).zip(&mut self.residuals) {
+                let image = middle(index, rates[index]);
+                *residual = image - state[index];
+                state[index] = image - share * (image - *before);
                 *before = image;
             }
         }
@@ -74,9 +74,9 @@ mod tests {
         dimension: 10,
         velocity_dependent: true,
         rates: |_, state, rates| {
-            for place in 0..10 {
-                let next = state[(place + 1) % 10] - state[(place + 9) % 10];
-                rates[place] = 0.05 * next - 0.05 * (place as f64) * state[place];
+            for index in 0..10 {
+                let next = state[(index + 1) % 10] - state[(index + 9) % 10];
+                rates[index] = 0.05 * next - 0.05 * (index as f64) * state[index];
             }
         },
         ..OSCILLATOR
@@ -90,12 +90,12 @@ mod tests {
         let base: Vec<f64> = (0..10).map(|number| 1.0 - 0.3 * f64::from(number)).collect();
         let (mut state, mut rates) = (base.clone(), vec![0.0; 10]);
         let mut flow = Counted { motion: DAMPED, evaluations: 0 };
-        let middle = |place: usize, rate: f64| base[place] + rate;
+        let middle = |index: usize, rate: f64| base[index] + rate;
         let evaluate = |state: &[f64], rates: &mut [f64]| flow.rates(0.0, state, rates);
         FixedPoint::default().find(evaluate, 0..10, middle, &mut state, &mut rates);
-        for (place, number) in state.iter().enumerate() {
-            let off = (middle(place, rates[place]) - number).abs();
-            assert!(off <= 2.0 * f64::EPSILON * 4.0, "{place}: {off:e}");
+        for (index, number) in state.iter().enumerate() {
+            let off = (middle(index, rates[index]) - number).abs();
+            assert!(off <= 2.0 * f64::EPSILON * 4.0, "{index}: {off:e}");
         }
         let plain = libm::log(f64::EPSILON) / libm::log(0.55);
         assert!(flow.evaluations as f64 <= plain, "{} evaluations, plain iteration {plain}", flow.evaluations);

@@ -14,9 +14,9 @@
 //! The matrix is made in each step, and again if an iteration gains less than a digit. A step of length 0 changes
 //! nothing.
 
+use super::convergence::{Convergence, LIMIT};
 use super::elimination::Elimination;
 use super::fixed_point::FixedPoint;
-use super::settling::{LIMIT, Settling};
 use super::{OneStep, Start};
 use crate::tick::Flow;
 
@@ -52,12 +52,12 @@ impl Midpoint {
         let Self { state, rates, fixed_point } = self;
         let (time, half) = (start.time + length / 2.0, length / 2.0);
         let coordinates = half_change.len();
-        for place in 0..coordinates {
-            state[place + coordinates] = start.state[place + coordinates] + half_change[place];
-            state[place] = start.state[place] + half * state[place + coordinates];
+        for index in 0..coordinates {
+            state[index + coordinates] = start.state[index + coordinates] + half_change[index];
+            state[index] = start.state[index] + half * state[index + coordinates];
         }
         let own = 2 * coordinates..state.len();
-        let middle = |place: usize, rate: f64| start.state[place] + half * rate;
+        let middle = |index: usize, rate: f64| start.state[index] + half * rate;
         if own.is_empty() {
             flow.rates(time, state, rates);
         } else {
@@ -80,13 +80,13 @@ impl OneStep for ImplicitMidpoint {
         self.correction.resize(coordinates, 0.0);
         self.middle.copy(start.state, start.rates);
         self.middle.evaluate(flow, start, length, &self.half_change);
-        let mut settling = Settling::default();
+        let mut settling = Convergence::default();
         for iteration in 0..LIMIT {
             if iteration == 0 || settling.slow() {
                 self.make_matrix(flow, start, length);
             }
-            for place in 0..coordinates {
-                self.correction[place] = half * self.middle.rates[place + coordinates] - self.half_change[place];
+            for index in 0..coordinates {
+                self.correction[index] = half * self.middle.rates[index + coordinates] - self.half_change[index];
             }
             self.matrix.solve(&mut self.correction);
             for (half_change, correction) in self.half_change.iter_mut().zip(&self.correction) {
@@ -103,9 +103,9 @@ impl OneStep for ImplicitMidpoint {
                 break;
             }
         }
-        for place in 0..coordinates {
-            change[place + coordinates] = 2.0 * self.half_change[place];
-            change[place] = length * self.middle.state[place + coordinates];
+        for index in 0..coordinates {
+            change[index + coordinates] = 2.0 * self.half_change[index];
+            change[index] = length * self.middle.state[index + coordinates];
         }
         for (change, rate) in change.iter_mut().zip(&self.middle.rates).skip(velocities.end) {
             *change = length * rate;
@@ -126,8 +126,8 @@ impl ImplicitMidpoint {
             self.disturbed.evaluate(flow, start, length, &self.half_change);
             self.half_change[column] = kept;
             for row in 0..coordinates {
-                let place = row + coordinates;
-                let difference = self.disturbed.rates[place] - self.middle.rates[place];
+                let index = row + coordinates;
+                let difference = self.disturbed.rates[index] - self.middle.rates[index];
                 let one = if row == column { 1.0 } else { 0.0 };
                 *self.matrix.entry(row, column) = one - length / 2.0 * difference / disturbance;
             }
@@ -202,11 +202,11 @@ mod tests {
         coordinates: 5,
         dimension: 10,
         rates: |_, state, rates| {
-            for place in 0..5 {
-                let left = if place == 0 { 0.0 } else { state[place - 1] };
-                let right = if place == 4 { 0.0 } else { state[place + 1] };
-                rates[place] = state[place + 5];
-                rates[place + 5] = (left - state[place]) + (right - state[place]);
+            for index in 0..5 {
+                let left = if index == 0 { 0.0 } else { state[index - 1] };
+                let right = if index == 4 { 0.0 } else { state[index + 1] };
+                rates[index] = state[index + 5];
+                rates[index + 5] = (left - state[index]) + (right - state[index]);
             }
         },
         exact: |_| vec![1.0, 0.5, 0.0, -0.25, 0.125, 0.0, 0.0, 1.0, 0.0, 0.0],

@@ -3,6 +3,7 @@
 //! They are independent of bodies. A [`Flow`] gives the rates of a state. A [`OneStep`] gives the change of a state
 //! from one time to another. The same map makes a step and any part of it, which serves to locate events.
 
+mod convergence;
 mod divided;
 mod dop853;
 mod elimination;
@@ -15,7 +16,6 @@ mod problems;
 mod rooted_trees;
 mod runge_kutta4;
 mod semi_implicit_euler;
-mod settling;
 mod splitting;
 mod symplectic4;
 #[cfg(test)]

@@ -25,13 +25,13 @@ impl OneStep for SemiImplicitEuler {
         let velocities = flow.velocities();
         let coordinates = velocities.start;
         let own = velocities.end..flow.dimension() - flow.accounts();
-        for place in velocities.clone().chain(own.end..change.len()) {
-            change[place] = length * start.rates[place];
+        for index in velocities.clone().chain(own.end..change.len()) {
+            change[index] = length * start.rates[index];
         }
         let held = flow.is_held();
         if !held {
-            for place in 0..coordinates {
-                change[place] = length * (start.state[place + coordinates] + change[place + coordinates]);
+            for index in 0..coordinates {
+                change[index] = length * (start.state[index + coordinates] + change[index + coordinates]);
             }
         }
         if own.is_empty() && !held {
@@ -39,14 +39,14 @@ impl OneStep for SemiImplicitEuler {
         }
         self.state.clear();
         self.state.extend_from_slice(start.state);
-        for place in velocities {
-            self.state[place] += change[place];
+        for index in velocities {
+            self.state[index] += change[index];
         }
         if !own.is_empty() {
             self.rates.resize(start.state.len(), 0.0);
             flow.rates(start.time, &self.state, &mut self.rates);
-            for place in own {
-                change[place] = length * self.rates[place];
+            for index in own {
+                change[index] = length * self.rates[index];
             }
         }
         if held {

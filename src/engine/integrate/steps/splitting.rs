@@ -87,10 +87,10 @@ impl Making<'_> {
             self.fresh = false;
             return;
         }
-        for place in 0..coordinates {
-            let velocity = self.start.state[place + coordinates] + self.change[place + coordinates];
-            self.change[place] += length * velocity;
-            self.work.state[place] = self.start.state[place] + self.change[place];
+        for index in 0..coordinates {
+            let velocity = self.start.state[index + coordinates] + self.change[index + coordinates];
+            self.change[index] += length * velocity;
+            self.work.state[index] = self.start.state[index] + self.change[index];
         }
         self.time += length;
         self.fresh = false;
@@ -106,23 +106,23 @@ impl Making<'_> {
     }
 
     /// Numbers by their rates at the middle of their own change, those of a kick along joints or not. The rates at hand are the first guess.
-    fn settle(&mut self, places: Range<usize>, length: f64, kick: bool) {
+    fn settle(&mut self, indices: Range<usize>, length: f64, kick: bool) {
         let Splitting { state, rates, fixed_point } = &mut *self.work;
         let (start, change) = (self.start.state, &*self.change);
-        let middle = |place: usize, rate: f64| start[place] + (change[place] + length / 2.0 * rate);
+        let middle = |index: usize, rate: f64| start[index] + (change[index] + length / 2.0 * rate);
         let (flow, time) = (&mut *self.flow, self.time);
         let evaluate = |state: &[f64], rates: &mut [f64]| match kick {
             true => flow.kick_rates(time, state, rates),
             false => flow.rates(time, state, rates),
         };
-        fixed_point.find(evaluate, places.clone(), middle, state, rates);
-        self.add(places, length);
+        fixed_point.find(evaluate, indices.clone(), middle, state, rates);
+        self.add(indices, length);
     }
 
-    fn add(&mut self, places: Range<usize>, length: f64) {
-        for place in places {
-            self.change[place] += length * self.work.rates[place];
-            self.work.state[place] = self.start.state[place] + self.change[place];
+    fn add(&mut self, indices: Range<usize>, length: f64) {
+        for index in indices {
+            self.change[index] += length * self.work.rates[index];
+            self.work.state[index] = self.start.state[index] + self.change[index];
         }
     }
 }

@@ -33,7 +33,7 @@ impl OfBodies for Boxes {
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         move |world: &World, marks: &mut Vec<Mark>| {
             let bodies = &world.resource::<State>().bodies;
-            let boxes = shown.places(bodies).filter_map(|body| bounding_box(bodies, body));
+            let boxes = shown.indices(bodies).filter_map(|body| bounding_box(bodies, body));
             marks.extend(boxes.map(|(low, high)| Mark::new(MarkShape::Rectangle(low, high), "quiet")));
         }
     }

@@ -18,7 +18,7 @@ use super::{Layer, Mark, PictureHeight, Shown};
 use crate::contacts::{ContactPoint, Other};
 use crate::scene::units::Force;
 use crate::scene::values::Names;
-use crate::scene::{Outline, Report, SceneAppExt};
+use crate::scene::{Diagnostics, Outline, SceneAppExt};
 use crate::tick::{AfterLoad, State};
 
 /// The forces of contacts, as arrows on the body that feels them.
@@ -42,7 +42,7 @@ impl OfBodies for ContactForces {
         self.of.as_ref()
     }
 
-    fn check_others(&self, report: &mut Report) {
+    fn check_others(&self, report: &mut Diagnostics) {
         report.positive_if_given("scale", self.scale);
     }
 
@@ -57,9 +57,9 @@ impl OfBodies for ContactForces {
             let typical = world.get_resource::<TypicalForce>().map_or(1.0, |typical| typical.0);
             let scale = Scale::new(given.unwrap_or(typical), PictureHeight::of(world), "N", "force");
             marks.push(scale.key());
-            let places: Vec<usize> = shown.places(&world.resource::<State>().bodies).collect();
+            let indices: Vec<usize> = shown.indices(&world.resource::<State>().bodies).collect();
             let up = -world.resource::<State>().gravity();
-            let is_shown = |body: usize| places.binary_search(&body).is_ok();
+            let is_shown = |body: usize| indices.binary_search(&body).is_ok();
             let contacts = points.into_iter().filter(|contact| {
                 is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
             });

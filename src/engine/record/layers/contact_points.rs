@@ -31,8 +31,8 @@ impl OfBodies for ContactPoints {
 
     fn layer(self, shown: Shown, _: &Outline) -> impl Layer {
         move |world: &World, marks: &mut Vec<Mark>| {
-            let places: Vec<usize> = shown.places(&world.resource::<State>().bodies).collect();
-            let is_shown = |body: usize| places.binary_search(&body).is_ok();
+            let indices: Vec<usize> = shown.indices(&world.resource::<State>().bodies).collect();
+            let is_shown = |body: usize| indices.binary_search(&body).is_ok();
             let dots = world.resource::<State>().contact_points().unwrap_or_default().into_iter().filter(|contact| {
                 is_shown(contact.body) || matches!(contact.other, Other::Body(other) if is_shown(other))
             });

@@ -18,7 +18,7 @@ use super::{Layer, Mark, MarkShape, PictureHeight, Shown};
 use crate::contacts::{ContactPoint, Other};
 use crate::scene::units::Force;
 use crate::scene::values::Names;
-use crate::scene::{Outline, Report, SceneAppExt};
+use crate::scene::{Diagnostics, Outline, SceneAppExt};
 use crate::tick::{AfterLoad, ForcePart, State};
 
 /// Names are above a point. Names of arrows that point down are lower by this share of the picture's height.
@@ -88,7 +88,7 @@ impl OfBodies for FreeBody {
         self.of.as_ref()
     }
 
-    fn check_others(&self, report: &mut Report) {
+    fn check_others(&self, report: &mut Diagnostics) {
         report.positive_if_given("scale", self.scale);
         if self.parts.is_empty() {
             report.error("parts", "must name at least one force").help("for example: parts: [Weight, Normal]");
@@ -108,7 +108,7 @@ impl OfBodies for FreeBody {
             let height = PictureHeight::of(world);
             let scale = |color| Scale::new(given.unwrap_or(typical), height, "N", color);
             marks.push(scale("force").key());
-            for body in shown.places(state.bodies()) {
+            for body in shown.indices(state.bodies()) {
                 for (part, point, force) in forces_on(state, body).into_iter().filter(|(part, ..)| parts.contains(part))
                 {
                     let (name, color) = part.look();

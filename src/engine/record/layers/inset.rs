@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{Corner, Mark, MarkShape, add_own_layer};
 use crate::record::sections::look::LAYERS;
 use crate::scene::units::{Length, Position, Scalar};
-use crate::scene::{Entry, Outline, Report, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A square part of the world, enlarged in a corner of the picture. It may stand more than once.
 #[derive(Deserialize, JsonSchema)]
@@ -49,7 +49,7 @@ impl Entry for Inset {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.finite_pair("center", self.center.si());
         report.positive("height", self.height);
         report.between("share", self.share, 0.05, 1.0);

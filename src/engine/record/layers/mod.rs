@@ -26,7 +26,7 @@ pub use jostle_frames::{Corner, Mark, MarkShape};
 
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
-use crate::scene::{Arity, Kind, Outline, Report, SceneAppExt, install_word};
+use crate::scene::{Arity, Diagnostics, Kind, Outline, SceneAppExt, install_word};
 use crate::tick::State;
 use crate::world::Bodies;
 
@@ -207,7 +207,7 @@ struct Shown(Option<Vec<u64>>);
 
 impl Shown {
     /// Reports names that fit no body.
-    fn check(of: Option<&Names>, outline: &Outline, report: &mut Report) {
+    fn check(of: Option<&Names>, outline: &Outline, report: &mut Diagnostics) {
         if let Some(names) = of {
             names.require(Kind::BODY, outline, "of", report);
         }
@@ -215,14 +215,14 @@ impl Shown {
 
     /// The keys of a scene's bodies are their places in the outline.
     fn new(of: Option<&Names>, outline: &Outline) -> Self {
-        Self(of.map(|names| names.matching(Kind::BODY, outline).into_iter().map(|place| place as u64).collect()))
+        Self(of.map(|names| names.matching(Kind::BODY, outline).into_iter().map(|index| index as u64).collect()))
     }
 
     /// Places of the bodies in canonical order.
-    fn places<'a>(&'a self, bodies: &'a Bodies) -> impl Iterator<Item = usize> + 'a {
-        (0..bodies.len()).filter(|&place| match &self.0 {
-            Some(keys) => keys.binary_search(&bodies.key.at(place)).is_ok(),
-            None => bodies.moves[place],
+    fn indices<'a>(&'a self, bodies: &'a Bodies) -> impl Iterator<Item = usize> + 'a {
+        (0..bodies.len()).filter(|&index| match &self.0 {
+            Some(keys) => keys.binary_search(&bodies.key.at(index)).is_ok(),
+            None => bodies.moves[index],
         })
     }
 }

@@ -37,8 +37,8 @@ impl OfBodies for Names {
         let chosen = self.of.is_some();
         move |world: &World, marks: &mut Vec<Mark>| {
             let bodies = &world.resource::<State>().bodies;
-            if chosen || shown.places(bodies).nth(MOST).is_none() {
-                marks.extend(shown.places(bodies).filter_map(|body| label(world, bodies, body)));
+            if chosen || shown.indices(bodies).nth(MOST).is_none() {
+                marks.extend(shown.indices(bodies).filter_map(|body| label(world, bodies, body)));
             }
         }
     }

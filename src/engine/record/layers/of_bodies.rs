@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use super::{Layer, Shown, add_own_layer};
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
-use crate::scene::{Entry, Outline, Report, Written};
+use crate::scene::{Diagnostics, Entry, Outline, Written};
 
 /// A layer that shows the bodies of its field `of`, or all that move.
 pub(super) trait OfBodies: DeserializeOwned + JsonSchema + Send + Sync + 'static {
@@ -20,7 +20,7 @@ pub(super) trait OfBodies: DeserializeOwned + JsonSchema + Send + Sync + 'static
     fn of(&self) -> Option<&Names>;
 
     /// Reports mistakes in its other fields.
-    fn check_others(&self, _report: &mut Report) {}
+    fn check_others(&self, _report: &mut Diagnostics) {}
 
     /// Installs once what all layers of the kind need.
     fn prepare(_app: &mut App) {}
@@ -38,7 +38,7 @@ impl<L: OfBodies> Entry for L {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         Shown::check(self.of(), outline, report);
         self.check_others(report);
     }

@@ -15,7 +15,7 @@ use super::of_bodies::OfBodies;
 use super::{Layer, Mark, MarkShape, Memory, Shown, stride};
 use crate::scene::units::Time;
 use crate::scene::values::Names;
-use crate::scene::{Kind, Outline, Report, SceneAppExt};
+use crate::scene::{Diagnostics, Kind, Outline, SceneAppExt};
 use crate::tick::State;
 
 /// Points of one trail, at most and at least.
@@ -48,7 +48,7 @@ impl OfBodies for Trails {
         self.of.as_ref()
     }
 
-    fn check_others(&self, report: &mut Report) {
+    fn check_others(&self, report: &mut Diagnostics) {
         report.positive("seconds", self.seconds);
     }
 
@@ -76,7 +76,7 @@ impl Layer for Tracks {
     fn draw(&self, world: &World, marks: &mut Vec<Mark>) {
         let (bodies, dt) = (&world.resource::<State>().bodies, world.resource::<State>().clock.dt);
         let step = self.memory().map_or(1.0, |memory| stride(memory, dt) as f64 * dt / self.seconds);
-        for body in self.shown.places(bodies) {
+        for body in self.shown.indices(bodies) {
             let Some(track) = self.tracks.get(&bodies.key.at(body)) else { continue };
             let points: Vec<DVec2> = track.iter().copied().chain([bodies.position[body]]).collect();
             marks.push(Mark::plain(MarkShape::Trail { body, points, step }));
@@ -95,9 +95,9 @@ impl Layer for Tracks {
             self.tracks.clear();
         }
         self.looked = Some(clock.ticks);
-        let places: Vec<usize> = self.shown.places(bodies).collect();
+        let indices: Vec<usize> = self.shown.indices(bodies).collect();
         self.tracks.retain(|key, _| bodies.key.find(*key).is_some());
-        for body in places {
+        for body in indices {
             let track = self.tracks.entry(bodies.key.at(body)).or_default();
             if track.len() >= self.points {
                 track.pop_front();

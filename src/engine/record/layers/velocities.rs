@@ -10,7 +10,7 @@ use super::scale::{Scale, round};
 use super::{Layer, Mark, PictureHeight, Shown};
 use crate::scene::units::Speed;
 use crate::scene::values::Names;
-use crate::scene::{Outline, Report, SceneAppExt};
+use crate::scene::{Diagnostics, Outline, SceneAppExt};
 use crate::tick::{AfterLoad, State};
 
 /// The velocities of the centres of bodies, as arrows.
@@ -34,7 +34,7 @@ impl OfBodies for Velocities {
         self.of.as_ref()
     }
 
-    fn check_others(&self, report: &mut Report) {
+    fn check_others(&self, report: &mut Diagnostics) {
         report.positive_if_given("scale", self.scale);
     }
 
@@ -51,7 +51,7 @@ impl OfBodies for Velocities {
             let scale = Scale::new(reference, height, "m/s", "velocity");
             marks.push(scale.key());
             marks.extend(
-                shown.places(bodies).filter_map(|body| scale.arrow(bodies.position[body], bodies.velocity[body])),
+                shown.indices(bodies).filter_map(|body| scale.arrow(bodies.position[body], bodies.velocity[body])),
             );
         }
     }

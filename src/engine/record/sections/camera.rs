@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Position, Scalar, Time};
-use crate::scene::{Entry, Kind, Outline, Report, Written};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, Written};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
@@ -45,7 +45,7 @@ impl Entry for FitCamera {
     }
 
     /// Reports a margin that leaves no picture.
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.between("margin", self.margin, 0.0, 0.45);
     }
 
@@ -77,7 +77,7 @@ impl Entry for LookCamera {
     }
 
     /// Reports a height that is not above zero.
-    fn check(&self, _: &Outline, report: &mut Report) {
+    fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.finite_pair("center", self.center.si());
         report.positive("height", self.height);
     }
@@ -113,7 +113,7 @@ impl Entry for FollowCamera {
     }
 
     /// Reports a body that is not there, and what gives no picture.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require(Kind::BODY, &self.of, "of", report);
         report.positive("height", self.height);
         report.not_negative("smoothing", self.smoothing);

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Kind, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Outline, Section};
 
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
@@ -54,7 +54,7 @@ pub struct FreezeEntry {
 }
 
 impl FreezeEntry {
-    fn check(&self, film: &FilmSection, outline: &Outline, report: &mut Report) {
+    fn check(&self, film: &FilmSection, outline: &Outline, report: &mut Diagnostics) {
         report.positive("for", self.lasts);
         match (&self.at, &self.touch) {
             (Some(at), None) => {
@@ -129,7 +129,7 @@ impl Section for FilmSection {
     }
 
     /// Reports rates, sizes and moments that give no film.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if let Some(fps) = self.fps {
             report.between("fps", fps, 0.01, 1000.0);
         }
@@ -156,8 +156,8 @@ impl Section for FilmSection {
         {
             report.error("to", format!("must be after `from`, which is {} s, got {} s", from.si(), to.si()));
         }
-        for (place, freeze) in self.freeze.iter().enumerate() {
-            report.within(&format!("freeze[{place}]"), |report| freeze.check(self, outline, report));
+        for (index, freeze) in self.freeze.iter().enumerate() {
+            report.within(&format!("freeze[{index}]"), |report| freeze.check(self, outline, report));
         }
     }
 

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::values::Elsewhere;
-use crate::scene::{Outline, Report, Section, suggest};
+use crate::scene::{Diagnostics, Outline, Section, suggest};
 
 /// The list of words for themes that come with the program.
 pub const THEMES: &str = "theme";
@@ -47,7 +47,7 @@ impl Section for LookSection {
     }
 
     /// Reports an unknown theme, and duplicate layers.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if let Some(theme) = self.theme.as_deref().filter(|theme| !Self::is_file(theme))
             && outline.word(THEMES, theme).is_none()
         {
@@ -61,12 +61,12 @@ impl Section for LookSection {
             report.error("theme", format!("there is no theme \"{theme}\"")).help(help);
         }
         let mentions = outline.entries(LAYERS);
-        for (place, mention) in mentions.iter().enumerate() {
+        for (index, mention) in mentions.iter().enumerate() {
             if !REPEATABLE.contains(&mention.name.as_str())
-                && mentions[..place].iter().any(|before| before.name == mention.name)
+                && mentions[..index].iter().any(|before| before.name == mention.name)
             {
                 let message = format!("the layer `{}` stands here twice", mention.name);
-                report.error(&format!("layers[{place}]"), message).help("keep one of the two");
+                report.error(&format!("layers[{index}]"), message).help("keep one of the two");
             }
         }
     }

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::{Names, WholeNumber};
-use crate::scene::{Kind, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Outline, Section};
 use crate::sensors;
 
 /// The most bins that a reader can distinguish.
@@ -95,7 +95,7 @@ impl HistogramEntry {
         }
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         let bins = self.bins.0;
         if !(1..=MOST_BINS).contains(&bins) {
             report.error("bins", format!("must be from 1 to {MOST_BINS}, got {bins}"));
@@ -124,7 +124,7 @@ impl HistogramEntry {
 }
 
 /// Two finite numbers, the second above the first.
-fn check_order(low: Scalar, high: Scalar, paths: (&str, &str), report: &mut Report) -> bool {
+fn check_order(low: Scalar, high: Scalar, paths: (&str, &str), report: &mut Diagnostics) -> bool {
     let finite = report.finite(paths.0, low) & report.finite(paths.1, high);
     if finite && low.si() >= high.si() {
         report.error(paths.1, format!("must be above {}, got {}", low.si(), high.si()));
@@ -136,7 +136,7 @@ impl PlotEntry {
     /// The patterns of the upward channels, each with its path.
     fn upward(&self) -> Vec<(&String, String)> {
         let listed =
-            self.channels.iter().flatten().enumerate().map(|(place, name)| (name, format!("channels[{place}]")));
+            self.channels.iter().flatten().enumerate().map(|(index, name)| (name, format!("channels[{index}]")));
         listed.chain(self.y.iter().flat_map(|names| names.with_paths("y"))).collect()
     }
 
@@ -146,7 +146,7 @@ impl PlotEntry {
     }
 
     /// Reports channels to the right that are not there, or that belong to another body than what is drawn over them.
-    fn check_x(&self, x: &str, outline: &Outline, report: &mut Report) {
+    fn check_x(&self, x: &str, outline: &Outline, report: &mut Diagnostics) {
         let upward = self.channels(outline);
         if let Some(other) = pairs::over_another(x, upward.iter().map(String::as_str)) {
             let (message, help) = pairs::told(x, other);
@@ -172,7 +172,7 @@ impl PlotEntry {
     }
 
     /// Reports channels that are not there, and what makes no plot.
-    pub fn check(&self, outline: &Outline, report: &mut Report) {
+    pub fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         let given = (self.channels.is_some(), self.x.is_some(), self.y.is_some(), self.histogram.is_some());
         match given {
             (true, false, false, false) | (false, true, true, false) | (false, false, false, true) => (),
@@ -230,13 +230,13 @@ impl Section for PlotsSection {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if self.0.len() > MOST_PLOTS {
             let message = format!("{} plots do not fit beside a film, at most {MOST_PLOTS} do", self.0.len());
             report.error("", message).help("plot several channels together, or use `jostle plot`");
         }
-        for (place, plot) in self.0.iter().enumerate() {
-            report.within(&format!("[{place}]"), |report| plot.check(outline, report));
+        for (index, plot) in self.0.iter().enumerate() {
+            report.within(&format!("[{index}]"), |report| plot.check(outline, report));
         }
     }
 

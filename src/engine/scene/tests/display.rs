@@ -1,6 +1,6 @@
 //! The display of mistakes: as data, in colour, many of them, on long lines, in large and odd texts.
 
-use super::super::{Report, SceneErrors, Source, load};
+use super::super::{Diagnostics, SceneErrors, Source, load};
 use super::{messages, plugins};
 
 fn errors(text: &str) -> SceneErrors {
@@ -164,7 +164,7 @@ fn no_garbage_makes_it_stumble() {
 
 #[test]
 fn notes_of_a_report_are_kept() {
-    let mut report = Report::new();
+    let mut report = Diagnostics::new();
     report.note("first");
     assert!(report.is_clean());
     assert_eq!(report.notes(), ["first"]);

@@ -9,7 +9,7 @@ use crate::integrate::ClockSection;
 use crate::record::sections::{FilmSection, FitCamera, LookCamera, camera};
 use crate::scene::units::{Position, QuadraticDamping, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Arity, Entry, Kind, Outline, Report, SceneAppExt, Section, Written};
+use crate::scene::{Arity, Diagnostics, Entry, Kind, Outline, SceneAppExt, Section, Written};
 use crate::world::material::{MaterialsSection, PairsSection};
 use crate::world::sections::{BodiesSection, FillSection, WallsSection};
 
@@ -39,7 +39,7 @@ macro_rules! section {
                 self.0.declare(outline);
             }
 
-            fn check(&self, outline: &Outline, report: &mut Report) {
+            fn check(&self, outline: &Outline, report: &mut Diagnostics) {
                 self.0.check(outline, report);
             }
 
@@ -73,7 +73,7 @@ macro_rules! camera {
             const NAME: &'static str = <$data>::NAME;
             const EXAMPLE: &'static str = <$data>::EXAMPLE;
 
-            fn check(&self, outline: &Outline, report: &mut Report) {
+            fn check(&self, outline: &Outline, report: &mut Diagnostics) {
                 self.0.check(outline, report);
             }
 
@@ -125,7 +125,7 @@ impl Section for Wind {
     const NAME: &'static str = "wind";
     const EXAMPLE: &'static str = "wind: (speed: 3, gusts: [(at: 1, strength: Weak)])";
 
-    fn check(&self, _outline: &Outline, report: &mut Report) {
+    fn check(&self, _outline: &Outline, report: &mut Diagnostics) {
         report.between("speed", self.speed, 0.0, 100.0);
         for (index, gust) in self.gusts.iter().enumerate() {
             report.within(&format!("gusts[{index}]"), |report| {
@@ -159,7 +159,7 @@ impl Entry for Drag {
     const NAME: &'static str = "Drag";
     const EXAMPLE: &'static str = "Drag(quadratic: 0.02, of: [\"ball\"])";
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("quadratic", self.quadratic);
         self.of.require(Kind::BODY, outline, "of", report);
     }
@@ -175,7 +175,7 @@ impl Entry for Drag {
 /// An app that reads the engine's sections, a plugin's `wind` and `forces: [Drag(..)]`, and reserved names.
 pub(super) fn app() -> App {
     let mut app = App::empty();
-    for color in jostle_frames::palette::COLOR_NAMES {
+    for color in jostle_frames::color_names::COLOR_NAMES {
         app.register_word(crate::world::material::COLORS, color);
     }
     app.register_entry_section(camera::SECTION, Arity::One, camera::EXAMPLE)

@@ -76,11 +76,11 @@ fn nothing_is_installed_when_anything_is_wrong() {
 
 #[test]
 fn no_cut_and_no_stray_letter_makes_it_stumble() {
-    for (place, letter) in GOOD.char_indices() {
+    for (index, letter) in GOOD.char_indices() {
         let mut app = plugins::app();
-        let _ = load(&mut app, &Source::new("a.ron", &GOOD[..place])).map_err(|errors| errors.render(true));
+        let _ = load(&mut app, &Source::new("a.ron", &GOOD[..index])).map_err(|errors| errors.render(true));
         for stray in ["(", ")", "]", "\"", ",", "'", "é", "1", ":", "\\", "/*", "inf", "\u{0}"] {
-            let text = format!("{}{stray}{}", &GOOD[..place], &GOOD[place + letter.len_utf8()..]);
+            let text = format!("{}{stray}{}", &GOOD[..index], &GOOD[index + letter.len_utf8()..]);
             let _ = load(&mut plugins::app(), &Source::new("a.ron", text)).map_err(|errors| errors.to_string());
         }
     }

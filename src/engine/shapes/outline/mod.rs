@@ -20,7 +20,7 @@ use jostle_shapes::{Hull, ShapeError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 
 /// Each shape of a compound is compared with each other: more of them would take minutes to read.
 const MOST_SHAPES: usize = 4000;
@@ -163,7 +163,7 @@ list! {
 
 impl Shape {
     /// Reports numbers of which no shape can be made.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         let shape = match self.as_sided() {
             Err([]) => {
                 let help = "for example: Compound([Rectangle(width: 1, height: 0.2), Disc(at: (0.5, 0), radius: 0.1)])";

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::{Covering, Fineness, Mask};
 use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Report, read_value, suggest};
+use crate::scene::{Diagnostics, read_value, suggest};
 use crate::shapes::png::{MOST_ATOMS, Png};
 
 /// `atoms: Png(..)`.
@@ -43,7 +43,8 @@ type Wrong = (String, String, &'static str);
 impl Embed for Pictures {
     fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
         // The shape's reader and check report their mistakes in their words.
-        let Some(png) = read_value::<Png>(entry).ok().filter(|png| png.numbers_are_good(&mut Report::new())) else {
+        let Some(png) = read_value::<Png>(entry).ok().filter(|png| png.numbers_are_good(&mut Diagnostics::new()))
+        else {
             return Ok(None);
         };
         let (found, note) =

@@ -52,7 +52,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     known.position.rounding = Some(rounding).filter(|error| *error <= TELLS_NOTHING * distance);
     let lost =
         growths.iter().position(|(_, growth)| growth * f64::EPSILON * fine.farthest() > TELLS_NOTHING * distance);
-    let told = lost.map(|place| place.checked_sub(1).map_or(0.0, |before| growths[before].0));
+    let told = lost.map(|index| index.checked_sub(1).map_or(0.0, |before| growths[before].0));
     known.horizon = [horizon(&growths), told].into_iter().flatten().reduce(f64::min);
     plan.notes.push(format!(
         "reference run: {}; a run that allows a hundred times that error differs by {} m and {} m/s",
@@ -68,7 +68,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
         ),
         None => format!("no chaos: a disturbance of the beginning grows by a factor of {} within the run", number(growth)),
     });
-    if coarse.crowded || fine.crowded {
+    if coarse.overloaded || fine.overloaded {
         // Stretches of whole ticks are alike in both runs.
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
         plan.warning = Some(

@@ -6,7 +6,7 @@
 //! the whole run, not of a step. The growth of the error of a step in a scene is measured, not guessed.
 
 use super::fineness::{Ladder, Trials};
-use super::trajectory::{Apart, Trajectory};
+use super::trajectory::{Trajectory, TrajectoryDistance};
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
 use crate::simulation::error::{ErrorEstimate, ErrorParts};
@@ -95,7 +95,7 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
 fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let mut climb = Climb::of(trials, tolerance);
     let mut coarse = trials.run(climb.first, "a coarse run", |_| {})?;
-    if coarse.crowded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
+    if coarse.overloaded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
         climb = Climb::of(trials, tolerance);
         coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
     }
@@ -135,7 +135,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let chosen = match difference {
             _ if alike => None,
             // Ticks with too many events continued by another method, and two runs of it make the same errors.
-            _ if coarse.crowded || fine.crowded => None,
+            _ if coarse.overloaded || fine.overloaded => None,
             _ if difference <= MEASURED * tolerance => Some(fineness),
             _ if difference <= BETWEEN * tolerance => Some(next),
             _ if confirmed && wanted >= (next * climb.trusted).max(climb.finest) => Some(wanted.min(next)),
@@ -160,12 +160,12 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
 }
 
 /// The error of a run as the card shows it.
-pub(super) fn estimate(apart: Apart) -> ErrorEstimate {
+pub(super) fn estimate(apart: TrajectoryDistance) -> ErrorEstimate {
     let part = |value: f64| ErrorParts { discretisation: value.is_finite().then_some(value), ..Default::default() };
     ErrorEstimate { position: part(apart.distance), velocity: part(apart.speed), ..Default::default() }
 }
 
-fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: Apart) -> Plan {
+fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDistance) -> Plan {
     let mut plan = trials.planned(fineness);
     let (distance, speed) = trials.sizes();
     plan.notes.push(format!(
@@ -201,7 +201,7 @@ fn missed(
     fineness: f64,
     tolerance: f64,
     (coarse, fine): (&Trajectory, &Trajectory),
-    error: Apart,
+    error: TrajectoryDistance,
 ) -> Plan {
     let mut plan = trials.planned(fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
@@ -210,7 +210,7 @@ fn missed(
         _ if trials.evaluations > MOST_EVALUATIONS => {
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
         }
-        _ if coarse.crowded || fine.crowded => {
+        _ if coarse.overloaded || fine.overloaded => {
             "some ticks have too many contacts to locate all, and went on under velocity Verlet".to_owned()
         }
         Some(time) => format!("the two finest runs part at t = {} s, by rounding or chaos", number(time)),

@@ -61,7 +61,7 @@ pub struct Trajectory {
     /// How often forces were evaluated.
     pub evaluations: u64,
     /// Whether more happened in a tick than is located.
-    pub crowded: bool,
+    pub overloaded: bool,
     /// Whether rounding of places bounds its steps: two such runs are alike, whatever they are allowed.
     pub bounded: bool,
     /// Whether forces jumped at located events.
@@ -73,7 +73,7 @@ const LEAST_SHARE: f64 = 1e-2;
 
 /// How far two runs are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Apart {
+pub struct TrajectoryDistance {
     /// The greater of both as shares: of the distance of each body, and of its speed.
     pub share: f64,
     /// Greatest distance between the places of a point of a body, in m.
@@ -82,7 +82,7 @@ pub struct Apart {
     pub speed: f64,
 }
 
-impl Apart {
+impl TrajectoryDistance {
     /// The greater of both.
     pub fn max(self, other: Self) -> Self {
         Self {
@@ -175,7 +175,7 @@ impl Trajectory {
     fn seen(simulation: &mut Simulation, stride: u64, run: impl FnOnce(&mut Simulation) -> Option<Failure>) -> Self {
         let end = simulation.ticks();
         let last = (!end.is_multiple_of(stride)).then_some(end);
-        Self::watch(simulation, (1..=end / stride).map(|place| place * stride).chain(last).collect());
+        Self::watch(simulation, (1..=end / stride).map(|index| index * stride).chain(last).collect());
         let failure = run(simulation);
         Self::watched(simulation, failure)
     }
@@ -208,7 +208,7 @@ impl Trajectory {
             extents: simulation.bodies().extents().to_vec(),
             failure,
             evaluations: world.resource::<State>().evaluation.count,
-            crowded: world.resource::<State>().located.given_up > 0,
+            overloaded: world.resource::<State>().located.given_up > 0,
             bounded: world.resource::<State>().steps.is_bounded(),
             jumped: world.resource::<State>().located.count > 0,
         }
@@ -278,13 +278,13 @@ impl Trajectory {
     }
 
     /// The distance of another run from this one. A failed run is infinitely far from any.
-    pub fn apart(&self, other: &Self) -> Apart {
+    pub fn apart(&self, other: &Self) -> TrajectoryDistance {
         self.apart_by(other, &other.measures())
     }
 
     /// The same, for known distances and speeds of each body.
-    pub fn apart_by(&self, other: &Self, measures: &[(f64, f64)]) -> Apart {
-        let infinite = Apart { share: f64::INFINITY, distance: f64::INFINITY, speed: f64::INFINITY };
+    pub fn apart_by(&self, other: &Self, measures: &[(f64, f64)]) -> TrajectoryDistance {
+        let infinite = TrajectoryDistance { share: f64::INFINITY, distance: f64::INFINITY, speed: f64::INFINITY };
         if self.failure.is_some() || other.failure.is_some() || self.moments.len() != other.moments.len() {
             return infinite;
         }
@@ -300,7 +300,7 @@ impl Trajectory {
         let mean = |squares: f64| (squares / self.moments.len() as f64).sqrt();
         let speed = squares.iter().map(|&squares| mean(squares)).fold(0.0, greater);
         let shares = squares.iter().zip(measures).map(|(&squares, (_, speed))| mean(squares) / speed);
-        let apart = Apart { share: shares.fold(share, greater), distance, speed };
+        let apart = TrajectoryDistance { share: shares.fold(share, greater), distance, speed };
         if apart.share.is_finite() && apart.distance.is_finite() && apart.speed.is_finite() { apart } else { infinite }
     }
 

@@ -6,11 +6,11 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
-use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
 use crate::shapes::mass_properties::{self, MassProperties};
 use crate::shapes::outline::Shape;
 use crate::shapes::{AtomSpec, Atoms};
-use crate::world::{Apart, Kinematic, material, sections};
+use crate::world::{IgnoredPairs, Kinematic, material, sections};
 
 use crate::world::sections::{KinematicEntry, ignored};
 
@@ -99,7 +99,7 @@ impl Section for BodiesSection {
     }
 
     /// Reports wrong atoms, masses and positions, and unknown materials.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         for (index, body) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| body.check(outline, report));
         }
@@ -109,14 +109,14 @@ impl Section for BodiesSection {
     fn install(self, outline: &Outline, app: &mut App) {
         let apart = ignored::pairs(&self.0, outline);
         if !apart.is_empty() {
-            app.world_mut().get_resource_or_init::<Apart>().extend(apart);
+            app.world_mut().get_resource_or_init::<IgnoredPairs>().extend(apart);
         }
         sections::spawn_bodies(self, outline, app.world_mut());
     }
 }
 
 impl BodyEntry {
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if let Some(atoms) = &self.atoms {
             report.within("atoms", |report| atoms.check(report));
         }

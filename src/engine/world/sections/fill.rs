@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
 use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 use crate::shapes::outline::Shape;
 use crate::shapes::{AtomSpec, Atoms};
@@ -131,7 +131,7 @@ impl Section for FillSection {
     }
 
     /// Reports wrong atoms, counts and boxes, unknown materials, and boxes that lack room for all bodies.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         let mut good = true;
         for (index, entry) in self.0.iter().enumerate() {
             good &=
@@ -180,7 +180,7 @@ impl Section for FillSection {
 }
 
 impl FillEntry {
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if let Some(atoms) = &self.atoms {
             report.within("atoms", |report| atoms.check(report));
         }
@@ -503,12 +503,12 @@ mod tests {
 
     #[test]
     fn a_full_box_is_reported() {
-        let mut report = Report::new();
+        let mut report = Diagnostics::new();
         gas(100_000, 0.1).check(&Outline::new(), &mut report);
         let problem = &report.problems()[0];
         assert_eq!(problem.path, "[0].count");
         assert!(problem.message.starts_with("only ") && problem.message.contains(" of 100000 bodies find room"));
-        let mut report = Report::new();
+        let mut report = Diagnostics::new();
         gas(1, 0.51).check(&Outline::new(), &mut report);
         assert!(report.problems()[0].message.starts_with("only 0 of 1 bodies"));
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::{Angle, Position, Spin, Time, Velocity};
 use crate::world::kinematic::{Path, PathPoint};
 
@@ -45,7 +45,7 @@ pub struct PathEntry {
 }
 
 impl KinematicEntry {
-    pub(super) fn check(&self, report: &mut Report) {
+    pub(super) fn check(&self, report: &mut Diagnostics) {
         report.finite_pair("velocity", self.velocity.si());
         report.finite("spin", self.spin);
         let mut before = 0.0;

@@ -150,12 +150,12 @@ fn material(world: &World, name: Option<&str>) -> MaterialIndex {
 
 /// The key of a body is its index in the outline. Names are looked up there, and keys are the canonical order.
 fn keyed(body: NewBody, outline: &Outline) -> (Option<u64>, NewBody) {
-    (outline.position(Kind::BODY, &body.name).map(|place| place as u64), body)
+    (outline.position(Kind::BODY, &body.name).map(|index| index as u64), body)
 }
 
 /// Bodies that are named by their numbers. They follow one another in the outline.
 fn series(prefix: String, count: usize, lone_discs: bool, outline: &Outline) -> Series {
-    let key = outline.position(Kind::BODY, &of_series(&prefix, 0)).map(|place| place as u64);
+    let key = outline.position(Kind::BODY, &of_series(&prefix, 0)).map(|index| index as u64);
     Series { prefix, count, key, lone_discs }
 }
 
@@ -169,7 +169,7 @@ struct MadeOf {
 impl MadeOf {
     fn named(world: &World, name: Option<&str>) -> Self {
         let material = material(world, name);
-        let made_of = &world.resource::<Materials>().by_index[material.place()];
+        let made_of = &world.resource::<Materials>().by_index[material.index()];
         Self { material, density: made_of.density, stiffness: made_of.stiffness }
     }
 

@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::Position;
 
 /// The largest number of corners.
@@ -91,7 +91,7 @@ impl Region {
     }
 
     /// Reports too few or too many corners, and a region without area; paths are relative to the region.
-    pub fn check(&self, report: &mut Report) {
+    pub fn check(&self, report: &mut Diagnostics) {
         let count = self.given.len();
         let finite = self.given.iter().enumerate();
         let finite = finite.fold(true, |good, (index, point)| report.finite_pair(&format!("[{index}]"), *point) & good);

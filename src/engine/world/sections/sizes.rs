@@ -8,7 +8,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::Report;
+use crate::scene::Diagnostics;
 use crate::scene::units::Length;
 
 /// Places and radii of a fill come from different streams of one seed.
@@ -41,7 +41,7 @@ const TRIES: usize = 100;
 
 impl Radii {
     /// Reports radii that are not above zero, and limits in the wrong order or that leave too few of `count` radii.
-    pub fn check(&self, count: usize, seed: u64, report: &mut Report) {
+    pub fn check(&self, count: usize, seed: u64, report: &mut Diagnostics) {
         match self {
             Self::Uniform(low, high) => {
                 let good = report.positive("[0]", *low) && report.positive("[1]", *high);

@@ -8,7 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Position, Velocity};
-use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
 use crate::world::{material, sections};
 
 /// One wall: the half-plane behind the line through two points. With `from` and `to` it is a strip with two round ends.
@@ -146,7 +146,7 @@ impl Section for WallsSection {
     }
 
     /// Reports two points in one place and unknown materials.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         for (index, wall) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| wall.check(outline, report));
         }
@@ -211,7 +211,7 @@ impl WallEntry {
         along * self.surface_velocity.si().dot(along)
     }
 
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         match self.surface() {
             Some((field, points)) => self.check_points(field, points, report),
             None => self.check_ends(report),
@@ -220,7 +220,7 @@ impl WallEntry {
     }
 
     /// Reports fields that a line does not have, points that are no line, and heights that do not ascend.
-    fn check_points(&self, field: &'static str, points: &[Position], report: &mut Report) {
+    fn check_points(&self, field: &'static str, points: &[Position], report: &mut Diagnostics) {
         let others = [
             ("heights", self.heights.is_some()),
             ("left", self.left.is_some()),
@@ -264,7 +264,7 @@ impl WallEntry {
         }
     }
 
-    fn check_ends(&self, report: &mut Report) {
+    fn check_ends(&self, report: &mut Diagnostics) {
         let fields = if self.is_strip() { STRIP } else { HALF_PLANE };
         let given = if self.is_strip() { [self.from, self.to] } else { [self.left, self.right] };
         let mut complete = true;
@@ -309,7 +309,7 @@ impl WallEntry {
         }
     }
 
-    fn check_belt(&self, velocity: DVec2, report: &mut Report) {
+    fn check_belt(&self, velocity: DVec2, report: &mut Diagnostics) {
         if self.is_strip() && velocity != DVec2::ZERO {
             let message = "surfaces of strips do not move yet";
             report.error("surface_velocity", message).help("a half-plane with `left` and `right` can be a belt");

@@ -92,8 +92,8 @@ pub(super) fn grouped(number: &str) -> String {
         return number.to_owned();
     }
     let mut text = number[..start].to_owned();
-    for (place, digit) in number[start..end].char_indices() {
-        if place > 0 && (end - start - place).is_multiple_of(3) {
+    for (index, digit) in number[start..end].char_indices() {
+        if index > 0 && (end - start - index).is_multiple_of(3) {
             text.push(' ');
         }
         text.push(digit);

@@ -19,9 +19,9 @@ impl Title {
         let leading = 1.3 * lettering.size();
         let lines = break_lines(title, lettering, column.width);
         let mut builder = PathBuilder::new();
-        for (place, line) in lines.iter().enumerate() {
+        for (index, line) in lines.iter().enumerate() {
             // Capitals are 0.73 em high: the first line's upper edge is the column's.
-            let baseline = column.top + 0.73 * lettering.size() + leading * place as f32;
+            let baseline = column.top + 0.73 * lettering.size() + leading * index as f32;
             if let Some(path) = lettering.path(line, column.left, baseline) {
                 builder.push_path(&path);
             }

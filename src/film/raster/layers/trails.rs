@@ -67,10 +67,10 @@ impl Trail<'_> {
         let mut knots: Vec<Knot> = Vec::new();
         let mut last: Option<DVec2> = None;
         let newest = self.points.len().saturating_sub(1);
-        for (place, point) in self.points.iter().enumerate() {
+        for (index, point) in self.points.iter().enumerate() {
             let at = camera.to_picture(*point);
-            let age = (newest - place) as f64 * self.step;
-            let near = last.is_some_and(|last| last.distance(at) < CLOSE) && place < newest;
+            let age = (newest - index) as f64 * self.step;
+            let near = last.is_some_and(|last| last.distance(at) < CLOSE) && index < newest;
             if near || age >= 1.0 || !at.is_finite() {
                 continue;
             }

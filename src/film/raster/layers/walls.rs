@@ -129,8 +129,8 @@ fn half_planes(walls: &[WallLook], camera: &Camera, theme: &Theme, line: f32) ->
 /// The part of a convex polygon on the open side.
 fn cut(polygon: Vec<DVec2>, plane: &HalfPlane) -> Vec<DVec2> {
     let mut left = Vec::with_capacity(polygon.len() + 1);
-    for (place, &here) in polygon.iter().enumerate() {
-        let next = polygon[(place + 1) % polygon.len()];
+    for (index, &here) in polygon.iter().enumerate() {
+        let next = polygon[(index + 1) % polygon.len()];
         let (depth, next_depth) = (plane.depth(here), plane.depth(next));
         if depth <= 0.0 {
             left.push(here);

@@ -2,12 +2,12 @@
 
 use tiny_skia::Pixmap;
 
+use super::axis::{Scale, range_of};
+use super::axis_ticks::{self, Ticks};
 use super::diagram::Look;
 use super::pen::Align;
-use super::scale::{Scale, range_of};
 use super::stroke::{Area, Point, Sheet};
 use super::style::{Sizes, Tones};
-use super::ticks::{self, Ticks};
 use crate::raster::canvas::{Canvas, Ink, blend};
 use jostle_frames::frame::Rgb;
 use jostle_frames::plot::{Bars, Content, Decimator, Plot, Sample, with_unit};
@@ -104,7 +104,7 @@ impl Chart {
         };
         let up_range = match plot.up.range {
             Some(range) => range,
-            None => ticks::widened(up_range.0, up_range.1, most_up, plot.up.logarithmic),
+            None => axis_ticks::widened(up_range.0, up_range.1, most_up, plot.up.logarithmic),
         };
         let mut up_ticks = if plot.up.logarithmic {
             Ticks::logarithmic(up_range.0, up_range.1, most_up)
@@ -124,7 +124,7 @@ impl Chart {
         let found = || range_of(xs(), plot.across.logarithmic).unwrap_or((0.0, 1.0));
         let across_range = asked.unwrap_or_else(|| {
             let (low, high) = found();
-            ticks::widened(low, high, most_across, plot.across.logarithmic)
+            axis_ticks::widened(low, high, most_across, plot.across.logarithmic)
         });
         let across_ticks = |most: usize| {
             let make = if plot.across.logarithmic { Ticks::logarithmic } else { Ticks::linear };
@@ -138,8 +138,9 @@ impl Chart {
         let fitting = (1..=most_across).rev().map(across_ticks).find(fits);
         let across_ticks = fitting.unwrap_or_else(|| across_ticks(1));
 
-        let up_unit = ticks::unit(&plot.up.unit, up_ticks.exponent);
-        let mut across_label = with_unit(&plot.across.label, &ticks::unit(&plot.across.unit, across_ticks.exponent));
+        let up_unit = axis_ticks::unit(&plot.up.unit, up_ticks.exponent);
+        let mut across_label =
+            with_unit(&plot.across.label, &axis_ticks::unit(&plot.across.unit, across_ticks.exponent));
         let mut aside = if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") };
         if let Content::Bars(bars) = &plot.content
             && let Some(most) = bars.counts.iter().filter_map(|(_, counts)| counts.last()).max()
@@ -169,9 +170,9 @@ impl Chart {
             sizes: *sizes,
             tones: tones.clone(),
         };
-        for place in 0..chart.traces.len() {
-            let points = chart.points(&chart.traces[place].samples, times);
-            chart.traces[place].points = points;
+        for index in 0..chart.traces.len() {
+            let points = chart.points(&chart.traces[index].samples, times);
+            chart.traces[index].points = points;
         }
         chart
     }
@@ -263,7 +264,7 @@ impl Chart {
         for (number, row) in self.rows.iter().enumerate() {
             let middle = first + number as f32 * 1.65 * sizes.legend;
             let mut pen = self.outer.left;
-            for trace in row.iter().map(|place| &self.traces[*place]) {
+            for trace in row.iter().map(|index| &self.traces[*index]) {
                 let sample = sample_width(sizes);
                 sheet.begin(&Area {
                     left: pen - 3.0,
@@ -415,12 +416,12 @@ fn lonely(points: &[Point]) -> impl Iterator<Item = Point> {
     let is_point = |point: &Point| point.0.is_finite() && point.1.is_finite();
     // The last point may occur twice, because it is also the last sample.
     let other = move |a: &Point, b: Option<&Point>| b.is_some_and(|b| is_point(b) && a != b);
-    let alone = move |place: &usize| {
-        let point = &points[*place];
-        let before = place.checked_sub(1).and_then(|before| points.get(before));
-        is_point(point) && !other(point, before) && !other(point, points.get(place + 1))
+    let alone = move |index: &usize| {
+        let point = &points[*index];
+        let before = index.checked_sub(1).and_then(|before| points.get(before));
+        is_point(point) && !other(point, before) && !other(point, points.get(index + 1))
     };
-    (0..points.len()).filter(alone).map(|place| points[place])
+    (0..points.len()).filter(alone).map(|index| points[index])
 }
 
 /// The text beside the title of a histogram.
@@ -430,13 +431,13 @@ fn outside(count: u64) -> String {
 
 /// Counts have no halves.
 fn whole_numbers(ticks: &mut Ticks) {
-    let whole: Vec<usize> = (0..ticks.values.len()).filter(|place| ticks.values[*place].fract() == 0.0).collect();
+    let whole: Vec<usize> = (0..ticks.values.len()).filter(|index| ticks.values[*index].fract() == 0.0).collect();
     // A range that was asked for may lie between two counts.
     if whole.len() < 2 {
         return;
     }
-    ticks.labels = whole.iter().map(|place| ticks.labels[*place].trim_end_matches(".0").to_owned()).collect();
-    ticks.values = whole.iter().map(|place| ticks.values[*place]).collect();
+    ticks.labels = whole.iter().map(|index| ticks.labels[*index].trim_end_matches(".0").to_owned()).collect();
+    ticks.values = whole.iter().map(|index| ticks.values[*index]).collect();
 }
 
 fn sample_width(sizes: &Sizes) -> f32 {
@@ -451,15 +452,15 @@ fn rows(traces: &[Trace], width: f32, sizes: &Sizes, tones: &Tones) -> Vec<Vec<u
     let label = tones.label(sizes);
     let mut rows: Vec<Vec<usize>> = Vec::new();
     let mut used = f32::INFINITY;
-    for (place, trace) in traces.iter().enumerate() {
+    for (index, trace) in traces.iter().enumerate() {
         let own = sample_width(sizes) + 0.5 * sizes.legend + label.width(&trace.label);
         match rows.last_mut() {
             Some(row) if used + 1.3 * sizes.legend + own <= width => {
                 used += 1.3 * sizes.legend + own;
-                row.push(place);
+                row.push(index);
             }
             _ => {
-                rows.push(vec![place]);
+                rows.push(vec![index]);
                 used = own;
             }
         }
@@ -476,9 +477,9 @@ fn nested(heads: &[(Point, Rgb)], radius: f32) -> Vec<(Point, f32, Rgb)> {
         let (dx, dy) = (a.0 - b.0, a.1 - b.1);
         (1.0 - (dx * dx + dy * dy).sqrt() / (2.0 * radius)).max(0.0)
     };
-    let grown = |place: usize| {
-        let (head, color) = heads[place];
-        let behind: f32 = heads[place + 1..].iter().map(|(other, _)| near(head, *other)).sum();
+    let grown = |index: usize| {
+        let (head, color) = heads[index];
+        let behind: f32 = heads[index + 1..].iter().map(|(other, _)| near(head, *other)).sum();
         (head, radius * (1.0 + RING * behind), color)
     };
     (0..heads.len()).map(grown).collect()
@@ -502,8 +503,8 @@ mod tests {
     }
 
     fn wave(count: u32) -> Vec<Sample> {
-        let sample = |place: u32| {
-            let time = f64::from(place) * 10.0 / f64::from(count);
+        let sample = |index: u32| {
+            let time = f64::from(index) * 10.0 / f64::from(count);
             Sample { time, x: time, y: 2.0 * libm::sin(time * 1.7) }
         };
         (0..=count).map(sample).collect()
@@ -552,7 +553,7 @@ mod tests {
     #[test]
     fn what_lies_outside_is_counted_at_the_moment() {
         let histogram = |outside: [u64; 3]| {
-            let counts = (0..3).map(|place| (place as f64, vec![1, 2, outside[place]])).collect();
+            let counts = (0..3).map(|index| (index as f64, vec![1, 2, outside[index]])).collect();
             let plot = Plot {
                 title: "x".into(),
                 across: Axis { range: Some((0.0, 1.0)), ..Axis::default() },

@@ -27,8 +27,8 @@ pub fn figure(plots: &[Plot], theme: &Theme, (width, height): (u32, u32)) -> Res
         fill(canvas.row(row), tones.card);
     }
     let mut tools = Tools::default();
-    for (place, plot) in plots.iter().enumerate() {
-        let top = place as f32 * each;
+    for (index, plot) in plots.iter().enumerate() {
+        let top = index as f32 * each;
         let pad = 1.2 * sizes.pad;
         let area = Area {
             left: pad.round(),

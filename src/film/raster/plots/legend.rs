@@ -59,8 +59,8 @@ impl Key {
         let color = |name: &Option<String>| name.as_deref().and_then(|name| theme.color(name)).unwrap_or(theme.ink);
         let line = |entry: &LegendEntry| {
             let mark = match &entry.mark {
-                LegendMark::Body(place) => {
-                    let fill = fills.get(*place).copied().unwrap_or(theme.ink);
+                LegendMark::Body(index) => {
+                    let fill = fills.get(*index).copied().unwrap_or(theme.ink);
                     Mark::Patch(fill, theme.outline.of(fill))
                 }
                 LegendMark::Arrow(name) => Mark::Arrow(color(name)),
@@ -99,8 +99,8 @@ impl Key {
         let label = tones.label(sizes);
         let width = area.width() / self.columns as f32;
         let top = area.top + 1.7 * sizes.title;
-        for (place, line) in self.lines.iter().enumerate() {
-            let (column, row) = (place / self.rows(), place % self.rows());
+        for (index, line) in self.lines.iter().enumerate() {
+            let (column, row) = (index / self.rows(), index % self.rows());
             let (x, y) = ((area.left + column as f32 * width).round(), top + (row as f32 + 0.5) * 2.0 * legend);
             self.mark(picture, &line.mark, x, y.round());
             let beside = matches!(line.mark, Mark::Nothing);

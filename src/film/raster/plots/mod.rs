@@ -1,15 +1,15 @@
 //! The panel beside the film: plots in step with its clock, and a legend. The cards lie at the right, or below a
 //! picture that is taller than wide.
 
+mod axis;
+mod axis_ticks;
 mod chart;
 mod diagram;
 mod figure;
 mod legend;
 mod pen;
-mod scale;
 mod stroke;
 mod style;
-mod ticks;
 
 use std::sync::Arc;
 
@@ -117,19 +117,19 @@ impl Cards {
             Key::new(&panel.board.legend, most, width - 2.0 * sizes.pad, (theme, fills), &sizes, &tones)
         };
         let mut cards = Vec::new();
-        let chart = |area: &Area, place: usize| {
-            Card::Chart(Box::new(Chart::new(&plots[place], inside(area, &sizes), Naming::Brief, &sizes, &tones)))
+        let chart = |area: &Area, index: usize| {
+            Card::Chart(Box::new(Chart::new(&plots[index], inside(area, &sizes), Naming::Brief, &sizes, &tones)))
         };
         if panel.is_below() {
             let most = ((free.height() - 2.0 * sizes.pad - 4.9 * sizes.title) / (2.0 * sizes.legend)) as usize;
             let has_key = plots.len() < 3;
             let count = plots.len() + usize::from(has_key);
             let width = (free.width() - gap * (count as f32 - 1.0)) / count as f32;
-            for place in 0..count {
-                let left = (free.left + place as f32 * (width + gap)).round();
+            for index in 0..count {
+                let left = (free.left + index as f32 * (width + gap)).round();
                 let area = Area { left, right: (left + width).round(), ..free };
                 let card =
-                    if place < plots.len() { chart(&area, place) } else { Card::Key(key(2 * most.min(5), width)) };
+                    if index < plots.len() { chart(&area, index) } else { Card::Key(key(2 * most.min(5), width)) };
                 cards.push((area, card));
             }
         } else {
@@ -151,9 +151,9 @@ impl Cards {
             let key = keys.iter().find(fits);
             let height = left_for(key);
             let mut top = free.top;
-            for place in 0..plots.len() {
+            for index in 0..plots.len() {
                 let area = Area { top: top.round(), bottom: (top + height).round(), ..free };
-                let card = chart(&area, place);
+                let card = chart(&area, index);
                 cards.push((area, card));
                 top += height + gap;
             }

@@ -67,9 +67,9 @@ impl Sheet {
     /// Draws a line from point to point. `weights` are 0 to 1 for each segment; an empty list means 1.
     pub(super) fn line(&mut self, points: &[Point], width: f32, dash: &Dash, weights: &[f32]) {
         let (mut part, mut left) = (0, dash.first().copied().unwrap_or(f32::INFINITY));
-        for (place, ends) in points.windows(2).enumerate() {
+        for (index, ends) in points.windows(2).enumerate() {
             let (from, to) = (ends[0], ends[1]);
-            let weight = weights.get(place).copied().unwrap_or(1.0);
+            let weight = weights.get(index).copied().unwrap_or(1.0);
             let (dx, dy) = (to.0 - from.0, to.1 - from.1);
             let length = (dx * dx + dy * dy).sqrt();
             if !length.is_finite() {
@@ -168,9 +168,9 @@ mod tests {
     fn a_line_is_all_points_near_it() {
         for (from, to) in [((12.0, 22.0), (60.3, 50.7)), ((40.0, 25.0), (40.0, 55.0)), ((0.0, 0.0), (90.0, 21.0))] {
             let sheet = drawn(&[&[from, to]], &[]);
-            for (place, covered) in sheet.coverage.iter().enumerate() {
-                let x = (10 + place % sheet.width) as f64 + 0.5;
-                let y = (20 + place / sheet.width) as f64 + 0.5;
+            for (index, covered) in sheet.coverage.iter().enumerate() {
+                let x = (10 + index % sheet.width) as f64 + 0.5;
+                let y = (20 + index / sheet.width) as f64 + 0.5;
                 let (ax, ay) = (f64::from(from.0), f64::from(from.1));
                 let (dx, dy) = (f64::from(to.0) - ax, f64::from(to.1) - ay);
                 let along = (((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
@@ -183,7 +183,7 @@ mod tests {
     /// A line in pieces or whole, forwards or later, is the same.
     #[test]
     fn a_line_in_pieces_is_the_same_line() {
-        let points: Vec<Point> = (0..40).map(|place| (12.0 + place as f32, 40.0 + (place * 7 % 11) as f32)).collect();
+        let points: Vec<Point> = (0..40).map(|index| (12.0 + index as f32, 40.0 + (index * 7 % 11) as f32)).collect();
         let pieces: Vec<&[Point]> = points.windows(2).rev().collect();
         assert_eq!(drawn(&[&points], &[]).coverage, drawn(&pieces, &[]).coverage);
     }

@@ -95,9 +95,9 @@ impl Tones {
     /// Colours and dashes of the curves of a plot. Curves of one colour differ in their dashes.
     pub(super) fn curves(&self, curves: &[Curve], width: f32) -> Vec<(Rgb, Vec<f32>)> {
         let own = |curve: &Curve| curve.body.and_then(|body| self.bodies.get(body)).copied();
-        let tone = |(place, curve): (usize, &Curve)| {
-            let Some(color) = own(curve) else { return self.curve(place, &curve.label, width) };
-            let before = curves[..place].iter().filter(|other| own(other) == Some(color)).count();
+        let tone = |(index, curve): (usize, &Curve)| {
+            let Some(color) = own(curve) else { return self.curve(index, &curve.label, width) };
+            let before = curves[..index].iter().filter(|other| own(other) == Some(color)).count();
             // The first two entries are both unbroken, because their curves have two colours.
             let dashes = DASHES[1 + before % (DASHES.len() - 1)];
             (color, dashes.iter().map(|length| length * width).collect())
@@ -107,9 +107,9 @@ impl Tones {
 
     /// The colour of a curve by its index, and its dashes for a line of some width. A total is grey and dashed, because
     /// it sums up the other curves.
-    pub(super) fn curve(&self, place: usize, label: &str, width: f32) -> (Rgb, Vec<f32>) {
+    pub(super) fn curve(&self, index: usize, label: &str, width: f32) -> (Rgb, Vec<f32>) {
         let total = label == "total" || label.ends_with(".total");
-        self.look(if total { Look::Aside(2) } else { Look::Main { color: place, dash: place } }, width)
+        self.look(if total { Look::Aside(2) } else { Look::Main { color: index, dash: index } }, width)
     }
 
     /// The colour of a curve that looks so, and its dashes for a line of some width. Of those in grey the first two are unbroken: they
@@ -119,7 +119,7 @@ impl Tones {
             Look::Main { color, dash } => {
                 (color.checked_rem(self.curves.len()).map_or(self.ink, |turn| self.curves[turn]), dash)
             }
-            Look::Aside(place) => (if place % DASHES.len() == 0 { self.axis } else { self.quiet }, place),
+            Look::Aside(index) => (if index % DASHES.len() == 0 { self.axis } else { self.quiet }, index),
         };
         (color, DASHES[dash % DASHES.len()].iter().map(|length| length * width).collect())
     }

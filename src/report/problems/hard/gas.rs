@@ -213,9 +213,9 @@ fn density(eta: f64, pause: u64, samples: usize, readings: &mut Readings) -> Res
     speeds.sort_by(f64::total_cmp);
     let count = speeds.len() as f64;
     // Maxwell's distribution in two dimensions: P(speed < v) = 1 - exp(-v^2/2).
-    let distance = |(place, speed): (usize, &f64)| {
+    let distance = |(index, speed): (usize, &f64)| {
         let expected = 1.0 - libm::exp(-0.5 * speed * speed);
-        (expected - place as f64 / count).abs().max((expected - (place as f64 + 1.0) / count).abs())
+        (expected - index as f64 / count).abs().max((expected - (index as f64 + 1.0) / count).abs())
     };
     readings.at_most(
         what("distance of the speeds from Maxwell's (Kolmogorov and Smirnov)"),

@@ -106,7 +106,7 @@ pub fn rounded(value: f64) -> String {
 
 /// How a reading came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Judgement {
     /// The value keeps to the threshold.
     Passed,
     /// It does not, and the engine said so: it ended the run with a message, or warned.
@@ -132,15 +132,15 @@ pub struct Reading {
 
 impl Reading {
     /// How it came out.
-    pub fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> Judgement {
         let kept = match self.threshold {
             Threshold::AtMost(bound) => self.value <= bound,
             Threshold::AtLeast(bound) => self.value >= bound,
         };
         match (kept, &self.told) {
-            (true, _) => Verdict::Passed,
-            (false, Some(_)) => Verdict::Told,
-            (false, None) => Verdict::Failed,
+            (true, _) => Judgement::Passed,
+            (false, Some(_)) => Judgement::Told,
+            (false, None) => Judgement::Failed,
         }
     }
 }

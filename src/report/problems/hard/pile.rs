@@ -22,7 +22,7 @@ pub fn scene(count: usize, columns: usize) -> String {
     let width = 0.25 * columns as f64 + 0.2;
     let stones = (10.0 * width).round() as u32 + 1;
     let gravel: Vec<String> =
-        (0..stones).map(|place| format!("(at: ({:?}, 0), radius: 0.06)", 0.1 * f64::from(place))).collect();
+        (0..stones).map(|index| format!("(at: ({:?}, 0), radius: 0.06)", 0.1 * f64::from(index))).collect();
     let mut bodies = format!(
         "(name: \"gravel\", fixed: true, datum: Origin, material: \"stone\", atoms: List([{}])),",
         gravel.join(", ")

@@ -143,7 +143,7 @@ fn spring(method: &str, truth: &Truth, readings: &mut Readings) -> Result<(), Bo
     let worst = found
         .iter()
         .enumerate()
-        .map(|(place, found)| (found * f64::hypot(x, v) / exact(place as f64 + 1.0) - 1.0).abs());
+        .map(|(index, found)| (found * f64::hypot(x, v) / exact(index as f64 + 1.0) - 1.0).abs());
     readings.at_most(
         what("1.0", "distance of 10 amplitudes from growth in proportion to the ticks, of themselves"),
         if found.len() as u64 == ticks { worst.fold(0.0, f64::max) } else { f64::NAN },

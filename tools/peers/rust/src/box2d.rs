@@ -105,7 +105,7 @@ pub fn world(job: &Job) -> World {
         }
         let mut servos = Vec::new();
         for joint in &scene.joints {
-            let (a, b) = (joint.a.map(|place| discs[place]), discs[joint.b]);
+            let (a, b) = (joint.a.map(|index| discs[index]), discs[joint.b]);
             let mut hinge = b2DefaultRevoluteJointDef();
             hinge.base.bodyIdA = a.unwrap_or(ground);
             hinge.base.bodyIdB = b;
@@ -120,7 +120,7 @@ pub fn world(job: &Job) -> World {
             if let Some(servo) = joint.servo {
                 if settings.servo_joint {
                     // Its stiffness is told as a frequency of the inertia that the joint has without its hinge.
-                    let inverse = |place: usize| 1.0 / scene.bodies[place].inertia();
+                    let inverse = |index: usize| 1.0 / scene.bodies[index].inertia();
                     let inertia = 1.0 / (inverse(joint.b) + joint.a.map_or(0.0, inverse));
                     let rate = (servo.kp / inertia).sqrt();
                     hinge.enableSpring = true;

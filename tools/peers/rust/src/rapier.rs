@@ -102,7 +102,7 @@ macro_rules! rapier {
                 let mut reduced = None;
                 let mut coordinates = Vec::new();
                 for joint in &scene.joints {
-                    let (a, b) = (joint.a.map(|place| discs[place]), discs[joint.b]);
+                    let (a, b) = (joint.a.map(|index| discs[index]), discs[joint.b]);
                     let mut hinge = RevoluteJointBuilder::new()
                         .local_anchor1(vector(joint.anchor_a))
                         .local_anchor2(vector(joint.anchor_b))

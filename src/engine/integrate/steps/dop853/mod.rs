@@ -11,15 +11,15 @@
 //! times the estimate. That was measured on a fall with quadratic drag. Dense output is of order 7 and takes four more
 //! evaluations: one at the end, and three inside.
 
-mod table;
+mod coefficients;
 #[cfg(test)]
 mod tests;
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
 use crate::tick::snapshot::{Memory, Unfit, recall};
+use coefficients::{ALL_STAGES, DENSE, ERROR_5, POLYNOMIALS, RESULT, RESULT_3, STAGES, STEP, Stage, Sum};
 use serde::{Deserialize, Serialize};
-use table::{ALL_STAGES, DENSE, ERROR_5, POLYNOMIALS, RESULT, RESULT_3, STAGES, STEP, Stage, Sum};
 
 /// DOP853.
 #[derive(Default, Serialize, Deserialize)]
@@ -36,8 +36,8 @@ impl Dop853 {
     /// Takes the rates of `stage`, which is number `number`.
     fn evaluate(&mut self, flow: &mut dyn Flow, start: Start, number: usize, stage: &Stage) {
         let dimension = start.state.len();
-        for (place, (state, start)) in self.state.iter_mut().zip(start.state).enumerate() {
-            *state = start + self.length * sum(&self.rates, dimension, stage.weights, place);
+        for (index, (state, start)) in self.state.iter_mut().zip(start.state).enumerate() {
+            *state = start + self.length * sum(&self.rates, dimension, stage.weights, index);
         }
         let rates = &mut self.rates[number * dimension..(number + 1) * dimension];
         flow.rates(start.time + stage.node * self.length, &self.state, rates);
@@ -47,31 +47,31 @@ impl Dop853 {
     fn interpolate(&mut self) {
         let (dimension, length) = (self.state.len(), self.length);
         self.dense.resize(dimension, [0.0; 7]);
-        for (place, dense) in self.dense.iter_mut().enumerate() {
-            let change = length * result(&self.rates, dimension, place);
-            let beginning = length * self.rates[place];
-            let end = length * self.rates[STAGES * dimension + place];
+        for (index, dense) in self.dense.iter_mut().enumerate() {
+            let change = length * result(&self.rates, dimension, index);
+            let beginning = length * self.rates[index];
+            let end = length * self.rates[STAGES * dimension + index];
             dense[0] = change;
             dense[1] = beginning - change;
             dense[2] = (change - end) - dense[1];
             for (coefficient, weights) in dense[3..].iter_mut().zip(POLYNOMIALS) {
-                *coefficient = length * sum(&self.rates, dimension, weights, place);
+                *coefficient = length * sum(&self.rates, dimension, weights, index);
             }
         }
     }
 }
 
 /// A weighted sum of rates of stages, for one number of the state.
-fn sum(rates: &[f64], dimension: usize, weights: Sum, place: usize) -> f64 {
-    weights.iter().fold(0.0, |sum, (stage, weight)| sum + weight * rates[stage * dimension + place])
+fn sum(rates: &[f64], dimension: usize, weights: Sum, index: usize) -> f64 {
+    weights.iter().fold(0.0, |sum, (stage, weight)| sum + weight * rates[stage * dimension + index])
 }
 
 /// The mean rate of the step, for one number of the state. A constant rate is exact. The rounded weights do not add up
 /// to one, and a body with a fast spin would show it.
-fn result(rates: &[f64], dimension: usize, place: usize) -> f64 {
-    let beginning = rates[place];
-    let constant = RESULT.iter().all(|(stage, _)| rates[stage * dimension + place] == beginning);
-    if constant { beginning } else { sum(rates, dimension, RESULT, place) }
+fn result(rates: &[f64], dimension: usize, index: usize) -> f64 {
+    let beginning = rates[index];
+    let constant = RESULT.iter().all(|(stage, _)| rates[stage * dimension + index] == beginning);
+    if constant { beginning } else { sum(rates, dimension, RESULT, index) }
 }
 
 impl OneStep for Dop853 {
@@ -93,18 +93,18 @@ impl OneStep for Dop853 {
         for (number, stage) in (1..).zip(&STEP) {
             self.evaluate(flow, start, number, stage);
         }
-        for (place, change) in change.iter_mut().enumerate() {
-            *change = length * result(&self.rates, dimension, place);
+        for (index, change) in change.iter_mut().enumerate() {
+            *change = length * result(&self.rates, dimension, index);
         }
     }
 
     fn error(&self, scale: &[f64]) -> Option<f64> {
         let dimension = self.state.len();
         let (mut of_5, mut of_3, mut looked_at) = (0.0, 0.0, 0);
-        for (place, scale) in scale.iter().enumerate().filter(|(_, scale)| scale.is_finite()) {
-            let result = sum(&self.rates, dimension, RESULT, place);
-            let error_5 = sum(&self.rates, dimension, ERROR_5, place) / scale;
-            let error_3 = (result - sum(&self.rates, dimension, RESULT_3, place)) / scale;
+        for (index, scale) in scale.iter().enumerate().filter(|(_, scale)| scale.is_finite()) {
+            let result = sum(&self.rates, dimension, RESULT, index);
+            let error_5 = sum(&self.rates, dimension, ERROR_5, index) / scale;
+            let error_3 = (result - sum(&self.rates, dimension, RESULT_3, index)) / scale;
             of_5 += error_5 * error_5;
             of_3 += error_3 * error_3;
             looked_at += 1;

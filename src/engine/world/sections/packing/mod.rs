@@ -10,7 +10,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use crate::scene::names;
-use crate::scene::{Kind, Obstacle, Outline, Report, Section};
+use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
 use crate::world::{material, sections};
 
 pub(in crate::world) use embed::EMBEDDING;
@@ -78,7 +78,7 @@ impl Section for PackingsSection {
     }
 
     /// Reports unknown materials, tables that were not read, too many atoms, and atoms that are too large for numbers.
-    fn check(&self, outline: &Outline, report: &mut Report) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         let mut atoms = 0;
         for (index, entry) in self.0.iter().enumerate() {
             report.within(&format!("[{index}]"), |report| {

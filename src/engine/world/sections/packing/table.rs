@@ -242,9 +242,9 @@ fn cells_of(line: usize, text: &str, separator: char, wanted: usize) -> Result<V
 /// The index of each column in [`COLUMNS`].
 fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<Vec<usize>, Wrong> {
     let mut columns = Vec::new();
-    for (place, name) in cells_of(line, header, separator, 1)?.iter().map(AsRef::as_ref).enumerate() {
+    for (index, name) in cells_of(line, header, separator, 1)?.iter().map(AsRef::as_ref).enumerate() {
         if name.is_empty() {
-            let why = format!("has no name for column {}", place + 1);
+            let why = format!("has no name for column {}", index + 1);
             return Err(wrong(line, None, why, "name each column, and leave out those that are none of a packing"));
         }
         if name.parse::<f64>().is_ok() {

@@ -1,0 +1,118 @@
+//! Event overload: if events are too many to be located one by one, stretches of ticks run under velocity Verlet.
+//!
+//! Each located event ends the step of all bodies. So hundreds of events in a tick cost thousands of evaluations and
+//! gain nothing. Among so many jumps no method shows its order. Dozens of held contacts depend on each other too, and
+//! rigid statics alone does not determine their loads. So an overloaded tick continues from its current state under
+//! velocity Verlet, with contacts that follow from state to state. The ticks behind it do the same, and then events are
+//! tried again. Each failed try doubles the stretch until the next, so that trying costs little.
+
+use super::VelocityVerlet;
+use crate::tick::Integrator;
+use crate::tick::Tick;
+use serde::{Deserialize, Serialize};
+
+/// Events that may be located in one tick after quiet ones.
+const MOST_EVENTS: u32 = 64;
+/// Events that may be located in each tick forever. Unused ones are saved for later ticks, up to `MOST_EVENTS`.
+const LASTING_EVENTS: u32 = 4;
+/// Indicators that change their sign in one trial step; with more the tick is crowded.
+const MOST_AT_ONCE: usize = 64;
+/// Ticks in a stretch, at first and at most.
+const SHORTEST: u32 = 16;
+const LONGEST: u32 = 1024;
+/// A tick is divided if the product of angular frequency and step exceeds this. It is a quarter of the method's limit.
+/// The energy of a spring then swings by `(1/4)^2`.
+const FINE: f64 = 0.5;
+
+/// Whether a run is in such a stretch, and how long it lasts.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct EventOverload {
+    following: bool,
+    /// Ticks left of the stretch.
+    left: u32,
+    /// Ticks of the next.
+    next: u32,
+    /// Ticks since the last.
+    calm: u32,
+    /// Events that may still be located.
+    credit: u32,
+    /// The factor on the number of events that a tick may have.
+    patience: u32,
+}
+
+impl EventOverload {
+    /// An overload control that admits `times` as many events in a tick.
+    pub fn patient(times: u32) -> Self {
+        Self { following: false, left: 0, next: SHORTEST, calm: 0, credit: times * MOST_EVENTS, patience: times }
+    }
+
+    /// Whether the tick to come is one of a stretch.
+    pub fn lasts(&self) -> bool {
+        self.left > 0
+    }
+
+    /// Whether the state is one of a stretch.
+    pub fn follows(&self) -> bool {
+        self.following
+    }
+
+    /// Whether a model reports too many held contacts, or this number of events in the tick is too large.
+    pub fn comes(&self, tick: &mut Tick, events: u32) -> bool {
+        events >= self.credit || tick.is_overloaded()
+    }
+
+    /// Whether so many indicators may vanish in a step.
+    pub fn bears(&self, vanishing: usize) -> bool {
+        vanishing <= MOST_AT_ONCE
+    }
+
+    /// A tick ended without an overload.
+    pub fn stays_away(&mut self, events: u32) {
+        self.credit =
+            (self.credit.saturating_sub(events) + self.patience * LASTING_EVENTS).min(self.patience * MOST_EVENTS);
+        self.calm = self.calm.saturating_add(1);
+        if self.calm >= self.next {
+            self.next = SHORTEST;
+        }
+    }
+
+    /// Begins a stretch at `now` seconds, inside a tick.
+    pub fn begin(&mut self, tick: &mut Tick, now: f64) {
+        (self.following, self.left, self.calm) = (true, self.next, 0);
+        self.next = (2 * self.next).min(LONGEST);
+        tick.begin_following(now);
+    }
+
+    /// Whether events may be tried again in the next tick. A stretch continues while there are too many contacts.
+    pub fn ends(&mut self, tick: &mut Tick) -> bool {
+        if tick.is_overloaded() {
+            self.left = self.next;
+        }
+        self.left == 0
+    }
+
+    /// Events are located again.
+    pub fn end(&mut self) {
+        self.following = false;
+        self.credit = self.patience * MOST_EVENTS / 4;
+    }
+
+    /// Advances from `from` to the end of the tick.
+    pub fn advance(&mut self, tick: &mut Tick, from: f64) {
+        self.left = self.left.saturating_sub(1);
+        let (until, length) = (tick.end, tick.end - from);
+        let fastest = tick.state().time_scales().fastest.map_or(0.0, |fastest| fastest.angular_frequency);
+        let parts = (length * fastest / FINE).ceil().max(1.0);
+        let mut begin = from;
+        let mut part = 0.0;
+        while part < parts {
+            part += 1.0;
+            let end = if part == parts { until } else { from + length * (part / parts) };
+            tick.part(begin, end, |tick| {
+                tick.choose_modes(begin, end);
+                VelocityVerlet.advance(tick);
+            });
+            begin = end;
+        }
+    }
+}
