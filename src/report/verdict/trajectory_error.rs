@@ -41,7 +41,7 @@ pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
         "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}; what a finer tick gains grows as \
          the logarithm of its cost"
     );
-    estimated.chaotic.then(|| Cause { trust: Trust::ButNot(Part::PlacesAfter(horizon)), what, remedy: None })
+    estimated.chaotic.then_some(Cause { trust: Trust::ButNot(Part::PlacesAfter(horizon)), what, remedy: None })
 }
 
 /// The tick is too long for contacts whose beginnings it does not see, or for the motion.
