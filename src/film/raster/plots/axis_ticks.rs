@@ -94,6 +94,15 @@ impl Ticks {
         Ticks { labels: values.iter().map(label).collect(), values, exponent }
     }
 
+    /// Leaves out what is no whole number: counts have no halves. A range that was asked for may lie between two counts.
+    pub(super) fn keep_whole_numbers(&mut self) {
+        let whole: Vec<usize> = (0..self.values.len()).filter(|place| self.values[*place].fract() == 0.0).collect();
+        if whole.len() >= FEWEST {
+            self.labels = whole.iter().map(|place| self.labels[*place].trim_end_matches(".0").to_owned()).collect();
+            self.values = whole.iter().map(|place| self.values[*place]).collect();
+        }
+    }
+
     /// Ticks of a logarithmic axis, at least two: at powers of ten; where there is only one, at 2 and 5 times them too; within
     /// less than that, at equal steps.
     pub(super) fn logarithmic(low: f64, high: f64, most: usize) -> Ticks {

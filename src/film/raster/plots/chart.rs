@@ -112,7 +112,7 @@ impl Chart {
             Ticks::linear(up_range.0, up_range.1, most_up)
         };
         if plot.curves().is_empty() {
-            whole_numbers(&mut up_ticks);
+            up_ticks.keep_whole_numbers();
         }
         let widest = up_ticks.labels.iter().map(|label| small.width(label)).fold(0.0, f32::max);
         let left = outer.left + if turned { 1.5 * text } else { 0.0 } + widest.max(1.2 * text) + 0.7 * text;
@@ -427,17 +427,6 @@ fn lonely(points: &[Point]) -> impl Iterator<Item = Point> {
 /// The text beside the title of a histogram.
 fn outside(count: u64) -> String {
     if count > 0 { format!("({count} outside)") } else { String::new() }
-}
-
-/// Counts have no halves.
-fn whole_numbers(ticks: &mut Ticks) {
-    let whole: Vec<usize> = (0..ticks.values.len()).filter(|index| ticks.values[*index].fract() == 0.0).collect();
-    // A range that was asked for may lie between two counts.
-    if whole.len() < 2 {
-        return;
-    }
-    ticks.labels = whole.iter().map(|index| ticks.labels[*index].trim_end_matches(".0").to_owned()).collect();
-    ticks.values = whole.iter().map(|index| ticks.values[*index]).collect();
 }
 
 fn sample_width(sizes: &Sizes) -> f32 {
