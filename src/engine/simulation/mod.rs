@@ -361,9 +361,8 @@ pub fn begin(
     overrides: &Overrides,
 ) -> Result<u64, SceneErrors> {
     world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
-    if let Some(Mended(mut told)) = world.remove_resource() {
-        told.dedup();
-        world.resource_mut::<Notes>().0.extend(told);
+    if let Some(mended) = world.remove_resource::<Mended>() {
+        world.resource_mut::<Notes>().0.extend(mended.notes());
     }
     if let Some(factor) = overrides.stiffness {
         atom::stiffen(world, factor);

@@ -29,7 +29,30 @@ pub struct Intangible {
 
 /// The corrections of the numbers of shapes, for the notes of the card.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Mended(pub Vec<String>);
+pub struct Mended {
+    /// Each correction with the names of its bodies, in the order of the scene.
+    told: Vec<(String, Vec<String>)>,
+}
+
+impl Mended {
+    /// Adds a correction of the shape of a body, or of the bodies of an entry.
+    pub fn add(&mut self, name: &str, correction: String) {
+        match self.told.iter_mut().find(|(known, _)| *known == correction) {
+            Some((_, names)) if names.iter().any(|known| known == name) => {}
+            Some((_, names)) => names.push(name.to_owned()),
+            None => self.told.push((correction, vec![name.to_owned()])),
+        }
+    }
+
+    /// A note for each correction. Of many bodies it names the first.
+    pub fn notes(&self) -> impl Iterator<Item = String> + '_ {
+        self.told.iter().map(|(correction, names)| match &names[..] {
+            [only] => format!("`{only}`: {correction}"),
+            [first, others @ ..] => format!("`{first}` and {} more: {correction}", others.len()),
+            [] => correction.clone(),
+        })
+    }
+}
 
 /// A hull as contacts see it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -91,7 +91,7 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
             ..made_of.body(&properties)
         };
         for mended in entry.shape.iter().flat_map(|shape| shape.parts().mended) {
-            world.get_resource_or_init::<Mended>().0.push(format!("`{}`: {mended}", body.name));
+            world.get_resource_or_init::<Mended>().add(&body.name, mended);
         }
         let (key, body) = keyed(body, outline);
         let entity = body.spawn_keyed(world, key);
@@ -129,9 +129,9 @@ pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
         if !entry.touches() {
             properties.intangible.append(&mut properties.hulls);
         }
-        let mended = entry.shape.iter().flat_map(|shape| shape.parts().mended);
-        let mended = mended.map(|mended| format!("`{}`: {mended}", entry.name));
-        world.get_resource_or_init::<Mended>().0.extend(mended);
+        for mended in entry.shape.iter().flat_map(|shape| shape.parts().mended) {
+            world.get_resource_or_init::<Mended>().add(&entry.name, mended);
+        }
         let body = |number: usize| {
             let Placed { position, angle, velocity, radius } = placed[number];
             let own = entry.radius.is_some().then(|| fill::disc(radius, made_of.density));
