@@ -153,11 +153,11 @@ fn the_gravest_cause_speaks() {
 }
 
 #[test]
-fn without_an_estimate_there_is_no_trust() {
+fn without_an_estimate_places_are_not_trusted() {
     let simulation = end("verdict_energy", &Overrides::default());
     assert!(kinetic(simulation.bodies()) > 0.0);
     let verdict = simulation.card().verdict;
-    assert!(!verdict.starts_with("Trust"), "{verdict}");
+    assert!(!verdict.starts_with("Trust it") && verdict.contains("Do not trust places"), "{verdict}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ const TICKS: u64 = 1500;
 /// Channels that need something of the engine of their own (contacts are counted, forces summed) among them.
 const PLOTS: &str = r#"plots: [
     (channels: ["energy.kinetic", "energy.total", "energy.residual"]),
-    (x: "clump_0.position.x", y: ["clump_0.velocity.x", "clump_1.velocity.x"], tail: 1),
+    (x: "*.position.x", y: ["clump_0.velocity.x", "clump_1.velocity.x"], tail: 1),
     (channels: ["clump_0.contacts", "clump_0.force.y", "overlap.deepest"]),
     (histogram: (of: "*", quantity: "position.x", from: 0, to: 6)),
 ],"#;

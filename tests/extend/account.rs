@@ -130,8 +130,10 @@ fn the_verdict_distrusts_friction_that_gives() {
             Simulation::load_with(&Source::new("pusher.ron", scene), &Overrides::default(), pusher).unwrap();
         simulation.run_to_end().expect("numbers stay finite");
         let card = simulation.card();
-        // Half a tick may still brake where the force turns.
-        assert!((card.energy.friction - lost).abs() < 0.02 && card.energy.residual.abs() < 1e-9, "{:?}", card.energy);
+        // A step across the turn of the force may brake a tick too long, and errs by the square of its length.
+        let turn = if from > 0.0 { 25.0 * 1e-3 } else { 0.0 };
+        let (friction, residual) = (card.energy.friction - lost, card.energy.residual);
+        assert!(friction.abs() <= turn + 1e-9 && residual.abs() <= 1e-3 * turn + 1e-9, "{:?}", card.energy);
         assert!(card.verdict.starts_with("Do not trust it: friction and contacts have given"), "{}", card.verdict);
     }
 }

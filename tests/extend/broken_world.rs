@@ -154,7 +154,7 @@ const TEARS: [(&str, Tear); 17] = [
     ("velocity", |bodies| bodies.velocity.truncate(1)),
     ("force", |bodies| bodies.force.push(DVec2::ONE)),
     ("mass", |bodies| bodies.mass = Vec::new()),
-    ("angle_rest", |bodies| bodies.angle_residual.clear()),
+    ("angle_residual", |bodies| bodies.angle_residual.clear()),
     ("dynamic", |bodies| bodies.dynamic.clear()),
     ("collides", |bodies| bodies.collides.clear()),
     ("atom_radius", |bodies| bodies.atom_radius.clear()),
