@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+use super::formula::Formula;
 use super::scope::{Failed, Filled, Value, is_quantity};
 use super::write::Buffer;
 use super::{Expander, File, Outcome, Reader, table};
@@ -375,13 +376,14 @@ impl Expander {
             self.quiet = false;
         }
         if !WORDS.contains(&key) {
-            let full = if given {
-                context.place.own(&text)
-            } else {
+            let full = |text: &str| if given { context.place.own(text) } else { context.place.resolved(text) };
+            if !given {
                 self.note_foreign(context, span.start, &text);
-                context.place.resolved(&text)
-            };
-            text = full.unwrap_or(text);
+            }
+            // The names in a formula of channels are those of things, each on its own.
+            let formula = key == "of" && !context.place.prefix.is_empty();
+            let formula = formula.then(|| Formula::new(&*text).renamed(full)).flatten();
+            text = formula.or_else(|| full(&text)).unwrap_or(text);
         }
         if text == written {
             out.verbatim(file, span, context.step);

@@ -44,6 +44,30 @@ impl Formula {
         value.map(|_| names).map_err(|wrong| self.mistake(wrong))
     }
 
+    /// The formula with other names, in single quotes. `None` if the text is no formula, is a single name, or keeps all names.
+    pub(super) fn renamed(&self, other: impl Fn(&str) -> Option<String>) -> Option<String> {
+        let names = self.names().ok().filter(|names| !names.contains(&self.0))?;
+        let (mut text, mut rest, mut changed) = (String::new(), &*self.0, false);
+        for name in names {
+            let part_of_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+            let stands = |at: &usize| {
+                let (before, after) = (&rest[..*at], &rest[at + name.len()..]);
+                !before.ends_with(part_of_name) && !after.starts_with(part_of_name)
+            };
+            let at = rest.match_indices(&*name).map(|(at, _)| at).find(stands)?;
+            let quoted = rest[..at].ends_with('\'');
+            let full = other(&name);
+            changed |= full.is_some();
+            text.push_str(&rest[..at]);
+            match full {
+                Some(full) if !quoted => text.push_str(&format!("'{full}'")),
+                full => text.push_str(&full.unwrap_or_else(|| name.clone())),
+            }
+            rest = &rest[at + name.len()..];
+        }
+        changed.then(|| text + rest)
+    }
+
     /// Its value in SI units, and their powers. `value` gives that of a name.
     ///
     /// # Errors
@@ -64,8 +88,24 @@ impl Formula {
     }
 
     fn mistake(&self, Wrong { range, message, help }: Wrong) -> Mistake {
-        let index = self.0.get(range).filter(|index| !index.is_empty() && *index != self.0);
-        let message = index.map_or(message.clone(), |index| format!("in `{index}`: {message}"));
+        let part = self.0.get(range).filter(|part| !part.is_empty() && *part != self.0);
+        let message = part.map_or(message.clone(), |part| format!("in `{part}`: {message}"));
         Mistake { message, help }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_a_formula_get_their_prefix_one_by_one() {
+        let prefixed = |text: &str| Formula::new(text).renamed(|name| (name != "g.x").then(|| format!("p/{name}")));
+        assert_eq!(prefixed("heap.repose / 1 deg").as_deref(), Some("'p/heap.repose' / 1 deg"));
+        assert_eq!(prefixed("max(a.x, 2 * 'b c.x') - g.x").as_deref(), Some("max('p/a.x', 2 * 'p/b c.x') - g.x"));
+        assert_eq!(prefixed("aa.x - a.x").as_deref(), Some("'p/aa.x' - 'p/a.x'"));
+        assert_eq!(prefixed("g.x + 1 m"), None);
+        assert_eq!(prefixed("ball.position.x"), None);
+        assert_eq!(prefixed("gas_*"), None);
     }
 }
