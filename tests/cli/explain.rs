@@ -99,7 +99,7 @@ fn channels_are_explained() {
         .jostle("explain fall.ron bal.position.y")
         .code(2)
         .says("there is no channel `bal.position.y`")
-        .says("`ball`");
+        .says("did you mean \"ball\"");
 }
 
 /// A run that takes longer than the look at it is told as far as it was looked at.

@@ -44,9 +44,10 @@ impl Formula {
         value.map(|_| names).map_err(|wrong| self.mistake(wrong))
     }
 
-    /// The formula with other names, in single quotes. `None` if the text is no formula, is a single name, or keeps all names.
+    /// The formula with other names of channels, in single quotes. `None` if the text is no formula, or keeps all names. A formula has a
+    /// blank, a bracket or a quote: `finger/tip` is the name of a body.
     pub(super) fn renamed(&self, other: impl Fn(&str) -> Option<String>) -> Option<String> {
-        let names = self.names().ok().filter(|names| !names.contains(&self.0))?;
+        let names = self.names().ok().filter(|_| self.0.contains([' ', '(', '\'']))?;
         let (mut text, mut rest, mut changed) = (String::new(), &*self.0, false);
         for name in names {
             let part_of_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
@@ -56,7 +57,7 @@ impl Formula {
             };
             let at = rest.match_indices(&*name).map(|(at, _)| at).find(stands)?;
             let quoted = rest[..at].ends_with('\'');
-            let full = other(&name);
+            let full = if name.contains('.') { other(&name) } else { None };
             changed |= full.is_some();
             text.push_str(&rest[..at]);
             match full {
@@ -106,6 +107,7 @@ mod tests {
         assert_eq!(prefixed("aa.x - a.x").as_deref(), Some("'p/aa.x' - 'p/a.x'"));
         assert_eq!(prefixed("g.x + 1 m"), None);
         assert_eq!(prefixed("ball.position.x"), None);
+        assert_eq!(prefixed("finger/tip"), None);
         assert_eq!(prefixed("gas_*"), None);
     }
 }
