@@ -24,7 +24,7 @@ const MOST_FRAMES_IN_A_PICTURE: u32 = 400;
 /// The influence of a verdict on the exit code.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct StrictFlag {
-    /// Exit with 3 too where the verdict on the error card is `Do not trust it`
+    /// Exit with 3 too if the verdict on the error card is `Do not trust it`
     #[arg(long)]
     pub strict: bool,
 }

@@ -30,7 +30,7 @@ Examples:
   jostle fmt - < my.ron         to standard output, as editors do it
 
 Your line breaks stay, and so do numbers, texts and comments as they are written. A list or map that fills one line of \
-more than 120 columns gets a line for each item. Sections move only where that changes nothing of what the scene means.
+more than 120 columns gets a line for each item. Sections move only if the scene keeps its meaning.
 
 Exit codes: 0 good, 1 a scene cannot be read or (with --check) is not in the standard layout, 2 usage.";
 

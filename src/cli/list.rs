@@ -21,7 +21,7 @@ use crate::tick::TickAppExt;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct List {
-    /// What: scenes (the default), sections, shapes, the entries of a section such as forces, sensors or layers, or words
+    /// One of these: scenes (the default), sections, shapes, the entries of a section such as forces, sensors or layers, or words
     /// such as methods, colors, channels or themes
     #[arg(value_name = "WHAT", default_value = SCENES)]
     what: String,

@@ -35,14 +35,14 @@ pub(super) struct PlotCommand {
     /// The picture. Default: <scene or table>.png in the current directory
     #[arg(short, long, value_name = "FIGURE.png")]
     output: Option<PathBuf>,
-    /// What is plotted, separated by commas; `*` stands for any letters of names. Channels of different units get plots of
+    /// Channels to plot, separated by commas; `*` stands for any letters of names. Channels of different units get plots of
     /// their own. Default: the plots of the scene, or all columns of the table
     #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
     channels: Vec<String>,
-    /// Against what it is plotted, instead of time; `*.position.x` draws each channel over that of its own body
+    /// The channel along the horizontal axis, instead of time; `*.position.x` draws each channel over that of its own body
     #[arg(long, value_name = "CHANNEL")]
     x: Option<String>,
-    /// What stands above the figure
+    /// Title above the figure
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
     /// Size of the picture in pixels. Default: 1200 wide, 720 high for one plot and 480 for each of several
@@ -136,7 +136,9 @@ impl PlotCommand {
         let own = simulation.get_resource::<PlotsSection>().map_or_else(Vec::new, |plots| plots.0.clone());
         let entries = if self.channels.is_empty() {
             if self.x.is_some() {
-                return Err(request.usage("--x says against what: add --channels to say what is plotted"));
+                return Err(
+                    request.usage("--x is the horizontal axis alone: name the channels to plot with --channels")
+                );
             }
             own.into_iter().map(|entry| PlotEntry { log: entry.log || self.log, ..entry }).collect()
         } else {
@@ -151,7 +153,7 @@ impl PlotCommand {
                 _ => "such as --channels energy.kinetic,energy.total".to_owned(),
             };
             return Err(
-                request.usage(&format!("the scene has no `plots`: say what is plotted with --channels; {help}"))
+                request.usage(&format!("the scene has no `plots`: name the channels to plot with --channels; {help}"))
             );
         }
         let end = simulation.ticks() as f64 * simulation.clock().dt;
@@ -165,7 +167,7 @@ impl PlotCommand {
         const STEPS: u64 = 200;
         for step in 1..=STEPS {
             if let Err(failure) = sampler.run_to(&mut simulation, end * step as f64 / STEPS as f64) {
-                say(&format!("error: {failure}; plotted is what came before"));
+                say(&format!("error: {failure}; the figure ends there"));
                 exit = Exit::RunWrong;
                 break;
             }
@@ -269,7 +271,9 @@ impl PlotCommand {
                 let all = column.values.len();
                 let (name, unit) = (&column.name, &column.unit);
                 let what = with_unit(name, unit);
-                say(&format!("note: {what}: {wild} of {all} cells hold no finite number and are left out"));
+                say(&format!(
+                    "note: {what}: {wild} of {all} cells hold no finite number, and the figure leaves them out"
+                ));
             }
         }
         let mut groups: Vec<(&str, Vec<[&Column; 2]>)> = Vec::new();
@@ -335,7 +339,7 @@ fn objection(request: Request, path: &Path) -> Option<String> {
     } else if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("png")) {
         Some(format!("`plot` draws a .png, not `{name}`"))
     } else if request.is_at(path) {
-        Some(format!("`{name}` is what is to be plotted: write the figure to another file"))
+        Some(format!("`{name}` is the table to plot: write the figure to another file"))
     } else {
         takes_no_file(path)
     }

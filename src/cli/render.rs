@@ -37,8 +37,8 @@ pub(super) struct Render {
     /// Draw a contact sheet of so many columns and rows: pictures spread evenly over the film
     #[arg(long, value_name = "4x3", value_parser = flags::sheet, conflicts_with_all = ["at", "strip"])]
     sheet: Option<(u32, u32)>,
-    /// Make the GIF no larger than this, such as 2MB: with fewer colours, smaller, with fewer frames; what was done is
-    /// said
+    /// Make the GIF no larger than this, such as 2MB: with fewer colours, smaller, with fewer frames; a message tells
+    /// which
     #[arg(long, value_name = "SIZE", value_parser = flags::bytes, allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["at", "strip", "sheet", "png", "pace"])]
     max_size: Option<u64>,
@@ -58,7 +58,7 @@ pub(super) struct Render {
     /// Colours, instead of the scene's: paper, night or print, or a file such as mine.ron
     #[arg(long, value_name = "NAME")]
     theme: Option<String>,
-    /// What is drawn beside the bodies, in addition to the scene's layers: trails, forces, velocities, boxes, names,
+    /// Layers beside the bodies, in addition to the scene's layers: trails, forces, velocities, boxes, names,
     /// contacts, scale, time, separated by commas; `none`: nothing, not even the scene's
     #[arg(long, value_name = "LAYER,LAYER", value_parser = flags::layers)]
     layers: Option<flags::LayerWords>,

@@ -44,11 +44,13 @@ Examples:
   jostle report kepler cradle gas -o three   two problems and a hard case
   jostle report -o report --peers peers.csv  with the curves of other engines
 
-Each problem has an exact answer. It is run by each method at several ticks; the report says what error that leaves and what it
-costs, how an error of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold) is reached at the least cost, and which grade each method \
-reaches. Errors are found on all cores, times apart from them, one run after the other; they are the least of several. What does not \
-run is listed with its reason. Hard cases are scenes that break engines; each value stands beside its threshold and where that comes from. \
-With --quick the expensive ones are left out, and the report says which.
+Each problem has an exact answer. Each method runs it at several ticks, and the report tells the error and the cost of each. It also \
+says how to reach an error of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold) at the least cost, and which grade each method \
+reaches. Errors are found on all cores. Times are found apart from them, one run after the other, and are the least of several. \
+The report lists all runs that failed, with their reasons.
+
+Hard cases are scenes that break engines. Each value stands beside its threshold and the source of that. --quick leaves out \
+the expensive ones, and the report says which.
 
 Exit codes: 0 good, 1 a hard case fails (the report is complete all the same), 2 usage or a file cannot be read or written.";
 

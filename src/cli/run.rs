@@ -52,11 +52,11 @@ pub(super) struct Run {
     /// comes back to its beginning
     #[arg(long)]
     reverse: bool,
-    /// Run no faster than the clock on the wall: a second of physics takes a second. What comes too late is counted.
+    /// Run no faster than the clock on the wall: a second of physics takes a second. The card counts ticks that come too late.
     /// Otherwise as fast as possible
     #[arg(long)]
     pace: bool,
-    /// Threads for the work of a tick, where there is enough of it; the results are the same to the bit. Default: one for each
+    /// Threads for the work of a tick, if there is enough of it; the results are the same to the bit. Default: one for each
     /// core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,

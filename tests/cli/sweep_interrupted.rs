@@ -70,7 +70,7 @@ fn what_another_sweep_has_done_does_not_count() {
     }
     // A file of the user's own stays.
     std::fs::write(folder.path("out/table.runs"), "mine").unwrap();
-    folder.jostle(&other).code(2).says("`out/table.runs` is not what a sweep has done so far: move it away");
+    folder.jostle(&other).code(2).says("`out/table.runs` is no record of finished runs of a sweep: move it away");
     assert_eq!(folder.read("out/table.runs"), b"mine");
 }
 

@@ -29,7 +29,7 @@ pub(super) struct Bench {
     /// thousand discs
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Ticks of a round. Default: what takes about a fifth of a second, but at least 50, within the duration of the scene
+    /// Ticks of a round. Default: as many as take about a fifth of a second, but at least 50, within the duration of the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     ticks: Option<u64>,
     /// Rounds that are timed. Default: 7, with --quick 3
@@ -43,7 +43,7 @@ pub(super) struct Bench {
     from: f64,
     #[command(flatten)]
     overrides: OverrideFlags,
-    /// Threads for the work of a tick, where there is enough of it; the results are the same to the bit
+    /// Threads for the work of a tick, if there is enough of it; the results are the same to the bit
     #[arg(long, value_name = "N", value_parser = flags::threads, default_value = "1", allow_negative_numbers = true)]
     threads: usize,
     /// Print what was measured of each scene as one line of JSON on standard output
@@ -59,14 +59,14 @@ Examples:
   jostle bench                                           a small look at this computer
   jostle bench scenes/benchmarks/dense_10k.ron           ten thousand discs at rest
   jostle bench scenes/benchmarks/*_1k.ron --json         several scenes, for a program
-  jostle bench example:plinko --ticks 100 --rounds 20    where rounds scatter: more of them
+  jostle bench example:plinko --ticks 100 --rounds 20    more rounds, if they scatter
   jostle bench example:plinko --from 2                   from the state after two seconds on
   jostle bench scenes/bounce.ron --tick 0.5ms            with another tick
   jostle bench scenes/tetris.ron --simd scalar           without vector instructions
 
 Paths of the examples are from the root of the source repository.
 
-What is told of each scene:
+The columns of the table:
   bodies, atoms     what it holds
   near, touching    pairs of atoms near each other, which each tick looks at; those that overlap
   us/tick           microseconds of a tick: the median over the rounds
@@ -74,13 +74,13 @@ What is told of each scene:
   scatter           from the fastest round to the slowest, as a share of the median
   plain             ns/atom of a plain loop in the same program: arrays, a grid of cells, springs
                     with dashpots and friction, velocity Verlet, no vector instructions; a dash
-                    where it cannot do what the scene asks
+                    if it cannot do what the scene asks
   x plain           time of the engine over that of the plain loop: the median over the rounds
-  bytes/atom        memory to read and run the scene, for each atom, where the system tells; a
-                    dash below 1000 atoms, where the program itself takes more
+  bytes/atom        memory to read and run the scene, for each atom, if the system tells it; a
+                    dash below 1000 atoms, as the program itself takes more
 
-Engine and plain loop begin at the same state and run by turns. A round that is not timed goes ahead of the others, each \
-of which goes on where the one before ended. Times are those of your computer; the state hash is not. It depends on \
+The engine and the plain loop begin at the same state and run by turns. The first round is not timed. Each round goes on \
+from the end of the round before it. Times depend on your computer, the state hash does not. It depends on \
 --ticks, --rounds, --quick and --from.";
 
 impl Bench {

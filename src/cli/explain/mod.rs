@@ -40,8 +40,8 @@ Examples:
                                     the same of a channel of a scene
   jostle explain threads            what a flag does, and which commands have it
 
-A scene is run twice: for half a second as it is, and for up to three seconds with a look at the clock around each stage, from
-its beginning as far as that goes. The output says how much of the run was looked at.";
+A scene is run twice: for half a second as it is, and for up to three seconds with a look at the clock around each stage. \
+Both runs begin at the start of the scene. The output says how much of it they covered.";
 
 impl Explain {
     pub(super) fn execute(self) -> Exit {

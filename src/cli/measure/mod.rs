@@ -40,7 +40,7 @@ pub(super) struct Measure {
     /// Methods to measure, separated by commas. Default: all
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', value_parser = flags::registered_methods())]
     methods: Vec<String>,
-    /// What counts as cost: time on this computer, or evaluations of all forces, the same on every computer
+    /// The measure of cost: time on this computer, or evaluations of all forces, the same on every computer
     #[arg(long, value_name = "WHAT", default_value = "time")]
     cost: CostName,
     /// Seconds of physics, instead of the scene's
@@ -72,20 +72,24 @@ Examples:
   jostle measure example:bounce -o bounce.png -o bounce.csv  a work-precision diagram, and the table as a file
   jostle measure example:kepler --duration 2 --budget 5      a shorter run, in five seconds
   jostle measure example:bounce --methods VelocityVerlet,Dop853 --rungs 4
-  jostle measure example:kepler --cost evaluations --json    what does not depend on the computer, for a program
+  jostle measure example:kepler --cost evaluations --json    a cost that is the same on every computer, for a program
 
-A reference run comes first: Dop853 with located events, whose own error is known from a coarser run and one that begins a \
-hair beside. Then each method runs the scene with ticks from about twice the critical one down by factors of two, the cheapest of all next, \
-until its error is that of the reference or the budget is used up. Where the first does well, longer ones are \
-tried too. An error is a share of the motion: the greater of how far \
-any point of a body is from the reference, at the worst of up to a hundred moments, over how far the body goes, and of how \
-much its velocity differs, as a root mean square over the moments, over how fast it is. No error below three times that of \
-the reference run is claimed: such are written with `<`. Where the motion is chaotic, runs are compared as long as the \
-reference knows it, and the output says until when; beyond, means over the rest of the run and all bodies are (`beyond`). Cost is the time of the fastest of three to nine runs that do nothing else. A star \
-marks settings that nothing else beats: none is more exact for less.
+A reference run comes first: Dop853 with located events. A coarser run and a run that begins a hair beside tell its own error. \
+Then each method runs the scene with ticks from about twice the critical one down by factors of two. The cheapest run of all \
+is always next. A method ends if its error is that of the reference, and all end if the budget is used up. If the first tick of a \
+method does well, the method tries longer ones too.
+
+An error is a share of the motion, the greater one of two. The first is the greatest distance of any point of a body from \
+the reference, at up to a hundred moments, over how far the body goes. The second is the root mean square over these \
+moments by which its velocity differs, over how fast the body is. No error below three times that of the reference \
+is claimed: `<` marks such errors. If the motion is chaotic, runs are compared as long as the reference knows it, and the output \
+says until when. After that, means over the rest of the run and all bodies are compared (`beyond`).
+
+The cost is the time of the fastest of three to nine runs that do nothing else. A star marks settings that no other setting \
+beats: none is more exact for less.
 
 Exit codes: 0 good, 1 the scene is wrong or nothing in it moves, 2 usage or the budget is too short for the reference run, \
-3 the reference run or all settings go wrong; what was measured is told all the same.";
+3 the reference run or all settings go wrong. Even then, the output tells all that was measured.";
 
 impl Measure {
     pub(super) fn execute(self) -> Exit {
@@ -165,7 +169,7 @@ impl Measure {
         if exit == Exit::RunWrong {
             say(&match &measured.reference {
                 Err(NoReference::Failed(failure)) => format!(
-                    "error: the reference run goes wrong: {failure}; nothing tells errors. Softer contacts, heavier bodies or weaker \
+                    "error: the reference run goes wrong: {failure}; without it no error is known. Softer contacts, heavier bodies or weaker \
                      forces help; `jostle run {}` tells more",
                     self.scene
                 ),
@@ -214,7 +218,7 @@ impl Measure {
             NoReference::Parts => request.refuse(
                 Exit::RunWrong,
                 "",
-                "reference runs with different steps part before anything can be compared: nobody knows where bodies are",
+                "reference runs with different steps part before anything can be compared: no place of a body is known",
                 "a shorter run with --duration and closer moments, or a larger --budget for finer steps",
             ),
             NoReference::Failed(failure) => request.refuse(

@@ -42,7 +42,7 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
     };
     if let Some(other) = tables.iter().position(|table| table.sweep.is_none() || table.sweep != tables[0].sweep) {
         return Err(format!(
-            "the tables in `{shown}` are of different sweeps: {} and {}. Scene, flags or what varies were not the same",
+            "the tables in `{shown}` are of different sweeps: {} and {}. Their scenes, flags or varied names differ",
             named(0),
             named(other)
         ));

@@ -41,9 +41,9 @@ pub(super) struct Sweep {
     /// A scene file, or example:NAME for a scene that comes with the program
     #[arg(value_name = "SCENE", required_unless_present = "merge")]
     scene: Option<String>,
-    /// What varies; may be given several times, and every combination is run, the last one changing fastest. NAME is one of
-    /// the scene's `params`, or a path into its text: clock.tick, gravity[1], bodies.ball.spin, fill[0].seed. VALUES are
-    /// 1..5 (whole numbers), 0..1:11 (eleven values, ends included), 1..100:3:log, or a list a,b,c
+    /// A name that varies; may be given several times. Every combination is run, the last name changing fastest. NAME is
+    /// one of the scene's `params`, or a path into its text: clock.tick, gravity[1], bodies.ball.spin, fill[0].seed.
+    /// VALUES are 1..5 (whole numbers), 0..1:11 (eleven values, ends included), 1..100:3:log, or a list a,b,c
     #[arg(long, value_name = "NAME=VALUES", value_parser = vary::variation, required_unless_present = "merge")]
     vary: Vec<Variation>,
     /// The directory for table.csv, contact_sheet.png and films
@@ -88,11 +88,12 @@ Examples:
   jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of them, on one of 16 computers
   jostle sweep --merge out/                                               when all shards are there
 
-A sweep that is interrupted goes on where it was when the same command is given again: DIR/table.runs holds what is done.
+If you give the command of an interrupted sweep again, it goes on where it was: DIR/table.runs holds all finished runs.
 
-DIR/table.csv has a row for each run: what varies, how it ended, expectations held, energy residual and its share of the \
-energy that went round, deepest overlap, tick, state hash, and of each channel of the scene's sensors the last, least and \
-greatest value, taken at the times of the film's frames and at the end. A run that fails is a row with its reason.
+DIR/table.csv has a row for each run: the values that vary, how it ended, the expectations that hold, the energy residual and \
+its share of the energy that went round, the deepest overlap, the tick and the state hash. Then each channel of the scene's \
+sensors has its last, least and greatest value, taken at the times of the film's frames and at the end. The row of a run that \
+fails holds the reason.
 
 Exit codes are those of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 usage, 3 a run went wrong.";
 
@@ -112,7 +113,7 @@ impl Sweep {
             (Some(folder), ..) => merge::merge(folder, self.quiet),
             (None, Some(scene), Some(folder)) => self.sweep(scene, folder),
             // The command line asks for all of them.
-            _ => Err("name a scene, what varies, and a directory".to_owned()),
+            _ => Err("name a scene, a varied name with its values, and a directory".to_owned()),
         };
         done.unwrap_or_else(|message| {
             say(&format!("error: {message}"));

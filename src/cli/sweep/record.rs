@@ -28,7 +28,7 @@ impl Record {
     pub fn open(path: &Path, sweep: &str) -> Result<Self, String> {
         let shown = path.display();
         if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
-            return Err(format!("`{shown}` is no file: a sweep keeps there what it has done; move it away"));
+            return Err(format!("`{shown}` is no file: a sweep keeps its finished runs there; move it away"));
         }
         let told = |cause: std::io::Error| format!("`{shown}` cannot be written: {cause}");
         let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
@@ -44,7 +44,7 @@ impl Record {
         (&mut file).take(LARGEST).read_to_end(&mut text).map_err(told)?;
         // A full disk may have left a part of the head.
         if !text.starts_with(HEAD.as_bytes()) && !HEAD.as_bytes().starts_with(&text) {
-            return Err(format!("`{shown}` is not what a sweep has done so far: move it away"));
+            return Err(format!("`{shown}` is no record of finished runs of a sweep: move it away"));
         }
         let head = format!("{HEAD}{sweep}\n");
         let (rows, good) = match text.strip_prefix(head.as_bytes()) {

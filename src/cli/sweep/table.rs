@@ -161,7 +161,7 @@ impl Table {
             if cells.len() != columns {
                 return Err(format!("a row has {} cells instead of {columns}", cells.len()));
             }
-            let run = cells[0].parse().map_err(|_| format!("`{}` is no number of a run", cells[0]))?;
+            let run = cells[0].parse().map_err(|_| format!("`{}` is not the number of a run", cells[0]))?;
             let there = channels.clone().filter(|&column| !cells[column].is_empty());
             let channels = there.map(|column| (header[column].clone(), cells[column].clone())).collect();
             let reason = cells[header.len() - 1].clone();
